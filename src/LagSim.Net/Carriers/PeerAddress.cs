@@ -1,0 +1,96 @@
+using System;
+using System.Globalization;
+using System.Net;
+
+namespace LagSim.Net.Carriers;
+
+/// <summary>Where datagrams go to or come from, as a value: an IP address and port, or a number in a virtual network.</summary>
+/// <remarks>Immutable, safe on any thread, never allocates to compare. <c>default</c> is no address.</remarks>
+public readonly struct PeerAddress : IEquatable<PeerAddress>
+{
+    private readonly ulong high;
+    private readonly ulong low;
+    private readonly uint portAndFamily; // port + 1 in the low 17 bits; bit 31: IPv6
+
+    private PeerAddress(ulong high, ulong low, uint portAndFamily)
+    {
+        this.high = high;
+        this.low = low;
+        this.portAndFamily = portAndFamily;
+    }
+
+    /// <summary>True for <c>default</c>, which is no address.</summary>
+    public bool IsNone => portAndFamily == 0 && high == 0 && low == 0;
+
+    /// <summary>Address <paramref name="number"/> of a virtual network.</summary>
+    public static PeerAddress Virtual(int number) => new(ulong.MaxValue, (ulong)number, 0);
+
+    /// <summary>The address of an IPv4 or IPv6 endpoint; an IPv4 address mapped into IPv6 is the IPv4 address.</summary>
+    /// <exception cref="ArgumentException">The endpoint is of another family.</exception>
+    public static PeerAddress From(IPEndPoint endpoint)
+    {
+        if (endpoint is null)
+        {
+            throw new ArgumentNullException(nameof(endpoint));
+        }
+
+        IPAddress address = endpoint.Address.IsIPv4MappedToIPv6 ? endpoint.Address.MapToIPv4() : endpoint.Address;
+        Span<byte> bytes = stackalloc byte[16];
+        if (!address.TryWriteBytes(bytes, out int length))
+        {
+            throw new ArgumentException($"'{endpoint}' is neither an IPv4 nor an IPv6 endpoint.", nameof(endpoint));
+        }
+
+        bool v6 = length == 16;
+        ulong high = v6 ? System.Buffers.Binary.BinaryPrimitives.ReadUInt64BigEndian(bytes) : 0;
+        ulong low = v6
+            ? System.Buffers.Binary.BinaryPrimitives.ReadUInt64BigEndian(bytes.Slice(8))
+            : System.Buffers.Binary.BinaryPrimitives.ReadUInt32BigEndian(bytes);
+        return new PeerAddress(high, low, (uint)(endpoint.Port + 1) | (v6 ? 1u << 31 : 0));
+    }
+
+    /// <summary>The endpoint that <see cref="From"/> was given.</summary>
+    /// <exception cref="InvalidOperationException">This is no address, or one of a virtual network.</exception>
+    public IPEndPoint ToEndPoint()
+    {
+        if (portAndFamily == 0)
+        {
+            throw new InvalidOperationException($"'{this}' is not an IP address and port.");
+        }
+
+        Span<byte> bytes = stackalloc byte[16];
+        bool v6 = (portAndFamily >> 31) != 0;
+        if (v6)
+        {
+            System.Buffers.Binary.BinaryPrimitives.WriteUInt64BigEndian(bytes, high);
+            System.Buffers.Binary.BinaryPrimitives.WriteUInt64BigEndian(bytes.Slice(8), low);
+        }
+        else
+        {
+            System.Buffers.Binary.BinaryPrimitives.WriteUInt32BigEndian(bytes, (uint)low);
+        }
+
+        return new IPEndPoint(new IPAddress(bytes.Slice(0, v6 ? 16 : 4)), (int)((portAndFamily & 0x1FFFF) - 1));
+    }
+
+    /// <inheritdoc/>
+    public bool Equals(PeerAddress other) => high == other.high && low == other.low && portAndFamily == other.portAndFamily;
+
+    /// <inheritdoc/>
+    public override bool Equals(object? obj) => obj is PeerAddress other && Equals(other);
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => HashCode.Combine(high, low, portAndFamily);
+
+    /// <summary>Same address.</summary>
+    public static bool operator ==(PeerAddress a, PeerAddress b) => a.Equals(b);
+
+    /// <summary>Different addresses.</summary>
+    public static bool operator !=(PeerAddress a, PeerAddress b) => !a.Equals(b);
+
+    /// <summary><c>address:port</c>, <c>virtual:number</c> or <c>none</c>.</summary>
+    public override string ToString() =>
+        IsNone ? "none"
+        : portAndFamily == 0 ? string.Format(CultureInfo.InvariantCulture, "virtual:{0}", low)
+        : ToEndPoint().ToString();
+}

@@ -1,0 +1,168 @@
+using System;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Contacts;
+
+/// <summary>When two paths touch: a pure function of two immutable segments and the instant from which both hold.</summary>
+/// <remarks>
+/// It knows no "now", no order of queries and no index. The two moving bodies come ordered by identity, so that operand order is the same
+/// on every peer. An event is reported only where the gap is at or below zero and closing; see <see cref="FirstDescent"/>.
+/// </remarks>
+internal static class ContactFinder
+{
+    private const int PathLength = 6; // a quintic path
+
+    /// <summary>The first contact of a moving sphere with a static plane in [from, until].</summary>
+    internal static bool WithPlane(
+        in MotionSegment segment, in DenseOutput dense, double radius, in StaticPlane plane, SimTime from, SimTime until, out ContactTime contact)
+    {
+        Span<Vector3D> path = stackalloc Vector3D[PathLength];
+        int length = Path(segment, dense, from, path);
+        double root;
+        if (length <= 3)
+        {
+            root = Quadratic.FirstDescent(
+                plane.Gap(path[0], radius), Vector3D.Dot(plane.Normal, path[1]), Vector3D.Dot(plane.Normal, path[2]));
+        }
+        else
+        {
+            Span<double> gap = stackalloc double[PathLength];
+            gap[0] = plane.Gap(path[0], radius);
+            for (int i = 1; i < length; i++)
+            {
+                gap[i] = Vector3D.Dot(plane.Normal, path[i]);
+            }
+
+            root = FirstDescent.Find(gap.Slice(0, length), Seconds(from, until));
+        }
+
+        return ContactTime.TryMake(from, until, root, out contact);
+    }
+
+    /// <summary>The first contact of two spheres in [from, until]; <paramref name="reach"/> is the sum of their radii.</summary>
+    internal static bool WithSphere(
+        in MotionSegment a, in DenseOutput denseA, in MotionSegment b, in DenseOutput denseB, double reach, SimTime from, SimTime until,
+        out ContactTime contact)
+    {
+        Span<Vector3D> d = stackalloc Vector3D[PathLength];
+        Span<Vector3D> other = stackalloc Vector3D[PathLength];
+        int length = Math.Max(Path(a, denseA, from, d), Path(b, denseB, from, other));
+        for (int i = 0; i < length; i++)
+        {
+            d[i] -= other[i];
+        }
+
+        while (length > 1 && d[length - 1] == Vector3D.Zero)
+        {
+            length--;
+        }
+
+        double root = length switch
+        {
+            1 => double.NaN, // the same motion: the distance never changes
+            2 => Linear(d[0], d[1], reach),
+            _ => Curved(d.Slice(0, length), reach, Seconds(from, until)),
+        };
+        return ContactTime.TryMake(from, until, root, out contact);
+    }
+
+    /// <summary>Relative motion along a straight line: a quadratic whose discriminant is taken from the cross product, exact near a graze.</summary>
+    private static double Linear(in Vector3D d, in Vector3D v, double reach)
+    {
+        double c = (Vector3D.Dot(d, d)) - (reach * reach);
+        double b = Vector3D.Dot(d, v);
+        if (c <= 0)
+        {
+            return b < 0 ? 0 : double.NaN;
+        }
+
+        double speedSquared = Vector3D.Dot(v, v);
+        double discriminant = (speedSquared * reach * reach) - Vector3D.Cross(d, v).LengthSquared;
+        return b < 0 && discriminant > 0 ? c / (Math.Sqrt(discriminant) - b) : double.NaN;
+    }
+
+    /// <summary>Any other relative motion: the squared distance is a polynomial, searched in windows of doubling length.</summary>
+    private static double Curved(Span<Vector3D> d, double reach, double seconds)
+    {
+        Span<double> f = stackalloc double[FirstDescent.MaxDegree + 1];
+        double start = 0;
+        double window = Math.Min(seconds, 1);
+        while (true)
+        {
+            int terms = SquaredDistance(d, reach, f);
+            double root = FirstDescent.Find(f.Slice(0, terms), window);
+            if (!double.IsNaN(root))
+            {
+                return start + root;
+            }
+
+            start += window;
+            if (start >= seconds)
+            {
+                return double.NaN;
+            }
+
+            Shift(d, window);
+            window = Math.Min(start, seconds - start);
+        }
+    }
+
+    private static int SquaredDistance(ReadOnlySpan<Vector3D> d, double reach, Span<double> f)
+    {
+        int terms = (2 * d.Length) - 1;
+        for (int k = 0; k < terms; k++)
+        {
+            double sum = 0;
+            for (int i = Math.Max(0, k - d.Length + 1); i <= Math.Min(k, d.Length - 1); i++)
+            {
+                sum += Vector3D.Dot(d[i], d[k - i]);
+            }
+
+            f[k] = sum;
+        }
+
+        f[0] -= reach * reach;
+        return terms;
+    }
+
+    /// <summary>The path as a polynomial in the seconds after <paramref name="from"/>; returns how many coefficients it has.</summary>
+    private static int Path(in MotionSegment segment, in DenseOutput dense, SimTime from, Span<Vector3D> path)
+    {
+        path[0] = segment.Position;
+        path[1] = segment.Velocity;
+        path[2] = segment.Acceleration * 0.5;
+        int length = 3;
+        if (segment.Law == MotionLaw.RungeKutta4)
+        {
+            path[3] = dense.Cubic;
+            path[4] = dense.Quartic;
+            path[5] = dense.Quintic;
+            length = PathLength;
+        }
+
+        double shift = (from - segment.Epoch).ToSeconds();
+        if (shift != 0)
+        {
+            Shift(path.Slice(0, length), shift);
+        }
+
+        return length;
+    }
+
+    private static void Shift(Span<Vector3D> path, double by)
+    {
+        for (int round = 0; round < path.Length - 1; round++)
+        {
+            for (int k = path.Length - 2; k >= round; k--)
+            {
+                path[k] += path[k + 1] * by;
+            }
+        }
+    }
+
+    // No end means the end of time: 2^23 s is more than any instant is away.
+    private static double Seconds(SimTime from, SimTime until) =>
+        until == SimTime.MaxValue ? 8388608.0 : (until - from).ToSeconds();
+}

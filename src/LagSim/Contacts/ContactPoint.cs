@@ -1,0 +1,37 @@
+using LagSim.Scenes;
+
+namespace LagSim.Contacts;
+
+/// <summary>One touching pair of an impact, as the solver sees it. Bodies are numbered within the impact.</summary>
+internal struct ContactPoint
+{
+    /// <summary>A partner that never moves.</summary>
+    internal const int Static = -1;
+
+    internal ContactPoint(int first, int second, int surface, ContactTime time)
+    {
+        First = first;
+        Second = second;
+        Surface = surface;
+        Time = time;
+        Normal = default;
+        Target = 0;
+    }
+
+    /// <summary>The body whose identity is the lesser of the two, or the only one.</summary>
+    internal int First;
+
+    /// <summary>The other body, or <see cref="Static"/>.</summary>
+    internal int Second;
+
+    /// <summary>Which static surface: planes by index, static spheres after them; -1 between two bodies.</summary>
+    internal int Surface;
+
+    internal ContactTime Time;
+
+    /// <summary>From the second party to the first.</summary>
+    internal Vector3D Normal;
+
+    /// <summary>The relative normal speed after the impact where the contact pushes at all, in m/s, at least zero.</summary>
+    internal double Target;
+}

@@ -1,0 +1,35 @@
+using LagSim.Time;
+
+namespace LagSim.Contacts;
+
+/// <summary>When two paths touch: the tick of the event, and how far the unrounded root lies from it.</summary>
+/// <remarks>
+/// The impact acts at the root and its result is carried to the tick, so that rounding to ticks does not accumulate over many bounces.
+/// </remarks>
+internal readonly struct ContactTime
+{
+    private ContactTime(SimTime tick, double residual)
+    {
+        Tick = tick;
+        Residual = residual;
+    }
+
+    internal SimTime Tick { get; }
+
+    /// <summary>The root minus the tick, in seconds; at most half a tick either way.</summary>
+    internal double Residual { get; }
+
+    /// <summary>The contact a root in seconds after <paramref name="from"/> stands for; none if the root is NaN or after <paramref name="until"/>.</summary>
+    internal static bool TryMake(SimTime from, SimTime until, double root, out ContactTime contact)
+    {
+        // The span from..until may exceed the range of a long; as an unsigned difference it never does.
+        if (!TickConversion.TryFromSeconds(root, out long ticks) || (ulong)ticks > (ulong)until.Ticks - (ulong)from.Ticks)
+        {
+            contact = default;
+            return false;
+        }
+
+        contact = new ContactTime(SimTime.FromTicks(from.Ticks + ticks), root - (ticks * TickConversion.SecondsPerTick));
+        return true;
+    }
+}

@@ -1,0 +1,45 @@
+namespace LagSim.Events;
+
+/// <summary>What an event is. The number is its rank in the canonical order of one tick and round, and stands in wire, recordings and hashes: never renumber.</summary>
+/// <remarks>
+/// What comes from outside precedes what the model makes, and a spawn precedes all, so that what is said of a body at the tick of its spawn
+/// finds it there. An impact precedes the end of a step, so that a contact in a step's last tick is found on the step that it ends.
+/// </remarks>
+public enum EventKind : byte
+{
+    /// <summary>No event; never in a timeline.</summary>
+    None = 0,
+
+    /// <summary>A body of a scene is there from the start.</summary>
+    Start = 1,
+
+    /// <summary>External: a body appears.</summary>
+    Spawn = 8,
+
+    /// <summary>External: a body is placed somewhere, with a velocity.</summary>
+    Teleport = 9,
+
+    /// <summary>External: a body's velocity is set.</summary>
+    SetVelocity = 10,
+
+    /// <summary>External: a body gets an impulse.</summary>
+    Impulse = 11,
+
+    /// <summary>External: a hand takes a body. Its place is kept; not implemented yet.</summary>
+    Grab = 12,
+
+    /// <summary>External: where the hand that holds a body is. Its place is kept; not implemented yet.</summary>
+    HoldKnot = 13,
+
+    /// <summary>External: the hand lets go. Its place is kept; not implemented yet.</summary>
+    Release = 14,
+
+    /// <summary>External: a body disappears.</summary>
+    Remove = 15,
+
+    /// <summary>Segments touch.</summary>
+    Impact = 32,
+
+    /// <summary>An integrator's step ends, or the time for which a law holds.</summary>
+    StepEnd = 33,
+}

@@ -1,0 +1,92 @@
+using System;
+using System.Globalization;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Events;
+
+/// <summary>What did not come from the model: something a player did to a body, stamped (time, peer, sequence) once and for all.</summary>
+/// <remarks>
+/// <para>An event for a body that is not there at its time does nothing, and may still do something should later news put the body there.</para>
+/// <para>Immutable, safe on any thread. <c>default</c> is no event (<see cref="EventKind.None"/>) and is refused everywhere.</para>
+/// </remarks>
+public readonly struct ExternalEvent : IEquatable<ExternalEvent>
+{
+    private ExternalEvent(
+        EventKind kind, SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec)
+    {
+        Kind = kind;
+        Time = time;
+        Peer = peer;
+        Sequence = sequence;
+        Body = body;
+        Position = position;
+        Velocity = velocity;
+        Spec = spec;
+    }
+
+    /// <summary>What is done.</summary>
+    public EventKind Kind { get; }
+
+    /// <summary>When, in shared simulation time.</summary>
+    public SimTime Time { get; }
+
+    /// <summary>The peer who did it.</summary>
+    public byte Peer { get; }
+
+    /// <summary>The number of the event at its peer, counted from 1.</summary>
+    public uint Sequence { get; }
+
+    /// <summary>The body it is done to.</summary>
+    public BodyId Body { get; }
+
+    /// <summary>Metres; of a spawn or teleport where the body's centre is put, else zero.</summary>
+    public Vector3D Position { get; }
+
+    /// <summary>Metres per second, of a spawn, teleport or set velocity; newton seconds, of an impulse; else zero.</summary>
+    public Vector3D Velocity { get; }
+
+    /// <summary>Of a spawn what appears; else <c>default</c>.</summary>
+    public BodySpec Spec { get; }
+
+    /// <summary>Its place in the canonical order.</summary>
+    public EventKey Key => new(Time, 0, Kind, Body, Body, Peer, Sequence);
+
+    /// <summary>A new body appears; its identity is (<paramref name="peer"/>, <paramref name="sequence"/>, 0).</summary>
+    public static ExternalEvent Spawn(SimTime time, byte peer, uint sequence, BodySpec spec, Vector3D position, Vector3D velocity = default) =>
+        new(EventKind.Spawn, time, peer, sequence, new BodyId(peer, sequence, 0), position, velocity, spec);
+
+    /// <summary>The body disappears.</summary>
+    public static ExternalEvent Remove(SimTime time, byte peer, uint sequence, BodyId body) =>
+        new(EventKind.Remove, time, peer, sequence, body, default, default, default);
+
+    /// <summary>The body is put somewhere, with a velocity (default: none).</summary>
+    public static ExternalEvent Teleport(SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity = default) =>
+        new(EventKind.Teleport, time, peer, sequence, body, position, velocity, default);
+
+    /// <summary>The body's velocity becomes this.</summary>
+    public static ExternalEvent SetVelocity(SimTime time, byte peer, uint sequence, BodyId body, Vector3D velocity) =>
+        new(EventKind.SetVelocity, time, peer, sequence, body, default, velocity, default);
+
+    /// <summary>The body's momentum changes by this many newton seconds.</summary>
+    public static ExternalEvent Impulse(SimTime time, byte peer, uint sequence, BodyId body, Vector3D impulse) =>
+        new(EventKind.Impulse, time, peer, sequence, body, default, impulse, default);
+
+    /// <summary>The same deed at another time; how a peer that does not heal applies what it hears late.</summary>
+    public ExternalEvent At(SimTime time) => new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec);
+
+    /// <inheritdoc/>
+    public bool Equals(ExternalEvent other) =>
+        Kind == other.Kind && Time == other.Time && Peer == other.Peer && Sequence == other.Sequence && Body == other.Body
+        && Position.Equals(other.Position) && Velocity.Equals(other.Velocity) && Spec.Equals(other.Spec);
+
+    /// <inheritdoc/>
+    public override bool Equals(object? obj) => obj is ExternalEvent other && Equals(other);
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => Time.GetHashCode() ^ ((int)Sequence * 397) ^ (Peer << 24);
+
+    /// <summary>Kind, body, time and origin, for logs and error messages.</summary>
+    public override string ToString() =>
+        string.Format(CultureInfo.InvariantCulture, "{0} of body {1} at {2} by {3}.{4}", Kind, Body, Time, Peer, Sequence);
+}

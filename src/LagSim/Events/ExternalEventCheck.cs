@@ -1,0 +1,109 @@
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Events;
+
+/// <summary>The door: what an external event must satisfy before it may enter the world. Static geometry never moves, so this never depends on when it is asked.</summary>
+public static class ExternalEventCheck
+{
+    /// <summary>Throws if the event may not enter a world of this scene.</summary>
+    /// <exception cref="SceneException">The sentence names the value and what is allowed.</exception>
+    public static void Throw(in ExternalEvent external, Scene scene)
+    {
+        if (scene is null)
+        {
+            throw new System.ArgumentNullException(nameof(scene));
+        }
+
+        string whose = $"the {external.Kind} of body {external.Body}";
+        if (external.Kind is EventKind.Grab or EventKind.HoldKnot or EventKind.Release)
+        {
+            throw new SceneException($"{external.Kind} is not supported yet.");
+        }
+
+        if (external.Kind is not (EventKind.Spawn or EventKind.Remove or EventKind.Teleport or EventKind.SetVelocity or EventKind.Impulse))
+        {
+            throw new SceneException($"{external.Kind} is not an external event.");
+        }
+
+        if (external.Sequence == 0)
+        {
+            throw new SceneException($"The sequence number of {whose} is 0; a peer counts its events from 1.");
+        }
+
+        CheckKnown(external, scene, whose);
+        Limits.CheckPosition(external.Position, whose);
+        if (external.Kind == EventKind.Impulse)
+        {
+            Limits.Components(external.Velocity, double.MaxValue, whose, "impulse", "N s");
+        }
+        else
+        {
+            Limits.CheckVelocity(external.Velocity, scene.SmallestRadius, whose);
+        }
+
+        if (external.Kind == EventKind.Spawn)
+        {
+            CheckSpawn(external, scene, whose);
+        }
+        else if (external.Kind == EventKind.Teleport && external.Body.Peer == 0 && external.Body.Sequence == 0)
+        {
+            CheckPlace(external.Position, scene.BodyArray[external.Body.Index].Spec.Radius, scene, whose);
+        }
+        else if (external.Kind == EventKind.Teleport)
+        {
+            CheckPlace(external.Position, scene.SmallestRadius, scene, whose);
+        }
+    }
+
+    private static void CheckKnown(in ExternalEvent external, Scene scene, string whose)
+    {
+        bool ofScene = external.Body.Peer == 0 && external.Body.Sequence == 0;
+        if (ofScene && external.Body.Index >= scene.BodyArray.Length)
+        {
+            throw new SceneException($"There is no such body for {whose}: the scene has {scene.BodyArray.Length} of its own.");
+        }
+
+        if (!ofScene && (external.Body.Index != 0 || external.Body.Sequence == 0))
+        {
+            throw new SceneException($"There is no such body for {whose}: a spawn makes one body, of index 0, and spawns count from 1.");
+        }
+    }
+
+    private static void CheckSpawn(in ExternalEvent external, Scene scene, string whose)
+    {
+        Limits.CheckSpec(external.Spec, whose, scene.AccelerationArray.Length);
+        if (external.Spec.Radius < scene.SmallestRadius)
+        {
+            throw new SceneException(
+                $"The radius of {whose} is {Limits.Text(external.Spec.Radius)} m; the scene promises none below {Limits.Text(scene.SmallestRadius)} m.");
+        }
+
+        CheckPlace(external.Position, external.Spec.Radius, scene, whose);
+    }
+
+    private static void CheckPlace(in Vector3D position, double radius, Scene scene, string whose)
+    {
+        double slack = scene.Resolution + (1e-15 * (position.Length + radius));
+        foreach (StaticPlane plane in scene.PlaneArray)
+        {
+            double gap = plane.Gap(position, radius);
+            if (gap < -slack)
+            {
+                throw Inside(whose, position, gap, $"plane '{plane.Name}'");
+            }
+        }
+
+        foreach (StaticSphere sphere in scene.SphereArray)
+        {
+            double gap = (position - sphere.Centre).Length - sphere.Radius - radius;
+            if (gap < -slack)
+            {
+                throw Inside(whose, position, gap, $"static sphere '{sphere.Name}'");
+            }
+        }
+    }
+
+    private static SceneException Inside(string whose, in Vector3D position, double gap, string what) =>
+        new($"The position of {whose}, {position}, lies {Limits.Text(-gap)} m deep inside {what}; it must be outside.");
+}

@@ -1,0 +1,80 @@
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Motion;
+
+/// <summary>One immutable piece of a body's path: a law, its epoch and state there, and how long its formula holds. Only a successor ends it earlier.</summary>
+internal readonly struct MotionSegment
+{
+    internal MotionSegment(
+        MotionLaw law, SimTime epoch, SimTime end, in Vector3D position, in Vector3D velocity, in Vector3D acceleration, SupportSet supports = default)
+    {
+        Law = law;
+        Epoch = epoch;
+        End = end;
+        Position = position;
+        Velocity = velocity;
+        Acceleration = acceleration;
+        Supports = supports;
+    }
+
+    /// <summary>The instant at which the state below holds; the formula counts its time from here.</summary>
+    internal SimTime Epoch { get; }
+
+    /// <summary>The last instant for which the formula was made: the step's or law's own end, whatever cuts it short. <see cref="SimTime.MaxValue"/>: none.</summary>
+    internal SimTime End { get; }
+
+    internal MotionLaw Law { get; }
+
+    internal Vector3D Position { get; }
+
+    internal Vector3D Velocity { get; }
+
+    /// <summary>The acceleration at the epoch; constant where the law is a closed form.</summary>
+    internal Vector3D Acceleration { get; }
+
+    internal SupportSet Supports { get; }
+
+    internal bool IsPresent => Law != MotionLaw.Absent;
+
+    /// <summary>A path that never moves: a static sphere, or a body at rest.</summary>
+    internal static MotionSegment AtRest(SimTime epoch, in Vector3D position, SupportSet supports = default) =>
+        new(MotionLaw.Resting, epoch, SimTime.MaxValue, position, Vector3D.Zero, Vector3D.Zero, supports);
+
+    /// <summary>No body.</summary>
+    internal static MotionSegment Nothing(SimTime epoch) =>
+        new(MotionLaw.Absent, epoch, SimTime.MaxValue, Vector3D.Zero, Vector3D.Zero, Vector3D.Zero);
+
+    /// <summary>Where the formula is <paramref name="seconds"/> after the epoch.</summary>
+    internal Vector3D PositionAt(double seconds, in DenseOutput dense)
+    {
+        if (Law == MotionLaw.Resting)
+        {
+            return Position;
+        }
+
+        Vector3D quadratic = Position + ((Velocity + (Acceleration * (0.5 * seconds))) * seconds);
+        return Law != MotionLaw.RungeKutta4
+            ? quadratic
+            : quadratic + ((dense.Cubic + ((dense.Quartic + (dense.Quintic * seconds)) * seconds)) * (seconds * seconds * seconds));
+    }
+
+    /// <summary>How fast the formula moves <paramref name="seconds"/> after the epoch.</summary>
+    internal Vector3D VelocityAt(double seconds, in DenseOutput dense)
+    {
+        if (Law == MotionLaw.Resting)
+        {
+            return Vector3D.Zero;
+        }
+
+        Vector3D linear = Velocity + (Acceleration * seconds);
+        return Law != MotionLaw.RungeKutta4
+            ? linear
+            : linear + (((dense.Cubic * 3) + (((dense.Quartic * 4) + (dense.Quintic * (5 * seconds))) * seconds)) * (seconds * seconds));
+    }
+
+    internal Vector3D AccelerationAt(double seconds, in DenseOutput dense) =>
+        Law != MotionLaw.RungeKutta4
+            ? Acceleration
+            : Acceleration + (((dense.Cubic * 6) + (((dense.Quartic * 12) + (dense.Quintic * (20 * seconds))) * seconds)) * seconds);
+}

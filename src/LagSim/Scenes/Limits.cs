@@ -1,0 +1,85 @@
+using System;
+using System.Globalization;
+using LagSim.Time;
+
+namespace LagSim.Scenes;
+
+/// <summary>The ranges of every value that enters the world, each checked in one place with a sentence that names the value.</summary>
+internal static class Limits
+{
+    internal const double MaxCoordinate = 1e12;
+    internal const double MinRadius = 1e-9;
+    internal const double MaxRadius = 1e9;
+    internal const double MinMass = 1e-30;
+    internal const double MaxMass = 1e30;
+
+    internal static readonly SimDuration MinStep = SimDuration.FromSeconds(1e-6);
+    internal static readonly SimDuration MaxStep = SimDuration.FromSeconds(1);
+
+    internal static void CheckSpec(in BodySpec spec, string whose, int accelerations)
+    {
+        InRange(spec.Radius, MinRadius, MaxRadius, whose, "radius", "m");
+        InRange(spec.Mass, MinMass, MaxMass, whose, "mass", "kg");
+        InRange(spec.Restitution, 0, 1, whose, "restitution", "(no unit)");
+        if (spec.Flight is not (MotionLaw.Ballistic or MotionLaw.RungeKutta4))
+        {
+            throw new SceneException($"The motion law of {whose} is {spec.Flight}; a body flies by Ballistic or RungeKutta4.");
+        }
+
+        if (spec.Step < MinStep || spec.Step > MaxStep)
+        {
+            throw new SceneException($"The integrator step of {whose} is {spec.Step}; it must lie between 1 microsecond and 1 s.");
+        }
+
+        if (spec.Acceleration > accelerations)
+        {
+            throw new SceneException(
+                $"{Capital(whose)} names supplied acceleration {spec.Acceleration}, but the scene supplies {accelerations}.");
+        }
+
+        if (spec.Acceleration > 0 && spec.Flight == MotionLaw.Ballistic)
+        {
+            throw new SceneException(
+                $"{Capital(whose)} flies by Ballistic, which is exact for gravity alone, and names a supplied acceleration; use RungeKutta4.");
+        }
+    }
+
+    /// <summary>The highest speed with which nothing of this radius can be missed: a tenth of it in a tick.</summary>
+    internal static double MaxSpeed(double smallestRadius) => 0.1 * smallestRadius * SimDuration.TicksPerSecond;
+
+    internal static void CheckPosition(in Vector3D position, string whose) => Components(position, MaxCoordinate, whose, "position", "m");
+
+    internal static void CheckVelocity(in Vector3D velocity, double smallestRadius, string whose)
+    {
+        Components(velocity, double.MaxValue, whose, "velocity", "m/s");
+        double limit = MaxSpeed(smallestRadius);
+        if (!(velocity.Length <= limit))
+        {
+            throw new SceneException(
+                $"The velocity of {whose} is {velocity} m/s; with a smallest radius of {Text(smallestRadius)} m a speed is at most "
+                + $"{Text(limit)} m/s (a tenth of that radius in a tick).");
+        }
+    }
+
+    internal static void Components(in Vector3D v, double limit, string whose, string what, string unit)
+    {
+        if (!v.IsFinite || Math.Abs(v.X) > limit || Math.Abs(v.Y) > limit || Math.Abs(v.Z) > limit)
+        {
+            string allowed = limit == double.MaxValue ? "finite" : $"finite and within +-{Text(limit)} {unit}";
+            throw new SceneException($"The {what} of {whose} is {v}; every component must be {allowed}.");
+        }
+    }
+
+    internal static void InRange(double value, double least, double most, string whose, string what, string unit)
+    {
+        if (!(value >= least && value <= most))
+        {
+            throw new SceneException(
+                $"The {what} of {whose} is {Text(value)}; it must lie between {Text(least)} and {Text(most)} {unit}.");
+        }
+    }
+
+    internal static string Text(double value) => value.ToString("R", CultureInfo.InvariantCulture);
+
+    private static string Capital(string text) => text.Length == 0 ? text : char.ToUpperInvariant(text[0]) + text.Substring(1);
+}

@@ -1,0 +1,124 @@
+using System;
+using System.Collections.Generic;
+
+namespace LagSim.Scenes;
+
+/// <summary>What exists at the start: bodies, static geometry, gravity and supplied accelerations. Made by <see cref="SceneBuilder"/>.</summary>
+/// <remarks>Immutable, safe on any thread.</remarks>
+public sealed class Scene
+{
+    internal Scene(
+        string name,
+        Vector3D gravity,
+        double resolution,
+        StaticPlane[] planes,
+        StaticSphere[] spheres,
+        SceneBody[] bodies,
+        IAcceleration[] accelerations,
+        double smallestRadius)
+    {
+        Name = name;
+        Gravity = gravity;
+        Resolution = resolution;
+        PlaneArray = planes;
+        SphereArray = spheres;
+        BodyArray = bodies;
+        AccelerationArray = accelerations;
+        SmallestRadius = smallestRadius;
+        Hash = ComputeHash();
+    }
+
+    /// <summary>What the scene is called.</summary>
+    public string Name { get; }
+
+    /// <summary>The uniform acceleration of free bodies in m/s^2; usually (0, -9.81, 0).</summary>
+    public Vector3D Gravity { get; }
+
+    /// <summary>The length in metres below which a bounce on a plane is not followed hop by hop; 1 nm unless the scene says otherwise.</summary>
+    public double Resolution { get; }
+
+    /// <summary>The planes, in the order in which they were added.</summary>
+    public IReadOnlyList<StaticPlane> Planes => PlaneArray;
+
+    /// <summary>The static spheres, in the order in which they were added.</summary>
+    public IReadOnlyList<StaticSphere> StaticSpheres => SphereArray;
+
+    /// <summary>The bodies; body n has the identity (0, 0, n).</summary>
+    public IReadOnlyList<SceneBody> Bodies => BodyArray;
+
+    /// <summary>The supplied accelerations; a body names the n-th as n, counted from 1.</summary>
+    public IReadOnlyList<IAcceleration> Accelerations => AccelerationArray;
+
+    /// <summary>The least radius of a body in metres, of those at the start and those that may be spawned; it bounds the permitted speed.</summary>
+    public double SmallestRadius { get; }
+
+    /// <summary>A hash of everything above but the name: equal on two peers exactly if they mean the same world (to 64 bits).</summary>
+    public ulong Hash { get; }
+
+    internal StaticPlane[] PlaneArray { get; }
+
+    internal StaticSphere[] SphereArray { get; }
+
+    internal SceneBody[] BodyArray { get; }
+
+    internal IAcceleration[] AccelerationArray { get; }
+
+    /// <summary>The identity of the body of that name.</summary>
+    /// <exception cref="ArgumentException">No body of the scene has that name.</exception>
+    public BodyId BodyNamed(string name)
+    {
+        for (int i = 0; i < BodyArray.Length; i++)
+        {
+            if (string.Equals(BodyArray[i].Name, name, StringComparison.Ordinal))
+            {
+                return BodyId.OfScene(i);
+            }
+        }
+
+        throw new ArgumentException($"Scene '{Name}' has no body named '{name}'.", nameof(name));
+    }
+
+    /// <summary>The same world with its static geometry only.</summary>
+    internal Scene WithoutBodies() =>
+        new(Name, Gravity, Resolution, PlaneArray, SphereArray, Array.Empty<SceneBody>(), AccelerationArray, SmallestRadius);
+
+    private ulong ComputeHash()
+    {
+        StableHash hash = default;
+        hash.Add(Gravity);
+        hash.Add(Resolution);
+        hash.Add(SmallestRadius);
+        hash.Add((ulong)PlaneArray.Length);
+        foreach (StaticPlane plane in PlaneArray)
+        {
+            hash.Add(plane.Normal);
+            hash.Add(plane.Offset);
+            hash.Add(plane.Restitution);
+        }
+
+        hash.Add((ulong)SphereArray.Length);
+        foreach (StaticSphere sphere in SphereArray)
+        {
+            hash.Add(sphere.Centre);
+            hash.Add(sphere.Radius);
+            hash.Add(sphere.Restitution);
+        }
+
+        hash.Add((ulong)AccelerationArray.Length);
+        foreach (IAcceleration acceleration in AccelerationArray)
+        {
+            hash.Add(acceleration.Name);
+            hash.Add(acceleration.Version);
+        }
+
+        hash.Add((ulong)BodyArray.Length);
+        foreach (SceneBody body in BodyArray)
+        {
+            hash.Add(body.Spec);
+            hash.Add(body.Position);
+            hash.Add(body.Velocity);
+        }
+
+        return hash.Value;
+    }
+}

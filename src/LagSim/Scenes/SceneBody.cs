@@ -1,0 +1,26 @@
+namespace LagSim.Scenes;
+
+/// <summary>A body that a scene has from the start.</summary>
+/// <remarks>Immutable, safe on any thread.</remarks>
+public readonly struct SceneBody
+{
+    internal SceneBody(string name, BodySpec spec, Vector3D position, Vector3D velocity)
+    {
+        Name = name;
+        Spec = spec;
+        Position = position;
+        Velocity = velocity;
+    }
+
+    /// <summary>What it is called in the scene.</summary>
+    public string Name { get; }
+
+    /// <summary>Size, mass, material and flight.</summary>
+    public BodySpec Spec { get; }
+
+    /// <summary>Where its centre starts, in metres.</summary>
+    public Vector3D Position { get; }
+
+    /// <summary>Its velocity at the start, in metres per second.</summary>
+    public Vector3D Velocity { get; }
+}

@@ -1,0 +1,188 @@
+using System;
+using System.Collections.Generic;
+
+namespace LagSim.Scenes;
+
+/// <summary>Collects what a <see cref="Scene"/> consists of and checks it on <see cref="Build"/>.</summary>
+/// <remarks>Not thread-safe. Nothing is checked before <see cref="Build"/>, nothing is silently clamped.</remarks>
+public sealed class SceneBuilder
+{
+    /// <summary>Gravity where a scene sets none: 9.81 m/s^2 downwards.</summary>
+    public static readonly Vector3D DefaultGravity = new(0, -9.81, 0);
+
+    /// <summary>The resolution where a scene sets none: 1 nm.</summary>
+    public const double DefaultResolution = 1e-9;
+
+    /// <summary>The most bodies a scene may have.</summary>
+    public const int MaxBodies = BodyId.MaxIndex + 1;
+
+    private readonly string name;
+    private readonly List<StaticPlane> planes = new();
+    private readonly List<StaticSphere> spheres = new();
+    private readonly List<SceneBody> bodies = new();
+    private readonly List<IAcceleration> accelerations = new();
+    private Vector3D gravity = DefaultGravity;
+    private double resolution = DefaultResolution;
+    private double? smallestSpawn;
+
+    /// <summary>Starts a scene of that name with default gravity and nothing in it.</summary>
+    public SceneBuilder(string name) => this.name = name ?? throw new ArgumentNullException(nameof(name));
+
+    /// <summary>Sets the uniform acceleration of free bodies, in m/s^2; y points up.</summary>
+    public SceneBuilder WithGravity(Vector3D acceleration)
+    {
+        gravity = acceleration;
+        return this;
+    }
+
+    /// <summary>Sets the length in metres, 1e-15 to 1e-3, below which bounces on a plane are not followed hop by hop.</summary>
+    public SceneBuilder WithResolution(double metres)
+    {
+        resolution = metres;
+        return this;
+    }
+
+    /// <summary>Promises that no body smaller than this, in metres, is spawned. Default: the smallest body of the scene.</summary>
+    public SceneBuilder WithSmallestRadius(double metres)
+    {
+        smallestSpawn = metres;
+        return this;
+    }
+
+    /// <summary>Adds a plane through a point; bodies live on the side the normal, of any length, points to.</summary>
+    public SceneBuilder AddPlane(string planeName, Vector3D normal, Vector3D point, double restitution = 1)
+    {
+        double length = normal.Length;
+        if (!normal.IsFinite || !(length > 1e-150 && length < 1e150) || !point.IsFinite)
+        {
+            throw new SceneException(
+                $"Plane '{planeName}' has normal {normal} and point {point}; both must be finite, and the normal's length above zero.");
+        }
+
+        Vector3D unit = (normal / length).WithoutNegativeZero();
+        planes.Add(new StaticPlane(planeName, unit, Vector3D.Dot(unit, point) + 0.0, restitution));
+        return this;
+    }
+
+    /// <summary>Adds a sphere that never moves.</summary>
+    public SceneBuilder AddStaticSphere(string sphereName, Vector3D centre, double radius, double restitution = 1)
+    {
+        spheres.Add(new StaticSphere(sphereName, centre.WithoutNegativeZero(), radius, restitution));
+        return this;
+    }
+
+    /// <summary>Adds a body; the n-th added, counted from 0, has the identity (0, 0, n).</summary>
+    public SceneBuilder AddBody(string bodyName, BodySpec spec, Vector3D position, Vector3D velocity = default)
+    {
+        bodies.Add(new SceneBody(bodyName, spec, position.WithoutNegativeZero(), velocity.WithoutNegativeZero()));
+        return this;
+    }
+
+    /// <summary>Supplies an acceleration; the n-th supplied, counted from 1, is what a <see cref="BodySpec"/> names as n.</summary>
+    public SceneBuilder AddAcceleration(IAcceleration acceleration)
+    {
+        accelerations.Add(acceleration ?? throw new ArgumentNullException(nameof(acceleration)));
+        return this;
+    }
+
+    /// <summary>Checks everything and makes the scene. Cost: O(n log n) in the bodies.</summary>
+    /// <exception cref="SceneException">Something is not valid; the sentence names the value and what is allowed.</exception>
+    public Scene Build()
+    {
+        CheckWhole();
+        double smallest = smallestSpawn ?? double.MaxValue;
+        for (int i = 0; i < bodies.Count; i++)
+        {
+            Limits.CheckSpec(bodies[i].Spec, Whose(bodies[i]), accelerations.Count);
+            smallest = Math.Min(smallest, bodies[i].Spec.Radius);
+        }
+
+        smallest = smallest == double.MaxValue ? Limits.MaxRadius : smallest;
+        foreach (SceneBody body in bodies)
+        {
+            Limits.CheckPosition(body.Position, Whose(body));
+            Limits.CheckVelocity(body.Velocity, smallest, Whose(body));
+        }
+
+        CheckNames();
+        StartOverlap.Check(bodies, planes, spheres, resolution);
+        return new Scene(
+            name, gravity.WithoutNegativeZero(), resolution, planes.ToArray(), spheres.ToArray(), bodies.ToArray(), accelerations.ToArray(), smallest);
+    }
+
+    internal static string Whose(in SceneBody body) => $"body '{body.Name}'";
+
+    private void CheckWhole()
+    {
+        Limits.Components(gravity, 1e6, $"scene '{name}'", "gravity", "m/s^2");
+        Limits.InRange(resolution, 1e-15, 1e-3, $"scene '{name}'", "resolution", "m");
+        if (smallestSpawn is double least)
+        {
+            Limits.InRange(least, Limits.MinRadius, Limits.MaxRadius, $"scene '{name}'", "smallest radius", "m");
+        }
+
+        if (bodies.Count > MaxBodies)
+        {
+            throw new SceneException($"Scene '{name}' has {bodies.Count} bodies; at most {MaxBodies} are allowed.");
+        }
+
+        if (accelerations.Count > byte.MaxValue)
+        {
+            throw new SceneException($"Scene '{name}' supplies {accelerations.Count} accelerations; at most 255 are allowed.");
+        }
+
+        foreach (IAcceleration acceleration in accelerations)
+        {
+            if (string.IsNullOrEmpty(acceleration.Name) || acceleration.Name.Length > 64)
+            {
+                throw new SceneException($"A supplied acceleration of scene '{name}' is named '{acceleration.Name}'; a name has 1 to 64 characters.");
+            }
+        }
+
+        foreach (StaticPlane plane in planes)
+        {
+            Limits.InRange(plane.Restitution, 0, 1, $"plane '{plane.Name}'", "restitution", "(no unit)");
+            Limits.InRange(plane.Offset, -Limits.MaxCoordinate, Limits.MaxCoordinate, $"plane '{plane.Name}'", "offset", "m");
+        }
+
+        foreach (StaticSphere sphere in spheres)
+        {
+            Limits.CheckPosition(sphere.Centre, $"static sphere '{sphere.Name}'");
+            Limits.InRange(sphere.Radius, Limits.MinRadius, Limits.MaxRadius, $"static sphere '{sphere.Name}'", "radius", "m");
+            Limits.InRange(sphere.Restitution, 0, 1, $"static sphere '{sphere.Name}'", "restitution", "(no unit)");
+        }
+    }
+
+    private void CheckNames()
+    {
+        List<string> names = new();
+        foreach (StaticPlane plane in planes)
+        {
+            names.Add(plane.Name);
+        }
+
+        foreach (StaticSphere sphere in spheres)
+        {
+            names.Add(sphere.Name);
+        }
+
+        foreach (SceneBody body in bodies)
+        {
+            names.Add(body.Name);
+        }
+
+        names.Sort(StringComparer.Ordinal);
+        for (int i = 0; i < names.Count; i++)
+        {
+            if (string.IsNullOrEmpty(names[i]) || names[i].Length > 64)
+            {
+                throw new SceneException($"'{names[i]}' is no name for a part of scene '{name}'; a name has 1 to 64 characters.");
+            }
+
+            if (i > 0 && string.Equals(names[i], names[i - 1], StringComparison.Ordinal))
+            {
+                throw new SceneException($"Two parts of scene '{name}' are named '{names[i]}'; every name must be unique.");
+            }
+        }
+    }
+}

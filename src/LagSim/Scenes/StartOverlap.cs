@@ -1,0 +1,70 @@
+using System;
+using System.Collections.Generic;
+
+namespace LagSim.Scenes;
+
+/// <summary>Refuses a scene whose bodies start inside one another, a plane or a static sphere.</summary>
+internal static class StartOverlap
+{
+    internal static void Check(List<SceneBody> bodies, List<StaticPlane> planes, List<StaticSphere> spheres, double tolerance)
+    {
+        foreach (SceneBody body in bodies)
+        {
+            // Rounding of the given numbers themselves must not count as an overlap.
+            double slack = tolerance + (1e-15 * (Size(body.Position) + body.Spec.Radius));
+            foreach (StaticPlane plane in planes)
+            {
+                double gap = plane.Gap(body.Position, body.Spec.Radius);
+                if (gap < -slack)
+                {
+                    throw Overlap(body.Name, $"plane '{plane.Name}'", -gap);
+                }
+            }
+
+            foreach (StaticSphere sphere in spheres)
+            {
+                double gap = (body.Position - sphere.Centre).Length - sphere.Radius - body.Spec.Radius;
+                if (gap < -slack)
+                {
+                    throw Overlap(body.Name, $"static sphere '{sphere.Name}'", -gap);
+                }
+            }
+        }
+
+        CheckPairs(bodies, tolerance);
+    }
+
+    // Sort and sweep along x: only bodies whose extents along x overlap are compared.
+    private static void CheckPairs(List<SceneBody> bodies, double tolerance)
+    {
+        double[] left = new double[bodies.Count];
+        int[] order = new int[bodies.Count];
+        for (int i = 0; i < order.Length; i++)
+        {
+            left[i] = bodies[i].Position.X - bodies[i].Spec.Radius;
+            order[i] = i;
+        }
+
+        Array.Sort(left, order);
+        for (int i = 0; i < order.Length; i++)
+        {
+            SceneBody a = bodies[order[i]];
+            double right = a.Position.X + a.Spec.Radius;
+            for (int j = i + 1; j < order.Length && left[j] <= right; j++)
+            {
+                SceneBody b = bodies[order[j]];
+                double gap = (a.Position - b.Position).Length - a.Spec.Radius - b.Spec.Radius;
+                double slack = tolerance + (1e-15 * (Size(a.Position) + Size(b.Position) + a.Spec.Radius + b.Spec.Radius));
+                if (gap < -slack)
+                {
+                    throw Overlap(a.Name, SceneBuilder.Whose(b), -gap);
+                }
+            }
+        }
+    }
+
+    private static double Size(in Vector3D v) => Math.Abs(v.X) + Math.Abs(v.Y) + Math.Abs(v.Z);
+
+    private static SceneException Overlap(string body, string other, double depth) =>
+        new($"Body '{body}' starts {Limits.Text(depth)} m deep inside {other}; bodies must start apart or touching.");
+}

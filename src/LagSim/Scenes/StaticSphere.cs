@@ -1,0 +1,26 @@
+namespace LagSim.Scenes;
+
+/// <summary>A sphere that never moves.</summary>
+/// <remarks>Immutable, safe on any thread. A scene checks it.</remarks>
+public readonly struct StaticSphere
+{
+    internal StaticSphere(string name, Vector3D centre, double radius, double restitution)
+    {
+        Name = name;
+        Centre = centre;
+        Radius = radius;
+        Restitution = restitution;
+    }
+
+    /// <summary>What it is called in a scene.</summary>
+    public string Name { get; }
+
+    /// <summary>The centre, in metres.</summary>
+    public Vector3D Centre { get; }
+
+    /// <summary>The radius in metres.</summary>
+    public double Radius { get; }
+
+    /// <summary>The coefficient of restitution, 0 to 1; in a contact the lesser of the two parties' counts.</summary>
+    public double Restitution { get; }
+}

@@ -1,0 +1,110 @@
+using System;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <content>The event loop.</content>
+public sealed partial class Simulation
+{
+    private const int NoPartner = -1;
+
+    /// <summary>Lets everything happen up to and including <paramref name="time"/>.</summary>
+    /// <remarks>Reading, and advancing in smaller or larger steps, changes no bit of what happens. Cost: per event, not per time.</remarks>
+    /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>.</exception>
+    /// <exception cref="SimulationException">A body left the range in which its state means something.</exception>
+    public void AdvanceTo(SimTime time)
+    {
+        ThrowIfFaulted();
+        if (time < SimulatedTo)
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(time), time, $"The world is simulated to {SimulatedTo} already; it advances, and an event that lies before rolls it back.");
+        }
+
+        try
+        {
+            while (queue.Count > 0 && queue.LeastKey.Time <= time)
+            {
+                Process(queue.LeastSlot, queue.LeastKey);
+            }
+        }
+        catch (Exception failure)
+        {
+            fault = failure;
+            throw;
+        }
+
+        SimulatedTo = time;
+        if (time - Start > history)
+        {
+            HistoryEdge = SimTime.Max(HistoryEdge, time - history);
+        }
+    }
+
+    private void Process(int slot, EventKey key)
+    {
+        switch (key.Kind)
+        {
+            case EventKind.Impact:
+                if (IsStale(slot))
+                {
+                    Predict(slot);
+                    return;
+                }
+
+                HandleImpact(slot, key);
+                break;
+            case EventKind.StepEnd:
+                HandleStepEnd(slot, key);
+                Predict(slot);
+                break;
+            default:
+                HandleExternal(slot, key);
+                Predict(slot);
+                break;
+        }
+
+        EventsProcessed++;
+    }
+
+    /// <summary>Whether the partner's segment that the pending impact was found with is no longer the newest.</summary>
+    private bool IsStale(int slot)
+    {
+        int partner = bodies[slot].Partner;
+        return partner != NoPartner && timelines.Serial(timelines.Last(partner)) != bodies[slot].PartnerSerial;
+    }
+
+    private void HandleStepEnd(int slot, in EventKey key)
+    {
+        int last = timelines.Last(slot);
+        MotionSegment segment = timelines.Segment(last);
+        if (segment.Law == MotionLaw.RungeKutta4)
+        {
+            RungeKutta4.End(segment, timelines.Dense(last), out Vector3D position, out Vector3D velocity);
+            OpenFlight(slot, key, position, velocity);
+        }
+        else
+        {
+            // The limit of a bounce sequence: what was carried along on the supports has come to rest on them.
+            Append(slot, key, MotionSegment.AtRest(key.Time, segment.Position, segment.Supports), default);
+        }
+    }
+
+    private void Append(int slot, in EventKey key, in MotionSegment segment, in DenseOutput dense)
+    {
+        timelines.DropBefore(slot, HistoryEdge);
+        timelines.Append(slot, bodies[slot].Id, key, segment, dense);
+        index.Place(slot, segment);
+    }
+
+    /// <summary>The round of something at <paramref name="time"/> on the body's newest segment: what a tick's own event causes at it comes a round later.</summary>
+    private uint RoundAt(SimTime time, int slot)
+    {
+        ref readonly EventKey opened = ref timelines.Key(timelines.Last(slot));
+        return opened.Time == time ? opened.Round + 1 : 0;
+    }
+}

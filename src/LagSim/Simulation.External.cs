@@ -1,0 +1,170 @@
+using System;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <content>External events: submitting, taking back, applying.</content>
+public sealed partial class Simulation
+{
+    /// <summary>Adds an event at its own time. Should that be simulated already, all timelines are cut at its key and simulated again.</summary>
+    /// <returns>What became of it. <see cref="SubmitResult.TooOld"/> means that nothing changed.</returns>
+    /// <remarks>Cost: O(1) in the bodies if it lies ahead; else that of everything since its time.</remarks>
+    /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
+    /// <exception cref="SimulationException">Simulating again led out of the permitted range.</exception>
+    public SubmitResult Submit(in ExternalEvent external) => Insert(external, external.Key, forwarded: false);
+
+    /// <summary>
+    /// Adds an event that takes effect at <paramref name="arrival"/>, after its own time, by advancing the body alone from the event's time to
+    /// the arrival: its own motion and contacts with static geometry, as the thesis does. What lies before the arrival is not rewritten.
+    /// </summary>
+    /// <returns>What became of it.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The arrival is before the event's time.</exception>
+    /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
+    /// <exception cref="SimulationException">Simulating again led out of the permitted range.</exception>
+    public SubmitResult SubmitForwarded(in ExternalEvent external, SimTime arrival)
+    {
+        if (arrival < external.Time)
+        {
+            throw new ArgumentOutOfRangeException(nameof(arrival), arrival, $"An event of {external.Time} cannot arrive before it happened.");
+        }
+
+        return Insert(external, external.At(arrival).Key, forwarded: true);
+    }
+
+    /// <summary>Takes an event back, as if it had never been; false if it is not there (any more).</summary>
+    /// <exception cref="SimulationException">Simulating again led out of the permitted range.</exception>
+    public bool Retract(in ExternalEvent external)
+    {
+        ThrowIfFaulted();
+        int slot = SlotOf(external.Body);
+        if (slot < 0 || !log.TryRemove(slot, external.Peer, external.Sequence, out EventKey key))
+        {
+            return false;
+        }
+
+        if (key.Time <= SimulatedTo)
+        {
+            Rollback(key);
+        }
+        else
+        {
+            bodies[slot].NextExternal = log.FirstFrom(slot, EventKey.Before(SimulatedTo + SimDuration.OneTick));
+            Predict(slot);
+        }
+
+        return true;
+    }
+
+    private SubmitResult Insert(in ExternalEvent external, in EventKey key, bool forwarded)
+    {
+        ThrowIfFaulted();
+        ExternalEventCheck.Throw(external, Scene);
+        if (key.Time < HistoryEdge)
+        {
+            return SubmitResult.TooOld;
+        }
+
+        int slot = SlotOf(external.Body);
+        if (slot < 0)
+        {
+            slot = AddBody(external.Body);
+            EventKey birth = EventKey.Before(Start);
+            timelines.Append(slot, external.Body, birth, MotionSegment.Nothing(Start), default);
+        }
+
+        log.DropBefore(slot, HistoryEdge);
+        if (!log.TryAdd(slot, external, key, forwarded, out int entry))
+        {
+            return SubmitResult.Duplicate;
+        }
+
+        if (key.Time <= SimulatedTo)
+        {
+            Rollback(key);
+            return SubmitResult.RolledBack;
+        }
+
+        int next = bodies[slot].NextExternal;
+        if (next == EventLog.None || EventKey.Compare(key, log.Key(next)) < 0)
+        {
+            bodies[slot].NextExternal = entry;
+            Predict(slot);
+        }
+
+        return SubmitResult.Queued;
+    }
+
+    private void HandleExternal(int slot, in EventKey key)
+    {
+        int entry = bodies[slot].NextExternal;
+        bodies[slot].NextExternal = log.Next(entry);
+        ref readonly ExternalEvent external = ref log.Event(entry);
+        bool isThere = timelines.Segment(timelines.Last(slot)).IsPresent;
+        if (external.Kind == EventKind.Spawn)
+        {
+            if (!isThere)
+            {
+                bodies[slot].Spec = external.Spec;
+                OpenFlight(slot, key, external.Position, external.Velocity);
+            }
+
+            return;
+        }
+
+        if (!isThere)
+        {
+            return; // nothing to act on, now; later news may still put the body there and this is simulated again
+        }
+
+        if (external.Kind == EventKind.Remove)
+        {
+            Append(slot, key, MotionSegment.Nothing(key.Time), default);
+        }
+        else if (log.IsForwarded(entry))
+        {
+            Adopt(slot, key, external);
+        }
+        else
+        {
+            int last = timelines.Last(slot);
+            double seconds = SecondsInto(last, key.Time);
+            SupportSet supports = timelines.Segment(last).Supports;
+            After(
+                external,
+                bodies[slot].Spec,
+                timelines.Segment(last).PositionAt(seconds, timelines.Dense(last)),
+                timelines.Segment(last).VelocityAt(seconds, timelines.Dense(last)),
+                out Vector3D position,
+                out Vector3D velocity);
+            Span<int> carriers = stackalloc int[SupportSet.Most];
+            int count = external.Kind == EventKind.Teleport ? 0 : supports.Count;
+            for (int k = 0; k < count; k++)
+            {
+                carriers[k] = supports[k];
+            }
+
+            // The door cannot know the velocity an impulse meets; a sum that leaves the permitted range has no effect, on every peer alike.
+            if (velocity.Length <= Limits.MaxSpeed(Scene.SmallestRadius))
+            {
+                Open(slot, key, position, velocity, 0, carriers.Slice(0, count));
+            }
+        }
+    }
+
+    /// <summary>The state right after an event, from the state right before it.</summary>
+    private static void After(
+        in ExternalEvent external, in BodySpec spec, in Vector3D before, in Vector3D velocityBefore, out Vector3D position, out Vector3D velocity)
+    {
+        position = external.Kind == EventKind.Teleport ? external.Position : before;
+        velocity = external.Kind switch
+        {
+            EventKind.Teleport or EventKind.SetVelocity => external.Velocity,
+            EventKind.Impulse => velocityBefore + (external.Velocity / spec.Mass),
+            _ => throw new InvalidOperationException($"{external.Kind} has no effect of its own on a state."),
+        };
+    }
+}

@@ -1,0 +1,37 @@
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim;
+
+/// <content>The thesis's way with a late event: advance the one body it concerns.</content>
+public sealed partial class Simulation
+{
+    /// <summary>
+    /// Puts the body at the key's time on the very path it would be on, had the event come in time and were nothing there but static
+    /// geometry. The path keeps its own epoch and step grid, so where nothing else was touched it agrees with the other peers bit for bit.
+    /// </summary>
+    private void Adopt(int slot, in EventKey key, in ExternalEvent external)
+    {
+        int then = timelines.At(slot, external.Time);
+        then = then < 0 ? timelines.First(slot) : then;
+        double seconds = SecondsInto(then, external.Time);
+        After(
+            external,
+            bodies[slot].Spec,
+            timelines.Segment(then).PositionAt(seconds, timelines.Dense(then)),
+            timelines.Segment(then).VelocityAt(seconds, timelines.Dense(then)),
+            out Vector3D position,
+            out Vector3D velocity);
+
+        // A world of its own with the same start, so that a force that depends on time sees the same time.
+        Simulation alone = new(Scene.WithoutBodies(), new SimulationOptions(Start, SimDuration.MaxValue));
+        alone.AdvanceTo(SimTime.Max(alone.SimulatedTo, external.Time - SimDuration.OneTick));
+        alone.Submit(ExternalEvent.Spawn(external.Time, 1, 1, bodies[slot].Spec, position, velocity));
+        alone.AdvanceTo(SimTime.Max(alone.SimulatedTo, key.Time));
+        int end = alone.timelines.Last(alone.SlotOf(new BodyId(1, 1, 0)));
+        MotionSegment path = alone.timelines.Segment(end);
+        Append(slot, key, path, alone.timelines.Dense(end));
+    }
+}

@@ -1,0 +1,306 @@
+using System;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim;
+
+/// <content>Impacts: who takes part, and what comes of it.</content>
+public sealed partial class Simulation
+{
+    /// <summary>
+    /// How high, in units of the scene's resolution, the hops are by which a lasting contact that no support covers (on a static sphere, on
+    /// another body, on a plane under a force that is not uniform) goes on: 1 micrometre by default, some thousand a second.
+    /// </summary>
+    private const double HopHeight = 1000;
+
+    private readonly ImpactSolver solver = new();
+    private int[] parties = new int[4];
+    private double[] partyMasses = new double[4];
+    private Vector3D[] partyPositions = new Vector3D[4];
+    private Vector3D[] partyVelocities = new Vector3D[4];
+    private Vector3D[] partyAccelerations = new Vector3D[4];
+    private ContactPoint[] contacts = new ContactPoint[8];
+    private int[] touched = new int[8];
+    private int partyCount;
+    private int contactCount;
+
+    private void HandleImpact(int slot, in EventKey key)
+    {
+        Gather(slot, key);
+        SortContacts();
+
+        // One instant for all: the earliest root. The others are met within a tick, so nothing is yet deep in anything.
+        double residual = double.MaxValue;
+        for (int i = 0; i < contactCount; i++)
+        {
+            residual = Math.Min(residual, contacts[i].Time.Residual);
+        }
+
+        EvaluateParties(key.Time, residual);
+        SetTargets(key.Round);
+        int struck = contactCount;
+        AddSupports();
+        solver.Solve(contacts.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount), partyVelocities.AsSpan(0, partyCount));
+        contactCount = struck;
+
+        EventKey canonical = CanonicalKey(key);
+        for (int i = 0; i < partyCount; i++)
+        {
+            OpenAfterImpact(i, canonical, residual);
+        }
+
+        for (int i = 0; i < partyCount; i++)
+        {
+            Predict(parties[i]);
+        }
+    }
+
+    /// <summary>All contacts of this tick and round that share bodies with the first, found by following them.</summary>
+    private void Gather(int slot, in EventKey key)
+    {
+        partyCount = 0;
+        contactCount = 0;
+        AddParty(slot);
+        for (int i = 0; i < partyCount; i++)
+        {
+            int party = parties[i];
+            for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
+            {
+                if (TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round)
+                {
+                    AddContact(new ContactPoint(i, ContactPoint.Static, surface, contact));
+                }
+            }
+
+            foreach (int other in index.Candidates(party))
+            {
+                bool now = TryTouchBody(party, other, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
+                if (now || (key.Round >= CollapseRound && IsTouching(party, other, key.Time, out contact)))
+                {
+                    int j = PartyOf(other);
+                    if (j < 0 || j > i)
+                    {
+                        j = j < 0 ? AddParty(other) : j;
+                        bool ordered = bodies[party].Id < bodies[other].Id;
+                        AddContact(new ContactPoint(ordered ? i : j, ordered ? j : i, -1, contact));
+                    }
+                }
+            }
+        }
+    }
+
+    private bool IsTouching(int slot, int other, SimTime time, out ContactTime contact)
+    {
+        ContactTime.TryMake(time, time, 0, out contact);
+        if (slot == other)
+        {
+            return false;
+        }
+
+        Vector3D apart = PositionAt(timelines.Last(slot), contact) - PositionAt(timelines.Last(other), contact);
+        return apart.Length - bodies[slot].Spec.Radius - bodies[other].Spec.Radius <= Scene.Resolution;
+    }
+
+    private int PartyOf(int slot) => Array.IndexOf(parties, slot, 0, partyCount);
+
+    private int AddParty(int slot)
+    {
+        if (partyCount == parties.Length)
+        {
+            int size = partyCount * 2;
+            Array.Resize(ref parties, size);
+            Array.Resize(ref partyMasses, size);
+            Array.Resize(ref partyPositions, size);
+            Array.Resize(ref partyVelocities, size);
+            Array.Resize(ref partyAccelerations, size);
+        }
+
+        parties[partyCount] = slot;
+        return partyCount++;
+    }
+
+    private void AddContact(in ContactPoint contact)
+    {
+        if (contactCount == contacts.Length)
+        {
+            Array.Resize(ref contacts, contactCount * 2);
+        }
+
+        contacts[contactCount++] = contact;
+    }
+
+    /// <summary>Canonical order, by identities and then surface, so that the way they were found leaves no trace in a sum.</summary>
+    private void SortContacts()
+    {
+        for (int i = 1; i < contactCount; i++)
+        {
+            ContactPoint moving = contacts[i];
+            int at = i;
+            while (at > 0 && Compare(moving, contacts[at - 1]) < 0)
+            {
+                contacts[at] = contacts[at - 1];
+                at--;
+            }
+
+            contacts[at] = moving;
+        }
+    }
+
+    private int Compare(in ContactPoint a, in ContactPoint b)
+    {
+        int byFirst = bodies[parties[a.First]].Id.CompareTo(bodies[parties[b.First]].Id);
+        return byFirst != 0 ? byFirst
+            : a.Second >= 0 && b.Second >= 0 ? bodies[parties[a.Second]].Id.CompareTo(bodies[parties[b.Second]].Id)
+            : a.Second != b.Second ? a.Second.CompareTo(b.Second)
+            : a.Surface.CompareTo(b.Surface);
+    }
+
+    private void EvaluateParties(SimTime time, double residual)
+    {
+        for (int i = 0; i < partyCount; i++)
+        {
+            int last = timelines.Last(parties[i]);
+            ref readonly MotionSegment segment = ref timelines.Segment(last);
+            DenseOutput dense = timelines.Dense(last);
+            double seconds = SecondsInto(last, time) + residual;
+            partyMasses[i] = bodies[parties[i]].Spec.Mass;
+            partyPositions[i] = segment.PositionAt(seconds, dense);
+            partyVelocities[i] = segment.VelocityAt(seconds, dense);
+            partyAccelerations[i] = segment.AccelerationAt(seconds, dense);
+        }
+    }
+
+    private void SetTargets(uint round)
+    {
+        for (int i = 0; i < contactCount; i++)
+        {
+            ref ContactPoint c = ref contacts[i];
+            bool single = c.Second == ContactPoint.Static;
+            c.Normal = single
+                ? SurfaceNormal(c.Surface, partyPositions[c.First])
+                : Direction(partyPositions[c.First] - partyPositions[c.Second]);
+            if (round >= CollapseRound)
+            {
+                c.Target = 0;
+                continue;
+            }
+
+            double closing = Math.Max(0, -ImpactSolver.Closing(c, partyVelocities));
+            c.Target = Restitution(c) * closing;
+            if (!IsSupportable(c))
+            {
+                Vector3D relative = single ? partyAccelerations[c.First] : partyAccelerations[c.First] - partyAccelerations[c.Second];
+                double pressing = -Vector3D.Dot(c.Normal, relative);
+                if (pressing > 0)
+                {
+                    c.Target = Math.Max(c.Target, Math.Sqrt(2 * pressing * HopHeight * Scene.Resolution));
+                }
+            }
+        }
+    }
+
+    /// <summary>The lesser of the two parties' restitutions: a material behaves as named against anything more elastic.</summary>
+    private double Restitution(in ContactPoint c)
+    {
+        double first = bodies[parties[c.First]].Spec.Restitution;
+        double second = c.Second != ContactPoint.Static ? bodies[parties[c.Second]].Spec.Restitution
+            : c.Surface < Scene.PlaneArray.Length ? Scene.PlaneArray[c.Surface].Restitution
+            : Scene.SphereArray[c.Surface - Scene.PlaneArray.Length].Restitution;
+        return Math.Min(first, second);
+    }
+
+    /// <summary>Whether a body may come to rest or slide on what it hit: a plane, under an acceleration that is the same everywhere.</summary>
+    private bool IsSupportable(in ContactPoint c) =>
+        c.Second == ContactPoint.Static && c.Surface < Scene.PlaneArray.Length && bodies[parties[c.First]].Spec.Acceleration == 0;
+
+    /// <summary>A body that is carried stays carried while it is hit: its supports push back as far as they must, and give nothing.</summary>
+    private void AddSupports()
+    {
+        for (int i = 0; i < partyCount; i++)
+        {
+            SupportSet supports = timelines.Segment(timelines.Last(parties[i])).Supports;
+            for (int k = 0; k < supports.Count; k++)
+            {
+                if (!HasContact(i, supports[k]))
+                {
+                    AddContact(new ContactPoint(i, ContactPoint.Static, supports[k], default)
+                    {
+                        Normal = Scene.PlaneArray[supports[k]].Normal,
+                    });
+                }
+            }
+        }
+    }
+
+    private bool HasContact(int party, int surface)
+    {
+        for (int i = 0; i < contactCount; i++)
+        {
+            if (contacts[i].First == party && contacts[i].Second == ContactPoint.Static && contacts[i].Surface == surface)
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    /// <summary>The impact's key whichever of its contacts was popped: named by its least party and that one's least partner.</summary>
+    private EventKey CanonicalKey(in EventKey popped)
+    {
+        ref readonly ContactPoint least = ref contacts[0];
+        BodyId first = bodies[parties[least.First]].Id;
+        BodyId second = least.Second == ContactPoint.Static ? first : bodies[parties[least.Second]].Id;
+        return new EventKey(popped.Time, popped.Round, EventKind.Impact, first, second, 0, 0);
+    }
+
+    private void OpenAfterImpact(int party, in EventKey key, double residual)
+    {
+        int slot = parties[party];
+        SupportSet supports = timelines.Segment(timelines.Last(slot)).Supports;
+        int count = 0;
+        for (int i = 0; i < contactCount; i++)
+        {
+            ref readonly ContactPoint c = ref contacts[i];
+            if (c.First == party && IsSupportable(c))
+            {
+                AddTouched(ref count, c.Surface);
+            }
+        }
+
+        for (int k = 0; k < supports.Count; k++)
+        {
+            AddTouched(ref count, supports[k]);
+        }
+
+        Open(slot, key, partyPositions[party], partyVelocities[party], -residual, touched.AsSpan(0, count));
+    }
+
+    private void AddTouched(ref int count, int plane)
+    {
+        int at = count;
+        for (int i = 0; i < count; i++)
+        {
+            if (touched[i] == plane)
+            {
+                return;
+            }
+        }
+
+        if (count == touched.Length)
+        {
+            Array.Resize(ref touched, count * 2);
+        }
+
+        for (; at > 0 && touched[at - 1] > plane; at--)
+        {
+            touched[at] = touched[at - 1];
+        }
+
+        touched[at] = plane;
+        count++;
+    }
+}

@@ -1,0 +1,155 @@
+using System;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim;
+
+/// <content>Opening a segment: which law a body follows from a state on.</content>
+public sealed partial class Simulation
+{
+    /// <summary>
+    /// Opens the body's next segment from a state that holds <paramref name="carry"/> seconds before the key's tick (under a tick, either
+    /// way): at rest on or sliding along those of the touched planes that carry it, else in free flight.
+    /// </summary>
+    private void Open(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, ReadOnlySpan<int> touchedPlanes)
+    {
+        if (touchedPlanes.Length > 0 && TryOpenSupported(slot, key, position, velocity, carry, touchedPlanes))
+        {
+            return;
+        }
+
+        Vector3D x = position;
+        Vector3D v = velocity;
+        if (carry != 0)
+        {
+            Vector3D a = forces.At(bodies[slot].Spec.Acceleration, key.Time, -carry, position, velocity);
+            x += (v + (a * (0.5 * carry))) * carry;
+            v += a * carry;
+        }
+
+        OpenFlight(slot, key, x, v);
+    }
+
+    private void OpenFlight(int slot, in EventKey key, in Vector3D position, in Vector3D velocity)
+    {
+        Vector3D x = position.WithoutNegativeZero();
+        Vector3D v = velocity.WithoutNegativeZero();
+        ref readonly BodySpec spec = ref bodies[slot].Spec;
+        CheckState(slot, key, x, v);
+        if (spec.Flight == MotionLaw.RungeKutta4)
+        {
+            MotionSegment step = RungeKutta4.Step(forces, spec, key.Time, x, v, out DenseOutput dense);
+            Append(slot, key, step, dense);
+        }
+        else
+        {
+            Append(slot, key, new MotionSegment(MotionLaw.Ballistic, key.Time, SimTime.MaxValue, x, v, Scene.Gravity), default);
+        }
+    }
+
+    /// <summary>
+    /// Rest or sliding, if after the impact no bounce is left that the scene resolves. The bounces that remain rise at most w^2 / 2a and last
+    /// 2w / (a (1 - e)) in all, for a rebound at speed w pressed back by a: below the scene's resolution they are left out, the body is put on
+    /// the plane, and it rests from the end of that time on. Tangential motion goes on unchanged: frictionless bounces do not touch it.
+    /// </summary>
+    private bool TryOpenSupported(
+        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, ReadOnlySpan<int> touchedPlanes)
+    {
+        if (bodies[slot].Spec.Acceleration != 0)
+        {
+            return false;
+        }
+
+        Span<int> slow = touchedPlanes.Length <= 32 ? stackalloc int[32] : new int[touchedPlanes.Length];
+        int count = 0;
+        foreach (int plane in touchedPlanes)
+        {
+            double rebound = Vector3D.Dot(Scene.PlaneArray[plane].Normal, velocity);
+            if (Math.Abs(rebound) <= UnresolvedSpeed(plane))
+            {
+                slow[count++] = plane;
+            }
+        }
+
+        SupportSet supports = PlaneSupport.Solve(slow.Slice(0, count), Scene.PlaneArray, Scene.Gravity, out Vector3D acceleration);
+        if (supports.Count == 0)
+        {
+            return false;
+        }
+
+        SimDuration left = BouncesLeft(slot, supports, velocity);
+        Vector3D tangential = PlaneSupport.Tangential(velocity, supports, Scene.PlaneArray);
+        Vector3D start = OntoSupports(slot, supports, position + (tangential * carry));
+        tangential = (tangential + (acceleration * carry)).WithoutNegativeZero();
+        CheckState(slot, key, start, tangential);
+        bool rests = tangential == Vector3D.Zero && acceleration == Vector3D.Zero;
+        if (rests && left == SimDuration.Zero)
+        {
+            Append(slot, key, MotionSegment.AtRest(key.Time, start, supports), default);
+        }
+        else
+        {
+            SimTime end = rests ? key.Time + left : SimTime.MaxValue;
+            Append(slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, end, start, tangential, acceleration, supports), default);
+        }
+
+        return true;
+    }
+
+    /// <summary>The rebound speed below which a bounce on the plane rises less than the scene resolves.</summary>
+    private double UnresolvedSpeed(int plane)
+    {
+        double pressing = -Vector3D.Dot(Scene.PlaneArray[plane].Normal, Scene.Gravity);
+        return Math.Sqrt(2 * Scene.Resolution * (pressing > 0 ? pressing : Scene.Gravity.Length));
+    }
+
+    /// <summary>How long the bounces that are left out would have lasted; zero for what never loses speed, or has none.</summary>
+    private SimDuration BouncesLeft(int slot, SupportSet supports, in Vector3D velocity)
+    {
+        double longest = 0;
+        for (int k = 0; k < supports.Count; k++)
+        {
+            ref readonly StaticPlane plane = ref Scene.PlaneArray[supports[k]];
+            double rebound = Vector3D.Dot(plane.Normal, velocity);
+            double pressing = -Vector3D.Dot(plane.Normal, Scene.Gravity);
+            double restitution = Math.Min(plane.Restitution, bodies[slot].Spec.Restitution);
+            if (rebound > 0 && pressing > 0 && restitution < 1)
+            {
+                longest = Math.Max(longest, 2 * rebound / (pressing * (1 - restitution)));
+            }
+        }
+
+        return TickConversion.TryFromSeconds(longest, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.Zero;
+    }
+
+    /// <summary>The limit of the bounces lies on the plane; only what a bounce below the resolution leaves is taken away, never a real overlap.</summary>
+    private Vector3D OntoSupports(int slot, SupportSet supports, in Vector3D position)
+    {
+        Vector3D onto = position;
+        for (int k = 0; k < supports.Count; k++)
+        {
+            ref readonly StaticPlane plane = ref Scene.PlaneArray[supports[k]];
+            double gap = plane.Gap(onto, bodies[slot].Spec.Radius);
+            if (Math.Abs(gap) <= Scene.Resolution)
+            {
+                onto -= plane.Normal * gap;
+            }
+        }
+
+        return onto.WithoutNegativeZero();
+    }
+
+    private void CheckState(int slot, in EventKey key, in Vector3D position, in Vector3D velocity)
+    {
+        double limit = Limits.MaxSpeed(Scene.SmallestRadius);
+        if (!position.IsFinite || !(velocity.Length <= limit))
+        {
+            throw new SimulationException(
+                $"At {key} body {bodies[slot].Id} is at {position} m with {velocity} m/s; a position must stay finite, and a speed at most "
+                + $"{Limits.Text(limit)} m/s, a tenth of the smallest radius in a tick.");
+        }
+    }
+}

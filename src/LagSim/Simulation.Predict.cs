@@ -1,0 +1,225 @@
+using System;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <content>Prediction: the one pending event of a body.</content>
+public sealed partial class Simulation
+{
+    /// <summary>
+    /// From this round on a tick holds an inelastic collapse, or a body squeezed between others: its limit is taken. All that touch are
+    /// solved together without restitution, and what still closes slower than <see cref="CollapseSpeed"/> is asked for again only after
+    /// <see cref="CollapseWait"/>.
+    /// </summary>
+    private const uint CollapseRound = 64;
+
+    private const double CollapseSpeed = 1e-6;
+
+    private static readonly SimDuration CollapseWait = SimDuration.FromTicks(1L << 20);
+
+    /// <summary>Finds the body's next event, the least of step or law end, external event and contact, and queues it in place of any other.</summary>
+    private void Predict(int slot)
+    {
+        bool any = false;
+        EventKey least = default;
+        int partner = NoPartner;
+        BodyId id = bodies[slot].Id;
+        int external = bodies[slot].NextExternal;
+        if (external != EventLog.None)
+        {
+            Consider(log.Key(external), NoPartner, ref any, ref least, ref partner);
+        }
+
+        int last = timelines.Last(slot);
+        if (last != TimelineStore.None && timelines.Segment(last).IsPresent)
+        {
+            SimTime end = timelines.Segment(last).End;
+            if (end != SimTime.MaxValue)
+            {
+                Consider(new EventKey(end, RoundAt(end, slot), EventKind.StepEnd, id, id, 0, 0), NoPartner, ref any, ref least, ref partner);
+            }
+
+            for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
+            {
+                if (TryTouchSurface(slot, surface, out ContactTime contact, out uint round))
+                {
+                    Consider(new EventKey(contact.Tick, round, EventKind.Impact, id, id, 0, 0), NoPartner, ref any, ref least, ref partner);
+                }
+            }
+
+            foreach (int other in index.Candidates(slot))
+            {
+                if (TryTouchBody(slot, other, out ContactTime contact, out uint round))
+                {
+                    BodyId otherId = bodies[other].Id;
+                    EventKey key = id < otherId
+                        ? new EventKey(contact.Tick, round, EventKind.Impact, id, otherId, 0, 0)
+                        : new EventKey(contact.Tick, round, EventKind.Impact, otherId, id, 0, 0);
+                    Consider(key, other, ref any, ref least, ref partner);
+                }
+            }
+        }
+
+        if (!any)
+        {
+            bodies[slot].Partner = NoPartner;
+            queue.Remove(slot);
+            return;
+        }
+
+        Pend(slot, least, partner);
+        if (partner != NoPartner && (!queue.TryGet(partner, out EventKey theirs) || EventKey.Compare(least, theirs) < 0))
+        {
+            Pend(partner, least, slot);
+        }
+    }
+
+    private static void Consider(in EventKey key, int with, ref bool any, ref EventKey least, ref int partner)
+    {
+        if (!any || EventKey.Compare(key, least) < 0)
+        {
+            any = true;
+            least = key;
+            partner = with;
+        }
+    }
+
+    private void Pend(int slot, in EventKey key, int partner)
+    {
+        bodies[slot].Partner = partner;
+        bodies[slot].PartnerSerial = partner == NoPartner ? 0 : timelines.Serial(timelines.Last(partner));
+        queue.Set(slot, key);
+    }
+
+    /// <summary>The next contact of a body's newest segment with a static surface: planes by index, static spheres after them.</summary>
+    private bool TryTouchSurface(int slot, int surface, out ContactTime contact, out uint round)
+    {
+        int last = timelines.Last(slot);
+        ref readonly MotionSegment segment = ref timelines.Segment(last);
+        contact = default;
+        round = 0;
+        bool isPlane = surface < Scene.PlaneArray.Length;
+        if (segment.Law == MotionLaw.Resting || (isPlane && segment.Supports.Contains(surface)))
+        {
+            return false; // what carries a body stays below it until something else happens
+        }
+
+        SimTime opened = timelines.Key(last).Time;
+        SimTime from = opened;
+        while (TouchSurface(slot, last, surface, isPlane, from, out contact))
+        {
+            round = RoundAt(contact.Tick, slot);
+            if (round <= CollapseRound || contact.Tick != opened || ClosingOnSurface(last, surface, contact) > CollapseSpeed)
+            {
+                return true;
+            }
+
+            from = opened + CollapseWait;
+            if (from > segment.End)
+            {
+                return false;
+            }
+        }
+
+        return false;
+    }
+
+    private bool TouchSurface(int slot, int last, int surface, bool isPlane, SimTime from, out ContactTime contact)
+    {
+        ref readonly MotionSegment segment = ref timelines.Segment(last);
+        if (isPlane)
+        {
+            return ContactFinder.WithPlane(
+                segment, timelines.Dense(last), bodies[slot].Spec.Radius, Scene.PlaneArray[surface], from, segment.End, out contact);
+        }
+
+        ref readonly StaticSphere sphere = ref Scene.SphereArray[surface - Scene.PlaneArray.Length];
+        return ContactFinder.WithSphere(
+            segment, timelines.Dense(last), MotionSegment.AtRest(Start, sphere.Centre), default, bodies[slot].Spec.Radius + sphere.Radius,
+            from, segment.End, out contact);
+    }
+
+    /// <summary>The next contact of the newest segments of two bodies; a pure function of the two, ordered by identity.</summary>
+    private bool TryTouchBody(int slot, int other, out ContactTime contact, out uint round)
+    {
+        contact = default;
+        round = 0;
+        if (slot == other)
+        {
+            return false;
+        }
+
+        bool ordered = bodies[slot].Id < bodies[other].Id;
+        int a = ordered ? slot : other;
+        int b = ordered ? other : slot;
+        int lastA = timelines.Last(a);
+        int lastB = timelines.Last(b);
+        ref readonly MotionSegment segmentA = ref timelines.Segment(lastA);
+        ref readonly MotionSegment segmentB = ref timelines.Segment(lastB);
+        if (segmentA.Law == MotionLaw.Resting && segmentB.Law == MotionLaw.Resting)
+        {
+            return false;
+        }
+
+        SimTime opened = SimTime.Max(timelines.Key(lastA).Time, timelines.Key(lastB).Time);
+        SimTime until = SimTime.Min(segmentA.End, segmentB.End);
+        double reach = bodies[a].Spec.Radius + bodies[b].Spec.Radius;
+        SimTime from = opened;
+        while (from <= until && ContactFinder.WithSphere(
+            segmentA, timelines.Dense(lastA), segmentB, timelines.Dense(lastB), reach, from, until, out contact))
+        {
+            round = Math.Max(RoundAt(contact.Tick, a), RoundAt(contact.Tick, b));
+            if (round <= CollapseRound || contact.Tick != opened || ClosingOfBodies(lastA, lastB, contact) > CollapseSpeed)
+            {
+                return true;
+            }
+
+            from = opened + CollapseWait;
+        }
+
+        return false;
+    }
+
+    private double ClosingOnSurface(int last, int surface, in ContactTime contact)
+    {
+        Vector3D position = PositionAt(last, contact);
+        Vector3D normal = SurfaceNormal(surface, position);
+        return -Vector3D.Dot(normal, VelocityAt(last, contact));
+    }
+
+    private double ClosingOfBodies(int lastA, int lastB, in ContactTime contact)
+    {
+        Vector3D apart = PositionAt(lastA, contact) - PositionAt(lastB, contact);
+        return -Vector3D.Dot(Direction(apart), VelocityAt(lastA, contact) - VelocityAt(lastB, contact));
+    }
+
+    private Vector3D SurfaceNormal(int surface, in Vector3D position)
+    {
+        if (surface < Scene.PlaneArray.Length)
+        {
+            return Scene.PlaneArray[surface].Normal;
+        }
+
+        return Direction(position - Scene.SphereArray[surface - Scene.PlaneArray.Length].Centre);
+    }
+
+    // Centres that coincide have no direction between them; up is as good as any and the same everywhere.
+    private static Vector3D Direction(in Vector3D apart)
+    {
+        double length = apart.Length;
+        return length > 0 ? apart / length : Vector3D.Up;
+    }
+
+    private Vector3D PositionAt(int segment, in ContactTime contact) =>
+        timelines.Segment(segment).PositionAt(SecondsInto(segment, contact.Tick) + contact.Residual, timelines.Dense(segment));
+
+    private Vector3D VelocityAt(int segment, in ContactTime contact) =>
+        timelines.Segment(segment).VelocityAt(SecondsInto(segment, contact.Tick) + contact.Residual, timelines.Dense(segment));
+
+    private double SecondsInto(int segment, SimTime time) => (time - timelines.Segment(segment).Epoch).ToSeconds();
+}

@@ -1,0 +1,114 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <content>Reading: pure functions of the timelines.</content>
+public sealed partial class Simulation
+{
+    /// <summary>Where a body is at any instant from <see cref="HistoryEdge"/> to <see cref="Horizon"/>, after all events of that tick.</summary>
+    /// <returns>False, and a state that is <see cref="MotionLaw.Absent"/>, if the body is unknown or not there at that time.</returns>
+    /// <remarks>Opens no segment and changes nothing. Cost: the number of the body's segments after that time.</remarks>
+    /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
+    public bool TryRead(BodyId body, SimTime time, out BodyState state)
+    {
+        CheckReadable(time);
+        int slot = SlotOf(body);
+        if (slot < 0)
+        {
+            state = default;
+            return false;
+        }
+
+        state = StateAt(slot, time);
+        return state.Motion != MotionLaw.Absent;
+    }
+
+    /// <summary>A hash of the exact bits and identities of every body that is there at <paramref name="time"/>.</summary>
+    /// <remarks>Equal on two peers if and, to 64 bits, only if their worlds are the same then. It does not depend on the time of day.</remarks>
+    /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
+    public ulong StateHash(SimTime time)
+    {
+        CheckReadable(time);
+        StableHash hash = default;
+        hash.Add(time - Start);
+        foreach (int slot in order)
+        {
+            BodyState state = StateAt(slot, time);
+            if (state.Motion != MotionLaw.Absent)
+            {
+                hash.Add(bodies[slot].Id.Packed);
+                hash.Add((ulong)state.Motion);
+                hash.Add(state.Position);
+                hash.Add(state.Velocity);
+            }
+        }
+
+        return hash.Value;
+    }
+
+    /// <summary>A hash of every event from the start up to and including <paramref name="time"/>, in canonical order, with what came of it.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
+    public ulong EventHash(SimTime time)
+    {
+        CheckReadable(time);
+        ulong sum = timelines.EventHash;
+        foreach (int slot in order)
+        {
+            for (int at = timelines.Last(slot); at != TimelineStore.None && timelines.Key(at).Time > time; at = timelines.Previous(at))
+            {
+                sum -= timelines.HashOf(at, bodies[slot].Id);
+            }
+        }
+
+        return sum;
+    }
+
+    /// <summary>A body's events that are kept, in order, each with the state right after it. Empty for an unknown body.</summary>
+    /// <remarks>For reports and tests; allocates.</remarks>
+    public IReadOnlyList<TimelineEntry> Timeline(BodyId body)
+    {
+        List<TimelineEntry> entries = new();
+        int slot = SlotOf(body);
+        for (int at = slot < 0 ? TimelineStore.None : timelines.First(slot); at != TimelineStore.None; at = timelines.Next(at))
+        {
+            MotionSegment segment = timelines.Segment(at);
+            double seconds = SecondsInto(at, timelines.Key(at).Time);
+            entries.Add(new TimelineEntry(timelines.Key(at), StateOf(segment, seconds, timelines.Dense(at))));
+        }
+
+        return entries;
+    }
+
+    /// <summary>The properties of a body that has been there; the default for an unknown one.</summary>
+    public BodySpec SpecOf(BodyId body)
+    {
+        int slot = SlotOf(body);
+        return slot < 0 ? default : bodies[slot].Spec;
+    }
+
+    internal static BodyState StateOf(in MotionSegment segment, double seconds, in DenseOutput dense) =>
+        segment.IsPresent
+            ? new BodyState(segment.PositionAt(seconds, dense), segment.VelocityAt(seconds, dense), segment.Law)
+            : default;
+
+    private BodyState StateAt(int slot, SimTime time)
+    {
+        int at = timelines.At(slot, time);
+        return at == TimelineStore.None ? default : StateOf(timelines.Segment(at), SecondsInto(at, time), timelines.Dense(at));
+    }
+
+    private void CheckReadable(SimTime time)
+    {
+        ThrowIfFaulted();
+        if (time < HistoryEdge || time > Horizon)
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(time), time, $"Readable is from {HistoryEdge}, the edge of the history, to {Horizon}, where the next event is due.");
+        }
+    }
+}

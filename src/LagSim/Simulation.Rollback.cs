@@ -1,0 +1,38 @@
+using LagSim.Events;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <content>Full rollback: simple, correct, and the measure for everything cleverer.</content>
+public sealed partial class Simulation
+{
+    /// <summary>Cuts every timeline at the key, not at its time, and simulates again up to where the world was.</summary>
+    private void Rollback(in EventKey key)
+    {
+        Rollbacks++;
+        for (int slot = 0; slot < BodyCount; slot++)
+        {
+            SegmentsCut += timelines.CutFrom(slot, bodies[slot].Id, key);
+            bodies[slot].NextExternal = log.FirstFrom(slot, key);
+            if (timelines.Last(slot) != TimelineStore.None)
+            {
+                index.Place(slot, timelines.Segment(timelines.Last(slot)));
+            }
+        }
+
+        for (int slot = 0; slot < BodyCount; slot++)
+        {
+            queue.Remove(slot);
+        }
+
+        for (int slot = 0; slot < BodyCount; slot++)
+        {
+            Predict(slot);
+        }
+
+        SimTime front = SimulatedTo;
+        SimulatedTo = key.Time - SimDuration.OneTick;
+        AdvanceTo(front);
+    }
+}

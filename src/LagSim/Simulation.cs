@@ -1,0 +1,162 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <summary>The face of the world: advance it to a time, submit what players do, read any instant in the window, hash it.</summary>
+/// <remarks>
+/// <para>Its state is a pure function of the scene and the external events submitted, whatever the order in which they came:
+/// <c>state(t) = Fold(scene, events up to t, in canonical order)</c>, bit for bit.</para>
+/// <para>Not thread-safe: one thread at a time. <c>LagSim.Hosting</c> gives it a thread of its own. No allocation per event once as many
+/// segments were alive as will be.</para>
+/// <para>An exception out of <see cref="AdvanceTo"/> or <see cref="Submit"/> other than an argument's leaves it faulted: every later call throws.</para>
+/// </remarks>
+public sealed partial class Simulation
+{
+    private readonly TimelineStore timelines;
+    private readonly EventLog log = new();
+    private readonly EventQueue queue = new();
+    private readonly IPairIndex index = new AllPairs();
+    private readonly Forces forces;
+    private readonly SimDuration history;
+    private readonly List<int> order = new(); // slots by ascending identity
+    private Body[] bodies = new Body[16];
+    private Exception? fault;
+
+    /// <summary>A world at the start of its scene.</summary>
+    /// <exception cref="ArgumentNullException">There is no scene.</exception>
+    public Simulation(Scene scene, SimulationOptions? options = null)
+    {
+        Scene = scene ?? throw new ArgumentNullException(nameof(scene));
+        options ??= new SimulationOptions();
+        Start = options.Start;
+        history = options.History;
+        SimulatedTo = Start - SimDuration.OneTick;
+        HistoryEdge = Start;
+        timelines = new TimelineStore(Start);
+        forces = new Forces(scene, Start);
+        for (int i = 0; i < scene.BodyArray.Length; i++)
+        {
+            ref readonly SceneBody body = ref scene.BodyArray[i];
+            int slot = AddBody(BodyId.OfScene(i));
+            bodies[slot].Spec = body.Spec;
+            EventKey key = new(Start, 0, EventKind.Start, bodies[slot].Id, bodies[slot].Id, 0, 0);
+            OpenFlight(slot, key, body.Position, body.Velocity);
+        }
+
+        for (int slot = 0; slot < BodyCount; slot++)
+        {
+            Predict(slot);
+        }
+
+        AdvanceTo(Start);
+    }
+
+    /// <summary>What was there at the start.</summary>
+    public Scene Scene { get; }
+
+    /// <summary>The instant at which the scene began.</summary>
+    public SimTime Start { get; }
+
+    /// <summary>The instant up to which, and including which, everything has happened.</summary>
+    public SimTime SimulatedTo { get; private set; }
+
+    /// <summary>The earliest instant that can be read or changed.</summary>
+    public SimTime HistoryEdge { get; private set; }
+
+    /// <summary>The last instant that can be read: nothing happens between <see cref="SimulatedTo"/> and here.</summary>
+    public SimTime Horizon => queue.Count == 0 ? SimTime.MaxValue : SimTime.Max(SimulatedTo, queue.LeastKey.Time - SimDuration.OneTick);
+
+    /// <summary>How many bodies have ever been heard of, absent ones included.</summary>
+    public int BodyCount { get; private set; }
+
+    /// <summary>How many events were processed, those that were simulated again included.</summary>
+    public long EventsProcessed { get; private set; }
+
+    /// <summary>How often timelines were cut for an event that came late or was taken back.</summary>
+    public long Rollbacks { get; private set; }
+
+    /// <summary>How many segments were cut off by rollbacks, to be simulated again.</summary>
+    public long SegmentsCut { get; private set; }
+
+    /// <summary>The identity of the n-th body in canonical order, 0 &lt;= n &lt; <see cref="BodyCount"/>. Later spawns may shift n.</summary>
+    public BodyId BodyAt(int n) => bodies[order[n]].Id;
+
+    private int AddBody(BodyId id)
+    {
+        int slot = BodyCount++;
+        if (slot == bodies.Length)
+        {
+            Array.Resize(ref bodies, slot * 2);
+        }
+
+        bodies[slot] = new Body { Id = id, NextExternal = EventLog.None, Partner = NoPartner };
+        timelines.AddSlot(slot);
+        log.AddSlot(slot);
+        order.Insert(~FindInOrder(id), slot);
+        return slot;
+    }
+
+    /// <summary>The place of an identity in <see cref="order"/>, or the complement of where it belongs.</summary>
+    private int FindInOrder(BodyId id)
+    {
+        int low = 0;
+        int high = order.Count - 1;
+        while (low <= high)
+        {
+            int middle = (low + high) >> 1;
+            int compared = bodies[order[middle]].Id.CompareTo(id);
+            if (compared == 0)
+            {
+                return middle;
+            }
+
+            if (compared < 0)
+            {
+                low = middle + 1;
+            }
+            else
+            {
+                high = middle - 1;
+            }
+        }
+
+        return ~low;
+    }
+
+    private int SlotOf(BodyId id)
+    {
+        int at = FindInOrder(id);
+        return at < 0 ? -1 : order[at];
+    }
+
+    private void ThrowIfFaulted()
+    {
+        if (fault is not null)
+        {
+            throw new InvalidOperationException("The simulation has faulted and cannot go on; see the inner exception.", fault);
+        }
+    }
+
+    /// <summary>What the simulation knows of a body besides its timeline.</summary>
+    private struct Body
+    {
+        internal BodyId Id;
+        internal BodySpec Spec;
+
+        /// <summary>The first external event not yet applied.</summary>
+        internal int NextExternal;
+
+        /// <summary>Of a pending impact the other body's slot, or <see cref="NoPartner"/>.</summary>
+        internal int Partner;
+
+        /// <summary>The partner's segment that the pending impact was found with.</summary>
+        internal long PartnerSerial;
+    }
+}

@@ -1,0 +1,17 @@
+namespace LagSim;
+
+/// <summary>What became of an external event that was submitted.</summary>
+public enum SubmitResult
+{
+    /// <summary>It lies ahead of what is simulated and happens when its time comes.</summary>
+    Queued,
+
+    /// <summary>It lay inside what was simulated already: the timelines were cut at its key and simulated again.</summary>
+    RolledBack,
+
+    /// <summary>The same event (time, kind, body, peer, sequence) is there already; nothing changed.</summary>
+    Duplicate,
+
+    /// <summary>It lies before the history that is kept; nothing changed.</summary>
+    TooOld,
+}

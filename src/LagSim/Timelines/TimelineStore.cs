@@ -1,0 +1,213 @@
+using System;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Timelines;
+
+/// <summary>Every body's timeline: its segments in the order of the keys that opened them, back to the edge of the window.</summary>
+/// <remarks>
+/// <para>Segments live in flat arrays, linked per body; nothing is overwritten, a segment is only appended, cut off at the end, or dropped
+/// behind the window. Allocates only when more segments are alive than ever before.</para>
+/// <para>It keeps a running hash of all events: the sum (modulo 2^64) of one hash a segment, so that appending and cutting are O(1) and the
+/// order in which the news came leaves no trace.</para>
+/// </remarks>
+internal sealed class TimelineStore
+{
+    internal const int None = -1;
+
+    private readonly SimTime origin;
+    private MotionSegment[] segments = new MotionSegment[32];
+    private DenseOutput[] dense = Array.Empty<DenseOutput>(); // only once something is integrated
+    private EventKey[] keys = new EventKey[32];
+    private long[] serials = new long[32];
+    private int[] previous = new int[32];
+    private int[] next = new int[32];
+    private int free = None;
+    private int used;
+    private long lastSerial;
+    private int[] first = Array.Empty<int>();
+    private int[] last = Array.Empty<int>();
+
+    internal TimelineStore(SimTime origin) => this.origin = origin;
+
+    /// <summary>The sum of the hashes of all segments ever opened and not cut off again, dropped ones included.</summary>
+    internal ulong EventHash { get; private set; }
+
+    /// <summary>How many segments are kept now.</summary>
+    internal int Alive { get; private set; }
+
+    /// <summary>Makes room for a body's timeline.</summary>
+    internal void AddSlot(int slot)
+    {
+        if (slot >= first.Length)
+        {
+            int size = Math.Max(slot + 1, Math.Max(16, first.Length * 2));
+            Array.Resize(ref first, size);
+            Array.Resize(ref last, size);
+        }
+
+        first[slot] = None;
+        last[slot] = None;
+    }
+
+    /// <summary>The body's newest segment, or <see cref="None"/>.</summary>
+    internal int Last(int slot) => last[slot];
+
+    /// <summary>The body's oldest segment that is kept, or <see cref="None"/>.</summary>
+    internal int First(int slot) => first[slot];
+
+    internal int Next(int segment) => next[segment];
+
+    internal int Previous(int segment) => previous[segment];
+
+    internal ref readonly MotionSegment Segment(int segment) => ref segments[segment];
+
+    internal DenseOutput Dense(int segment) => segment < dense.Length ? dense[segment] : default;
+
+    /// <summary>The key of the event that opened the segment.</summary>
+    internal ref readonly EventKey Key(int segment) => ref keys[segment];
+
+    /// <summary>A number no other segment of this store ever has; tells whether a remembered segment is still the one.</summary>
+    internal long Serial(int segment) => serials[segment];
+
+    /// <summary>Opens the body's next segment.</summary>
+    internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output)
+    {
+        int at = free;
+        if (at != None)
+        {
+            free = next[at];
+        }
+        else
+        {
+            at = used++;
+            if (at == segments.Length)
+            {
+                Grow();
+            }
+        }
+
+        segments[at] = segment;
+        if (segment.Law == MotionLaw.RungeKutta4)
+        {
+            if (at >= dense.Length)
+            {
+                Array.Resize(ref dense, segments.Length);
+            }
+
+            dense[at] = output;
+        }
+
+        keys[at] = key;
+        serials[at] = ++lastSerial;
+        previous[at] = last[slot];
+        next[at] = None;
+        if (last[slot] == None)
+        {
+            first[slot] = at;
+        }
+        else
+        {
+            next[last[slot]] = at;
+        }
+
+        last[slot] = at;
+        Alive++;
+        EventHash += HashOf(at, body);
+    }
+
+    /// <summary>Removes the body's segments keyed at or after <paramref name="key"/>; returns how many.</summary>
+    internal int CutFrom(int slot, BodyId body, in EventKey key)
+    {
+        int cut = 0;
+        while (last[slot] != None && EventKey.Compare(keys[last[slot]], key) >= 0)
+        {
+            int at = last[slot];
+            EventHash -= HashOf(at, body);
+            last[slot] = previous[at];
+            if (last[slot] == None)
+            {
+                first[slot] = None;
+            }
+            else
+            {
+                next[last[slot]] = None;
+            }
+
+            Release(at);
+            cut++;
+        }
+
+        return cut;
+    }
+
+    /// <summary>Drops what is no longer needed for instants from <paramref name="edge"/> on; the last segment opened before the edge stays.</summary>
+    internal void DropBefore(int slot, SimTime edge)
+    {
+        while (first[slot] != None && next[first[slot]] != None && keys[next[first[slot]]].Time < edge)
+        {
+            int at = first[slot];
+            first[slot] = next[at];
+            previous[first[slot]] = None;
+            Release(at);
+        }
+    }
+
+    /// <summary>The segment that holds at <paramref name="time"/>, after all events of that tick; <see cref="None"/> before the first kept.</summary>
+    internal int At(int slot, SimTime time)
+    {
+        int at = last[slot];
+        while (at != None && keys[at].Time > time)
+        {
+            at = previous[at];
+        }
+
+        return at;
+    }
+
+    internal ulong HashOf(int segment, BodyId body)
+    {
+        ref readonly EventKey key = ref keys[segment];
+        if (key.Kind == EventKind.None)
+        {
+            return 0; // a body not yet there: that one has heard of it is not an event
+        }
+
+        ref readonly MotionSegment motion = ref segments[segment];
+        StableHash hash = default;
+        hash.Add(body.Packed);
+        hash.Add(key.Time - origin);
+        hash.Add(((ulong)key.Round << 8) | (byte)key.Kind);
+        hash.Add(key.Body.Packed);
+        hash.Add(key.Other.Packed);
+        hash.Add(key.Origin);
+        hash.Add((ulong)motion.Law);
+        hash.Add(motion.Epoch - origin);
+        hash.Add(motion.Position);
+        hash.Add(motion.Velocity);
+        return hash.Value;
+    }
+
+    private void Release(int at)
+    {
+        next[at] = free;
+        free = at;
+        Alive--;
+    }
+
+    private void Grow()
+    {
+        int size = segments.Length * 2;
+        Array.Resize(ref segments, size);
+        Array.Resize(ref keys, size);
+        Array.Resize(ref serials, size);
+        Array.Resize(ref previous, size);
+        Array.Resize(ref next, size);
+        if (dense.Length > 0)
+        {
+            Array.Resize(ref dense, size);
+        }
+    }
+}
