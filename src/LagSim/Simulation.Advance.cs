@@ -57,6 +57,7 @@ public sealed partial class Simulation
                 }
 
                 HandleImpact(slot, key);
+                ImpactsProcessed++;
                 break;
             case EventKind.StepEnd:
                 HandleStepEnd(slot, key);

@@ -41,7 +41,13 @@ public sealed partial class Simulation
     {
         ThrowIfFaulted();
         int slot = SlotOf(external.Body);
-        if (slot < 0 || !log.TryRemove(slot, external.Peer, external.Sequence, out EventKey key))
+        if (slot < 0)
+        {
+            return false;
+        }
+
+        log.DropBefore(slot, HistoryEdge); // what is older can no longer be changed
+        if (!log.TryRemove(slot, external.Peer, external.Sequence, out EventKey key))
         {
             return false;
         }

@@ -27,6 +27,9 @@ public sealed partial class Simulation
     private int partyCount;
     private int contactCount;
 
+    /// <summary>Takes the operands of a contact the wrong way round: only a test's negative control sets it.</summary>
+    internal bool SwapsOperands { get; set; }
+
     private void HandleImpact(int slot, in EventKey key)
     {
         Gather(slot, key);
@@ -44,6 +47,11 @@ public sealed partial class Simulation
         int struck = contactCount;
         AddSupports();
         solver.Solve(contacts.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount), partyVelocities.AsSpan(0, partyCount));
+        if (key.Round >= 2 * CollapseRound)
+        {
+            Unite();
+        }
+
         contactCount = struck;
 
         EventKey canonical = CanonicalKey(key);
@@ -56,6 +64,28 @@ public sealed partial class Simulation
         {
             Predict(parties[i]);
         }
+    }
+
+    /// <summary>
+    /// What is squeezed so that even plastic impacts do not end it (a mass ratio beyond what the solver resolves) goes on together: with the
+    /// velocity of its centre of mass, or at rest where something static takes part. Nothing closes then, so the tick ends.
+    /// </summary>
+    private void Unite()
+    {
+        double mass = 0;
+        Vector3D common = Vector3D.Zero;
+        for (int i = 0; i < partyCount; i++)
+        {
+            mass += partyMasses[i];
+            common += (partyVelocities[i] - common) * (partyMasses[i] / mass);
+        }
+
+        for (int i = 0; i < contactCount; i++)
+        {
+            common = contacts[i].Second == ContactPoint.Static ? Vector3D.Zero : common;
+        }
+
+        partyVelocities.AsSpan(0, partyCount).Fill(common);
     }
 
     /// <summary>All contacts of this tick and round that share bodies with the first, found by following them.</summary>
@@ -84,7 +114,7 @@ public sealed partial class Simulation
                     if (j < 0 || j > i)
                     {
                         j = j < 0 ? AddParty(other) : j;
-                        bool ordered = bodies[party].Id < bodies[other].Id;
+                        bool ordered = bodies[party].Id < bodies[other].Id != SwapsOperands;
                         AddContact(new ContactPoint(ordered ? i : j, ordered ? j : i, -1, contact));
                     }
                 }

@@ -91,6 +91,15 @@ public sealed partial class Simulation
         return slot < 0 ? default : bodies[slot].Spec;
     }
 
+    /// <summary>Forgets what lies before <paramref name="time"/>: nothing there can be read or changed any more. Earlier than now is kept, later is not forgotten.</summary>
+    public void DropHistoryBefore(SimTime time) => HistoryEdge = SimTime.Max(HistoryEdge, SimTime.Min(time, SimulatedTo));
+
+    internal TimelineStore Timelines => timelines;
+
+    internal int SlotCount => BodyCount;
+
+    internal BodyId IdOfSlot(int slot) => bodies[slot].Id;
+
     internal static BodyState StateOf(in MotionSegment segment, double seconds, in DenseOutput dense) =>
         segment.IsPresent
             ? new BodyState(segment.PositionAt(seconds, dense), segment.VelocityAt(seconds, dense), segment.Law)

@@ -7,13 +7,17 @@ namespace LagSim;
 /// <content>Full rollback: simple, correct, and the measure for everything cleverer.</content>
 public sealed partial class Simulation
 {
+    /// <summary>Cuts timelines at their time instead of at their key, which is wrong: only a test's negative control sets it.</summary>
+    internal bool CutsByTime { get; set; }
+
     /// <summary>Cuts every timeline at the key, not at its time, and simulates again up to where the world was.</summary>
     private void Rollback(in EventKey key)
     {
         Rollbacks++;
+        EventKey cut = CutsByTime ? EventKey.Before(key.Time) : key;
         for (int slot = 0; slot < BodyCount; slot++)
         {
-            SegmentsCut += timelines.CutFrom(slot, bodies[slot].Id, key);
+            SegmentsCut += timelines.CutFrom(slot, bodies[slot].Id, cut);
             bodies[slot].NextExternal = log.FirstFrom(slot, key);
             if (timelines.Last(slot) != TimelineStore.None)
             {

@@ -79,6 +79,9 @@ public sealed partial class Simulation
     /// <summary>How many events were processed, those that were simulated again included.</summary>
     public long EventsProcessed { get; private set; }
 
+    /// <summary>How many impacts were among them; what bodies do to each other at one tick and round is one.</summary>
+    public long ImpactsProcessed { get; private set; }
+
     /// <summary>How often timelines were cut for an event that came late or was taken back.</summary>
     public long Rollbacks { get; private set; }
 

@@ -35,7 +35,7 @@ public readonly struct SimDuration : IEquatable<SimDuration>, IComparable<SimDur
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="seconds"/> is not finite, or beyond about 97 days.</exception>
     public static SimDuration FromSeconds(double seconds) => new(TickConversion.FromSeconds(seconds, nameof(seconds)));
 
-    /// <summary>The span nearest to that many milliseconds, ties to even.</summary>
+    /// <summary>The span of that many milliseconds: a thousandth of the number, rounded to a <see cref="double"/>, as seconds.</summary>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="milliseconds"/> is not finite, or beyond about 97 days.</exception>
     public static SimDuration FromMilliseconds(double milliseconds) =>
         new(TickConversion.FromSeconds(milliseconds / 1000.0, nameof(milliseconds)));

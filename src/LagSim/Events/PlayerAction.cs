@@ -1,0 +1,54 @@
+using System;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Events;
+
+/// <summary>What a player does to a body, before it is stamped with time, peer and sequence and so becomes an <see cref="ExternalEvent"/>.</summary>
+/// <remarks>Immutable, safe on any thread. <c>default</c> is no action and cannot be stamped.</remarks>
+public readonly struct PlayerAction
+{
+    private readonly EventKind kind;
+    private readonly BodyId body;
+    private readonly Vector3D position;
+    private readonly Vector3D velocity;
+    private readonly BodySpec spec;
+
+    private PlayerAction(EventKind kind, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec)
+    {
+        this.kind = kind;
+        this.body = body;
+        this.position = position;
+        this.velocity = velocity;
+        this.spec = spec;
+    }
+
+    /// <summary>A new body appears, at metres and with metres per second. Its identity comes with the stamp.</summary>
+    public static PlayerAction Spawn(BodySpec spec, Vector3D position, Vector3D velocity = default) =>
+        new(EventKind.Spawn, default, position, velocity, spec);
+
+    /// <summary>The body disappears.</summary>
+    public static PlayerAction Remove(BodyId body) => new(EventKind.Remove, body, default, default, default);
+
+    /// <summary>The body is put somewhere (metres), with a velocity (m/s; default: none).</summary>
+    public static PlayerAction Teleport(BodyId body, Vector3D position, Vector3D velocity = default) =>
+        new(EventKind.Teleport, body, position, velocity, default);
+
+    /// <summary>The body's velocity becomes this, in m/s.</summary>
+    public static PlayerAction SetVelocity(BodyId body, Vector3D velocity) => new(EventKind.SetVelocity, body, default, velocity, default);
+
+    /// <summary>The body's momentum changes by this many newton seconds.</summary>
+    public static PlayerAction Impulse(BodyId body, Vector3D impulse) => new(EventKind.Impulse, body, default, impulse, default);
+
+    /// <summary>The event that this action is, done by <paramref name="peer"/> at <paramref name="time"/> as its <paramref name="sequence"/>-th.</summary>
+    /// <exception cref="InvalidOperationException">This is <c>default</c>, no action.</exception>
+    public ExternalEvent Stamp(SimTime time, byte peer, uint sequence) => kind switch
+    {
+        EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity),
+        EventKind.Remove => ExternalEvent.Remove(time, peer, sequence, body),
+        EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity),
+        EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),
+        EventKind.Impulse => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
+        _ => throw new InvalidOperationException("The default PlayerAction is no action."),
+    };
+}

@@ -1,0 +1,122 @@
+using System;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Hosting;
+
+/// <summary>A simulation kept ahead of a clock: it is advanced to now plus the look-ahead, and its picture published.</summary>
+/// <remarks>
+/// For the simulation's thread, in real or virtual time alike, except <see cref="Pictures"/>, which is how another thread reads. What changes
+/// the world goes through this type, so that the next <see cref="Step"/> publishes it.
+/// </remarks>
+public sealed class LiveWorld
+{
+    /// <summary>The look-ahead where nothing else is said: two frames at 60 Hz.</summary>
+    public static readonly SimDuration DefaultLookAhead = SimDuration.FromSeconds(2.0 / 60.0);
+
+    /// <summary>How much of the past pictures show where nothing else is said: 250 ms.</summary>
+    public static readonly SimDuration DefaultPicturePast = SimDuration.FromMilliseconds(250);
+
+    private readonly SimDuration picturePast;
+    private bool changed = true;
+
+    /// <summary>Keeps a new simulation of the scene ahead.</summary>
+    /// <param name="scene">What is simulated.</param>
+    /// <param name="options">Start and history; the history must exceed the look-ahead.</param>
+    /// <param name="lookAhead">How far ahead of the clock, above zero and at most 1 s; default two frames.</param>
+    /// <param name="picturePast">How much of the past pictures show, at least zero; default 250 ms.</param>
+    /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
+    public LiveWorld(Scene scene, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? picturePast = null)
+    {
+        if (options is null)
+        {
+            throw new ArgumentNullException(nameof(options));
+        }
+
+        LookAhead = lookAhead ?? DefaultLookAhead;
+        this.picturePast = picturePast ?? DefaultPicturePast;
+        if (LookAhead <= SimDuration.Zero || LookAhead > SimDuration.FromSeconds(1))
+        {
+            throw new ArgumentOutOfRangeException(nameof(lookAhead), LookAhead, "The look-ahead must be above zero and at most 1 s.");
+        }
+
+        if (this.picturePast < SimDuration.Zero)
+        {
+            throw new ArgumentOutOfRangeException(nameof(picturePast), this.picturePast, "A picture cannot show less than no past.");
+        }
+
+        if (options.History <= LookAhead)
+        {
+            throw new ArgumentOutOfRangeException(nameof(options), options.History, $"The history must exceed the look-ahead, {LookAhead}.");
+        }
+
+        Simulation = new Simulation(scene, options);
+    }
+
+    /// <summary>The world. For reading; submit to this type, not to it.</summary>
+    public Simulation Simulation { get; }
+
+    /// <summary>How far ahead of the clock it is simulated.</summary>
+    public SimDuration LookAhead { get; }
+
+    /// <summary>Where another thread, one only, gets its picture.</summary>
+    public PictureExchange Pictures { get; } = new();
+
+    /// <summary>How often a step found the clock beyond what was simulated, so that a reader had to stall.</summary>
+    public long LateSteps { get; private set; }
+
+    /// <summary>The furthest the clock was beyond what was simulated when a step began.</summary>
+    public SimDuration MaxLateness { get; private set; }
+
+    /// <summary>Submits an event at its own time.</summary>
+    /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
+    public SubmitResult Submit(in ExternalEvent external)
+    {
+        changed = true;
+        return Simulation.Submit(external);
+    }
+
+    /// <summary>Submits an event that takes effect at its arrival; see <see cref="Simulation.SubmitForwarded"/>.</summary>
+    /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
+    public SubmitResult SubmitForwarded(in ExternalEvent external, SimTime arrival)
+    {
+        changed = true;
+        return Simulation.SubmitForwarded(external, arrival);
+    }
+
+    /// <summary>Takes an event back; see <see cref="Simulation.Retract"/>.</summary>
+    public bool Retract(in ExternalEvent external)
+    {
+        changed = true;
+        return Simulation.Retract(external);
+    }
+
+    /// <summary>Brings the world ahead of <paramref name="now"/> again and publishes it if it changed.</summary>
+    /// <returns>When the next step is due if nothing changes before; <see cref="SimTime.MaxValue"/> for a world in which nothing will happen.</returns>
+    /// <remarks>Half of the look-ahead may be used up before the next step is due, so a moving world steps about once a frame, one at rest never.</remarks>
+    public SimTime Step(SimTime now)
+    {
+        SimTime target = SimTime.Max(now, Simulation.Start) + LookAhead;
+        if (Simulation.Horizon < now)
+        {
+            SimDuration late = now - Simulation.Horizon;
+            LateSteps++;
+            MaxLateness = late > MaxLateness ? late : MaxLateness;
+        }
+
+        if (Simulation.Horizon < target || changed)
+        {
+            if (target > Simulation.SimulatedTo)
+            {
+                Simulation.AdvanceTo(target);
+            }
+
+            SimTime from = SimTime.Max(now, Simulation.Start) - picturePast;
+            Pictures.Publish(Simulation, SimTime.Max(from, Simulation.HistoryEdge));
+            changed = false;
+        }
+
+        return Simulation.Horizon == SimTime.MaxValue ? SimTime.MaxValue : Simulation.Horizon - (LookAhead / 2);
+    }
+}

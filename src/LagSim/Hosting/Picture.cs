@@ -1,0 +1,87 @@
+using System;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Hosting;
+
+/// <summary>What a game's frame reads: the paths of all bodies over a span of time, as the simulation had them at one moment.</summary>
+/// <remarks>
+/// It does not change while its reader has it, that is until that reader asks its <see cref="PictureExchange"/> for the next. For the one
+/// reading thread. Reading is a pure function of the picture and the time, takes no lock and allocates nothing.
+/// </remarks>
+public sealed class Picture
+{
+    private PictureTimeline[] timelines = Array.Empty<PictureTimeline>();
+    private ulong[] identities = Array.Empty<ulong>();
+    private int[] slots = Array.Empty<int>();
+
+    internal Picture()
+    {
+    }
+
+    /// <summary>Counts the pictures that were published; 0 before the first, which shows nothing.</summary>
+    public long Number { get; private set; }
+
+    /// <summary>The earliest instant shown.</summary>
+    public SimTime From { get; private set; } = SimTime.MaxValue;
+
+    /// <summary>The last instant shown; <see cref="SimTime.MaxValue"/> if nothing more was going to happen.</summary>
+    public SimTime To { get; private set; } = SimTime.MinValue;
+
+    /// <summary>How many bodies it knows, absent ones included.</summary>
+    public int BodyCount { get; private set; }
+
+    /// <summary>The identity of the n-th body in canonical order.</summary>
+    public BodyId BodyAt(int n) => BodyId.FromPacked(identities[n]);
+
+    /// <summary>Whether the instant is shown.</summary>
+    public bool Covers(SimTime time) => time >= From && time <= To;
+
+    /// <summary>Where a body is at an instant that the picture covers.</summary>
+    /// <returns>False if the instant is not covered, or the body is unknown or not there; the state is then the default.</returns>
+    public bool TryRead(BodyId body, SimTime time, out BodyState state)
+    {
+        int at = Covers(time) ? Array.BinarySearch(identities, 0, BodyCount, body.Packed) : -1;
+        state = at < 0 ? default : timelines[slots[at]].At(time);
+        return state.Motion != MotionLaw.Absent;
+    }
+
+    /// <summary>Takes over what changed in the simulation since this picture last showed it.</summary>
+    internal void Follow(Simulation simulation, SimTime from, long number)
+    {
+        int count = simulation.SlotCount;
+        if (count > timelines.Length)
+        {
+            int size = Math.Max(count, timelines.Length * 2);
+            Array.Resize(ref timelines, size);
+            Array.Resize(ref identities, size);
+            Array.Resize(ref slots, size);
+        }
+
+        if (count > BodyCount)
+        {
+            for (int slot = BodyCount; slot < count; slot++)
+            {
+                timelines[slot] = new PictureTimeline();
+            }
+
+            for (int slot = 0; slot < count; slot++)
+            {
+                identities[slot] = simulation.IdOfSlot(slot).Packed;
+                slots[slot] = slot;
+            }
+
+            Array.Sort(identities, slots, 0, count);
+            BodyCount = count;
+        }
+
+        for (int slot = 0; slot < count; slot++)
+        {
+            timelines[slot].Follow(simulation.Timelines, slot, from);
+        }
+
+        Number = number;
+        From = from;
+        To = simulation.Horizon;
+    }
+}

@@ -1,0 +1,118 @@
+using System;
+using LagSim.Motion;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Hosting;
+
+/// <summary>One body's timeline inside a picture: a copy that follows the simulation's by taking over only what changed.</summary>
+internal sealed class PictureTimeline
+{
+    private Entry[] entries = new Entry[8];
+    private int first;
+    private int end;
+
+    /// <summary>Makes this equal to the simulation's timeline of the slot from <paramref name="edge"/> on.</summary>
+    internal void Follow(TimelineStore store, int slot, SimTime edge)
+    {
+        // Serials only grow along a timeline, and a segment once cut never comes back under its old one: the newest serial that both
+        // have is where they part.
+        int fresh = 0;
+        int at = store.Last(slot);
+        while (at != TimelineStore.None)
+        {
+            while (end > first && entries[end - 1].Serial > store.Serial(at))
+            {
+                end--;
+            }
+
+            if (end > first && entries[end - 1].Serial == store.Serial(at))
+            {
+                break;
+            }
+
+            fresh++;
+            bool covers = store.Key(at).Time <= edge;
+            at = covers ? TimelineStore.None : store.Previous(at);
+        }
+
+        if (at == TimelineStore.None)
+        {
+            first = end = 0;
+        }
+
+        Reserve(fresh);
+        at = store.Last(slot);
+        for (int i = fresh - 1; i >= 0; i--)
+        {
+            entries[end + i] = new Entry(store.Serial(at), store.Key(at).Time, store.Segment(at), store.Dense(at));
+            at = store.Previous(at);
+        }
+
+        end += fresh;
+        while (end - first > 1 && entries[first + 1].Opened <= edge)
+        {
+            first++;
+        }
+    }
+
+    internal BodyState At(SimTime time)
+    {
+        int low = first;
+        int high = end; // the last entry opened at or before the time lies below
+        while (low < high)
+        {
+            int middle = (low + high) >> 1;
+            if (entries[middle].Opened <= time)
+            {
+                low = middle + 1;
+            }
+            else
+            {
+                high = middle;
+            }
+        }
+
+        if (low == first)
+        {
+            return default;
+        }
+
+        ref readonly Entry entry = ref entries[low - 1];
+        return Simulation.StateOf(entry.Segment, (time - entry.Segment.Epoch).ToSeconds(), entry.Dense);
+    }
+
+    private void Reserve(int fresh)
+    {
+        if (end + fresh <= entries.Length)
+        {
+            return;
+        }
+
+        int kept = end - first;
+        Entry[] target = kept + fresh > entries.Length / 2 ? new Entry[Math.Max(2 * (kept + fresh), 8)] : entries;
+        Array.Copy(entries, first, target, 0, kept);
+        entries = target;
+        first = 0;
+        end = kept;
+    }
+
+    private readonly struct Entry
+    {
+        internal Entry(long serial, SimTime opened, in MotionSegment segment, in DenseOutput dense)
+        {
+            Serial = serial;
+            Opened = opened;
+            Segment = segment;
+            Dense = dense;
+        }
+
+        internal long Serial { get; }
+
+        internal SimTime Opened { get; }
+
+        internal MotionSegment Segment { get; }
+
+        internal DenseOutput Dense { get; }
+    }
+}

@@ -1,0 +1,94 @@
+using System;
+using System.Collections.Concurrent;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Hosting;
+
+/// <summary>A world for one machine: simulated ahead of real time on its own thread, acted on and read from the game's.</summary>
+/// <remarks>
+/// <see cref="Do"/> may be called from any thread, <see cref="Picture"/> from one. An action is stamped when it is done, and seen in the
+/// pictures that follow a moment later. For several machines see the peers of LagSim.Net, which keep their worlds in the same way.
+/// </remarks>
+public sealed class SimulationHost : IDisposable
+{
+    private readonly ConcurrentQueue<ExternalEvent> submitted = new();
+    private readonly object stamping = new();
+    private readonly IClock clock;
+    private readonly LiveWorld world;
+    private readonly WorldThread thread;
+    private uint lastSequence;
+
+    /// <summary>A world whose scene starts now by the clock. It stands still until <see cref="Start"/>.</summary>
+    /// <param name="scene">What is simulated.</param>
+    /// <param name="clock">Tells the time; usually a <see cref="StopwatchClock"/>.</param>
+    /// <param name="lookAhead">How far ahead of the clock the world is simulated; default two frames.</param>
+    public SimulationHost(Scene scene, IClock clock, SimDuration? lookAhead = null)
+    {
+        this.clock = clock ?? throw new ArgumentNullException(nameof(clock));
+        world = new LiveWorld(scene, new SimulationOptions(clock.Now, SimDuration.FromSeconds(2)), lookAhead);
+        thread = new WorldThread("LagSim world", Step);
+    }
+
+    /// <summary>The time to read the picture at.</summary>
+    public SimTime Now => clock.Now;
+
+    /// <summary>The newest picture, for the one reading thread.</summary>
+    /// <exception cref="InvalidOperationException">The simulation ended by an exception, the inner one.</exception>
+    public Picture Picture
+    {
+        get
+        {
+            thread.ThrowIfFaulted();
+            return world.Pictures.Latest();
+        }
+    }
+
+    /// <summary>How often the clock was beyond what was simulated when a step began.</summary>
+    public long LateSteps => world.LateSteps;
+
+    /// <summary>How far, at most.</summary>
+    public SimDuration MaxLateness => world.MaxLateness;
+
+    /// <summary>How many steps the thread has done; a world at rest does none.</summary>
+    public long Steps => thread.Steps;
+
+    /// <summary>Starts the thread; once.</summary>
+    public void Start() => thread.Start();
+
+    /// <summary>Does something to the world, now.</summary>
+    /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
+    /// <exception cref="SceneException">A value may not enter the world; nothing happened.</exception>
+    /// <exception cref="InvalidOperationException">The simulation ended by an exception, the inner one.</exception>
+    public ExternalEvent Do(in PlayerAction action)
+    {
+        thread.ThrowIfFaulted();
+        ExternalEvent external;
+        lock (stamping)
+        {
+            external = action.Stamp(clock.Now, 0, lastSequence + 1);
+            ExternalEventCheck.Throw(external, world.Simulation.Scene);
+            lastSequence++;
+            submitted.Enqueue(external);
+        }
+
+        thread.Wake();
+        return external;
+    }
+
+    /// <summary>Stops the thread and waits for it.</summary>
+    public void Dispose() => thread.Dispose();
+
+    private SimDuration Step()
+    {
+        while (submitted.TryDequeue(out ExternalEvent external))
+        {
+            world.Submit(external);
+        }
+
+        SimTime now = clock.Now;
+        SimTime due = world.Step(now);
+        return due == SimTime.MaxValue ? SimDuration.MaxValue : due - now;
+    }
+}

@@ -1,0 +1,103 @@
+using System;
+using System.Threading;
+using LagSim.Time;
+
+namespace LagSim.Hosting;
+
+/// <summary>One dedicated thread that does a step, waits until the next is due or something wakes it, and does the next. It never spins.</summary>
+/// <remarks>
+/// Thread-safe. An exception in a step ends the thread; <see cref="Fault"/> tells, and <see cref="ThrowIfFaulted"/> throws it to whoever
+/// still relies on it.
+/// </remarks>
+public sealed class WorldThread : IDisposable
+{
+    private readonly Func<SimDuration> step;
+    private readonly AutoResetEvent wake = new(false);
+    private readonly Thread thread;
+    private Exception? fault;
+    private volatile bool stopping;
+    private bool disposed;
+
+    /// <summary>A thread that is not started yet.</summary>
+    /// <param name="name">What debuggers and profilers call it.</param>
+    /// <param name="step">Does what is due and tells how long until something is due again; <see cref="SimDuration.MaxValue"/>: until woken.</param>
+    public WorldThread(string name, Func<SimDuration> step)
+    {
+        this.step = step ?? throw new ArgumentNullException(nameof(step));
+        thread = new Thread(Run) { IsBackground = true, Name = name };
+    }
+
+    /// <summary>The exception that ended the thread, or null.</summary>
+    public Exception? Fault => Volatile.Read(ref fault);
+
+    /// <summary>How many steps were done.</summary>
+    public long Steps { get; private set; }
+
+    /// <summary>Starts it; once.</summary>
+    public void Start() => thread.Start();
+
+    /// <summary>Has the next step done now. Never blocks; calling it from a step, or many times, means one more step.</summary>
+    public void Wake()
+    {
+        if (!stopping)
+        {
+            wake.Set();
+        }
+    }
+
+    /// <summary>Throws if the thread ended by an exception.</summary>
+    /// <exception cref="InvalidOperationException">It did; the inner exception is what a step threw.</exception>
+    public void ThrowIfFaulted()
+    {
+        if (Fault is Exception failure)
+        {
+            throw new InvalidOperationException($"The thread '{thread.Name}' ended: {failure.Message}", failure);
+        }
+    }
+
+    /// <summary>Stops after the step at hand and waits for that. Safe to call twice, and from the thread itself.</summary>
+    public void Dispose()
+    {
+        if (disposed)
+        {
+            return;
+        }
+
+        disposed = true;
+        stopping = true;
+        wake.Set();
+        if (thread.IsAlive && thread != Thread.CurrentThread)
+        {
+            thread.Join();
+        }
+
+        // The event itself is left to its finaliser: another thread may be about to set it.
+    }
+
+    private void Run()
+    {
+        try
+        {
+            while (!stopping)
+            {
+                SimDuration left = step();
+                Steps++;
+                if (left > SimDuration.Zero && !stopping)
+                {
+                    wake.WaitOne(Milliseconds(left));
+                }
+            }
+        }
+        catch (Exception failure)
+        {
+            Volatile.Write(ref fault, failure);
+        }
+    }
+
+    // Rounded up: a wait that ends early would only be followed by another.
+    private static int Milliseconds(SimDuration wait)
+    {
+        double milliseconds = Math.Ceiling(wait.ToMilliseconds());
+        return milliseconds >= int.MaxValue ? Timeout.Infinite : (int)milliseconds;
+    }
+}
