@@ -1,0 +1,245 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Net;
+using System.Net.Sockets;
+using System.Runtime.InteropServices;
+using System.Threading;
+
+namespace LagSim.Net.Carriers;
+
+/// <summary>Datagrams over UDP, through <see cref="Socket"/>.</summary>
+/// <remarks>
+/// <para>A background thread takes datagrams from the socket into a ring of <see cref="RingSlots"/>; when that is full, newer ones are dropped
+/// and counted. Bound to <see cref="IPAddress.IPv6Any"/> it also speaks IPv4. The scope of a link-local IPv6 address is not kept.</para>
+/// <para>The counters may be read from any thread.</para>
+/// </remarks>
+public sealed class UdpPort : IDatagramPort
+{
+    /// <summary>How many datagrams can wait to be taken.</summary>
+    public const int RingSlots = 1024;
+
+    private const int SioUdpConnReset = unchecked((int)0x9800000C);
+    private const int MaxKnownEndPoints = 256;
+    private static readonly TimeSpan ExitPatience = TimeSpan.FromSeconds(2);
+
+    private readonly Socket socket;
+    private readonly Thread receiver;
+    private readonly ManualResetEventSlim stopping = new();
+    private readonly DatagramRing ring = new(RingSlots);
+    private readonly byte[] outgoing = new byte[IDatagramPort.MaxDatagramBytes];
+    private readonly Dictionary<PeerAddress, IPEndPoint> endPoints = new(); // so that a send to a known peer allocates nothing
+    private long dropped;
+    private long sendFailures;
+    private long receiveFailures;
+
+    /// <summary>Opens a port and begins to receive.</summary>
+    /// <param name="bind">Where to listen; port 0 takes any free one, which <see cref="LocalAddress"/> then tells.</param>
+    /// <exception cref="ArgumentNullException"><paramref name="bind"/> is null.</exception>
+    /// <exception cref="IOException">The system does not give the endpoint, for instance because its port is in use.</exception>
+    public UdpPort(IPEndPoint bind)
+    {
+        if (bind is null)
+        {
+            throw new ArgumentNullException(nameof(bind));
+        }
+
+        socket = Open(bind);
+        LocalAddress = PeerAddress.From(Reachable((IPEndPoint)socket.LocalEndPoint!));
+        receiver = new Thread(Receive) { Name = $"LagSim UDP {LocalAddress}", IsBackground = true };
+        receiver.Start();
+    }
+
+    /// <inheritdoc/>
+    public event Action? Arrived;
+
+    /// <summary>Where this port is reached; on this machine only, if it is bound to every address there is.</summary>
+    public PeerAddress LocalAddress { get; }
+
+    /// <summary>How many datagrams came in and were thrown away: too long, empty, or no room in the ring.</summary>
+    public long Dropped => Interlocked.Read(ref dropped);
+
+    /// <summary>How many datagrams the network would not take.</summary>
+    public long SendFailures => Interlocked.Read(ref sendFailures);
+
+    /// <summary>How often the system reported trouble instead of a datagram; news that nobody listens at the other end is not counted.</summary>
+    public long ReceiveFailures => Interlocked.Read(ref receiveFailures);
+
+    /// <inheritdoc/>
+    /// <exception cref="ObjectDisposedException">The port is closed.</exception>
+    public void Send(ReadOnlySpan<byte> datagram, PeerAddress to)
+    {
+        if (datagram.Length is 0 or > IDatagramPort.MaxDatagramBytes)
+        {
+            throw new ArgumentException(
+                $"A datagram has 1 to {IDatagramPort.MaxDatagramBytes} bytes; this one has {datagram.Length}.", nameof(datagram));
+        }
+
+        if (stopping.IsSet)
+        {
+            throw new ObjectDisposedException(nameof(UdpPort));
+        }
+
+        IPEndPoint endPoint = EndPointOf(to);
+        try
+        {
+            // Only when the system has room: a send that must wait for it would block.
+            if (CanReach(endPoint) && socket.Poll(0, SelectMode.SelectWrite))
+            {
+                datagram.CopyTo(outgoing);
+                socket.SendTo(outgoing, 0, datagram.Length, SocketFlags.None, endPoint);
+                return;
+            }
+        }
+        catch (SocketException)
+        {
+            // Counted below; the datagram is lost, as any may be.
+        }
+
+        Interlocked.Increment(ref sendFailures);
+    }
+
+    /// <inheritdoc/>
+    /// <exception cref="ArgumentException"><paramref name="buffer"/> is too short.</exception>
+    public bool TryReceive(Span<byte> buffer, out int length, out PeerAddress from)
+    {
+        if (buffer.Length < IDatagramPort.MaxDatagramBytes)
+        {
+            throw new ArgumentException($"{buffer.Length} bytes may be too few: {IDatagramPort.MaxDatagramBytes} are needed.", nameof(buffer));
+        }
+
+        return ring.TryTake(buffer, out length, out from);
+    }
+
+    /// <summary>Closes the port and ends its thread. What waits in the ring can still be taken. To be called from any other thread.</summary>
+    public void Dispose()
+    {
+        if (!stopping.IsSet)
+        {
+            stopping.Set();
+            socket.Dispose();
+            if (Thread.CurrentThread != receiver)
+            {
+                receiver.Join(ExitPatience); // bounded: a runtime that does not wake the thread must not hang the game
+            }
+        }
+    }
+
+    private static Socket Open(IPEndPoint bind)
+    {
+        Socket opened = new(bind.AddressFamily, SocketType.Dgram, ProtocolType.Udp);
+        try
+        {
+            if (RuntimeInformation.IsOSPlatform(OSPlatform.Windows))
+            {
+                // Windows would fail a receive because an earlier send reached nobody, and would let another program share the port.
+                opened.IOControl(SioUdpConnReset, new byte[sizeof(int)], null);
+                opened.ExclusiveAddressUse = true;
+            }
+
+            if (bind.Address.Equals(IPAddress.IPv6Any))
+            {
+                opened.DualMode = true;
+            }
+
+            opened.Bind(bind);
+            return opened;
+        }
+        catch (SocketException failure)
+        {
+            opened.Dispose();
+            throw new IOException($"UDP port {bind} cannot be opened: {failure.Message} ({failure.SocketErrorCode}).", failure);
+        }
+    }
+
+    private static IPEndPoint Reachable(IPEndPoint bound) =>
+        bound.Address.Equals(IPAddress.Any) ? new IPEndPoint(IPAddress.Loopback, bound.Port)
+        : bound.Address.Equals(IPAddress.IPv6Any) ? new IPEndPoint(IPAddress.IPv6Loopback, bound.Port)
+        : bound;
+
+    private bool CanReach(IPEndPoint endPoint) =>
+        endPoint.AddressFamily == socket.AddressFamily || (socket.AddressFamily == AddressFamily.InterNetworkV6 && socket.DualMode);
+
+    private IPEndPoint EndPointOf(PeerAddress to)
+    {
+        if (endPoints.TryGetValue(to, out IPEndPoint? known))
+        {
+            return known;
+        }
+
+        try
+        {
+            IPEndPoint made = to.ToEndPoint();
+            if (endPoints.Count == MaxKnownEndPoints)
+            {
+                endPoints.Clear(); // strangers must not make it grow
+            }
+
+            endPoints.Add(to, made);
+            return made;
+        }
+        catch (InvalidOperationException failure)
+        {
+            throw new ArgumentException($"UDP does not reach '{to}': it is not an IP address and port.", nameof(to), failure);
+        }
+    }
+
+    private void Receive()
+    {
+        // One byte more than may come, so that what is too long is seen to be.
+        byte[] incoming = new byte[IDatagramPort.MaxDatagramBytes + 1];
+        EndPoint sender = new IPEndPoint(socket.AddressFamily == AddressFamily.InterNetwork ? IPAddress.Any : IPAddress.IPv6Any, 0);
+        while (!stopping.IsSet)
+        {
+            try
+            {
+                int length = socket.ReceiveFrom(incoming, ref sender);
+                Accept(incoming.AsSpan(0, length), (IPEndPoint)sender);
+            }
+            catch (SocketException failure)
+            {
+                Overcome(failure.SocketErrorCode);
+            }
+            catch (ObjectDisposedException)
+            {
+                return;
+            }
+        }
+    }
+
+    private void Accept(ReadOnlySpan<byte> datagram, IPEndPoint sender)
+    {
+        if (stopping.IsSet)
+        {
+            return; // on some systems closing ends the wait as if something empty had come
+        }
+
+        if (datagram.Length is 0 or > IDatagramPort.MaxDatagramBytes || !ring.TryPut(datagram, PeerAddress.From(sender)))
+        {
+            Interlocked.Increment(ref dropped);
+            return;
+        }
+
+        Arrived?.Invoke();
+    }
+
+    private void Overcome(SocketError error)
+    {
+        switch (error)
+        {
+            case SocketError.MessageSize: // Windows: longer than the buffer
+                Interlocked.Increment(ref dropped);
+                break;
+            case SocketError.ConnectionReset or SocketError.ConnectionRefused: // ICMP: nobody listens where an earlier send went
+                break;
+            default:
+                if (!stopping.IsSet)
+                {
+                    Interlocked.Increment(ref receiveFailures);
+                    stopping.Wait(10); // trouble that stays must not take a core; closing ends the wait
+                }
+
+                break;
+        }
+    }
+}

@@ -1,0 +1,129 @@
+using System;
+using LagSim.Time;
+
+namespace LagSim.Net.Clocks;
+
+/// <summary>The session's time, made from one's own clock: set once, from then on bent gently towards each newer estimate.</summary>
+/// <remarks>
+/// <para>It never steps and never goes back. It runs at most 0.5 % fast or slow, or 5 % while it is more than <see cref="FastAbove"/> off.</para>
+/// <para>How it runs does not depend on how often it is read, but for one tick a reading. Integers only; may be used from any thread.</para>
+/// </remarks>
+public sealed class SharedClock : IClock
+{
+    /// <summary>The error above which the clock is bent by 5 % rather than 0.5 %.</summary>
+    public static readonly SimDuration FastAbove = SimDuration.FromMilliseconds(10);
+
+    private const long SlowShare = 200; // 0.5 %
+    private const long FastShare = 20; // 5 %
+    private const long MaxOffset = 1L << 62; // so that the difference of two offsets cannot overflow
+
+    private readonly object gate = new();
+    private readonly IClock own;
+    private SimTime read; // own clock, when the offset was last brought up to date
+    private SimDuration offset;
+    private SimDuration target;
+    private bool set;
+
+    /// <summary>A clock that is not set yet.</summary>
+    /// <param name="own">This machine's own clock, which no one adjusts.</param>
+    /// <exception cref="ArgumentNullException"><paramref name="own"/> is null.</exception>
+    public SharedClock(IClock own) => this.own = own ?? throw new ArgumentNullException(nameof(own));
+
+    /// <summary>Whether there is a shared time to read.</summary>
+    public bool IsSet
+    {
+        get
+        {
+            lock (gate)
+            {
+                return set;
+            }
+        }
+    }
+
+    /// <summary>The shared time now.</summary>
+    /// <exception cref="InvalidOperationException">The clock was never set.</exception>
+    public SimTime Now
+    {
+        get
+        {
+            lock (gate)
+            {
+                if (!set)
+                {
+                    throw new InvalidOperationException("There is no shared time yet: the clock was never set.");
+                }
+
+                Advance();
+                return read + offset;
+            }
+        }
+    }
+
+    /// <summary>Shared time minus own time, as of the last reading or adjustment; zero before the clock is set.</summary>
+    public SimDuration Offset
+    {
+        get
+        {
+            lock (gate)
+            {
+                return offset;
+            }
+        }
+    }
+
+    /// <summary>What of the newest estimate is still to be made good, as of the last reading or adjustment; positive when the clock is behind.</summary>
+    public SimDuration Remaining
+    {
+        get
+        {
+            lock (gate)
+            {
+                return target - offset;
+            }
+        }
+    }
+
+    /// <summary>Gives the clock the newest estimate: the first sets it at once, any later one is approached.</summary>
+    /// <param name="estimate">Shared time minus own time, within 48 days of zero.</param>
+    /// <exception cref="ArgumentOutOfRangeException"><paramref name="estimate"/> is further from zero.</exception>
+    public void Adjust(SimDuration estimate)
+    {
+        if (estimate.Ticks is < -MaxOffset or >= MaxOffset)
+        {
+            throw new ArgumentOutOfRangeException(nameof(estimate), estimate, "Two clocks of a session are at most 48 days apart.");
+        }
+
+        lock (gate)
+        {
+            if (!set)
+            {
+                set = true;
+                read = own.Now;
+                offset = estimate;
+            }
+
+            Advance(); // the time until now belongs to the estimate before this one
+            target = estimate;
+        }
+    }
+
+    private void Advance()
+    {
+        SimTime now = SimTime.Max(own.Now, read); // a clock that broke its promise and went back only stands still here
+        offset += Slew(target - offset, now - read);
+        read = now;
+    }
+
+    /// <summary>By how much the offset moves towards the target in that much own time; towards it, never past it.</summary>
+    private static SimDuration Slew(SimDuration error, SimDuration elapsed)
+    {
+        SimDuration size = error < SimDuration.Zero ? -error : error;
+        SimDuration excess = size > FastAbove ? size - FastAbove : SimDuration.Zero;
+        SimDuration fast = Lesser(excess, elapsed / FastShare);
+        SimDuration slow = fast == excess ? Lesser(size - excess, (elapsed - (fast * FastShare)) / SlowShare) : SimDuration.Zero;
+        return error < SimDuration.Zero ? -(fast + slow) : fast + slow;
+    }
+
+    private static SimDuration Lesser(SimDuration a, SimDuration b) => a < b ? a : b;
+}

@@ -1,0 +1,241 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Events;
+using LagSim.Net.Carriers;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions;
+
+/// <summary>The peer that others join. It alone says yes or no to each event, once, and keeps the log in which all verdicts stand in order.</summary>
+/// <remarks>Its clock is the session's. The watermark, before which it accepts nothing, follows that clock, so a silent joiner stalls nobody.</remarks>
+public sealed class HostSession : Session
+{
+    private readonly List<LoggedVerdict> log = new();
+    private readonly List<Joiner> joiners = new();
+    private readonly ulong sessionId;
+    private byte lastPeer;
+
+    /// <summary>Opens a session and waits for joiners.</summary>
+    /// <param name="scene">The scene that all share.</param>
+    /// <param name="port">What carries datagrams; not disposed with the session.</param>
+    /// <param name="clock">This machine's own clock.</param>
+    /// <param name="options">How to take part.</param>
+    /// <param name="sessionId">A number that no other session on these machines has; choose it at random.</param>
+    public HostSession(Scene scene, IDatagramPort port, IClock clock, SessionOptions options, ulong sessionId)
+        : base(scene, port, clock, options)
+    {
+        this.sessionId = sessionId;
+        SharedTime.Adjust(SimDuration.Zero);
+        State = SessionState.Waiting;
+    }
+
+    /// <summary>How many joiners there are now.</summary>
+    public int JoinerCount => joiners.Count;
+
+    /// <summary>The time before which no event is accepted any more.</summary>
+    public SimTime Watermark => SharedTime.Now - Options.History;
+
+    private protected override void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from)
+    {
+        if (type == DatagramType.Join && JoinDatagram.TryDecode(datagram, out JoinDatagram join, out _))
+        {
+            OnJoin(join, from);
+        }
+        else if (type == DatagramType.Leave && LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _))
+        {
+            int at = joiners.FindIndex(j => j.Link.Other == from && j.Peer == leave.Peer && leave.SessionId == sessionId);
+            if (at >= 0)
+            {
+                joiners.RemoveAt(at);
+            }
+        }
+        else
+        {
+            Counters.DatagramsIgnored++;
+        }
+    }
+
+    private protected override void OnUpdate(UpdateDatagram update, PeerAddress from)
+    {
+        Joiner? joiner = joiners.Find(j => j.Link.Other == from);
+        if (joiner is null || update.SessionId != sessionId || update.Peer != joiner.Peer)
+        {
+            Counters.DatagramsIgnored++;
+            return;
+        }
+
+        SimTime now = Clock.Now;
+        joiner.Link.Note(update, now);
+        joiner.Ready |= update.Ready;
+        if (update.EventsReceived > joiner.Acknowledged && update.EventsReceived <= log.Count)
+        {
+            joiner.Acknowledged = update.EventsReceived;
+        }
+
+        uint sequence = update.FirstIndex;
+        foreach (UpdateEntry entry in update.Entries)
+        {
+            if (sequence++ == joiner.EventsReceived + 1)
+            {
+                joiner.EventsReceived++;
+                Judge(entry.Event, joiner.Peer, joiner.EventsReceived);
+            }
+        }
+
+        // An answer at once: it carries the acknowledgement, and the joiner's clock has its exchange without waiting.
+        joiner.Link.Hasten(now);
+    }
+
+    private protected override void Tend(SimTime now)
+    {
+        for (int i = joiners.Count - 1; i >= 0; i--)
+        {
+            if (now - joiners[i].Link.Heard > Options.Timeout)
+            {
+                SayGoodbye(joiners[i], LeaveReason.TimedOut);
+                joiners.RemoveAt(i);
+            }
+        }
+
+        if (World is null && joiners.FindAll(j => j.Ready).Count >= Options.ExpectedJoiners)
+        {
+            Begin(now + Options.StartLead);
+            foreach (Joiner joiner in joiners)
+            {
+                joiner.Link.Hasten(now);
+            }
+        }
+
+        Commit(Watermark);
+        foreach (Joiner joiner in joiners)
+        {
+            if (joiner.Link.Due <= now)
+            {
+                SendUpdate(joiner, now);
+            }
+        }
+    }
+
+    private protected override SimTime NextDue(SimTime now)
+    {
+        SimTime due = SimTime.MaxValue;
+        foreach (Joiner joiner in joiners)
+        {
+            due = SimTime.Min(due, joiner.Link.Due);
+        }
+
+        return due;
+    }
+
+    private protected override void Publish(in ExternalEvent external) => Record(external, Verdict.Accepted);
+
+    private protected override void Farewell()
+    {
+        foreach (Joiner joiner in joiners)
+        {
+            SayGoodbye(joiner, LeaveReason.HostEnded);
+        }
+    }
+
+    private void SayGoodbye(Joiner joiner, LeaveReason reason)
+    {
+        Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];
+        Send(bytes.Slice(0, new LeaveDatagram(sessionId, 0, reason).Encode(bytes)), joiner.Link.Other);
+    }
+
+    private void OnJoin(in JoinDatagram join, PeerAddress from)
+    {
+        Span<byte> bytes = stackalloc byte[WireFormat.WelcomeBytes];
+        ulong nonce = join.Nonce;
+        Joiner? known = joiners.Find(j => j.Link.Other == from && j.Nonce == nonce);
+        if (known is null)
+        {
+            joiners.RemoveAll(j => j.Link.Other == from); // the same address under a new nonce: it started again
+            RefusalReason? refusal = join.ConnectKey != Options.ConnectKey ? RefusalReason.WrongKey
+                : join.SceneHash != Scene.Hash ? RefusalReason.SceneDiffers
+                : joiners.Count >= SessionOptions.MaxJoiners || lastPeer == byte.MaxValue ? RefusalReason.Full
+                : null;
+            if (refusal is RefusalReason reason)
+            {
+                Send(bytes.Slice(0, new RefusalDatagram(nonce, reason).Encode(bytes)), from);
+                return;
+            }
+
+            known = new Joiner(++lastPeer, nonce, new UpdateLink(sessionId, 0, from, Clock.Now));
+            joiners.Add(known);
+        }
+
+        Send(bytes.Slice(0, new WelcomeDatagram(nonce, sessionId, known.Peer, Options.History).Encode(bytes)), from);
+    }
+
+    private void Judge(in ExternalEvent external, byte sender, uint sequence)
+    {
+        SimTime now = SharedTime.Now;
+        Verdict verdict = external.Peer != sender || external.Sequence != sequence || World is null || !MayEnter(external) ? Verdict.Invalid
+            : external.Time < now - Options.History || external.Time < World.Simulation.Start ? Verdict.TooLate
+            : external.Time > now + Options.History ? Verdict.TooEarly
+            : Verdict.Accepted;
+        if (verdict == Verdict.Accepted)
+        {
+            Apply(external);
+        }
+
+        Record(external, verdict);
+    }
+
+    private void Record(in ExternalEvent external, Verdict verdict)
+    {
+        Counters.EventsAccepted += verdict == Verdict.Accepted ? 1 : 0;
+        Counters.EventsRefused += verdict == Verdict.Accepted ? 0 : 1;
+        log.Add(new LoggedVerdict(external, verdict));
+        SimTime now = Clock.Now;
+        foreach (Joiner joiner in joiners)
+        {
+            joiner.Link.Hasten(now);
+        }
+    }
+
+    private void SendUpdate(Joiner joiner, SimTime now)
+    {
+        UpdateDatagram update = joiner.Link.Compose(now);
+        update.EventsReceived = joiner.EventsReceived;
+        update.Start = World?.Simulation.Start ?? SimTime.MinValue;
+        update.FirstIndex = joiner.Acknowledged + 1;
+        int next = (int)joiner.Acknowledged;
+        while (next < log.Count && update.TryAdd(log[next].Verdict, log[next].Event))
+        {
+            next++;
+        }
+
+        // The watermark is a promise about the whole log: with an entry left out it could not yet be relied on.
+        update.Watermark = World is null || next < log.Count ? SimTime.MinValue : Watermark;
+        SimDuration wait = next > joiner.Acknowledged ? Options.ResendInterval : Options.KeepAlive;
+        Send(joiner.Link.Seal(now + wait), joiner.Link.Other);
+    }
+
+    private sealed class Joiner
+    {
+        internal Joiner(byte peer, ulong nonce, UpdateLink link)
+        {
+            Peer = peer;
+            Nonce = nonce;
+            Link = link;
+        }
+
+        internal byte Peer { get; }
+
+        internal ulong Nonce { get; }
+
+        internal UpdateLink Link { get; }
+
+        internal bool Ready { get; set; }
+
+        /// <summary>How many entries of the log it has.</summary>
+        internal uint Acknowledged { get; set; }
+
+        /// <summary>How many of its events are judged.</summary>
+        internal uint EventsReceived { get; set; }
+    }
+}

@@ -1,0 +1,48 @@
+using System.Collections.Generic;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions;
+
+/// <summary>What a session counted. Written on its thread; read it there, or once it has stopped.</summary>
+public sealed class SessionCounters
+{
+    /// <summary>How many latenesses are kept; further ones only count.</summary>
+    public const int MaxKeptLatenesses = 100_000;
+
+    private readonly List<SimDuration> lateness = new();
+
+    /// <summary>Datagrams that came in, refused ones included.</summary>
+    public long DatagramsReceived { get; internal set; }
+
+    /// <summary>Datagrams that were no valid datagram of this protocol.</summary>
+    public long DatagramsMalformed { get; internal set; }
+
+    /// <summary>Valid datagrams that had no business here: another session's, a stranger's, an old one.</summary>
+    public long DatagramsIgnored { get; internal set; }
+
+    /// <summary>Datagrams sent.</summary>
+    public long DatagramsSent { get; internal set; }
+
+    /// <summary>Accepted events, one's own included.</summary>
+    public long EventsAccepted { get; internal set; }
+
+    /// <summary>Events that the host refused, one's own included.</summary>
+    public long EventsRefused { get; internal set; }
+
+    /// <summary>Accepted events that came too late for the history this peer still had. Its world may differ from then on.</summary>
+    public long EventsLost { get; internal set; }
+
+    /// <summary>Events of other peers that changed what was already simulated.</summary>
+    public long Heals { get; internal set; }
+
+    /// <summary>By how much the events of other peers came after their own time; negative for those that came before.</summary>
+    public IReadOnlyList<SimDuration> Lateness => lateness;
+
+    internal void AddLateness(SimDuration span)
+    {
+        if (lateness.Count < MaxKeptLatenesses)
+        {
+            lateness.Add(span);
+        }
+    }
+}

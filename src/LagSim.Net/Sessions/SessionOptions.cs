@@ -1,0 +1,83 @@
+using System;
+using LagSim.Hosting;
+using LagSim.Net.Strategies;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions;
+
+/// <summary>How a peer takes part in a session. Checked when the session is made, with a sentence that tells what is allowed.</summary>
+public sealed class SessionOptions
+{
+    /// <summary>How late an event may be and still be accepted, where nothing else is said: 1 s.</summary>
+    public static readonly SimDuration DefaultHistory = SimDuration.FromSeconds(1);
+
+    /// <summary>The longest history: 5 s.</summary>
+    public static readonly SimDuration MaxHistory = SimDuration.FromSeconds(5);
+
+    /// <summary>How long a silent peer is believed to be there, where nothing else is said: 10 s.</summary>
+    public static readonly SimDuration DefaultTimeout = SimDuration.FromSeconds(10);
+
+    /// <summary>The most joiners a host can have.</summary>
+    public const int MaxJoiners = 8;
+
+    /// <summary>What only those may know who shall join; the host refuses any other. Default 0. It keeps strangers out, it does not encrypt.</summary>
+    public ulong ConnectKey { get; set; }
+
+    /// <summary>Host only: how far behind its time it accepts an event, 50 ms to 5 s; default 1 s. At least two hops plus clock error.</summary>
+    public SimDuration History { get; set; } = DefaultHistory;
+
+    /// <summary>How much longer timelines are kept than events may be late, 0 to 60 s; default 0. For those who compare settled states.</summary>
+    public SimDuration ExtraHistory { get; set; }
+
+    /// <summary>How far ahead of the shared time the world is simulated, above 0 to 1 s; default two frames.</summary>
+    public SimDuration LookAhead { get; set; } = LiveWorld.DefaultLookAhead;
+
+    /// <summary>How much of the past pictures show, 0 to 60 s; default 250 ms.</summary>
+    public SimDuration PicturePast { get; set; } = LiveWorld.DefaultPicturePast;
+
+    /// <summary>Host only: how many joiners the start waits for, 0 to 8; default 1.</summary>
+    public int ExpectedJoiners { get; set; } = 1;
+
+    /// <summary>Host only: how long after all expected joiners are ready the scene starts, 0 to 60 s; default 500 ms.</summary>
+    public SimDuration StartLead { get; set; } = SimDuration.FromMilliseconds(500);
+
+    /// <summary>After how much silence a peer is given up, 100 ms to 10 min; default 10 s.</summary>
+    public SimDuration Timeout { get; set; } = DefaultTimeout;
+
+    /// <summary>How long what is not acknowledged waits before it is sent again, 1 ms to 1 s; default 30 ms.</summary>
+    public SimDuration ResendInterval { get; set; } = SimDuration.FromMilliseconds(30);
+
+    /// <summary>How long nothing is sent at most, 10 ms to a third of the timeout; default 2 s.</summary>
+    public SimDuration KeepAlive { get; set; } = SimDuration.FromSeconds(2);
+
+    /// <summary>The name of what to do with late events, one of <see cref="LateEventStrategies.Names"/>.</summary>
+    public string Strategy { get; set; } = LateEventStrategies.Default;
+
+    internal void Check()
+    {
+        Range(History, 0.05, 5, nameof(History));
+        Range(ExtraHistory, 0, 60, nameof(ExtraHistory));
+        Range(PicturePast, 0, 60, nameof(PicturePast));
+        Range(StartLead, 0, 60, nameof(StartLead));
+        Range(Timeout, 0.1, 600, nameof(Timeout));
+        Range(ResendInterval, 0.001, 1, nameof(ResendInterval));
+        Range(KeepAlive, 0.01, Timeout.ToSeconds() / 3, nameof(KeepAlive));
+        if (LookAhead <= SimDuration.Zero || LookAhead > SimDuration.FromSeconds(1))
+        {
+            throw new ArgumentOutOfRangeException(nameof(LookAhead), LookAhead, "The look-ahead must be above zero and at most 1 s.");
+        }
+
+        if (ExpectedJoiners is < 0 or > MaxJoiners)
+        {
+            throw new ArgumentOutOfRangeException(nameof(ExpectedJoiners), ExpectedJoiners, $"A host waits for 0 to {MaxJoiners} joiners.");
+        }
+    }
+
+    private static void Range(SimDuration value, double least, double most, string name)
+    {
+        if (value < SimDuration.FromSeconds(least) || value > SimDuration.FromSeconds(most))
+        {
+            throw new ArgumentOutOfRangeException(name, value, FormattableString.Invariant($"{name} must lie between {least} s and {most} s."));
+        }
+    }
+}

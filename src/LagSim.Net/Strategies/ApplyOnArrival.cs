@@ -1,0 +1,19 @@
+using LagSim.Events;
+using LagSim.Hosting;
+using LagSim.Time;
+
+namespace LagSim.Net.Strategies;
+
+/// <summary>No compensation: the event happens when it arrives. The worlds of the peers then differ for good.</summary>
+public sealed class ApplyOnArrival : ILateEventStrategy
+{
+    /// <inheritdoc/>
+    public string Name => "none";
+
+    /// <inheritdoc/>
+    public bool PromisesAgreement => false;
+
+    /// <inheritdoc/>
+    public SubmitResult Apply(LiveWorld world, in ExternalEvent external, SimTime arrival) =>
+        world.Submit(external.Time >= arrival ? external : external.At(arrival));
+}

@@ -1,0 +1,18 @@
+using LagSim.Events;
+using LagSim.Hosting;
+using LagSim.Time;
+
+namespace LagSim.Net.Strategies;
+
+/// <summary>The event happens at its own time: everything since is taken back and simulated again. Simple, and right bit for bit.</summary>
+public sealed class FullRollback : ILateEventStrategy
+{
+    /// <inheritdoc/>
+    public string Name => "full-rollback";
+
+    /// <inheritdoc/>
+    public bool PromisesAgreement => true;
+
+    /// <inheritdoc/>
+    public SubmitResult Apply(LiveWorld world, in ExternalEvent external, SimTime arrival) => world.Submit(external);
+}

@@ -1,0 +1,23 @@
+using LagSim.Events;
+using LagSim.Hosting;
+using LagSim.Time;
+
+namespace LagSim.Net.Strategies;
+
+/// <summary>What a peer does with an accepted event of another peer, which usually comes late.</summary>
+/// <remarks>One instance serves one session, on its thread. The same code runs in real and in virtual time.</remarks>
+public interface ILateEventStrategy
+{
+    /// <summary>What the strategy is called on the command line and in reports.</summary>
+    string Name { get; }
+
+    /// <summary>Whether all peers that use it end up with the same world, bit for bit.</summary>
+    bool PromisesAgreement { get; }
+
+    /// <summary>Brings the event into the world.</summary>
+    /// <param name="world">The world, simulated to beyond <paramref name="arrival"/>.</param>
+    /// <param name="external">The event as its sender stamped it.</param>
+    /// <param name="arrival">Shared time now; may be before the event's own time.</param>
+    /// <returns>What became of it.</returns>
+    SubmitResult Apply(LiveWorld world, in ExternalEvent external, SimTime arrival);
+}

@@ -1,0 +1,23 @@
+namespace LagSim.Net.Wire;
+
+/// <summary>What a datagram is; the fourth byte of each. Never renumber.</summary>
+public enum DatagramType : byte
+{
+    /// <summary>No datagram.</summary>
+    None = 0,
+
+    /// <summary>A <see cref="JoinDatagram"/>: let me in.</summary>
+    Join = 1,
+
+    /// <summary>A <see cref="WelcomeDatagram"/>: you are in.</summary>
+    Welcome = 2,
+
+    /// <summary>A <see cref="RefusalDatagram"/>: you are not, because.</summary>
+    Refusal = 3,
+
+    /// <summary>An <see cref="UpdateDatagram"/>: clock, acknowledgements, events.</summary>
+    Update = 4,
+
+    /// <summary>A <see cref="LeaveDatagram"/>: this is over.</summary>
+    Leave = 5,
+}

@@ -1,0 +1,140 @@
+using System;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>How an external event travels, and which events can.</summary>
+/// <remarks>Pure functions, safe on any thread, without allocation.</remarks>
+public static class EventFormat
+{
+    /// <summary>The length of the longest event, a spawn, in bytes.</summary>
+    public const int MaxBytes = HeadBytes + SpecBytes + (2 * VectorBytes);
+
+    /// <summary>The length of the shortest event, a removal, in bytes.</summary>
+    public const int MinBytes = HeadBytes + BodyBytes;
+
+    /// <summary>The shortest step of an integrating law that travels: 1 microsecond, to the nearest tick.</summary>
+    public static readonly SimDuration MinStep = SimDuration.FromSeconds(1e-6);
+
+    /// <summary>The longest step of an integrating law that travels: 1 s.</summary>
+    public static readonly SimDuration MaxStep = SimDuration.FromSeconds(1);
+
+    private const int HeadBytes = 14; // kind, peer, sequence, time
+    private const int BodyBytes = 8;
+    private const int VectorBytes = 24;
+    private const int SpecBytes = 34;
+
+    /// <summary>An event's length in bytes; 0 for a kind that does not travel.</summary>
+    public static int EncodedLength(EventKind kind) => kind switch
+    {
+        EventKind.Spawn => MaxBytes,
+        EventKind.Remove => MinBytes,
+        EventKind.Teleport => MinBytes + (2 * VectorBytes),
+        EventKind.SetVelocity or EventKind.Impulse => MinBytes + VectorBytes,
+        _ => 0,
+    };
+
+    /// <summary>
+    /// Whether an event can travel: a kind that does, a sequence of at least 1, a time within <see cref="WireFormat.MaxTimeTicks"/>, finite
+    /// numbers, and of a spawn a <see cref="BodySpec"/> within its documented ranges. Whatever is decoded is so.
+    /// </summary>
+    public static bool IsWellFormed(in ExternalEvent what) =>
+        EncodedLength(what.Kind) > 0
+        && what.Sequence >= 1
+        && WireFormat.IsInRange(what.Time)
+        && what.Position.IsFinite
+        && what.Velocity.IsFinite
+        && (what.Kind != EventKind.Spawn || IsSpecWellFormed(what.Spec));
+
+    /// <summary>Writes an event; every -0.0 becomes 0.0.</summary>
+    /// <exception cref="ArgumentException">The event is not <see cref="IsWellFormed"/>, or there is no room.</exception>
+    public static void Write(ref WireWriter writer, in ExternalEvent what)
+    {
+        if (!IsWellFormed(what))
+        {
+            throw new ArgumentException($"'{what}' cannot travel: its kind, sequence, time or a number in it is out of range.", nameof(what));
+        }
+
+        writer.WriteByte((byte)what.Kind);
+        writer.WriteByte(what.Peer);
+        writer.WriteUInt32(what.Sequence);
+        writer.WriteTime(what.Time);
+        if (what.Kind == EventKind.Spawn)
+        {
+            WriteSpec(ref writer, what.Spec);
+        }
+        else
+        {
+            writer.WriteUInt64(what.Body.Packed);
+        }
+
+        if (what.Kind is EventKind.Spawn or EventKind.Teleport)
+        {
+            writer.WriteVector(what.Position);
+        }
+
+        if (what.Kind != EventKind.Remove)
+        {
+            writer.WriteVector(what.Velocity);
+        }
+    }
+
+    /// <summary>Reads an event; the reader refuses what is not well formed. Never throws.</summary>
+    /// <returns>The event; <c>default</c> when the reader has refused.</returns>
+    public static ExternalEvent Read(ref WireReader reader)
+    {
+        EventKind kind = (EventKind)reader.ReadByte();
+        reader.Require(EncodedLength(kind) > 0);
+        byte peer = reader.ReadByte();
+        uint sequence = reader.ReadUInt32();
+        SimTime time = reader.ReadTime();
+        BodySpec spec = kind == EventKind.Spawn ? ReadSpec(ref reader) : default;
+        BodyId body = kind == EventKind.Spawn ? default : BodyId.FromPacked(reader.ReadUInt64());
+        Vector3D position = kind is EventKind.Spawn or EventKind.Teleport ? reader.ReadVector() : default;
+        Vector3D velocity = kind == EventKind.Remove ? default : reader.ReadVector();
+        ExternalEvent what = kind switch
+        {
+            EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity),
+            EventKind.Remove => ExternalEvent.Remove(time, peer, sequence, body),
+            EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity),
+            EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),
+            EventKind.Impulse => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
+            _ => default,
+        };
+        reader.Require(IsWellFormed(what));
+        return reader.Refusal == WireRefusal.None ? what : default;
+    }
+
+    // Every range is written so that NaN fails it.
+    private static bool IsSpecWellFormed(in BodySpec spec) =>
+        spec.Radius is >= 1e-9 and <= 1e9
+        && spec.Mass is >= 1e-30 and <= 1e30
+        && spec.Restitution is >= 0 and <= 1
+        && spec.Flight is MotionLaw.Ballistic or MotionLaw.RungeKutta4
+        && spec.Step >= MinStep
+        && spec.Step <= MaxStep
+        && (spec.Acceleration == 0 || spec.Flight == MotionLaw.RungeKutta4);
+
+    private static void WriteSpec(ref WireWriter writer, in BodySpec spec)
+    {
+        writer.WriteDouble(spec.Radius);
+        writer.WriteDouble(spec.Mass);
+        writer.WriteDouble(spec.Restitution);
+        writer.WriteByte((byte)spec.Flight);
+        writer.WriteInt64(spec.Step.Ticks);
+        writer.WriteByte(spec.Acceleration);
+    }
+
+    private static BodySpec ReadSpec(ref WireReader reader)
+    {
+        double radius = reader.ReadDouble();
+        double mass = reader.ReadDouble();
+        double restitution = reader.ReadDouble();
+        MotionLaw flight = (MotionLaw)reader.ReadByte();
+        long step = reader.ReadInt64();
+        reader.Require(step != 0); // which the constructor would take for "the default": one meaning, one form
+        return new BodySpec(radius, mass, restitution, flight, SimDuration.FromTicks(step), reader.ReadByte());
+    }
+}

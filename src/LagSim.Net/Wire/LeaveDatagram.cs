@@ -1,0 +1,58 @@
+using System;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>A peer is no longer in the session: it says so itself, or the host says it.</summary>
+/// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
+public readonly struct LeaveDatagram
+{
+    /// <summary>A notice of these fields.</summary>
+    public LeaveDatagram(ulong sessionId, byte peer, LeaveReason reason)
+    {
+        SessionId = sessionId;
+        Peer = peer;
+        Reason = reason;
+    }
+
+    /// <summary>The session.</summary>
+    public ulong SessionId { get; }
+
+    /// <summary>Who is gone; 0 is the host.</summary>
+    public byte Peer { get; }
+
+    /// <summary>Why.</summary>
+    public LeaveReason Reason { get; }
+
+    private bool IsWellFormed => Reason is >= LeaveReason.Left and <= LeaveReason.HostEnded;
+
+    /// <summary>Writes the datagram.</summary>
+    /// <returns>Its length, <see cref="WireFormat.LeaveBytes"/>.</returns>
+    /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
+    /// <exception cref="InvalidOperationException"><see cref="Reason"/> is none of the enum's.</exception>
+    public int Encode(Span<byte> destination)
+    {
+        if (!IsWellFormed)
+        {
+            throw new InvalidOperationException($"{(byte)Reason} is not the number of a reason to leave.");
+        }
+
+        WireWriter writer = new(destination);
+        writer.WriteHeader(DatagramType.Leave);
+        writer.WriteUInt64(SessionId);
+        writer.WriteByte(Peer);
+        writer.WriteByte((byte)Reason);
+        return writer.Position;
+    }
+
+    /// <summary>Reads a datagram; never throws.</summary>
+    /// <param name="datagram">The whole datagram.</param>
+    /// <param name="leave">What it says; meaningless on refusal.</param>
+    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    public static bool TryDecode(ReadOnlySpan<byte> datagram, out LeaveDatagram leave, out WireRefusal refusal)
+    {
+        WireReader reader = WireReader.Open(datagram, DatagramType.Leave);
+        leave = new LeaveDatagram(reader.ReadUInt64(), reader.ReadByte(), (LeaveReason)reader.ReadByte());
+        reader.Require(leave.IsWellFormed);
+        return reader.Finish(out refusal);
+    }
+}

@@ -1,0 +1,14 @@
+namespace LagSim.Net.Wire;
+
+/// <summary>Why a peer is no longer in the session. Never renumber.</summary>
+public enum LeaveReason : byte
+{
+    /// <summary>It left of its own will.</summary>
+    Left = 1,
+
+    /// <summary>Nothing was heard of it for too long.</summary>
+    TimedOut = 2,
+
+    /// <summary>The host ended the session, for everyone.</summary>
+    HostEnded = 3,
+}

@@ -1,0 +1,53 @@
+using System;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>The host does not let a joiner in, and says why.</summary>
+/// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
+public readonly struct RefusalDatagram
+{
+    /// <summary>An answer of these fields.</summary>
+    public RefusalDatagram(ulong nonce, RefusalReason reason)
+    {
+        Nonce = nonce;
+        Reason = reason;
+    }
+
+    /// <summary>The <see cref="JoinDatagram.Nonce"/> that this answers.</summary>
+    public ulong Nonce { get; }
+
+    /// <summary>Why not.</summary>
+    public RefusalReason Reason { get; }
+
+    private bool IsWellFormed => Reason is >= RefusalReason.VersionDiffers and <= RefusalReason.Full;
+
+    /// <summary>Writes the datagram.</summary>
+    /// <returns>Its length, <see cref="WireFormat.RefusalBytes"/>.</returns>
+    /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
+    /// <exception cref="InvalidOperationException"><see cref="Reason"/> is none of the enum's.</exception>
+    public int Encode(Span<byte> destination)
+    {
+        if (!IsWellFormed)
+        {
+            throw new InvalidOperationException($"{(byte)Reason} is not the number of a reason for refusal.");
+        }
+
+        WireWriter writer = new(destination);
+        writer.WriteHeader(DatagramType.Refusal);
+        writer.WriteUInt64(Nonce);
+        writer.WriteByte((byte)Reason);
+        return writer.Position;
+    }
+
+    /// <summary>Reads a datagram; never throws.</summary>
+    /// <param name="datagram">The whole datagram.</param>
+    /// <param name="answer">What it says; meaningless when it is refused.</param>
+    /// <param name="refusal">Why the datagram is not taken, or <see cref="WireRefusal.None"/>.</param>
+    public static bool TryDecode(ReadOnlySpan<byte> datagram, out RefusalDatagram answer, out WireRefusal refusal)
+    {
+        WireReader reader = WireReader.Open(datagram, DatagramType.Refusal);
+        answer = new RefusalDatagram(reader.ReadUInt64(), (RefusalReason)reader.ReadByte());
+        reader.Require(answer.IsWellFormed);
+        return reader.Finish(out refusal);
+    }
+}

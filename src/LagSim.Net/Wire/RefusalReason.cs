@@ -1,0 +1,17 @@
+namespace LagSim.Net.Wire;
+
+/// <summary>Why a host does not let a joiner in. Never renumber.</summary>
+public enum RefusalReason : byte
+{
+    /// <summary>The two speak different versions of the wire format.</summary>
+    VersionDiffers = 1,
+
+    /// <summary>The joiner's scene is not the host's.</summary>
+    SceneDiffers = 2,
+
+    /// <summary>The joiner's connect key is not the host's.</summary>
+    WrongKey = 3,
+
+    /// <summary>The session takes no more peers.</summary>
+    Full = 4,
+}

@@ -1,0 +1,114 @@
+using System;
+using LagSim.Events;
+using LagSim.Time;
+
+namespace LagSim.Net.Wire;
+
+// How an update becomes bytes and comes back; the layout is in docs/WIRE.md.
+public sealed partial class UpdateDatagram
+{
+    /// <summary>Writes the datagram.</summary>
+    /// <param name="destination">At least <see cref="EncodedLength"/> bytes; <see cref="WireFormat.MaxBytes"/> always do.</param>
+    /// <returns>Its length, <see cref="EncodedLength"/>.</returns>
+    /// <exception cref="ArgumentException">The destination is too short, or a time is out of range.</exception>
+    /// <exception cref="InvalidOperationException">The numbers of the entries do not end by 4,294,967,295.</exception>
+    public int Encode(Span<byte> destination)
+    {
+        if (!AreIndicesInRange)
+        {
+            throw new InvalidOperationException($"{count} entries from number {FirstIndex} on run past the last number there is.");
+        }
+
+        WireWriter writer = new(destination);
+        writer.WriteHeader(DatagramType.Update);
+        writer.WriteUInt64(SessionId);
+        writer.WriteByte(Peer);
+        writer.WriteUInt32(Number);
+        writer.WriteTime(Sent);
+        WriteEcho(ref writer);
+        writer.WriteOptionalTime(Start);
+        writer.WriteOptionalTime(Watermark);
+        writer.WriteUInt32(EventsReceived);
+        writer.WriteByte((byte)((HasStateHash ? HashFlag : 0) | (Ready ? ReadyFlag : 0)));
+        if (HasStateHash)
+        {
+            writer.WriteTime(HashTime);
+            writer.WriteUInt64(StateHash);
+        }
+
+        writer.WriteUInt32(FirstIndex);
+        writer.WriteByte((byte)count);
+        foreach (ref readonly UpdateEntry entry in Entries)
+        {
+            writer.WriteByte((byte)entry.Verdict);
+            EventFormat.Write(ref writer, entry.Event);
+        }
+
+        return writer.Position;
+    }
+
+    /// <summary>Reads a datagram into this object; never throws, never allocates. A refused one leaves it cleared.</summary>
+    /// <param name="datagram">The whole datagram.</param>
+    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    public bool TryDecode(ReadOnlySpan<byte> datagram, out WireRefusal refusal)
+    {
+        Clear();
+        WireReader reader = WireReader.Open(datagram, DatagramType.Update);
+        ReadFields(ref reader);
+        int announced = reader.ReadByte();
+        reader.Require(announced <= MaxEntries);
+        while (count < announced && reader.Refusal == WireRefusal.None)
+        {
+            Verdict verdict = (Verdict)reader.ReadByte();
+            reader.Require(verdict <= Verdict.Invalid);
+            ExternalEvent what = EventFormat.Read(ref reader);
+            entries[count++] = new UpdateEntry(verdict, what);
+            entryBytes += VerdictBytes + EventFormat.EncodedLength(what.Kind);
+        }
+
+        reader.Require(AreIndicesInRange);
+        bool accepted = reader.Finish(out refusal);
+        if (!accepted)
+        {
+            Clear();
+        }
+
+        return accepted;
+    }
+
+    private bool AreIndicesInRange => count == 0 || FirstIndex <= uint.MaxValue - (uint)(count - 1);
+
+    private void WriteEcho(ref WireWriter writer)
+    {
+        writer.WriteOptionalTime(EchoSent);
+        if (EchoSent == SimTime.MinValue)
+        {
+            writer.WriteOptionalTime(SimTime.MinValue);
+        }
+        else
+        {
+            writer.WriteTime(EchoReceived);
+        }
+    }
+
+    private void ReadFields(ref WireReader reader)
+    {
+        SessionId = reader.ReadUInt64();
+        Peer = reader.ReadByte();
+        Number = reader.ReadUInt32();
+        Sent = reader.ReadTime();
+        EchoSent = reader.ReadOptionalTime();
+        EchoReceived = reader.ReadOptionalTime();
+        reader.Require((EchoSent == SimTime.MinValue) == (EchoReceived == SimTime.MinValue)); // both or none
+        Start = reader.ReadOptionalTime();
+        Watermark = reader.ReadOptionalTime();
+        EventsReceived = reader.ReadUInt32();
+        byte flags = reader.ReadByte();
+        reader.Require((flags & ~(HashFlag | ReadyFlag)) == 0);
+        Ready = (flags & ReadyFlag) != 0;
+        HasStateHash = (flags & HashFlag) != 0;
+        HashTime = HasStateHash ? reader.ReadTime() : SimTime.Zero;
+        StateHash = HasStateHash ? reader.ReadUInt64() : 0;
+        FirstIndex = reader.ReadUInt32();
+    }
+}

@@ -1,0 +1,119 @@
+using System;
+using LagSim.Events;
+using LagSim.Time;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>What peers send each other all the time: clock readings, acknowledgements, the watermark, and events not yet acknowledged.</summary>
+/// <remarks>
+/// <para>One object, used again and again: encoding and decoding allocate nothing. For one thread at a time.</para>
+/// <para>Times that may be missing say so with <see cref="SimTime.MinValue"/>. All times are within <see cref="WireFormat.MaxTimeTicks"/>
+/// of their origin.</para>
+/// </remarks>
+public sealed partial class UpdateDatagram
+{
+    /// <summary>The most entries that a datagram can hold: that many removals.</summary>
+    public const int MaxEntries = (WireFormat.MaxBytes - WireFormat.EmptyUpdateBytes) / (VerdictBytes + EventFormat.MinBytes);
+
+    private const int VerdictBytes = 1;
+    private const byte HashFlag = 1;
+    private const byte ReadyFlag = 2;
+
+    private readonly UpdateEntry[] entries = new UpdateEntry[MaxEntries];
+    private int count;
+    private int entryBytes;
+
+    /// <summary>A cleared update.</summary>
+    public UpdateDatagram() => Clear();
+
+    /// <summary>The session.</summary>
+    public ulong SessionId { get; set; }
+
+    /// <summary>The sender; 0 is the host.</summary>
+    public byte Peer { get; set; }
+
+    /// <summary>Counts the sender's updates to this addressee.</summary>
+    public uint Number { get; set; }
+
+    /// <summary>When this was sent, by the sender's own clock.</summary>
+    public SimTime Sent { get; set; }
+
+    /// <summary><see cref="Sent"/> of the newest update that the sender has of the addressee; <see cref="SimTime.MinValue"/>: none yet.</summary>
+    public SimTime EchoSent { get; set; }
+
+    /// <summary>When that one arrived, by the sender's own clock. Without <see cref="EchoSent"/> it does not travel.</summary>
+    public SimTime EchoReceived { get; set; }
+
+    /// <summary>The shared time at which the session starts; <see cref="SimTime.MinValue"/>: not decided.</summary>
+    public SimTime Start { get; set; }
+
+    /// <summary>The shared time before which the host accepts nothing more; <see cref="SimTime.MinValue"/>: none.</summary>
+    public SimTime Watermark { get; set; }
+
+    /// <summary>
+    /// From a joiner: how many entries of the host's log it has without a gap. From the host: up to which of the joiner's own sequence
+    /// numbers it has all.
+    /// </summary>
+    public uint EventsReceived { get; set; }
+
+    /// <summary>The sender's clock is good enough to begin.</summary>
+    public bool Ready { get; set; }
+
+    /// <summary>Whether <see cref="HashTime"/> and <see cref="StateHash"/> travel.</summary>
+    public bool HasStateHash { get; set; }
+
+    /// <summary>The committed shared time of <see cref="StateHash"/>; zero without one.</summary>
+    public SimTime HashTime { get; set; }
+
+    /// <summary>The hash of the sender's state; zero without one.</summary>
+    public ulong StateHash { get; set; }
+
+    /// <summary>
+    /// The number of the first entry: from the host its index in the log. The entry after it has the next number, and none is above
+    /// 4,294,967,295.
+    /// </summary>
+    public uint FirstIndex { get; set; }
+
+    /// <summary>The entries, valid until the next change to this object.</summary>
+    public ReadOnlySpan<UpdateEntry> Entries => entries.AsSpan(0, count);
+
+    /// <summary>The datagram's length as it stands, in bytes.</summary>
+    public int EncodedLength => WireFormat.EmptyUpdateBytes + (HasStateHash ? WireFormat.StateHashBytes : 0) + entryBytes;
+
+    /// <summary>Makes every field zero, false or none, and takes all entries out.</summary>
+    public void Clear()
+    {
+        SessionId = StateHash = 0;
+        Number = EventsReceived = FirstIndex = 0;
+        Peer = 0;
+        Sent = HashTime = SimTime.Zero;
+        EchoSent = EchoReceived = Start = Watermark = SimTime.MinValue;
+        Ready = HasStateHash = false;
+        ClearEntries();
+    }
+
+    /// <summary>Takes all entries out.</summary>
+    public void ClearEntries() => count = entryBytes = 0;
+
+    /// <summary>Puts one more entry at the end, if it fits; room for a state hash is always kept.</summary>
+    /// <returns>False when the datagram is full for an event of this kind.</returns>
+    /// <exception cref="ArgumentException">The event is not <see cref="EventFormat.IsWellFormed"/>, or the verdict none of the enum's.</exception>
+    public bool TryAdd(Verdict verdict, in ExternalEvent what)
+    {
+        if (!EventFormat.IsWellFormed(what) || verdict > Verdict.Invalid)
+        {
+            throw new ArgumentException($"'{what}' cannot travel: its kind, sequence, time or a number in it is out of range.", nameof(what));
+        }
+
+        int length = VerdictBytes + EventFormat.EncodedLength(what.Kind);
+        bool fits = count < MaxEntries
+            && WireFormat.EmptyUpdateBytes + WireFormat.StateHashBytes + entryBytes + length <= WireFormat.MaxBytes;
+        if (fits)
+        {
+            entries[count++] = new UpdateEntry(verdict, what);
+            entryBytes += length;
+        }
+
+        return fits;
+    }
+}

@@ -1,0 +1,23 @@
+namespace LagSim.Net.Wire;
+
+/// <summary>What the host said about an external event. Given once, never changed. Never renumber.</summary>
+public enum Verdict : byte
+{
+    /// <summary>Nothing yet; the only verdict that a joiner sends.</summary>
+    Pending = 0,
+
+    /// <summary>It happened, on every peer.</summary>
+    Accepted = 1,
+
+    /// <summary>Refused: stamped before the watermark.</summary>
+    TooLate = 2,
+
+    /// <summary>Refused: stamped too far in the future.</summary>
+    TooEarly = 3,
+
+    /// <summary>Refused: its peer may not do this.</summary>
+    NoRight = 4,
+
+    /// <summary>Refused: it makes no sense in this scene.</summary>
+    Invalid = 5,
+}

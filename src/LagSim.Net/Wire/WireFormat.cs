@@ -1,0 +1,61 @@
+using System;
+using LagSim.Net.Carriers;
+using LagSim.Time;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>The numbers that all datagrams share. The layouts stand in <c>docs/WIRE.md</c>; all sizes are in bytes.</summary>
+public static class WireFormat
+{
+    /// <summary>The first two bytes of every datagram, little-endian.</summary>
+    public const ushort Magic = 0x4C53;
+
+    /// <summary>The version of the layouts. Any change to a layout, a range or an enum's numbers needs another version.</summary>
+    public const byte Version = 1;
+
+    /// <summary>Magic, version and type.</summary>
+    public const int HeaderBytes = 4;
+
+    /// <summary>The length of a <see cref="JoinDatagram"/>.</summary>
+    public const int JoinBytes = 28;
+
+    /// <summary>The length of a <see cref="WelcomeDatagram"/>.</summary>
+    public const int WelcomeBytes = 29;
+
+    /// <summary>The length of a <see cref="RefusalDatagram"/>.</summary>
+    public const int RefusalBytes = 13;
+
+    /// <summary>The length of a <see cref="LeaveDatagram"/>.</summary>
+    public const int LeaveBytes = 14;
+
+    /// <summary>The length of an <see cref="UpdateDatagram"/> without state hash and entries.</summary>
+    public const int EmptyUpdateBytes = 67;
+
+    /// <summary>What a state hash and its time add to an <see cref="UpdateDatagram"/>.</summary>
+    public const int StateHashBytes = 16;
+
+    /// <summary>The longest datagram.</summary>
+    public const int MaxBytes = IDatagramPort.MaxDatagramBytes;
+
+    /// <summary>
+    /// Every time that travels is at most this many ticks (48 days) from its origin, so that no sum or difference of two of them that a
+    /// receiver forms with a span of less can overflow.
+    /// </summary>
+    public const long MaxTimeTicks = (1L << 62) - 1;
+
+    /// <summary>Whether a time can travel; <see cref="SimTime.MinValue"/>, which stands for "none" in some fields, cannot.</summary>
+    public static bool IsInRange(SimTime time) => time.Ticks is >= -MaxTimeTicks and <= MaxTimeTicks;
+
+    /// <summary>Reads the header of a datagram, to choose which type's decoder to ask.</summary>
+    /// <param name="datagram">The whole datagram.</param>
+    /// <param name="type">What it says it is; meaningless on refusal.</param>
+    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <returns>False when it is no datagram of this version; never throws.</returns>
+    public static bool TryReadType(ReadOnlySpan<byte> datagram, out DatagramType type, out WireRefusal refusal)
+    {
+        WireReader reader = new(datagram);
+        type = reader.ReadHeader();
+        refusal = reader.Refusal;
+        return refusal == WireRefusal.None;
+    }
+}

@@ -1,0 +1,118 @@
+using System;
+using System.Buffers.Binary;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>Reads fields one after another from bytes that anyone may have sent, little-endian.</summary>
+/// <remarks>
+/// Never throws, never reads past the end, allocates nothing. The first thing wrong is kept in <see cref="Refusal"/>; from then on every
+/// read gives zero, so a decoder reads all its fields and asks once, in <see cref="Finish"/>.
+/// </remarks>
+public ref struct WireReader
+{
+    private readonly ReadOnlySpan<byte> bytes;
+    private int position;
+
+    /// <summary>A reader at the start of <paramref name="source"/>.</summary>
+    public WireReader(ReadOnlySpan<byte> source)
+    {
+        bytes = source;
+        position = 0;
+        Refusal = source.Length > WireFormat.MaxBytes ? WireRefusal.TooLong : WireRefusal.None;
+    }
+
+    /// <summary>The first thing that was wrong, or <see cref="WireRefusal.None"/>.</summary>
+    public WireRefusal Refusal { get; private set; }
+
+    /// <summary>A reader after the header of a datagram; it has refused already if the datagram is not of this type and version.</summary>
+    public static WireReader Open(ReadOnlySpan<byte> datagram, DatagramType type)
+    {
+        WireReader reader = new(datagram);
+        DatagramType found = reader.ReadHeader();
+        reader.Require(found == type, WireRefusal.OtherType);
+        return reader;
+    }
+
+    /// <summary>Magic, version and a known type.</summary>
+    public DatagramType ReadHeader()
+    {
+        Require(bytes.Length >= WireFormat.HeaderBytes, WireRefusal.TooShort);
+        Require(ReadUInt16() == WireFormat.Magic, WireRefusal.NotLagSim);
+        Require(ReadByte() == WireFormat.Version, WireRefusal.VersionDiffers);
+        DatagramType type = (DatagramType)ReadByte();
+        Require(type is >= DatagramType.Join and <= DatagramType.Leave, WireRefusal.UnknownType);
+        return type;
+    }
+
+    /// <summary>One byte.</summary>
+    public byte ReadByte() => TryTake(1, out ReadOnlySpan<byte> taken) ? taken[0] : (byte)0;
+
+    /// <summary>Two bytes.</summary>
+    public ushort ReadUInt16() =>
+        TryTake(sizeof(ushort), out ReadOnlySpan<byte> taken) ? BinaryPrimitives.ReadUInt16LittleEndian(taken) : (ushort)0;
+
+    /// <summary>Four bytes.</summary>
+    public uint ReadUInt32() => TryTake(sizeof(uint), out ReadOnlySpan<byte> taken) ? BinaryPrimitives.ReadUInt32LittleEndian(taken) : 0;
+
+    /// <summary>Eight bytes.</summary>
+    public ulong ReadUInt64() => TryTake(sizeof(ulong), out ReadOnlySpan<byte> taken) ? BinaryPrimitives.ReadUInt64LittleEndian(taken) : 0;
+
+    /// <summary>Eight bytes, two's complement.</summary>
+    public long ReadInt64() => TryTake(sizeof(long), out ReadOnlySpan<byte> taken) ? BinaryPrimitives.ReadInt64LittleEndian(taken) : 0;
+
+    /// <summary>Eight bytes, IEEE 754. What is not finite is refused; -0.0 becomes 0.0.</summary>
+    public double ReadDouble()
+    {
+        double value = BitConverter.Int64BitsToDouble(ReadInt64());
+        Require(double.IsFinite(value));
+        return value + 0.0;
+    }
+
+    /// <summary>Three doubles: x, y, z.</summary>
+    public Vector3D ReadVector() => new(ReadDouble(), ReadDouble(), ReadDouble());
+
+    /// <summary>A time within <see cref="WireFormat.MaxTimeTicks"/> of the origin.</summary>
+    public SimTime ReadTime()
+    {
+        SimTime time = SimTime.FromTicks(ReadInt64());
+        Require(WireFormat.IsInRange(time));
+        return time;
+    }
+
+    /// <summary>A time, or <see cref="SimTime.MinValue"/> for none.</summary>
+    public SimTime ReadOptionalTime()
+    {
+        SimTime time = SimTime.FromTicks(ReadInt64());
+        Require(time == SimTime.MinValue || WireFormat.IsInRange(time));
+        return time;
+    }
+
+    /// <summary>Refuses the datagram unless the condition holds; what was refused first stays the reason.</summary>
+    public void Require(bool condition, WireRefusal otherwise = WireRefusal.BadValue)
+    {
+        if (!condition && Refusal == WireRefusal.None)
+        {
+            Refusal = otherwise;
+        }
+    }
+
+    /// <summary>Ends the datagram here: refuses it if bytes are left.</summary>
+    /// <returns>True when nothing was wrong.</returns>
+    public bool Finish(out WireRefusal refusal)
+    {
+        Require(position == bytes.Length, WireRefusal.TrailingBytes);
+        refusal = Refusal;
+        return refusal == WireRefusal.None;
+    }
+
+    private bool TryTake(int count, out ReadOnlySpan<byte> taken)
+    {
+        Require(count <= bytes.Length - position, WireRefusal.TooShort);
+        bool sound = Refusal == WireRefusal.None;
+        taken = sound ? bytes.Slice(position, count) : default;
+        position += sound ? count : 0;
+        return sound;
+    }
+}

@@ -1,0 +1,32 @@
+namespace LagSim.Net.Wire;
+
+/// <summary>Why a byte string was not accepted as a datagram. For counters and messages; it does not travel.</summary>
+public enum WireRefusal : byte
+{
+    /// <summary>It was accepted.</summary>
+    None = 0,
+
+    /// <summary>It ends before its last field.</summary>
+    TooShort = 1,
+
+    /// <summary>It is longer than <see cref="WireFormat.MaxBytes"/>.</summary>
+    TooLong = 2,
+
+    /// <summary>It does not begin with <see cref="WireFormat.Magic"/>.</summary>
+    NotLagSim = 3,
+
+    /// <summary>It is of another version than <see cref="WireFormat.Version"/>.</summary>
+    VersionDiffers = 4,
+
+    /// <summary>Its type is none of <see cref="DatagramType"/>.</summary>
+    UnknownType = 5,
+
+    /// <summary>It is of a known type, but not the one that was asked for.</summary>
+    OtherType = 6,
+
+    /// <summary>A field is out of its range.</summary>
+    BadValue = 7,
+
+    /// <summary>Something follows its last field.</summary>
+    TrailingBytes = 8,
+}

@@ -1,0 +1,166 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using FsCheck.Fluent;
+using LagSim.Net.Wire;
+using Xunit;
+
+namespace LagSim.Tests.Wire;
+
+public class HostileBytesTests
+{
+    private const int Trials = 200_000;
+
+    private readonly UpdateDatagram scratch = new();
+
+    [Fact]
+    public void TryDecode_EveryTruncation_IsRefusedAsTooShort()
+    {
+        foreach (byte[] whole in Valid(20))
+        {
+            for (int length = 0; length < whole.Length; length++)
+            {
+                Assert.Null(AnyDatagram.Again(whole.AsSpan(0, length), scratch, out WireRefusal refusal));
+                Assert.Equal(WireRefusal.TooShort, refusal);
+            }
+        }
+    }
+
+    [Fact]
+    public void TryDecode_EveryTrailingByte_IsRefused()
+    {
+        foreach (byte[] whole in Valid(20))
+        {
+            byte[] longer = new byte[whole.Length + 1];
+            whole.CopyTo(longer, 0);
+            for (int value = 0; value <= 255; value++)
+            {
+                longer[^1] = (byte)value;
+                Assert.Null(AnyDatagram.Again(longer, scratch, out WireRefusal refusal));
+                Assert.Equal(longer.Length > WireFormat.MaxBytes ? WireRefusal.TooLong : WireRefusal.TrailingBytes, refusal);
+            }
+        }
+    }
+
+    [Fact]
+    public void TryDecode_RandomBytes_NeverThrows()
+    {
+        Random random = new(1);
+        byte[] buffer = new byte[1300];
+        int accepted = 0;
+        for (int i = 0; i < Trials; i++)
+        {
+            Span<byte> bytes = buffer.AsSpan(0, random.Next(i % 2 == 0 ? 100 : buffer.Length));
+            random.NextBytes(bytes);
+            if (i % 4 != 0 && bytes.Length >= WireFormat.HeaderBytes)
+            {
+                new byte[] { 0x53, 0x4C, 1, (byte)random.Next(1, 6) }.CopyTo(bytes); // past the header, or it tests nothing else
+            }
+
+            accepted += Canonical(bytes) ? 1 : 0;
+        }
+
+        Assert.True(accepted > 0, "Nothing was accepted: the bytes no longer reach the decoders.");
+    }
+
+    [Fact]
+    public void TryDecode_MutatedDatagrams_NeverThrowsAndWhatIsAcceptedIsCanonical()
+    {
+        Random random = new(2);
+        byte[][] valid = Valid(200).ToArray();
+        int accepted = 0, refused = 0;
+        for (int i = 0; i < Trials; i++)
+        {
+            byte[] bytes = (byte[])valid[random.Next(valid.Length)].Clone();
+            for (int change = random.Next(1, 4); change > 0; change--)
+            {
+                int at = random.Next(bytes.Length);
+                bytes[at] = random.Next(3) switch
+                {
+                    0 => (byte)random.Next(256),
+                    1 => (byte)(bytes[at] ^ (1 << random.Next(8))),
+                    _ => new byte[] { 0, 1, 0x7F, 0x80, 0xF0, 0xFF }[random.Next(6)],
+                };
+            }
+
+            bool canonical = Canonical(bytes);
+            accepted += canonical ? 1 : 0;
+            refused += canonical ? 0 : 1;
+        }
+
+        Assert.True(accepted > Trials / 10 && refused > Trials / 10, $"{accepted} accepted, {refused} refused: the mutations say little.");
+    }
+
+    [Fact]
+    public void TryDecode_Refused_LeavesTheUpdateCleared()
+    {
+        byte[] bytes = Valid(1).Last();
+        Assert.True(scratch.TryDecode(bytes, out _));
+
+        Assert.False(scratch.TryDecode(bytes.AsSpan(0, bytes.Length - 1), out _));
+
+        Assert.Equal(AnyDatagram.Bytes(new UpdateDatagram().Encode), AnyDatagram.Bytes(scratch.Encode));
+    }
+
+    [Fact]
+    public void TryDecode_ValidAndHostileUpdates_AllocatesNothing()
+    {
+        byte[][] all = Valid(20).SelectMany(bytes => new[] { bytes, bytes[..^1] }).ToArray();
+        DecodeAll(all);
+        long before = GC.GetAllocatedBytesForCurrentThread();
+
+        DecodeAll(all);
+
+        Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
+    }
+
+    private static IEnumerable<byte[]> Valid(int each)
+    {
+        foreach (JoinDatagram join in Gen.Sample(WireGen.Join, 30, each))
+        {
+            yield return AnyDatagram.Bytes(join.Encode);
+        }
+
+        foreach (WelcomeDatagram welcome in Gen.Sample(WireGen.Welcome, 30, each))
+        {
+            yield return AnyDatagram.Bytes(welcome.Encode);
+        }
+
+        foreach (RefusalDatagram answer in Gen.Sample(WireGen.Refusal, 30, each))
+        {
+            yield return AnyDatagram.Bytes(answer.Encode);
+        }
+
+        foreach (LeaveDatagram leave in Gen.Sample(WireGen.Leave, 30, each))
+        {
+            yield return AnyDatagram.Bytes(leave.Encode);
+        }
+
+        foreach (UpdateDatagram update in Gen.Sample(WireGen.Update, 30, each))
+        {
+            yield return AnyDatagram.Bytes(update.Encode);
+        }
+    }
+
+    private void DecodeAll(byte[][] all)
+    {
+        foreach (byte[] bytes in all)
+        {
+            scratch.TryDecode(bytes, out _);
+        }
+    }
+
+    /// <summary>Whether the bytes are accepted; then they are the one form of what they say, but for the sign of a zero.</summary>
+    private bool Canonical(ReadOnlySpan<byte> bytes)
+    {
+        byte[]? again = AnyDatagram.Again(bytes, scratch, out WireRefusal refusal);
+        Assert.Equal(again is null, refusal != WireRefusal.None);
+        if (again is not null)
+        {
+            Assert.True(AnyDatagram.SameButForNegativeZero(bytes, again), Convert.ToHexString(bytes));
+            Assert.Equal(again, AnyDatagram.Again(again, scratch, out _));
+        }
+
+        return again is not null;
+    }
+}

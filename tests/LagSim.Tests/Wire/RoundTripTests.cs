@@ -1,0 +1,107 @@
+using System;
+using FsCheck;
+using FsCheck.Fluent;
+using LagSim.Events;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Wire;
+
+public class RoundTripTests
+{
+    [Fact]
+    public void Encode_AnyJoin_DecodesToTheSame() => Holds(WireGen.Join, join =>
+        JoinDatagram.TryDecode(AnyDatagram.Bytes(join.Encode), out JoinDatagram again, out WireRefusal refusal)
+        && refusal == WireRefusal.None && again.Equals(join));
+
+    [Fact]
+    public void Encode_AnyWelcome_DecodesToTheSame() => Holds(WireGen.Welcome, welcome =>
+        WelcomeDatagram.TryDecode(AnyDatagram.Bytes(welcome.Encode), out WelcomeDatagram again, out _) && again.Equals(welcome));
+
+    [Fact]
+    public void Encode_AnyRefusal_DecodesToTheSame() => Holds(WireGen.Refusal, answer =>
+        RefusalDatagram.TryDecode(AnyDatagram.Bytes(answer.Encode), out RefusalDatagram again, out _) && again.Equals(answer));
+
+    [Fact]
+    public void Encode_AnyLeave_DecodesToTheSame() => Holds(WireGen.Leave, leave =>
+        LeaveDatagram.TryDecode(AnyDatagram.Bytes(leave.Encode), out LeaveDatagram again, out _) && again.Equals(leave));
+
+    [Fact]
+    public void Encode_AnyUpdate_DecodesToTheSame()
+    {
+        UpdateDatagram again = new();
+        Holds(WireGen.Update, update =>
+        {
+            byte[] bytes = AnyDatagram.Bytes(update.Encode);
+            return bytes.Length == update.EncodedLength && again.TryDecode(bytes, out _) && Same(update, again);
+        });
+    }
+
+    [Fact]
+    public void Write_AnyEvent_TakesItsEncodedLengthAndReadsTheSame() => Holds(WireGen.Event, what =>
+    {
+        byte[] bytes = new byte[EventFormat.MaxBytes];
+        WireWriter writer = new(bytes);
+        EventFormat.Write(ref writer, what);
+        WireReader reader = new(bytes.AsSpan(0, writer.Position));
+        ExternalEvent again = EventFormat.Read(ref reader);
+        return writer.Position == EventFormat.EncodedLength(what.Kind) && reader.Finish(out _) && again.Equals(what);
+    });
+
+    [Fact]
+    public void Encode_Join_GivesTheDocumentedBytes()
+    {
+        byte[] bytes = AnyDatagram.Bytes(new JoinDatagram(0x0102030405060708, 0x11, 0x2200000000000000).Encode);
+
+        Assert.Equal("534C0101" + "0807060504030201" + "1100000000000000" + "0000000000000022", Convert.ToHexString(bytes));
+    }
+
+    [Fact]
+    public void Encode_UpdateWithASetVelocity_GivesTheDocumentedBytes()
+    {
+        UpdateDatagram update = new() { SessionId = 1, Peer = 2, Number = 3, Sent = SimTime.FromTicks(4), EventsReceived = 5, FirstIndex = 6 };
+        update.HasStateHash = update.Ready = true;
+        update.HashTime = SimTime.FromTicks(7);
+        update.StateHash = 8;
+        update.TryAdd(
+            Verdict.Accepted, ExternalEvent.SetVelocity(SimTime.FromTicks(9), 2, 10, BodyId.FromPacked(11), new Vector3D(1, -0.0, 0)));
+
+        const string None = "0000000000000080";
+        Assert.Equal(
+            "534C0104" + "0100000000000000" + "02" + "03000000" + "0400000000000000" + None + None + None + None + "05000000" + "03"
+            + "0700000000000000" + "0800000000000000" + "06000000" + "01"
+            + "01" + "0A" + "02" + "0A000000" + "0900000000000000" + "0B00000000000000"
+            + "000000000000F03F" + "0000000000000000" + "0000000000000000",
+            Convert.ToHexString(AnyDatagram.Bytes(update.Encode)));
+    }
+
+    [Fact]
+    public void EncodedLengths_OfTheFixedDatagrams_AreTheDocumentedOnes()
+    {
+        Assert.Equal(WireFormat.JoinBytes, AnyDatagram.Bytes(default(JoinDatagram).Encode).Length);
+        Assert.Equal(WireFormat.WelcomeBytes, AnyDatagram.Bytes(new WelcomeDatagram(1, 2, 3, SimDuration.OneTick).Encode).Length);
+        Assert.Equal(WireFormat.RefusalBytes, AnyDatagram.Bytes(new RefusalDatagram(1, RefusalReason.Full).Encode).Length);
+        Assert.Equal(WireFormat.LeaveBytes, AnyDatagram.Bytes(new LeaveDatagram(1, 2, LeaveReason.Left).Encode).Length);
+        Assert.Equal(WireFormat.EmptyUpdateBytes, AnyDatagram.Bytes(new UpdateDatagram().Encode).Length);
+    }
+
+    private static void Holds<T>(Gen<T> values, Func<T, bool> property) =>
+        Prop.ForAll(Arb.From(values), property).Check(WireGen.Config);
+
+    private static bool Same(UpdateDatagram a, UpdateDatagram b)
+    {
+        bool same = a.SessionId == b.SessionId && a.Peer == b.Peer && a.Number == b.Number && a.Sent == b.Sent
+            && a.EchoSent == b.EchoSent && a.EchoReceived == b.EchoReceived && a.Start == b.Start && a.Watermark == b.Watermark
+            && a.EventsReceived == b.EventsReceived && a.Ready == b.Ready && a.HasStateHash == b.HasStateHash
+            && a.HashTime == b.HashTime && a.StateHash == b.StateHash && a.FirstIndex == b.FirstIndex
+            && a.Entries.Length == b.Entries.Length;
+        for (int i = 0; same && i < a.Entries.Length; i++)
+        {
+            same = a.Entries[i].Verdict == b.Entries[i].Verdict && a.Entries[i].Event.Equals(b.Entries[i].Event);
+        }
+
+        return same;
+    }
+}

@@ -1,0 +1,255 @@
+using System;
+using System.Buffers.Binary;
+using LagSim.Events;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Wire;
+
+public class ValueRangeTests
+{
+    // Where things stand in an update with one spawn and no state hash.
+    private const int EchoSentAt = 25;
+    private const int FlagsAt = 61;
+    private const int FirstIndexAt = 62;
+    private const int CountAt = 66;
+    private const int VerdictAt = 67;
+    private const int KindAt = 68;
+    private const int SequenceAt = 70;
+    private const int TimeAt = 74;
+    private const int RadiusAt = 82;
+    private const int MassAt = 90;
+    private const int RestitutionAt = 98;
+    private const int FlightAt = 106;
+    private const int StepAt = 107;
+    private const int AccelerationAt = 115;
+    private const int PositionAt = 116;
+
+    private static readonly BodySpec Ball = new(0.5, 1, 0.8);
+
+    [Theory]
+    [InlineData(double.NaN)]
+    [InlineData(double.PositiveInfinity)]
+    [InlineData(double.NegativeInfinity)]
+    public void TryDecode_NumberNotFinite_IsRefusedInEveryField(double value)
+    {
+        for (int field = 0; field < 6; field++)
+        {
+            AssertBad(PositionAt + (8 * field), BitConverter.DoubleToInt64Bits(value));
+        }
+
+        AssertBad(RadiusAt, BitConverter.DoubleToInt64Bits(value));
+        AssertBad(MassAt, BitConverter.DoubleToInt64Bits(value));
+        AssertBad(RestitutionAt, BitConverter.DoubleToInt64Bits(value));
+    }
+
+    [Theory]
+    [InlineData(double.NaN)]
+    [InlineData(double.NegativeInfinity)]
+    public void ReadDouble_NotFinite_IsRefusedByTheReaderItself(double value)
+    {
+        byte[] bytes = new byte[8];
+        BinaryPrimitives.WriteInt64LittleEndian(bytes, BitConverter.DoubleToInt64Bits(value));
+        WireReader reader = new(bytes);
+
+        reader.ReadDouble();
+
+        Assert.Equal(WireRefusal.BadValue, reader.Refusal);
+        Assert.Throws<ArgumentException>(() => new WireWriter(new byte[8]).WriteDouble(value));
+    }
+
+    [Theory]
+    [InlineData(RadiusAt, 0.0)]
+    [InlineData(RadiusAt, 0.9e-9)]
+    [InlineData(RadiusAt, 1.1e9)]
+    [InlineData(MassAt, 0.9e-30)]
+    [InlineData(MassAt, 1.1e30)]
+    [InlineData(RestitutionAt, -1e-300)]
+    [InlineData(RestitutionAt, 1.0000000000000002)]
+    public void TryDecode_BodyOutOfRange_IsRefused(int at, double value) => AssertBad(at, BitConverter.DoubleToInt64Bits(value));
+
+    [Theory]
+    [InlineData(0L)]
+    [InlineData(-1L)]
+    [InlineData(1_099_511L)]
+    [InlineData((1L << 40) + 1)]
+    public void TryDecode_StepOutOfRange_IsRefused(long ticks) => AssertBad(StepAt, ticks);
+
+    [Theory]
+    [InlineData(FlagsAt, 4)]
+    [InlineData(FlagsAt, 0x80)]
+    [InlineData(VerdictAt, 6)]
+    [InlineData(KindAt, (byte)EventKind.None)]
+    [InlineData(KindAt, (byte)EventKind.Grab)]
+    [InlineData(KindAt, (byte)EventKind.HoldKnot)]
+    [InlineData(KindAt, (byte)EventKind.Release)]
+    [InlineData(KindAt, (byte)EventKind.Impact)]
+    [InlineData(KindAt, 255)]
+    [InlineData(FlightAt, (byte)MotionLaw.Absent)]
+    [InlineData(FlightAt, (byte)MotionLaw.Resting)]
+    [InlineData(AccelerationAt, 1)]
+    [InlineData(CountAt, UpdateDatagram.MaxEntries + 1)]
+    public void TryDecode_ByteOutOfRange_IsRefused(int at, byte value)
+    {
+        byte[] bytes = WithOneSpawn();
+        bytes[at] = value;
+        AssertRefused(bytes);
+    }
+
+    [Theory]
+    [InlineData(long.MinValue)]
+    [InlineData(long.MaxValue)]
+    [InlineData(WireFormat.MaxTimeTicks + 1)]
+    [InlineData(-WireFormat.MaxTimeTicks - 1)]
+    public void TryDecode_EventTimeOutOfRange_IsRefused(long ticks) => AssertBad(TimeAt, ticks);
+
+    [Fact]
+    public void TryDecode_HalfAnEcho_IsRefused() => AssertBad(EchoSentAt, 5);
+
+    [Fact]
+    public void TryDecode_SequenceZero_IsRefused()
+    {
+        byte[] bytes = WithOneSpawn();
+        bytes.AsSpan(SequenceAt, 4).Clear();
+        AssertRefused(bytes);
+    }
+
+    [Fact]
+    public void TryDecode_IndicesPastTheLast_IsRefused()
+    {
+        UpdateDatagram update = new();
+        update.TryAdd(Verdict.Accepted, ExternalEvent.Remove(default, 1, 1, default));
+        update.TryAdd(Verdict.Accepted, ExternalEvent.Remove(default, 1, 2, default));
+        byte[] bytes = AnyDatagram.Bytes(update.Encode);
+        BinaryPrimitives.WriteUInt32LittleEndian(bytes.AsSpan(FirstIndexAt), uint.MaxValue);
+        AssertRefused(bytes);
+
+        update.FirstIndex = uint.MaxValue;
+        Assert.Throws<InvalidOperationException>(() => AnyDatagram.Bytes(update.Encode));
+    }
+
+    [Fact]
+    public void TryDecode_NegativeZero_BecomesZero()
+    {
+        byte[] bytes = WithOneSpawn();
+        BinaryPrimitives.WriteInt64LittleEndian(bytes.AsSpan(PositionAt), BitConverter.DoubleToInt64Bits(-0.0));
+        UpdateDatagram update = new();
+
+        Assert.True(update.TryDecode(bytes, out _));
+        Assert.Equal(0L, BitConverter.DoubleToInt64Bits(update.Entries[0].Event.Position.X));
+    }
+
+    [Fact]
+    public void TryReadType_ForeignBytes_SaysWhatIsWrong()
+    {
+        AssertHeader(WireRefusal.TooShort, 0x53, 0x4C, 1);
+        AssertHeader(WireRefusal.NotLagSim, 0x4C, 0x53, 1, 1);
+        AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, 2, 1);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 1, 0);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 1, 6);
+        AssertHeader(WireRefusal.None, 0x53, 0x4C, 1, 5);
+    }
+
+    [Fact]
+    public void TryDecode_AnotherType_IsRefusedAsSuch()
+    {
+        Assert.False(JoinDatagram.TryDecode(WithOneSpawn(), out _, out WireRefusal refusal));
+        Assert.Equal(WireRefusal.OtherType, refusal);
+    }
+
+    [Fact]
+    public void TryDecode_FixedDatagramsOutOfRange_AreRefused()
+    {
+        byte[] welcome = AnyDatagram.Bytes(new WelcomeDatagram(1, 2, 3, SimDuration.OneTick).Encode);
+        welcome[20] = 0;
+        AssertRefused(welcome);
+        welcome[20] = 3;
+        welcome[21] = 0;
+        AssertRefused(welcome);
+        foreach (byte reason in new byte[] { 0, 5, 255 })
+        {
+            byte[] answer = AnyDatagram.Bytes(new RefusalDatagram(1, RefusalReason.Full).Encode);
+            answer[^1] = reason;
+            AssertRefused(answer);
+            byte[] leave = AnyDatagram.Bytes(new LeaveDatagram(1, 2, LeaveReason.Left).Encode);
+            leave[^1] = reason;
+            AssertRefused(leave);
+        }
+    }
+
+    [Fact]
+    public void Encode_FieldOutOfRange_Throws()
+    {
+        Assert.Throws<InvalidOperationException>(() => AnyDatagram.Bytes(default(WelcomeDatagram).Encode));
+        Assert.Throws<InvalidOperationException>(() => AnyDatagram.Bytes(default(RefusalDatagram).Encode));
+        Assert.Throws<InvalidOperationException>(() => AnyDatagram.Bytes(default(LeaveDatagram).Encode));
+        Assert.Throws<ArgumentException>(() => AnyDatagram.Bytes(new UpdateDatagram { Sent = SimTime.MaxValue }.Encode));
+        Assert.Throws<ArgumentException>(() => AnyDatagram.Bytes(new UpdateDatagram { EchoSent = SimTime.Zero }.Encode));
+        Assert.Throws<ArgumentException>(() => new UpdateDatagram().Encode(new byte[WireFormat.EmptyUpdateBytes - 1]));
+    }
+
+    [Fact]
+    public void TryAdd_NotWellFormed_Throws()
+    {
+        UpdateDatagram update = new();
+        Assert.Throws<ArgumentException>(() => update.TryAdd(Verdict.Pending, default));
+        Assert.Throws<ArgumentException>(() => update.TryAdd(Verdict.Pending, ExternalEvent.Remove(default, 1, 0, default)));
+        Assert.Throws<ArgumentException>(() => update.TryAdd(Verdict.Pending, ExternalEvent.Remove(SimTime.MaxValue, 1, 1, default)));
+        Assert.Throws<ArgumentException>(
+            () => update.TryAdd(Verdict.Pending, ExternalEvent.Impulse(default, 1, 1, default, new Vector3D(0, double.NaN, 0))));
+        Assert.Throws<ArgumentException>(() => update.TryAdd(Verdict.Pending, ExternalEvent.Spawn(default, 1, 1, default, default)));
+        Assert.Throws<ArgumentException>(() => update.TryAdd((Verdict)6, ExternalEvent.Remove(default, 1, 1, default)));
+        Assert.Equal(0, update.Entries.Length);
+    }
+
+    [Fact]
+    public void TryAdd_UntilFull_FitsWithAStateHashAdded()
+    {
+        UpdateDatagram removals = new(), spawns = new();
+        uint sequence = 1;
+        while (removals.TryAdd(Verdict.Pending, ExternalEvent.Remove(default, 1, sequence, default)))
+        {
+            sequence++;
+        }
+
+        while (spawns.TryAdd(Verdict.Pending, ExternalEvent.Spawn(default, 1, sequence, Ball, default)))
+        {
+            sequence++;
+        }
+
+        removals.HasStateHash = spawns.HasStateHash = true;
+        Assert.Equal(48, removals.Entries.Length);
+        Assert.Equal(11, spawns.Entries.Length);
+        Assert.Equal(removals.EncodedLength, AnyDatagram.Bytes(removals.Encode).Length);
+        Assert.Equal(spawns.EncodedLength, AnyDatagram.Bytes(spawns.Encode).Length);
+        Assert.InRange(removals.EncodedLength, 1, WireFormat.MaxBytes);
+    }
+
+    private static byte[] WithOneSpawn()
+    {
+        UpdateDatagram update = new();
+        update.TryAdd(Verdict.Pending, ExternalEvent.Spawn(SimTime.Zero, 1, 1, Ball, default));
+        return AnyDatagram.Bytes(update.Encode);
+    }
+
+    private static void AssertBad(int at, long bits)
+    {
+        byte[] bytes = WithOneSpawn();
+        BinaryPrimitives.WriteInt64LittleEndian(bytes.AsSpan(at), bits);
+        AssertRefused(bytes);
+    }
+
+    private static void AssertRefused(byte[] bytes)
+    {
+        Assert.Null(AnyDatagram.Again(bytes, new UpdateDatagram(), out WireRefusal refusal));
+        Assert.Equal(WireRefusal.BadValue, refusal);
+    }
+
+    private static void AssertHeader(WireRefusal expected, params byte[] bytes)
+    {
+        WireFormat.TryReadType(bytes, out _, out WireRefusal refusal);
+        Assert.Equal(expected, refusal);
+    }
+}

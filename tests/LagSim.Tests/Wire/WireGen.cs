@@ -1,0 +1,133 @@
+using System;
+using FsCheck;
+using FsCheck.Fluent;
+using LagSim.Events;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Tests.Wire;
+
+/// <summary>Generators of everything that can travel, over its whole range, edges included.</summary>
+internal static class WireGen
+{
+    internal static readonly Config Config = Config.QuickThrowOnFailure.WithMaxTest(500).WithReplay(20261121, 1);
+
+    internal static readonly Gen<byte> Byte = Gen.Choose(0, 255).Select(value => (byte)value);
+
+    internal static readonly Gen<ulong> Bits64 =
+        from high in Gen.Choose(int.MinValue, int.MaxValue)
+        from low in Gen.Choose(int.MinValue, int.MaxValue)
+        select ((ulong)(uint)high << 32) | (uint)low;
+
+    internal static readonly Gen<uint> Bits32 =
+        Gen.OneOf(Gen.Elements(0u, 1u, uint.MaxValue), Bits64.Select(bits => (uint)bits));
+
+    internal static readonly Gen<SimTime> Time = Gen.OneOf(
+        Gen.Elements(0L, 1L, -1L, WireFormat.MaxTimeTicks, -WireFormat.MaxTimeTicks).Select(SimTime.FromTicks),
+        Bits64.Select(bits => SimTime.FromTicks((long)bits >> 2 == long.MinValue >> 2 ? 0 : (long)bits >> 2)));
+
+    internal static readonly Gen<SimTime> OptionalTime = Gen.OneOf(Gen.Constant(SimTime.MinValue), Time);
+
+    /// <summary>Finite and not -0.0, which does not survive travel.</summary>
+    internal static readonly Gen<double> Number = Gen.OneOf(
+        Gen.Elements(0.0, 1.0, -9.81, double.MaxValue, double.MinValue, double.Epsilon),
+        Bits64.Select(bits => BitConverter.UInt64BitsToDouble(bits)).Where(double.IsFinite).Select(value => value + 0.0));
+
+    internal static readonly Gen<Vector3D> Vector = from x in Number from y in Number from z in Number select new Vector3D(x, y, z);
+
+    internal static readonly Gen<BodySpec> Spec =
+        from radius in Gen.OneOf(Gen.Elements(1e-9, 0.5, 1e9), Gen.Choose(1, 1000000).Select(n => n * 1e-3))
+        from mass in Gen.OneOf(Gen.Elements(1e-30, 1.0, 1e30), Gen.Choose(1, 1000000).Select(n => n * 1e-3))
+        from restitution in Gen.Choose(0, 1000).Select(n => n / 1000.0)
+        from flight in Gen.Elements(MotionLaw.Ballistic, MotionLaw.RungeKutta4)
+        from step in Gen.OneOf(
+            Gen.Elements(EventFormat.MinStep, EventFormat.MaxStep), Gen.Choose(2, 999999).Select(n => SimDuration.FromSeconds(n * 1e-6)))
+        from acceleration in Byte
+        select new BodySpec(radius, mass, restitution, flight, step, flight == MotionLaw.Ballistic ? (byte)0 : acceleration);
+
+    internal static readonly Gen<ExternalEvent> Event =
+        from kind in Gen.Elements(EventKind.Spawn, EventKind.Remove, EventKind.Teleport, EventKind.SetVelocity, EventKind.Impulse)
+        from time in Time
+        from peer in Byte
+        from sequence in Bits32.Select(value => Math.Max(1, value))
+        from body in Bits64.Select(BodyId.FromPacked)
+        from spec in Spec
+        from position in Vector
+        from velocity in Vector
+        select kind switch
+        {
+            EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity),
+            EventKind.Remove => ExternalEvent.Remove(time, peer, sequence, body),
+            EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity),
+            EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),
+            _ => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
+        };
+
+    internal static readonly Gen<JoinDatagram> Join =
+        from key in Bits64 from nonce in Bits64 from scene in Bits64 select new JoinDatagram(key, nonce, scene);
+
+    internal static readonly Gen<WelcomeDatagram> Welcome =
+        from nonce in Bits64
+        from session in Bits64
+        from peer in Gen.Choose(1, 255)
+        from history in Gen.OneOf(Gen.Elements(1L, WireFormat.MaxTimeTicks), Bits64.Select(bits => (long)(bits >> 2)).Where(t => t > 0))
+        select new WelcomeDatagram(nonce, session, (byte)peer, SimDuration.FromTicks(history));
+
+    internal static readonly Gen<RefusalDatagram> Refusal =
+        from nonce in Bits64 from reason in Gen.Choose(1, 4) select new RefusalDatagram(nonce, (RefusalReason)reason);
+
+    internal static readonly Gen<LeaveDatagram> Leave =
+        from session in Bits64 from peer in Byte from reason in Gen.Choose(1, 3) select new LeaveDatagram(session, peer, (LeaveReason)reason);
+
+    internal static readonly Gen<UpdateDatagram> Update =
+        from session in Bits64
+        from peer in Byte
+        from number in Bits32
+        from sent in Time
+        from echoSent in OptionalTime
+        from echoReceived in Time
+        from start in OptionalTime
+        from watermark in OptionalTime
+        from received in Bits32
+        from flags in Gen.Choose(0, 3)
+        from hashTime in Time
+        from hash in Bits64
+        from first in Bits32.Select(value => Math.Min(value, uint.MaxValue - UpdateDatagram.MaxEntries))
+        from count in Gen.Choose(0, 60)
+        from events in Gen.ArrayOf(Event, count)
+        from verdict in Gen.Choose(0, 5)
+        select Fill(
+            new UpdateDatagram
+            {
+                SessionId = session,
+                Peer = peer,
+                Number = number,
+                Sent = sent,
+                EchoSent = echoSent,
+                EchoReceived = echoSent == SimTime.MinValue ? SimTime.MinValue : echoReceived,
+                Start = start,
+                Watermark = watermark,
+                EventsReceived = received,
+                Ready = (flags & 2) != 0,
+                HasStateHash = (flags & 1) != 0,
+                HashTime = (flags & 1) != 0 ? hashTime : SimTime.Zero,
+                StateHash = (flags & 1) != 0 ? hash : 0,
+                FirstIndex = first,
+            },
+            events,
+            (Verdict)verdict);
+
+    private static UpdateDatagram Fill(UpdateDatagram update, ExternalEvent[] events, Verdict verdict)
+    {
+        foreach (ExternalEvent what in events)
+        {
+            if (!update.TryAdd(verdict, what))
+            {
+                break;
+            }
+        }
+
+        return update;
+    }
+}
