@@ -1,0 +1,147 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+
+namespace LagSim.Harness.Charts;
+
+/// <summary>Where the texts of a panel go, so that none covers data or another text. Places are pixels from the panel's plot corner.</summary>
+internal sealed class PanelLayout
+{
+    internal const double RowHeight = 18.0;
+    internal const double SwatchWidth = 30.0;
+    private const double MarkerRowHeight = 15.0;
+    private const int MostMarkerRows = 4;
+    private const int ReferenceColumns = 24;
+    private readonly List<LegendEntry> _legend = [];
+    private readonly List<MarkerLabel> _markerLabels = [];
+    private readonly List<ReferenceLabel> _referenceLabels = [];
+    private int _legendRows = 1;
+    private int _markerRows;
+
+    public PanelLayout(ChartPanel panel, Axis x, Axis y)
+    {
+        Panel = panel;
+        X = x;
+        Y = y;
+        PlaceLegend();
+        PlaceMarkerLabels();
+        PlaceReferenceLabels();
+    }
+
+    internal readonly record struct LegendEntry(double X, int Row, string Text, ChartSeries? Series, ChartMarker? Marker, int Slot);
+
+    internal readonly record struct MarkerLabel(double X, double Y, string Text, bool ToTheLeft);
+
+    internal readonly record struct ReferenceLabel(double Y, string[] Lines);
+
+    public ChartPanel Panel { get; }
+
+    public Axis X { get; }
+
+    public Axis Y { get; }
+
+    public IReadOnlyList<LegendEntry> Legend => _legend;
+
+    public IReadOnlyList<MarkerLabel> MarkerLabels => _markerLabels;
+
+    public IReadOnlyList<ReferenceLabel> ReferenceLabels => _referenceLabels;
+
+    /// <summary>The strip above the plot that holds the labels of vertical lines.</summary>
+    public double MarkerStrip => _markerRows * MarkerRowHeight;
+
+    /// <summary>All that is above the plot: title, legend, marker labels.</summary>
+    public double HeaderHeight => (_legendRows * RowHeight) + MarkerStrip + 8.0;
+
+    /// <summary>Space right of the plot that these labels need.</summary>
+    public static double ReferenceWidth(ChartPanel panel) => panel.ReferenceLines.Count == 0
+        ? 0.0
+        : 8.0 + panel.ReferenceLines.SelectMany(line => Wrap(line.Label)).Max(SvgElements.TextWidth);
+
+    private void PlaceLegend()
+    {
+        double at = (SvgElements.TextWidth(Panel.Title) * 1.12) + 22.0; // the title is larger and bold
+        IEnumerable<(string Text, ChartSeries? Series, ChartMarker? Marker, int Slot)> entries = Panel.Series
+            .Select((series, i) => (series.Name, (ChartSeries?)series, (ChartMarker?)null, series.Colour ?? i))
+            .Concat(Panel.Markers.Where(m => m.Kind == MarkerKind.Tick).DistinctBy(m => (m.Label, m.Colour))
+                .Select(m => (m.Label, (ChartSeries?)null, (ChartMarker?)m, m.Colour ?? 0)));
+        foreach ((string text, ChartSeries? series, ChartMarker? marker, int slot) in entries)
+        {
+            double width = SwatchWidth + SvgElements.TextWidth(text);
+            if (at > 0.0 && at + width > X.Length)
+            {
+                (at, _legendRows) = (0.0, _legendRows + 1);
+            }
+
+            _legend.Add(new LegendEntry(at, _legendRows - 1, text, series, marker, slot));
+            at += width + 14.0;
+        }
+    }
+
+    private void PlaceMarkerLabels()
+    {
+        List<(double From, double To, int Row)> taken = [];
+        List<(MarkerLabel Label, int Row)> placed = [];
+        foreach (ChartMarker marker in Panel.Markers.Where(m => m.Kind == MarkerKind.Line).OrderBy(m => m.X))
+        {
+            double x = X.Map(marker.X), width = SvgElements.TextWidth(marker.Label) + 6.0;
+            bool left = x + width > X.Length;
+            (double from, double to) = left ? (x - width, x) : (x, x + width);
+            int row = 0;
+            while (row < MostMarkerRows && taken.Any(t => t.Row == row && from < t.To && to > t.From))
+            {
+                row++;
+            }
+
+            if (row == MostMarkerRows)
+            {
+                continue; // too many at one place; the line's tooltip still names it
+            }
+
+            taken.Add((from, to, row));
+            placed.Add((new MarkerLabel(x, 0.0, marker.Label, left), row));
+            _markerRows = Math.Max(_markerRows, row + 1);
+        }
+
+        // Row 0 is next to the plot; rows above it only where labels would collide.
+        _markerLabels.AddRange(placed.Select(p => p.Label with { Y = -5.0 - (p.Row * MarkerRowHeight) }));
+    }
+
+    private void PlaceReferenceLabels()
+    {
+        _referenceLabels.AddRange(Panel.ReferenceLines.OrderByDescending(line => line.Y)
+            .Select(line => new ReferenceLabel(Y.Length - Y.Map(line.Y), Wrap(line.Label))));
+
+        // Labels of neighbouring lines push each other apart until all can be read.
+        for (int pass = 0; pass < 50; pass++)
+        {
+            for (int i = 1; i < _referenceLabels.Count; i++)
+            {
+                (ReferenceLabel upper, ReferenceLabel lower) = (_referenceLabels[i - 1], _referenceLabels[i]);
+                double overlap = upper.Y + (7.0 * (upper.Lines.Length + lower.Lines.Length)) + 3.0 - lower.Y;
+                if (overlap > 0.0)
+                {
+                    _referenceLabels[i - 1] = upper with { Y = upper.Y - (0.5 * overlap) };
+                    _referenceLabels[i] = lower with { Y = lower.Y + (0.5 * overlap) };
+                }
+            }
+        }
+    }
+
+    private static string[] Wrap(string text)
+    {
+        List<string> lines = [];
+        foreach (string word in text.Split(' ', StringSplitOptions.RemoveEmptyEntries))
+        {
+            if (lines.Count > 0 && lines[^1].Length + 1 + word.Length <= ReferenceColumns)
+            {
+                lines[^1] += " " + word;
+            }
+            else
+            {
+                lines.Add(word);
+            }
+        }
+
+        return lines.Count == 0 ? [text] : lines.ToArray();
+    }
+}

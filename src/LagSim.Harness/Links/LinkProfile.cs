@@ -1,0 +1,55 @@
+using System;
+using LagSim.Time;
+
+namespace LagSim.Harness.Links;
+
+/// <summary>A named kind of connection between a player and the host: what it does each way, and how far the two clocks are apart.</summary>
+/// <remarks>Immutable, safe on any thread. <see cref="LinkProfiles"/> has those that the project reports on.</remarks>
+public sealed class LinkProfile
+{
+    /// <summary>A profile that is the same both ways.</summary>
+    /// <param name="name">Not empty; what a command line says.</param>
+    /// <param name="bothWays">What each direction does.</param>
+    /// <param name="receiverClockOffset">See <see cref="ReceiverClockOffset"/>.</param>
+    /// <exception cref="ArgumentException"><paramref name="name"/> is empty.</exception>
+    public LinkProfile(string name, LinkLeg bothWays, SimDuration receiverClockOffset = default)
+        : this(name, bothWays, bothWays, receiverClockOffset)
+    {
+    }
+
+    /// <summary>A profile with its own values for each direction.</summary>
+    /// <param name="name">Not empty; what a command line says.</param>
+    /// <param name="toHost">What happens on the way up, from a player to the host.</param>
+    /// <param name="fromHost">What happens on the way down, from the host to a player.</param>
+    /// <param name="receiverClockOffset">See <see cref="ReceiverClockOffset"/>.</param>
+    /// <exception cref="ArgumentException"><paramref name="name"/> is empty.</exception>
+    public LinkProfile(string name, LinkLeg toHost, LinkLeg fromHost, SimDuration receiverClockOffset = default)
+    {
+        ArgumentException.ThrowIfNullOrEmpty(name);
+        ArgumentNullException.ThrowIfNull(toHost);
+        ArgumentNullException.ThrowIfNull(fromHost);
+        Name = name;
+        ToHost = toHost;
+        FromHost = fromHost;
+        ReceiverClockOffset = receiverClockOffset;
+    }
+
+    /// <summary>What a command line and a report call it.</summary>
+    public string Name { get; }
+
+    /// <summary>The way up, from a player to the host.</summary>
+    public LinkLeg ToHost { get; }
+
+    /// <summary>The way down, from the host to a player.</summary>
+    public LinkLeg FromHost { get; }
+
+    /// <summary>How far the receiver's clock is ahead of the sender's. The link does nothing with it: who sets up the machines gives one a
+    /// <see cref="SkewedClock"/> that far off.</summary>
+    public SimDuration ReceiverClockOffset { get; }
+
+    /// <summary>The mean round trip in milliseconds, without jitter.</summary>
+    public double RoundTripMilliseconds => ToHost.DelayMilliseconds + FromHost.DelayMilliseconds;
+
+    /// <summary>The name.</summary>
+    public override string ToString() => Name;
+}
