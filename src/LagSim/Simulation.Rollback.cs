@@ -14,7 +14,7 @@ public sealed partial class Simulation
     private void Rollback(in EventKey key)
     {
         Rollbacks++;
-        EventKey cut = CutsByTime ? EventKey.Before(key.Time) : key;
+        EventKey cut = CutsByTime ? new EventKey(key.Time, 0, EventKind.Spawn, default, default, 0, 0) : key;
         for (int slot = 0; slot < BodyCount; slot++)
         {
             SegmentsCut += timelines.CutFrom(slot, bodies[slot].Id, cut);

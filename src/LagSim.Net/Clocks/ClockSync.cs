@@ -5,8 +5,9 @@ namespace LagSim.Net.Clocks;
 
 /// <summary>How far another peer's clock is ahead of one's own, from the four times of each exchange, as NTP does it.</summary>
 /// <remarks>
-/// <para>Of the last <see cref="WindowSamples"/> exchanges the one with the shortest round trip counts: what waited least in queues says most.
-/// Drift between the two clocks is not modelled; it moves the estimate as the window moves on.</para>
+/// <para>Of the last <see cref="WindowSamples"/> exchanges the one with the least bound on its error counts: half its round trip, for what
+/// waited least in queues says most, and what two clocks may have drifted apart since, <see cref="DriftShare"/> of its age, as in NTP's
+/// dispersion. The drift itself is not fitted.</para>
 /// <para>A path that is slower one way than the other cannot be seen from two clocks. It shifts the offset by half the difference, never by
 /// more than <see cref="ErrorBound"/>.</para>
 /// <para>For one thread at a time. Integers only, no allocation after construction.</para>
@@ -18,6 +19,9 @@ public sealed class ClockSync
 
     /// <summary>An exchange that took longer than this, waiting at the other peer included, says nothing worth having.</summary>
     public static readonly SimDuration MaxExchange = SimDuration.FromSeconds(60);
+
+    /// <summary>One part in this many is what two clocks are allowed to drift apart: 50 millionths.</summary>
+    public const int DriftShare = 20_000;
 
     // Readings beyond a quarter of the range of a time, 24 days, are refused: no difference of two offsets can overflow.
     private const long MaxReading = 1L << 61;
@@ -83,11 +87,11 @@ public sealed class ClockSync
         }
 
         // ((t1-t0)+(t2-t3))/2, written so that no sum of two large clock differences arises.
-        Sample sample = new(otherSend - ownReceive + (roundTrip / 2), roundTrip);
+        Sample sample = new(otherSend - ownReceive + (roundTrip / 2), roundTrip, ownReceive);
         window[next] = sample;
         next = (next + 1) % WindowSamples;
         SampleCount += SampleCount < int.MaxValue ? 1 : 0;
-        ChooseBest();
+        ChooseBest(ownReceive);
         return true;
     }
 
@@ -99,29 +103,35 @@ public sealed class ClockSync
         return false;
     }
 
-    private void ChooseBest()
+    private void ChooseBest(SimTime now)
     {
-        // From the oldest to the newest, so that of equals the newest counts: it knows most about drift.
+        // From the oldest to the newest, so that of equals the newest counts.
         int samples = Math.Min(SampleCount, WindowSamples);
         int oldest = next + WindowSamples - samples;
         best = window[oldest % WindowSamples];
         for (int i = 1; i < samples; i++)
         {
             Sample sample = window[(oldest + i) % WindowSamples];
-            best = sample.RoundTrip <= best.RoundTrip ? sample : best;
+            best = sample.BoundAt(now) <= best.BoundAt(now) ? sample : best;
         }
     }
 
     private readonly struct Sample
     {
-        public Sample(SimDuration offset, SimDuration roundTrip)
+        public Sample(SimDuration offset, SimDuration roundTrip, SimTime taken)
         {
             Offset = offset;
             RoundTrip = roundTrip;
+            Taken = taken;
         }
 
         public SimDuration Offset { get; }
 
         public SimDuration RoundTrip { get; }
+
+        private SimTime Taken { get; }
+
+        /// <summary>How wrong the offset may be by now.</summary>
+        public SimDuration BoundAt(SimTime now) => (RoundTrip / 2) + ((now - Taken) / DriftShare);
     }
 }

@@ -91,7 +91,11 @@ public abstract class Session
                 due = SimTime.Min(due, now + (worldDue - shared));
             }
 
-            State = shared >= World.Simulation.Start ? SessionState.Running : State;
+            BeginRunning(shared);
+            if (State != SessionState.Running)
+            {
+                due = SimTime.Min(due, now + (World.Simulation.Start - shared));
+            }
         }
 
         return due == SimTime.MaxValue ? SimDuration.MaxValue : due - now;
@@ -103,6 +107,11 @@ public abstract class Session
     /// <exception cref="SceneException">A value may not enter the world; nothing happened.</exception>
     public ExternalEvent Do(in PlayerAction action)
     {
+        if (State != SessionState.Ended && SharedTime.IsSet)
+        {
+            BeginRunning(SharedTime.Now);
+        }
+
         if (State != SessionState.Running || World is null)
         {
             throw new InvalidOperationException($"Nothing can be done while the session is {State}; wait until it is Running.");
@@ -163,6 +172,7 @@ public abstract class Session
 
         SimTime now = SharedTime.Now;
         Counters.AddLateness(now - external.Time);
+        World.Advance(now); // what was shown up to now is simulated, so what changes it counts as changed
         switch (strategy.Apply(World, external, now))
         {
             case SubmitResult.RolledBack:
@@ -195,6 +205,14 @@ public abstract class Session
     {
         Port.Send(datagram, to);
         Counters.DatagramsSent++;
+    }
+
+    private void BeginRunning(SimTime shared)
+    {
+        if (World is not null && shared >= World.Simulation.Start)
+        {
+            State = SessionState.Running;
+        }
     }
 
     private void Receive(ReadOnlySpan<byte> datagram, PeerAddress from)

@@ -92,12 +92,22 @@ public sealed class LiveWorld
         return Simulation.Retract(external);
     }
 
+    /// <summary>Brings the world ahead of <paramref name="now"/>, without publishing.</summary>
+    public void Advance(SimTime now)
+    {
+        SimTime target = SimTime.Max(now, Simulation.Start) + LookAhead;
+        changed |= Simulation.Horizon < target;
+        if (target > Simulation.SimulatedTo)
+        {
+            Simulation.AdvanceTo(target);
+        }
+    }
+
     /// <summary>Brings the world ahead of <paramref name="now"/> again and publishes it if it changed.</summary>
     /// <returns>When the next step is due if nothing changes before; <see cref="SimTime.MaxValue"/> for a world in which nothing will happen.</returns>
     /// <remarks>Half of the look-ahead may be used up before the next step is due, so a moving world steps about once a frame, one at rest never.</remarks>
     public SimTime Step(SimTime now)
     {
-        SimTime target = SimTime.Max(now, Simulation.Start) + LookAhead;
         if (Simulation.Horizon < now)
         {
             SimDuration late = now - Simulation.Horizon;
@@ -105,13 +115,9 @@ public sealed class LiveWorld
             MaxLateness = late > MaxLateness ? late : MaxLateness;
         }
 
-        if (Simulation.Horizon < target || changed)
+        Advance(now);
+        if (changed)
         {
-            if (target > Simulation.SimulatedTo)
-            {
-                Simulation.AdvanceTo(target);
-            }
-
             SimTime from = SimTime.Max(now, Simulation.Start) - picturePast;
             Pictures.Publish(Simulation, SimTime.Max(from, Simulation.HistoryEdge));
             changed = false;

@@ -1,0 +1,75 @@
+using System;
+using System.CommandLine;
+using System.CommandLine.Parsing;
+using System.Globalization;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary>The options that every command has, and how options are checked.</summary>
+internal sealed class CommonOptions
+{
+    internal Option<ulong> Seed { get; } = new("--seed") { Description = "The luck of links and clocks; the same seed gives the same run.", DefaultValueFactory = _ => 1, HelpName = "N" };
+
+    internal Option<string?> Out { get; } = new("--out") { Description = "A folder for CSV and SVG files and a report.html that shows them.", HelpName = "FOLDER" };
+
+    internal Option<bool> Json { get; } = new("--json") { Description = "Print one JSON document and nothing else on stdout." };
+
+    internal void AddTo(Command command)
+    {
+        command.Options.Add(Seed);
+        command.Options.Add(Out);
+        command.Options.Add(Json);
+    }
+
+    /// <summary>A number option with a range; NaN is in none.</summary>
+    internal static Option<double> Number(string name, string description, double? byDefault, double least, double most)
+    {
+        Option<double> option = new(name)
+        {
+            Description = string.Create(CultureInfo.InvariantCulture, $"{description} ({least} to {most})"),
+            HelpName = "NUMBER",
+            CustomParser = result => ParseNumber(result, name, least, most),
+        };
+        if (byDefault is double value)
+        {
+            option.DefaultValueFactory = _ => value;
+        }
+
+        return option;
+    }
+
+    /// <summary>An option that takes one of some words.</summary>
+    internal static Option<string> Word(string name, string description, string byDefault, params string[] words)
+    {
+        Option<string> option = new(name) { Description = description, DefaultValueFactory = _ => byDefault };
+        option.AcceptOnlyFromAmong(words);
+        return option;
+    }
+
+    /// <summary>An option for a whole number in a range.</summary>
+    internal static Option<int> Whole(string name, string description, int byDefault, int least, int most)
+    {
+        Option<int> option = new(name) { Description = $"{description} ({least} to {most})", DefaultValueFactory = _ => byDefault, HelpName = "N" };
+        option.Validators.Add(result =>
+        {
+            if (result.Tokens.Count == 1 && int.TryParse(result.Tokens[0].Value, NumberStyles.AllowLeadingSign, CultureInfo.InvariantCulture, out int value)
+                && (value < least || value > most))
+            {
+                result.AddError($"{name} is {value}; it must lie between {least} and {most}.");
+            }
+        });
+        return option;
+    }
+
+    private static double ParseNumber(ArgumentResult result, string name, double least, double most)
+    {
+        string text = result.Tokens.Count == 1 ? result.Tokens[0].Value : "";
+        if (double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out double value) && value >= least && value <= most)
+        {
+            return value;
+        }
+
+        result.AddError(FormattableString.Invariant($"{name} is '{text}'; it must be a number between {least} and {most}."));
+        return double.NaN;
+    }
+}

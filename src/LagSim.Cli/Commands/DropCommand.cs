@@ -1,0 +1,121 @@
+using System;
+using System.Collections.Generic;
+using System.CommandLine;
+using System.Linq;
+using LagSim.Cli.Output;
+using LagSim.Harness.Drop;
+using LagSim.Harness.Links;
+using LagSim.Net.Strategies;
+using LagSim.Scenes;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary><c>lagsim drop</c>: the thesis's drop test.</summary>
+internal static class DropCommand
+{
+    private const string All = "all";
+    private const double DefaultDelay = 25;
+
+    internal static Command Create(ToolConsole console)
+    {
+        CommonOptions common = new();
+        Option<string> which = CommonOptions.Word("--case", "Which half of the test: both start equal (Fig 2), or one side lifts its ball (Fig 3).", All, "same-start", "teleport", All);
+        Option<string> strategy = CommonOptions.Word("--strategy", "What a peer does with an event that comes late.", LateEventStrategies.Default, [.. LateEventStrategies.Names, All]);
+        Option<string> motion = CommonOptions.Word("--motion", "How the ball flies: integrated in steps as in the thesis, or in closed form.", "rk4", "rk4", "ballistic");
+        Option<double> rate = CommonOptions.Number("--rate-hz", "Steps a second of rk4", 200, 1, 1e6);
+        Option<double?> delay = new("--delay-ms") { Description = "Delay added one way, without jitter or loss (0 to 2000); default 25. Excludes --profile.", HelpName = "NUMBER" };
+        Option<string?> profile = new("--profile") { Description = $"A link profile: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}.", HelpName = "NAME" };
+        Option<int> peers = CommonOptions.Whole("--peers", "How many peers, the host included", 2, 2, 9);
+        Option<string> time = CommonOptions.Word("--time", "Real time over real sockets, or the same in virtual time, seeded, without waiting.", "real", "real", "virtual");
+        Option<string> transport = CommonOptions.Word("--transport", "What carries datagrams in real time.", "udp", "udp", "litenetlib");
+        Option<double> height = CommonOptions.Number("--height-m", "Where the ball's centre falls from", 10, 0.5, 1e6);
+        Option<double> second = CommonOptions.Number("--second-height-m", "Where it is lifted to", 15, 0.5, 1e6);
+        Option<double> restitution = CommonOptions.Number("--restitution", "Restitution of ball and floor", 0.8, 0, 1);
+
+        Command command = new("drop", "The thesis's drop test: two instances of a world, a ball that falls, and one side that lifts it.")
+        {
+            which, strategy, motion, rate, delay, profile, peers, time, transport, height, second, restitution,
+        };
+        common.AddTo(command);
+        command.SetAction(parsed =>
+        {
+            if (parsed.GetValue(transport) == "litenetlib")
+            {
+                throw new UsageException("--transport litenetlib is not in this build; it comes with the package LagSim.Net.LiteNetLib, built with -p:WithLiteNetLib=true.");
+            }
+
+            LinkProfile link = Link(parsed.GetValue(delay), parsed.GetValue(profile), out double? delayed);
+            string chosen = parsed.GetValue(strategy)!;
+            DropOptions options = new()
+            {
+                Cases = Cases(parsed.GetValue(which)!),
+                Strategy = chosen == All ? LateEventStrategies.Default : chosen,
+                Motion = parsed.GetValue(motion) == "rk4" ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic,
+                RateHertz = parsed.GetValue(rate),
+                Link = link,
+                DelayMilliseconds = delayed,
+                Peers = parsed.GetValue(peers),
+                IsVirtual = parsed.GetValue(time) == "virtual",
+                HeightMetres = parsed.GetValue(height),
+                SecondHeightMetres = parsed.GetValue(second),
+                Restitution = parsed.GetValue(restitution),
+                Seed = parsed.GetValue(common.Seed),
+            };
+            return Run(console, options, chosen == All, parsed.GetValue(common.Out), parsed.GetValue(common.Json));
+        });
+        return command;
+    }
+
+    private static int Run(ToolConsole console, DropOptions options, bool allStrategies, string? folder, bool json)
+    {
+        string title = options.IsVirtual ? "drop, virtual time" : $"drop, {options.Length.ToSeconds():0} s in real time over UDP";
+        IReadOnlyList<DropRun> runs = console.WithProgress(title, options.Length, progress => DropTest.Run(options, progress));
+        List<DropRun> strategies = LateEventStrategies.Names.Select(name => DropTest.Run(Teleport(options, name))[0]).ToList();
+        List<DropRun> reported = [.. runs, .. allStrategies ? strategies : []];
+        if (folder is not null)
+        {
+            DropFiles.Write(folder, runs, strategies);
+        }
+
+        if (json)
+        {
+            DropJson.Write(console.Output, options, reported);
+        }
+        else
+        {
+            DropTables.Write(console, options, runs, strategies, folder);
+        }
+
+        // What promises agreement must agree, in the comparison too.
+        bool disagreed = runs.Concat(strategies).Any(run => LateEventStrategies.Create(run.Options.Strategy).PromisesAgreement && !run.Agrees);
+        return disagreed ? ExitCode.CheckFailed : ExitCode.Done;
+    }
+
+    private static DropOptions Teleport(DropOptions options, string strategy) =>
+        options with { Cases = [DropCase.Teleport], Strategy = strategy, IsVirtual = true };
+
+    private static IReadOnlyList<DropCase> Cases(string which) => which switch
+    {
+        "same-start" => [DropCase.SameStart],
+        "teleport" => [DropCase.Teleport],
+        _ => [DropCase.SameStart, DropCase.Teleport],
+    };
+
+    private static LinkProfile Link(double? delay, string? profile, out double? delayed)
+    {
+        if (delay is not null && profile is not null)
+        {
+            throw new UsageException("--delay-ms and --profile exclude each other: a profile has its own delay.");
+        }
+
+        delayed = profile is null ? delay ?? DefaultDelay : null;
+        if (profile is null)
+        {
+            return delayed is >= 0 and <= 2000
+                ? LinkProfiles.PureDelay(delayed.Value)
+                : throw new UsageException(FormattableString.Invariant($"--delay-ms is {delayed}; it must lie between 0 and 2000."));
+        }
+
+        return LinkProfiles.TryGet(profile, out LinkProfile? found, out string? error) ? found : throw new UsageException(error);
+    }
+}

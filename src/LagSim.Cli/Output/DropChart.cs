@@ -1,0 +1,70 @@
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Harness.Charts;
+using LagSim.Harness.Drop;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>The pictures of a drop test: height against time, and the error below it.</summary>
+internal static class DropChart
+{
+    private const double ErrorFloor = 1e-12;
+
+    internal static LineChart Of(DropRun run)
+    {
+        DropTrace trace = run.Trace;
+        List<ChartMarker> markers = trace.Impacts.Select(at => new ChartMarker(at, "impact", MarkerKind.Tick)).ToList();
+        List<ChartMarker> lift = [];
+        if (trace.Lift is double lifted && trace.Dealt is double dealt)
+        {
+            lift.Add(new ChartMarker(lifted, "lifted here"));
+            lift.Add(new ChartMarker(dealt, "known to all"));
+        }
+
+        ChartSeries[] heights = trace.Heights
+            .Select((h, peer) => new ChartSeries(peer == 0 ? "host" : $"joiner {peer}", trace.Seconds, h, peer == 0 ? SeriesStyle.Line : SeriesStyle.Dashed, peer))
+            .ToArray();
+        ChartSeries[] errors =
+        [
+            new("as seen", trace.Seconds, trace.SeenError, SeriesStyle.Line, 2),
+            new("as seen, at the same true time", trace.Seconds, trace.SeenTrueTimeError, SeriesStyle.Line, 3),
+            new("as settled", trace.Seconds, trace.SettledError, SeriesStyle.Dashed, 4),
+        ];
+        ReferenceLine[] thesis = run.Case == DropCase.Teleport
+            ? [new ReferenceLine(ThesisFigures.TeleportRms, "thesis, rms 0.029 m")]
+            : [];
+        return new LineChart(
+            $"Drop test, {DropNames.Case(run.Case)}, {run.Options.Strategy}",
+            "Height of the ball at each peer against shared time, and below it how far apart the peers were.",
+            [
+                new ChartPanel("Height of the ball's centre, as seen", "height (m)", heights) { Markers = [.. markers, .. lift], PlotHeight = 260 },
+                new ChartPanel("Distance between the peers", "error (m)", errors)
+                {
+                    Scale = ChartScale.Log10, LogFloor = ErrorFloor, ReferenceLines = thesis, Markers = lift,
+                },
+            ])
+        {
+            XLabel = "shared time since the start of the scene (s)",
+        };
+    }
+
+    internal static LineChart OfStrategies(IReadOnlyList<DropRun> runs)
+    {
+        ChartSeries[] errors = runs
+            .Select((run, n) => new ChartSeries(run.Options.Strategy, run.Trace.Seconds, run.Trace.SeenError, SeriesStyle.Line, n))
+            .ToArray();
+        return new LineChart(
+            "Drop test, teleport: every strategy",
+            "How far apart the peers were, as seen, with each strategy for late events.",
+            [
+                new ChartPanel("Distance between the peers, as seen", "error (m)", errors)
+                {
+                    Scale = ChartScale.Log10, LogFloor = ErrorFloor, PlotHeight = 260,
+                    ReferenceLines = [new ReferenceLine(ThesisFigures.TeleportRms, "thesis, rms 0.029 m")],
+                },
+            ])
+        {
+            XLabel = "shared time since the start of the scene (s)",
+        };
+    }
+}

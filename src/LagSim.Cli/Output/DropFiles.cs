@@ -1,0 +1,103 @@
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using LagSim.Harness.Charts;
+using LagSim.Harness.Drop;
+using LagSim.Harness.Metrics;
+using LagSim.Harness.Reports;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>A drop test as files: a CSV and an SVG a case, one CSV of all strategies, and a page that shows them.</summary>
+internal static class DropFiles
+{
+    internal static void Write(string folder, IReadOnlyList<DropRun> runs, IReadOnlyList<DropRun> strategies)
+    {
+        Directory.CreateDirectory(folder);
+        DropOptions options = runs[0].Options;
+        HtmlReport report = new(
+            "LagSim drop test",
+            $"{options.Peers} peers in {DropNames.Time(options)} time, strategy {options.Strategy}, motion {DropNames.Motion(options.Motion)}, link {options.Link.Name}.",
+            new ReportFooter("lagsim", ToolVersion.Text, (long)options.Seed, JsonDocumentWriter.Hash(runs[0].SceneHash)));
+        foreach (DropRun run in runs)
+        {
+            string name = DropNames.Case(run.Case);
+            LineChart chart = DropChart.Of(run);
+            chart.Save(Path.Combine(folder, $"drop-{name}.svg"));
+            Samples(Path.Combine(folder, $"drop-{name}.csv"), run);
+            report.AddHeading(name).AddChart(chart).AddTable(Errors(run));
+        }
+
+        LineChart compared = DropChart.OfStrategies(strategies);
+        compared.Save(Path.Combine(folder, "drop-strategies.svg"));
+        StrategySamples(Path.Combine(folder, "drop-strategies.csv"), strategies);
+        report.AddHeading("Every strategy on the teleport case, in virtual time").AddChart(compared).AddTable(StrategyErrors(strategies));
+        report.Save(Path.Combine(folder, "report.html"));
+    }
+
+    private static void Samples(string path, DropRun run)
+    {
+        int peers = run.Trace.Heights.Length;
+        string[] header =
+        [
+            "time_s",
+            .. Enumerable.Range(0, peers).Select(p => $"seen_height_{p}_m"),
+            .. Enumerable.Range(0, peers).Select(p => $"settled_height_{p}_m"),
+            "seen_error_m", "seen_true_time_error_m", "settled_error_m",
+        ];
+        using StreamWriter file = new(path);
+        CsvFile csv = new(file, header);
+        for (int n = 0; n < run.Trace.Seconds.Length; n++)
+        {
+            csv.WriteRow(
+            [
+                run.Trace.Seconds[n],
+                .. run.Trace.Heights.Select(h => (object?)h[n]),
+                .. run.Trace.SettledHeights.Select(h => (object?)h[n]),
+                run.Trace.SeenError[n], run.Trace.SeenTrueTimeError[n], run.Trace.SettledError[n],
+            ]);
+        }
+    }
+
+    private static void StrategySamples(string path, IReadOnlyList<DropRun> runs)
+    {
+        using StreamWriter file = new(path);
+        CsvFile csv = new(file, "strategy", "time_s", "seen_error_m", "settled_error_m");
+        foreach (DropRun run in runs)
+        {
+            for (int n = 0; n < run.Trace.Seconds.Length; n++)
+            {
+                csv.WriteRow(run.Options.Strategy, run.Trace.Seconds[n], run.Trace.SeenError[n], run.Trace.SettledError[n]);
+            }
+        }
+    }
+
+    private static ReportTable Errors(DropRun run)
+    {
+        List<IReadOnlyList<string>> rows = [];
+        foreach ((string compared, PhaseErrors errors) in new[] { ("seen", run.Seen), ("seen, true time", run.SeenTrueTime), ("settled", run.Settled) })
+        {
+            foreach (Phase phase in new[] { Phase.Before, Phase.During, Phase.After })
+            {
+                ErrorStatistics of = errors[phase].ToStatistics();
+                if (of.Samples + of.StalledSamples > 0)
+                {
+                    rows.Add([compared, phase.ToString().ToLowerInvariant(), $"{of.Samples}", NumberText.Short(of.MaxMetres), NumberText.Short(of.MeanMetres),
+                        NumberText.Short(of.RmsMetres), $"{of.DifferingBits}", $"{of.StalledSamples}"]);
+                }
+            }
+        }
+
+        return new ReportTable("Height error between peers, in metres", ["compared", "phase", "samples", "max", "mean", "rms", "differing bits", "stalled"], rows);
+    }
+
+    private static ReportTable StrategyErrors(IReadOnlyList<DropRun> runs) =>
+        new(
+            "Height error in metres",
+            ["strategy", "seen during, max", "seen after, max", "seen after, rms", "settled after, differing bits"],
+            runs.Select(IReadOnlyList<string> (run) =>
+            [
+                run.Options.Strategy, NumberText.Short(run.Seen.During.ToStatistics().MaxMetres), NumberText.Short(run.Seen.After.ToStatistics().MaxMetres),
+                NumberText.Short(run.Seen.After.ToStatistics().RmsMetres), $"{run.Settled.After.ToStatistics().DifferingBits}",
+            ]).ToList());
+}

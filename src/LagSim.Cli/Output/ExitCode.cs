@@ -1,0 +1,15 @@
+namespace LagSim.Cli.Output;
+
+/// <summary>What the tool's exit codes mean; scripts rely on them.</summary>
+internal static class ExitCode
+{
+    internal const int Done = 0;
+
+    /// <summary>A check failed, or a strategy that promises agreement did not agree.</summary>
+    internal const int CheckFailed = 1;
+
+    internal const int Usage = 2;
+
+    /// <summary>Something could not be read, written or reached, or is not valid.</summary>
+    internal const int Input = 3;
+}

@@ -1,0 +1,34 @@
+using System;
+using System.IO;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>Where a command writes a result: a file, or stdout, which stays open.</summary>
+internal sealed class ResultFile : IDisposable
+{
+    internal const string StandardOutput = "-";
+
+    private readonly bool owned;
+
+    private ResultFile(TextWriter writer, bool owned)
+    {
+        Writer = writer;
+        this.owned = owned;
+    }
+
+    internal TextWriter Writer { get; }
+
+    /// <summary>Opens what the option names; null for none.</summary>
+    internal static ResultFile? Open(ToolConsole console, string? name) =>
+        name is null ? null
+        : name == StandardOutput ? new ResultFile(console.Output, owned: false)
+        : new ResultFile(new StreamWriter(name), owned: true);
+
+    public void Dispose()
+    {
+        if (owned)
+        {
+            Writer.Dispose();
+        }
+    }
+}

@@ -1,0 +1,70 @@
+using System.Globalization;
+using System.IO;
+using System.Text.Json;
+using LagSim.Harness.Reports;
+using LagSim.Scenes;
+using Spectre.Console;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>The end of a run, as JSON and as a table.</summary>
+internal static class RunOutput
+{
+    internal static void WriteJson(TextWriter output, Scene scene, RunSummary run, ulong seed) =>
+        JsonDocumentWriter.Write(output, "run", seed, scene.Name, scene.Hash, run.End.StateHash(run.Until), json =>
+        {
+            json.WriteNumber("until_s", run.Until.ToSeconds());
+            json.WriteNumber("events", run.End.EventsProcessed);
+            json.WriteNumber("impacts", run.End.ImpactsProcessed);
+            json.WriteString("event_hash", JsonDocumentWriter.Hash(run.End.EventHash(run.Until)));
+            json.WriteNumber("wall_s", run.WallSeconds);
+            json.WriteStartObject("energy_j");
+            json.WriteNumber("start", run.StartEnergy);
+            json.WriteNumber("end", run.EndEnergy);
+            json.WriteEndObject();
+            json.WriteStartArray("bodies");
+            for (int body = 0; body < scene.Bodies.Count; body++)
+            {
+                run.End.TryRead(BodyId.OfScene(body), run.Until, out BodyState state);
+                json.WriteStartObject();
+                json.WriteString("name", scene.Bodies[body].Name);
+                Vector(json, "position_m", state.Position);
+                Vector(json, "velocity_m_per_s", state.Velocity);
+                json.WriteString("motion", DropNames.Motion(state.Motion));
+                json.WriteEndObject();
+            }
+
+            json.WriteEndArray();
+        });
+
+    internal static void WriteTable(ToolConsole console, Scene scene, RunSummary run, ulong seed)
+    {
+        console.Rich.WriteLine(string.Create(
+            CultureInfo.InvariantCulture,
+            $"lagsim {ToolVersion.Text}   run {scene.Name}   seed {seed}   scene {scene.Hash:x16}   state {run.End.StateHash(run.Until):x16}   events {run.End.EventHash(run.Until):x16}"));
+        console.Rich.WriteLine(string.Create(
+            CultureInfo.InvariantCulture,
+            $"{run.Until.ToSeconds()} s, {run.End.EventsProcessed} events, {run.End.ImpactsProcessed} impacts, {NumberText.Short(run.WallSeconds)} s of computing; "
+            + $"energy {NumberText.Short(run.StartEnergy)} J at the start, {NumberText.Short(run.EndEnergy)} J at the end"));
+        Table table = new Table { Border = TableBorder.Rounded }.AddColumns("body", "position (m)", "velocity (m/s)", "motion");
+        for (int body = 0; body < scene.Bodies.Count; body++)
+        {
+            run.End.TryRead(BodyId.OfScene(body), run.Until, out BodyState state);
+            table.AddRow(
+                Markup.Escape(scene.Bodies[body].Name), Text(state.Position), Text(state.Velocity), DropNames.Motion(state.Motion));
+        }
+
+        console.Rich.Write(table);
+    }
+
+    private static string Text(in Vector3D v) => $"{NumberText.Short(v.X)}  {NumberText.Short(v.Y)}  {NumberText.Short(v.Z)}";
+
+    private static void Vector(Utf8JsonWriter json, string key, in Vector3D v)
+    {
+        json.WriteStartArray(key);
+        json.WriteNumberValue(v.X);
+        json.WriteNumberValue(v.Y);
+        json.WriteNumberValue(v.Z);
+        json.WriteEndArray();
+    }
+}

@@ -1,0 +1,56 @@
+using System;
+using System.CommandLine;
+using System.IO;
+using LagSim.Cli.Commands;
+using LagSim.Cli.Output;
+using LagSim.Harness.Peers;
+using LagSim.Harness.Scenes;
+using LagSim.Scenes;
+
+namespace LagSim.Cli;
+
+/// <summary>The tool's entry: parses, runs one command, and turns what went wrong into a sentence and an exit code.</summary>
+internal static class Program
+{
+    internal static int Main(string[] arguments) => Run(arguments, Console.Out, Console.Error);
+
+    /// <summary>One call of the tool, results to one writer, progress and errors to the other.</summary>
+    internal static int Run(string[] arguments, TextWriter output, TextWriter error)
+    {
+        ToolConsole console = new(output, error);
+        RootCommand root = new("LagSim: a shared physical world without lag. Results go to stdout, progress to stderr.")
+        {
+            DropCommand.Create(console),
+            RunCommand.Create(console),
+            ScenesCommand.Create(console),
+        };
+
+        ParseResult parsed = root.Parse(arguments);
+        if (parsed.Errors.Count > 0)
+        {
+            foreach (System.CommandLine.Parsing.ParseError problem in parsed.Errors)
+            {
+                error.WriteLine(problem.Message);
+            }
+
+            error.WriteLine($"Try 'lagsim {parsed.CommandResult.Command.Name} --help'.".Replace("lagsim lagsim", "lagsim", StringComparison.Ordinal));
+            return ExitCode.Usage;
+        }
+
+        try
+        {
+            return parsed.Invoke(new InvocationConfiguration { Output = output, Error = error, EnableDefaultExceptionHandler = false });
+        }
+        catch (UsageException mistake)
+        {
+            error.WriteLine(mistake.Message);
+            return ExitCode.Usage;
+        }
+        catch (Exception failure) when (failure is SceneFileException or SceneException or SimulationException or PeerGroupException
+            or IOException or UnauthorizedAccessException)
+        {
+            error.WriteLine(failure.Message);
+            return ExitCode.Input;
+        }
+    }
+}

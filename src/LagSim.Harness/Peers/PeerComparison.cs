@@ -1,0 +1,65 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Harness.Metrics;
+using LagSim.Time;
+
+namespace LagSim.Harness.Peers;
+
+/// <summary>How far apart peers were: at each instant the largest distance of any body between the host and any other peer.</summary>
+public static class PeerComparison
+{
+    /// <summary>The distance in metres at the n-th instant; NaN if a peer stalled.</summary>
+    public static double Distance(IReadOnlyList<PeerSamples> peers, int bodies, int n, out bool differs)
+    {
+        ArgumentNullException.ThrowIfNull(peers);
+        differs = false;
+        double most = 0;
+        foreach (PeerSamples peer in peers)
+        {
+            if (!peer.IsShown(n))
+            {
+                return double.NaN;
+            }
+
+            for (int body = 0; body < bodies; body++)
+            {
+                BodyState here = peers[0].State(n, body);
+                BodyState there = peer.State(n, body);
+                differs |= !here.IsSameBits(there);
+                most = Math.Max(most, (here.Position - there.Position).Length);
+            }
+        }
+
+        return most;
+    }
+
+    /// <summary>The errors of the instants from <paramref name="first"/> to before <paramref name="end"/>, by phase.</summary>
+    /// <param name="peers">One entry a peer, the host first.</param>
+    /// <param name="grid">The instants.</param>
+    /// <param name="bodies">How many bodies there are.</param>
+    /// <param name="first">The number of the first instant.</param>
+    /// <param name="end">The number after the last.</param>
+    /// <param name="stamp">When the event happened; null: none, and all is before it.</param>
+    /// <param name="dealt">When the last peer had dealt with it.</param>
+    public static PhaseErrors Errors(
+        IReadOnlyList<PeerSamples> peers, SampleGrid grid, int bodies, int first, int end, SimTime? stamp, SimTime dealt)
+    {
+        PhaseErrors errors = new();
+        for (int n = first; n < end; n++)
+        {
+            SimTime time = grid.At(n);
+            Phase phase = stamp is not SimTime happened || time < happened ? Phase.Before : time < dealt ? Phase.During : Phase.After;
+            double distance = Distance(peers, bodies, n, out bool differs);
+            if (double.IsNaN(distance))
+            {
+                errors[phase].AddStalled();
+            }
+            else
+            {
+                errors[phase].Add(distance, differs);
+            }
+        }
+
+        return errors;
+    }
+}

@@ -1,0 +1,27 @@
+using LagSim.Harness.Links;
+using LagSim.Net.Strategies;
+using LagSim.Time;
+
+namespace LagSim.Harness.Peers;
+
+/// <summary>How the peers of a test are connected and watched.</summary>
+/// <param name="Peers">How many, the host included; 2 to 9.</param>
+/// <param name="Link">The link of each joiner to the host.</param>
+/// <param name="Strategy">What all do with late events.</param>
+/// <param name="Seed">The luck of links and clocks.</param>
+/// <param name="Length">How long the run is watched, from its start.</param>
+public sealed record PeerGroupOptions(
+    int Peers, LinkProfile Link, string Strategy = LateEventStrategies.Default, ulong Seed = 1, SimDuration Length = default)
+{
+    /// <summary>How far apart samples are: 5 ms, the thesis's step.</summary>
+    public static readonly SimDuration SampleInterval = SimDuration.FromMilliseconds(5);
+
+    /// <summary>The session options that all peers of a test use: history enough for every link, timelines kept for the whole run.</summary>
+    internal Net.Sessions.SessionOptions ToSessionOptions() => new()
+    {
+        Strategy = Strategy,
+        ExpectedJoiners = Peers - 1,
+        History = Net.Sessions.SessionOptions.MaxHistory,
+        ExtraHistory = SimDuration.FromSeconds(60),
+    };
+}

@@ -1,0 +1,192 @@
+using System;
+using System.Diagnostics;
+using System.Linq;
+using System.Net;
+using System.Threading;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Net.Carriers;
+using LagSim.Hosting;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Harness.Peers;
+
+/// <summary>Peers in real time over real UDP sockets on this machine: each with its own thread, socket and clock, watched by the calling thread.</summary>
+public sealed class RealPeers : PeerGroup
+{
+    private const int PollMilliseconds = 1;
+
+    private static readonly SimDuration ConnectDeadline = SimDuration.FromSeconds(15);
+    private static readonly SimDuration AnswerDeadline = SimDuration.FromSeconds(5);
+
+    /// <summary>A sample taken later than this after its instant was no sample of that instant.</summary>
+    private static readonly SimDuration Patience = SimDuration.FromMilliseconds(4);
+
+    private readonly PeerGroupOptions options;
+    private readonly CountingPort[] ports;
+    private readonly DelayedPort[] delayed;
+    private readonly PeerThread[] threads;
+    private bool finished;
+
+    /// <summary>Makes the peers and binds their sockets to free ports of the loopback interface; nobody is connected yet.</summary>
+    public RealPeers(Scene scene, PeerGroupOptions options)
+        : base(scene, options.Peers)
+    {
+        this.options = options;
+        ports = new CountingPort[PeerCount];
+        delayed = new DelayedPort[PeerCount];
+        threads = new PeerThread[PeerCount];
+        SeededRandom random = new SeededRandom(options.Seed).Fork(0xC10C);
+        for (int peer = 0; peer < PeerCount; peer++)
+        {
+            // Clocks of machines that were not started at the same time: they agree on nothing but the length of a second.
+            StopwatchClock own = new(SimDuration.FromSeconds(random.NextDouble() * 3600));
+            LinkLeg incoming = peer == 0 ? options.Link.ToHost : options.Link.FromHost;
+            CountingPort counting = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0)));
+            ports[peer] = counting;
+            DelayedPort port = delayed[peer] = new DelayedPort(counting, own, incoming, options.Seed + (ulong)peer);
+            SessionOptions session = options.ToSessionOptions();
+            ulong number = (ulong)Stopwatch.GetTimestamp();
+            threads[peer] = new PeerThread(
+                peer == 0
+                    ? new HostSession(scene, port, own, session, number)
+                    : new JoinerSession(scene, port, own, session, ports[0].LocalAddress, number),
+                port,
+                $"LagSim peer {peer}");
+        }
+    }
+
+    /// <inheritdoc/>
+    public override Session Session(int peer) => threads[peer].Session;
+
+    /// <inheritdoc/>
+    public override PortTraffic Traffic(int peer) => ports[peer].Traffic;
+
+    /// <inheritdoc/>
+    public override void Connect()
+    {
+        foreach (PeerThread thread in threads)
+        {
+            thread.Start();
+        }
+
+        long deadline = Stopwatch.GetTimestamp() + (long)(ConnectDeadline.ToSeconds() * Stopwatch.Frequency);
+        while (threads.Any(t => t.Session.World is null))
+        {
+            PeerThread? ended = threads.FirstOrDefault(t => t.State == SessionState.Ended);
+            if (ended is not null || Stopwatch.GetTimestamp() > deadline)
+            {
+                throw new PeerGroupException(ended?.Session.EndReason ?? $"Not all peers were connected after {ConnectDeadline.ToSeconds()} s.");
+            }
+
+            Thread.Sleep(PollMilliseconds);
+        }
+
+        Start = threads[0].Session.World!.Simulation.Start;
+        PrepareSamples(options.Length, PeerGroupOptions.SampleInterval);
+    }
+
+    /// <inheritdoc/>
+    public override void RunUntil(SimDuration sinceStart, Action<SimDuration>? progress)
+    {
+        SimTime end = Start + sinceStart;
+        while (threads[0].Session.SharedTime.Now < end)
+        {
+            Sample();
+            progress?.Invoke(threads[0].Session.SharedTime.Now - Start);
+            Thread.Sleep(PollMilliseconds);
+        }
+
+        Sample();
+    }
+
+    /// <inheritdoc/>
+    public override void RunQuietlyUntil(SimDuration sinceStart, Action<SimDuration>? progress)
+    {
+        RunUntil(sinceStart - QuietTime, progress);
+        long[] pictures = Array.ConvertAll(threads, t => t.Latest()!.Number);
+        bool atRest = Array.TrueForAll(threads, t => t.Latest()!.To == SimTime.MaxValue);
+        TimeSpan before = Environment.CpuUsage.TotalTime;
+        long began = Stopwatch.GetTimestamp();
+        Thread.Sleep((int)QuietTime.ToMilliseconds());
+        double seconds = Stopwatch.GetElapsedTime(began).TotalSeconds;
+        double used = (Environment.CpuUsage.TotalTime - before).TotalSeconds;
+
+        bool rested = atRest && Array.TrueForAll(threads, t => t.Latest()!.Number == pictures[Array.IndexOf(threads, t)]);
+        CpuCoresAtRest = rested ? used / seconds : null;
+        RunUntil(sinceStart, progress);
+    }
+
+    /// <inheritdoc/>
+    public override ExternalEvent Do(int peer, PlayerAction action)
+    {
+        System.Threading.Tasks.Task<ExternalEvent> done = threads[peer].Do(action);
+        return done.Wait((int)AnswerDeadline.ToMilliseconds())
+            ? done.Result
+            : throw new PeerGroupException($"Peer {peer} did not answer within {AnswerDeadline.ToSeconds()} s.");
+    }
+
+    /// <inheritdoc/>
+    public override void Finish()
+    {
+        if (finished)
+        {
+            return;
+        }
+
+        finished = true;
+        foreach (PeerThread thread in threads)
+        {
+            thread.Dispose();
+        }
+
+        CollectSettled();
+    }
+
+    /// <inheritdoc/>
+    public override void Dispose()
+    {
+        Finish();
+        foreach (DelayedPort port in delayed)
+        {
+            port.Dispose();
+        }
+    }
+
+    private void Sample()
+    {
+        for (int peer = 0; peer < PeerCount; peer++)
+        {
+            SamplePeer(peer);
+        }
+    }
+
+    private void SamplePeer(int peer)
+    {
+        Session session = threads[peer].Session;
+        int before = Seen[peer].Next;
+        Seen[peer].Take(threads[peer].Latest(), session.SharedTime.Now, Patience);
+        if (peer == 0 && Seen[0].Next > before)
+        {
+            SampleTrueTime(before, Seen[0].Next);
+        }
+    }
+
+    /// <summary>One true instant stands for all instants of the grid that passed since the last look.</summary>
+    private void SampleTrueTime(int first, int end)
+    {
+        // The clocks are read one right after the other; what passes in between, some hundred nanoseconds, is in the figure.
+        SimTime[] readings = Array.ConvertAll(threads, t => t.Session.SharedTime.Now);
+        for (int n = first; n < end; n++)
+        {
+            for (int peer = 0; peer < PeerCount; peer++)
+            {
+                SeenTrueTime[peer].TakeAt(n, threads[peer].Latest(), readings[peer]);
+                ClockErrorMilliseconds[n] = Math.Max(
+                    ClockErrorMilliseconds[n], Math.Abs((readings[peer] - readings[0]).ToMilliseconds()));
+            }
+        }
+    }
+}
