@@ -1,5 +1,6 @@
 using System;
 using System.CommandLine;
+using System.CommandLine.Help;
 using System.IO;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
@@ -18,8 +19,11 @@ internal static class Program
     internal static int Run(string[] arguments, TextWriter output, TextWriter error)
     {
         ToolConsole console = new(output, error);
-        RootCommand root = new("LagSim: a shared physical world without lag. Results go to stdout, progress to stderr.")
+        // Not a RootCommand: that is named after the assembly, which cannot be called as the tool is.
+        Command root = new("lagsim", "LagSim: a shared physical world without lag. Results go to stdout, progress to stderr.")
         {
+            new HelpOption(),
+            new VersionOption(),
             DropCommand.Create(console),
             RunCommand.Create(console),
             ScenesCommand.Create(console),
@@ -33,7 +37,8 @@ internal static class Program
                 error.WriteLine(problem.Message);
             }
 
-            error.WriteLine($"Try 'lagsim {parsed.CommandResult.Command.Name} --help'.".Replace("lagsim lagsim", "lagsim", StringComparison.Ordinal));
+            Command asked = parsed.CommandResult.Command;
+            error.WriteLine(asked == root ? "Try 'lagsim --help'." : $"Try 'lagsim {asked.Name} --help'.");
             return ExitCode.Usage;
         }
 

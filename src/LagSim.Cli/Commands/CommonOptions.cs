@@ -8,7 +8,13 @@ namespace LagSim.Cli.Commands;
 /// <summary>The options that every command has, and how options are checked.</summary>
 internal sealed class CommonOptions
 {
-    internal Option<ulong> Seed { get; } = new("--seed") { Description = "The luck of links and clocks; the same seed gives the same run.", DefaultValueFactory = _ => 1, HelpName = "N" };
+    internal Option<ulong> Seed { get; } = new("--seed") 
+    {
+        Description = "The luck of links and clocks; the same seed gives the same run.",
+        DefaultValueFactory = _ => 1,
+        HelpName = "N",
+        CustomParser = ParseSeed,
+    };
 
     internal Option<string?> Out { get; } = new("--out") { Description = "A folder for CSV and SVG files and a report.html that shows them.", HelpName = "FOLDER" };
 
@@ -47,29 +53,45 @@ internal sealed class CommonOptions
     }
 
     /// <summary>An option for a whole number in a range.</summary>
-    internal static Option<int> Whole(string name, string description, int byDefault, int least, int most)
+    internal static Option<int> Whole(string name, string description, int byDefault, int least, int most) => new(name)
     {
-        Option<int> option = new(name) { Description = $"{description} ({least} to {most})", DefaultValueFactory = _ => byDefault, HelpName = "N" };
-        option.Validators.Add(result =>
+        Description = $"{description} ({least} to {most})",
+        DefaultValueFactory = _ => byDefault,
+        HelpName = "N",
+        CustomParser = result =>
         {
-            if (result.Tokens.Count == 1 && int.TryParse(result.Tokens[0].Value, NumberStyles.AllowLeadingSign, CultureInfo.InvariantCulture, out int value)
-                && (value < least || value > most))
+            if (int.TryParse(Token(result), NumberStyles.AllowLeadingSign, CultureInfo.InvariantCulture, out int value) && value >= least && value <= most)
             {
-                result.AddError($"{name} is {value}; it must lie between {least} and {most}.");
+                return value;
             }
-        });
-        return option;
-    }
 
-    private static double ParseNumber(ArgumentResult result, string name, double least, double most)
+            result.AddError($"{name} is '{Token(result)}'; it must be a whole number between {least} and {most}.");
+            return byDefault;
+        },
+    };
+
+    /// <summary>The number of an option's only argument; else an error that names the option and its range.</summary>
+    internal static double ParseNumber(ArgumentResult result, string name, double least, double most)
     {
-        string text = result.Tokens.Count == 1 ? result.Tokens[0].Value : "";
-        if (double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out double value) && value >= least && value <= most)
+        if (double.TryParse(Token(result), NumberStyles.Float, CultureInfo.InvariantCulture, out double value) && value >= least && value <= most)
         {
             return value;
         }
 
-        result.AddError(FormattableString.Invariant($"{name} is '{text}'; it must be a number between {least} and {most}."));
+        result.AddError(FormattableString.Invariant($"{name} is '{Token(result)}'; it must be a number between {least} and {most}."));
         return double.NaN;
     }
+
+    private static ulong ParseSeed(ArgumentResult result)
+    {
+        if (ulong.TryParse(Token(result), NumberStyles.None, CultureInfo.InvariantCulture, out ulong seed))
+        {
+            return seed;
+        }
+
+        result.AddError($"--seed is '{Token(result)}'; it must be a whole number between 0 and {ulong.MaxValue}.");
+        return 0;
+    }
+
+    private static string Token(ArgumentResult result) => result.Tokens.Count == 1 ? result.Tokens[0].Value : "";
 }

@@ -22,8 +22,13 @@ internal static class DropCommand
         Option<string> which = CommonOptions.Word("--case", "Which half of the test: both start equal (Fig 2), or one side lifts its ball (Fig 3).", All, "same-start", "teleport", All);
         Option<string> strategy = CommonOptions.Word("--strategy", "What a peer does with an event that comes late.", LateEventStrategies.Default, [.. LateEventStrategies.Names, All]);
         Option<string> motion = CommonOptions.Word("--motion", "How the ball flies: integrated in steps as in the thesis, or in closed form.", "rk4", "rk4", "ballistic");
-        Option<double> rate = CommonOptions.Number("--rate-hz", "Steps a second of rk4", 200, 1, 1e6);
-        Option<double?> delay = new("--delay-ms") { Description = "Delay added one way, without jitter or loss (0 to 2000); default 25. Excludes --profile.", HelpName = "NUMBER" };
+        Option<double> rate = CommonOptions.Number("--rate-hz", "Steps a second of rk4", 200, 1, 1e4);
+        Option<double?> delay = new("--delay-ms")
+        {
+            Description = "Delay added one way, without jitter or loss (0 to 2000); default 25. Excludes --profile.",
+            HelpName = "NUMBER",
+            CustomParser = result => CommonOptions.ParseNumber(result, "--delay-ms", 0, 2000),
+        };
         Option<string?> profile = new("--profile") { Description = $"A link profile: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}.", HelpName = "NAME" };
         Option<int> peers = CommonOptions.Whole("--peers", "How many peers, the host included", 2, 2, 9);
         Option<string> time = CommonOptions.Word("--time", "Real time over real sockets, or the same in virtual time, seeded, without waiting.", "real", "real", "virtual");
@@ -111,9 +116,7 @@ internal static class DropCommand
         delayed = profile is null ? delay ?? DefaultDelay : null;
         if (profile is null)
         {
-            return delayed is >= 0 and <= 2000
-                ? LinkProfiles.PureDelay(delayed.Value)
-                : throw new UsageException(FormattableString.Invariant($"--delay-ms is {delayed}; it must lie between 0 and 2000."));
+            return LinkProfiles.PureDelay(delay ?? DefaultDelay);
         }
 
         return LinkProfiles.TryGet(profile, out LinkProfile? found, out string? error) ? found : throw new UsageException(error);

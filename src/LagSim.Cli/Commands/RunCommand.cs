@@ -102,7 +102,7 @@ internal static class RunCommand
         for (int body = 0; body < scene.Bodies.Count; body++)
         {
             simulation.TryRead(BodyId.OfScene(body), time, out BodyState state);
-            csv.WriteRow([time.ToSeconds(), scene.Bodies[body].Name, .. Numbers(state), DropNames.Motion(state.Motion)]);
+            csv.WriteRow([time.ToSeconds(), scene.Bodies[body].Name, .. Numbers(state), MotionNames.Of(state.Motion)]);
         }
     }
 

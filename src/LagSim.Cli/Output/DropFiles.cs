@@ -5,6 +5,7 @@ using LagSim.Harness.Charts;
 using LagSim.Harness.Drop;
 using LagSim.Harness.Metrics;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Scenes;
 
 namespace LagSim.Cli.Output;
 
@@ -17,8 +18,8 @@ internal static class DropFiles
         DropOptions options = runs[0].Options;
         HtmlReport report = new(
             "LagSim drop test",
-            $"{options.Peers} peers in {DropNames.Time(options)} time, strategy {options.Strategy}, motion {DropNames.Motion(options.Motion)}, link {options.Link.Name}.",
-            new ReportFooter("lagsim", ToolVersion.Text, (long)options.Seed, JsonDocumentWriter.Hash(runs[0].SceneHash)));
+            $"{options.Peers} peers in {DropNames.Time(options)} time, strategy {options.Strategy}, motion {MotionNames.Of(options.Motion)}, link {options.Link.Name}.",
+            new ReportFooter("lagsim", ToolVersion.Text, options.Seed, JsonDocumentWriter.Hash(runs[0].SceneHash)));
         foreach (DropRun run in runs)
         {
             string name = DropNames.Case(run.Case);

@@ -4,6 +4,7 @@ using System.Linq;
 using System.Text.Json;
 using LagSim.Harness.Drop;
 using LagSim.Harness.Metrics;
+using LagSim.Harness.Scenes;
 
 namespace LagSim.Cli.Output;
 
@@ -31,7 +32,7 @@ internal static class DropJson
         json.WriteStartObject();
         json.WriteString("case", DropNames.Case(run.Case));
         json.WriteString("strategy", run.Options.Strategy);
-        json.WriteString("motion", DropNames.Motion(run.Options.Motion));
+        json.WriteString("motion", MotionNames.Of(run.Options.Motion));
         json.WriteString("time", DropNames.Time(run.Options));
         json.WriteString("transport", "udp");
         json.WriteString("profile", run.Options.DelayMilliseconds is null ? run.Options.Link.Name : null);

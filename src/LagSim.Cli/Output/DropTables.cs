@@ -4,6 +4,7 @@ using System.Linq;
 using LagSim.Harness.Drop;
 using LagSim.Harness.Metrics;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Scenes;
 using Spectre.Console;
 
 namespace LagSim.Cli.Output;
@@ -15,7 +16,7 @@ internal static class DropTables
         ToolConsole console, DropOptions options, IReadOnlyList<DropRun> runs, IReadOnlyList<DropRun> strategies, string? folder)
     {
         console.Rich.WriteLine($"lagsim {ToolVersion.Text}   drop   seed {options.Seed}   scene {JsonDocumentWriter.Hash(runs[0].SceneHash)}   "
-            + $"{options.Strategy}, {DropNames.Motion(options.Motion)}, {options.Peers} peers, {options.Link.Name}, {DropNames.Time(options)} time");
+            + $"{options.Strategy}, {MotionNames.Of(options.Motion)}, {options.Peers} peers, {options.Link.Name}, {DropNames.Time(options)} time");
         console.Rich.Write(Summary(runs));
         foreach (DropRun run in runs)
         {

@@ -2,6 +2,7 @@ using System.Globalization;
 using System.IO;
 using System.Text.Json;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Scenes;
 using LagSim.Scenes;
 using Spectre.Console;
 
@@ -30,7 +31,7 @@ internal static class RunOutput
                 json.WriteString("name", scene.Bodies[body].Name);
                 Vector(json, "position_m", state.Position);
                 Vector(json, "velocity_m_per_s", state.Velocity);
-                json.WriteString("motion", DropNames.Motion(state.Motion));
+                json.WriteString("motion", MotionNames.Of(state.Motion));
                 json.WriteEndObject();
             }
 
@@ -51,7 +52,7 @@ internal static class RunOutput
         {
             run.End.TryRead(BodyId.OfScene(body), run.Until, out BodyState state);
             table.AddRow(
-                Markup.Escape(scene.Bodies[body].Name), Text(state.Position), Text(state.Velocity), DropNames.Motion(state.Motion));
+                Markup.Escape(scene.Bodies[body].Name), Text(state.Position), Text(state.Velocity), MotionNames.Of(state.Motion));
         }
 
         console.Rich.Write(table);

@@ -51,7 +51,7 @@ internal static class RunReport
         new HtmlReport(
             $"LagSim run of {scene.Name}",
             string.Create(CultureInfo.InvariantCulture, $"{run.Until.ToSeconds()} s, {run.End.EventsProcessed} events, {run.End.ImpactsProcessed} impacts. Samples: {Path.GetFileName(sampleFile)}."),
-            new ReportFooter("lagsim", ToolVersion.Text, (long)seed, JsonDocumentWriter.Hash(scene.Hash)))
+            new ReportFooter("lagsim", ToolVersion.Text, seed, JsonDocumentWriter.Hash(scene.Hash)))
             .AddChart(chart)
             .Save(Path.Combine(folder, "report.html"));
     }

@@ -28,7 +28,7 @@ public sealed record DropOptions
     /// <summary>How the ball flies.</summary>
     public MotionLaw Motion { get; init; } = MotionLaw.RungeKutta4;
 
-    /// <summary>Steps a second of an integrating law; 1 to 1,000,000.</summary>
+    /// <summary>Steps a second of an integrating law; 1 to 10,000: all of a run's segments are kept.</summary>
     public double RateHertz { get; init; } = 200;
 
     /// <summary>The link of each joiner to the host.</summary>

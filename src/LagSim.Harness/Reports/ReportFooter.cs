@@ -5,4 +5,4 @@ namespace LagSim.Harness.Reports;
 /// <param name="Version">The tool's version.</param>
 /// <param name="Seed">The seed of all that was random.</param>
 /// <param name="SceneHash">The hash of the scene in 16 hex digits; null where a report has several scenes.</param>
-public sealed record ReportFooter(string Tool, string Version, long Seed, string? SceneHash);
+public sealed record ReportFooter(string Tool, string Version, ulong Seed, string? SceneHash);

@@ -39,16 +39,23 @@ public sealed class HostSession : Session
 
     private protected override void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from)
     {
-        if (type == DatagramType.Join && JoinDatagram.TryDecode(datagram, out JoinDatagram join, out _))
+        if (State == SessionState.Ended)
         {
-            OnJoin(join, from);
+            Counters.DatagramsIgnored++;
         }
-        else if (type == DatagramType.Leave && LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _))
+        else if (type == DatagramType.Join)
         {
-            int at = joiners.FindIndex(j => j.Link.Other == from && j.Peer == leave.Peer && leave.SessionId == sessionId);
-            if (at >= 0)
+            if (IsWellFormed(JoinDatagram.TryDecode(datagram, out JoinDatagram join, out _)))
             {
-                joiners.RemoveAt(at);
+                OnJoin(join, from);
+            }
+        }
+        else if (type == DatagramType.Leave)
+        {
+            if (IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _))
+                && joiners.RemoveAll(j => j.Link.Other == from && j.Peer == leave.Peer && leave.SessionId == sessionId) == 0)
+            {
+                Counters.DatagramsIgnored++;
             }
         }
         else
@@ -60,9 +67,14 @@ public sealed class HostSession : Session
     private protected override void OnUpdate(UpdateDatagram update, PeerAddress from)
     {
         Joiner? joiner = joiners.Find(j => j.Link.Other == from);
-        if (joiner is null || update.SessionId != sessionId || update.Peer != joiner.Peer)
+        if (joiner is null || update.SessionId != sessionId || update.Peer != joiner.Peer || State == SessionState.Ended)
         {
             Counters.DatagramsIgnored++;
+            if (joiner is not null && State == SessionState.Ended)
+            {
+                SayGoodbye(joiner, LeaveReason.HostEnded); // it has not heard the first one
+            }
+
             return;
         }
 
@@ -75,6 +87,11 @@ public sealed class HostSession : Session
         }
 
         uint sequence = update.FirstIndex;
+        if (update.Entries.Length > 0 && sequence > joiner.EventsReceived + 1)
+        {
+            Counters.DatagramsIgnored++; // a gap, which no joiner of ours leaves: each update has all that is not acknowledged
+        }
+
         foreach (UpdateEntry entry in update.Entries)
         {
             if (sequence++ == joiner.EventsReceived + 1)
@@ -152,10 +169,10 @@ public sealed class HostSession : Session
         Joiner? known = joiners.Find(j => j.Link.Other == from && j.Nonce == nonce);
         if (known is null)
         {
-            joiners.RemoveAll(j => j.Link.Other == from); // the same address under a new nonce: it started again
+            int others = joiners.FindAll(j => j.Link.Other != from).Count;
             RefusalReason? refusal = join.ConnectKey != Options.ConnectKey ? RefusalReason.WrongKey
                 : join.SceneHash != Scene.Hash ? RefusalReason.SceneDiffers
-                : joiners.Count >= SessionOptions.MaxJoiners || lastPeer == byte.MaxValue ? RefusalReason.Full
+                : others >= SessionOptions.MaxJoiners || lastPeer == byte.MaxValue ? RefusalReason.Full
                 : null;
             if (refusal is RefusalReason reason)
             {
@@ -163,6 +180,7 @@ public sealed class HostSession : Session
                 return;
             }
 
+            joiners.RemoveAll(j => j.Link.Other == from); // the same address under a new nonce: it started again
             known = new Joiner(++lastPeer, nonce, new UpdateLink(sessionId, 0, from, Clock.Now));
             joiners.Add(known);
         }
@@ -172,8 +190,14 @@ public sealed class HostSession : Session
 
     private void Judge(in ExternalEvent external, byte sender, uint sequence)
     {
+        if (external.Peer != sender || external.Sequence != sequence)
+        {
+            Counters.EventsRefused++; // in another's name; in the log it would have that other take back what it did itself
+            return;
+        }
+
         SimTime now = SharedTime.Now;
-        Verdict verdict = external.Peer != sender || external.Sequence != sequence || World is null || !MayEnter(external) ? Verdict.Invalid
+        Verdict verdict = World is null || !MayEnter(external) ? Verdict.Invalid
             : external.Time < now - Options.History || external.Time < World.Simulation.Start ? Verdict.TooLate
             : external.Time > now + Options.History ? Verdict.TooEarly
             : Verdict.Accepted;
@@ -211,7 +235,7 @@ public sealed class HostSession : Session
 
         // The watermark is a promise about the whole log: with an entry left out it could not yet be relied on.
         update.Watermark = World is null || next < log.Count ? SimTime.MinValue : Watermark;
-        SimDuration wait = next > joiner.Acknowledged ? Options.ResendInterval : Options.KeepAlive;
+        SimDuration wait = WaitAfterUpdate(next > joiner.Acknowledged, now - joiner.Link.Heard);
         Send(joiner.Link.Seal(now + wait), joiner.Link.Other);
     }
 

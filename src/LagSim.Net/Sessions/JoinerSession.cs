@@ -46,26 +46,29 @@ public sealed class JoinerSession : Session
 
     private protected override void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from)
     {
-        if (from != host)
+        if (from != host || State == SessionState.Ended)
         {
             Counters.DatagramsIgnored++;
         }
-        else if (type == DatagramType.Welcome && WelcomeDatagram.TryDecode(datagram, out WelcomeDatagram welcome, out _))
+        else if (type == DatagramType.Welcome)
         {
-            OnWelcome(welcome);
-        }
-        else if (type == DatagramType.Refusal && RefusalDatagram.TryDecode(datagram, out RefusalDatagram refusal, out _))
-        {
-            if (refusal.Nonce == nonce && State == SessionState.Joining)
+            if (IsWellFormed(WelcomeDatagram.TryDecode(datagram, out WelcomeDatagram welcome, out _)))
             {
-                End($"The host at {host} refused: {Sentence(refusal.Reason)}");
+                OnWelcome(welcome);
             }
         }
-        else if (type == DatagramType.Leave && LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _))
+        else if (type == DatagramType.Refusal)
         {
-            if (link is not null && leave.SessionId == link.SessionId && leave.Peer == 0)
+            if (IsWellFormed(RefusalDatagram.TryDecode(datagram, out RefusalDatagram refusal, out _)))
             {
-                End(leave.Reason == LeaveReason.TimedOut ? $"The host at {host} heard nothing from this peer for too long." : $"The host at {host} ended the session.");
+                OnRefusal(refusal);
+            }
+        }
+        else if (type == DatagramType.Leave)
+        {
+            if (IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)))
+            {
+                OnLeave(leave);
             }
         }
         else
@@ -106,8 +109,8 @@ public sealed class JoinerSession : Session
         if (now - heard > Options.Timeout)
         {
             End(link is null
-                ? $"No answer from {host} within {Options.Timeout.ToSeconds():0.###} s."
-                : $"The host at {host} fell silent for {Options.Timeout.ToSeconds():0.###} s.");
+                ? FormattableString.Invariant($"No answer from {host} within {Options.Timeout.ToSeconds():0.###} s.")
+                : FormattableString.Invariant($"The host at {host} fell silent for {Options.Timeout.ToSeconds():0.###} s."));
             return;
         }
 
@@ -160,6 +163,34 @@ public sealed class JoinerSession : Session
             link = new UpdateLink(welcome.SessionId, welcome.Peer, host, Clock.Now);
             State = SessionState.Synchronising;
         }
+        else if (welcome.Nonce != nonce)
+        {
+            Counters.DatagramsIgnored++;
+        }
+    }
+
+    private void OnRefusal(in RefusalDatagram refusal)
+    {
+        if (refusal.Nonce == nonce && State == SessionState.Joining)
+        {
+            End($"The host at {host} refused: {Sentence(refusal.Reason)}");
+        }
+        else
+        {
+            Counters.DatagramsIgnored++;
+        }
+    }
+
+    private void OnLeave(in LeaveDatagram leave)
+    {
+        if (link is not null && leave.SessionId == link.SessionId && leave.Peer == 0)
+        {
+            End(leave.Reason == LeaveReason.TimedOut ? $"The host at {host} heard nothing from this peer for too long." : $"The host at {host} ended the session.");
+        }
+        else
+        {
+            Counters.DatagramsIgnored++;
+        }
     }
 
     private void TakeEntries(UpdateDatagram update, SimTime now)
@@ -179,7 +210,8 @@ public sealed class JoinerSession : Session
         // The watermark speaks of the log up to this update's last entry; with a gap before it, it does not hold here yet.
         if (update.Watermark != SimTime.MinValue && index <= entriesReceived + 1)
         {
-            Commit(update.Watermark);
+            // What is not judged yet may have to be taken back, and for that its history must still be there.
+            Commit(unacknowledged.Count == 0 ? update.Watermark : SimTime.Min(update.Watermark, unacknowledged[0].Time));
         }
 
         if (any)
@@ -219,7 +251,7 @@ public sealed class JoinerSession : Session
             }
         }
 
-        SimDuration wait = !SharedTime.IsSet || World is null ? Pace : unacknowledged.Count > 0 ? Options.ResendInterval : Options.KeepAlive;
+        SimDuration wait = !SharedTime.IsSet || World is null ? Pace : WaitAfterUpdate(unacknowledged.Count > 0, now - to.Heard);
         Send(to.Seal(now + wait), host);
     }
 }

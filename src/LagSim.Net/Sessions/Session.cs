@@ -201,6 +201,20 @@ public abstract class Session
     /// <summary>Nothing before the watermark will change any more; forget it, but for what the options want kept.</summary>
     private protected void Commit(SimTime watermark) => World?.Simulation.DropHistoryBefore(watermark - Options.ExtraHistory);
 
+    /// <summary>
+    /// How long to wait before the next update. Who was not heard of when it was due is written to as if something were unacknowledged: else a
+    /// burst of losses, which is counted in datagrams, would last as long as the timeout.
+    /// </summary>
+    private protected SimDuration WaitAfterUpdate(bool hasUnacknowledged, SimDuration silence) =>
+        hasUnacknowledged || silence > Options.KeepAlive + (Options.KeepAlive / 4) ? Options.ResendInterval : Options.KeepAlive;
+
+    /// <summary>Counts a datagram that could not be decoded.</summary>
+    private protected bool IsWellFormed(bool decoded)
+    {
+        Counters.DatagramsMalformed += decoded ? 0 : 1;
+        return decoded;
+    }
+
     private protected void Send(ReadOnlySpan<byte> datagram, PeerAddress to)
     {
         Port.Send(datagram, to);

@@ -52,15 +52,18 @@ public sealed class SceneBuilder
     /// <summary>Adds a plane through a point; bodies live on the side the normal, of any length, points to.</summary>
     public SceneBuilder AddPlane(string planeName, Vector3D normal, Vector3D point, double restitution = 1)
     {
-        double length = normal.Length;
-        if (!normal.IsFinite || !(length > 1e-150 && length < 1e150) || !point.IsFinite)
+        if (!point.IsFinite)
         {
-            throw new SceneException(
-                $"Plane '{planeName}' has normal {normal} and point {point}; both must be finite, and the normal's length above zero.");
+            throw new SceneException($"The point of plane '{planeName}' is {point}; every component must be finite.");
         }
 
-        Vector3D unit = (normal / length).WithoutNegativeZero();
-        planes.Add(new StaticPlane(planeName, unit, Vector3D.Dot(unit, point) + 0.0, restitution));
+        return AddPlane(planeName, normal, Vector3D.Dot(Unit(planeName, normal), point), restitution);
+    }
+
+    /// <summary>Adds the plane of the points p with n . p = <paramref name="offset"/> (metres), n the normal at unit length, towards the bodies.</summary>
+    public SceneBuilder AddPlane(string planeName, Vector3D normal, double offset, double restitution = 1)
+    {
+        planes.Add(new StaticPlane(planeName, Unit(planeName, normal), offset + 0.0, restitution));
         return this;
     }
 
@@ -111,6 +114,20 @@ public sealed class SceneBuilder
     }
 
     internal static string Whose(in SceneBody body) => $"body '{body.Name}'";
+
+    /// <summary>The normal at unit length. One that has it but for rounding stays as it is, so that a plane read back has the same bits.</summary>
+    private static Vector3D Unit(string planeName, in Vector3D normal)
+    {
+        const double rounding = 2e-15;
+        double length = normal.Length;
+        if (!normal.IsFinite || !(length > 1e-150 && length < 1e150))
+        {
+            throw new SceneException($"The normal of plane '{planeName}' is {normal}; it must be finite and longer than zero.");
+        }
+
+        bool isUnit = Math.Abs(normal.LengthSquared - 1) <= rounding;
+        return (isUnit ? normal : normal / length).WithoutNegativeZero();
+    }
 
     private void CheckWhole()
     {

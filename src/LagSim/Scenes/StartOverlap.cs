@@ -34,14 +34,15 @@ internal static class StartOverlap
         CheckPairs(bodies, tolerance);
     }
 
-    // Sort and sweep along x: only bodies whose extents along x overlap are compared.
+    // Sort and sweep along the axis on which the bodies are spread most: only bodies whose extents along it overlap are compared.
     private static void CheckPairs(List<SceneBody> bodies, double tolerance)
     {
+        int axis = WidestAxis(bodies);
         double[] left = new double[bodies.Count];
         int[] order = new int[bodies.Count];
         for (int i = 0; i < order.Length; i++)
         {
-            left[i] = bodies[i].Position.X - bodies[i].Spec.Radius;
+            left[i] = Along(bodies[i].Position, axis) - bodies[i].Spec.Radius;
             order[i] = i;
         }
 
@@ -49,7 +50,7 @@ internal static class StartOverlap
         for (int i = 0; i < order.Length; i++)
         {
             SceneBody a = bodies[order[i]];
-            double right = a.Position.X + a.Spec.Radius;
+            double right = Along(a.Position, axis) + a.Spec.Radius;
             for (int j = i + 1; j < order.Length && left[j] <= right; j++)
             {
                 SceneBody b = bodies[order[j]];
@@ -62,6 +63,33 @@ internal static class StartOverlap
             }
         }
     }
+
+    private static int WidestAxis(List<SceneBody> bodies)
+    {
+        int widest = 0;
+        double most = -1;
+        for (int axis = 0; axis < 3; axis++)
+        {
+            double least = double.MaxValue;
+            double greatest = double.MinValue;
+            foreach (SceneBody body in bodies)
+            {
+                double at = Along(body.Position, axis);
+                least = Math.Min(least, at);
+                greatest = Math.Max(greatest, at);
+            }
+
+            if (greatest - least > most)
+            {
+                widest = axis;
+                most = greatest - least;
+            }
+        }
+
+        return widest;
+    }
+
+    private static double Along(in Vector3D v, int axis) => axis == 0 ? v.X : axis == 1 ? v.Y : v.Z;
 
     private static double Size(in Vector3D v) => Math.Abs(v.X) + Math.Abs(v.Y) + Math.Abs(v.Z);
 

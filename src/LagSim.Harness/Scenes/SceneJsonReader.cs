@@ -1,0 +1,151 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Harness.Scenes;
+
+/// <summary>The grammar of a scene file: which keys there are, what they mean to a <see cref="SceneBuilder"/>, and which may be left out.</summary>
+internal ref partial struct SceneJsonReader
+{
+    private static readonly JsonKeys SceneKeys =
+        new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "smallest_radius_m", "planes", "static_spheres", "bodies"]);
+
+    private static readonly JsonKeys PlaneKeys = new(["name", "normal"], ["point_m", "offset_m", "restitution"]);
+
+    private static readonly JsonKeys SphereKeys = new(["name", "centre_m", "radius_m"], ["restitution"]);
+
+    private static readonly JsonKeys BodyKeys =
+        new(["name", "radius_m", "mass_kg", "restitution", "position_m"], ["velocity_m_per_s", "motion", "step_s"]);
+
+    private readonly bool locate;
+    private readonly List<Action<SceneBuilder>> parts = new(); // what to build, once the name is known
+    private JsonCursor cursor;
+
+    /// <param name="json">The document, known to be UTF-8.</param>
+    /// <param name="file">What errors call it.</param>
+    /// <param name="locate">
+    /// Builds every part by itself too, so that what is wrong with one is reported at its place. The limits stand in the builder alone, and
+    /// it names a part but cannot know where in the file that is; so a document that does not build is read once more like this.
+    /// </param>
+    internal SceneJsonReader(ReadOnlySpan<byte> json, string file, bool locate)
+    {
+        cursor = new JsonCursor(json, file);
+        this.locate = locate;
+    }
+
+    /// <summary>The scene that the document says.</summary>
+    /// <exception cref="SceneFileException">It says none; the message names the place.</exception>
+    /// <exception cref="SceneException">Every part can be read, but what they make up is no scene.</exception>
+    internal Scene Read()
+    {
+        cursor.Read();
+        cursor.EnterObject();
+        string name = "";
+        uint seen = 0;
+        while (cursor.NextKey(SceneKeys, ref seen) is string key)
+        {
+            switch (key)
+            {
+                case "format":
+                    CheckFormat();
+                    break;
+                case "name":
+                    name = Name();
+                    break;
+                case "gravity_m_per_s2":
+                    Vector3D gravity = cursor.Vector();
+                    Add(b => b.WithGravity(gravity));
+                    break;
+                case "resolution_m":
+                    double resolution = cursor.Number();
+                    Add(b => b.WithResolution(resolution));
+                    break;
+                case "smallest_radius_m":
+                    double smallest = cursor.Number();
+                    Add(b => b.WithSmallestRadius(smallest));
+                    break;
+                default:
+                    ReadList(key);
+                    break;
+            }
+        }
+
+        cursor.Read(); // nothing may follow
+        SceneBuilder builder = new(name);
+        parts.ForEach(add => add(builder));
+        return builder.Build();
+    }
+
+    private void ReadList(string key)
+    {
+        cursor.EnterArray("an array of objects");
+        while (cursor.NextElement())
+        {
+            switch (key)
+            {
+                case "planes":
+                    ReadPlane();
+                    break;
+                case "static_spheres":
+                    ReadSphere();
+                    break;
+                default:
+                    ReadBody();
+                    break;
+            }
+        }
+    }
+
+    private void Add(Action<SceneBuilder> part)
+    {
+        parts.Add(part);
+        if (!locate)
+        {
+            return;
+        }
+
+        SceneBuilder alone = new("scene");
+        try
+        {
+            part(alone);
+            alone.Build();
+        }
+        catch (SceneException cause)
+        {
+            throw cursor.Fail(cause.Message, cause);
+        }
+    }
+
+    private void CheckFormat()
+    {
+        string format = cursor.String();
+        if (format != SceneFile.Format)
+        {
+            throw cursor.Fail($"the format is {JsonFault.Quote(format)}; this version reads \"{SceneFile.Format}\" only");
+        }
+    }
+
+    private string Name()
+    {
+        string name = cursor.String();
+        return PartName.Problem(name) is string problem ? throw cursor.Fail(problem) : name;
+    }
+
+    private MotionLaw Motion()
+    {
+        string name = cursor.String();
+        return MotionNames.TryParseFlight(name, out MotionLaw law)
+            ? law
+            : throw cursor.Fail($"the motion {JsonFault.Quote(name)} is unknown; allowed are {MotionNames.Quoted}");
+    }
+
+    // Zero would mean the default to a BodySpec, and what is far out of range is no duration at all: both are refused here.
+    private SimDuration Step()
+    {
+        double seconds = cursor.Number();
+        return seconds is >= 1e-6 and <= 1
+            ? SimDuration.FromSeconds(seconds)
+            : throw cursor.Fail($"the step is {seconds:R} s; it must lie between 1E-06 and 1 s");
+    }
+}

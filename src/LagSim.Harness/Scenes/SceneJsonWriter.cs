@@ -1,0 +1,124 @@
+using System.Buffers;
+using System.Globalization;
+using System.Text.Encodings.Web;
+using System.Text.Json;
+using LagSim.Harness.Reports;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Harness.Scenes;
+
+/// <summary>Writes a scene so that it is ready to edit and reads back as the same world, to the bit.</summary>
+internal static class SceneJsonWriter
+{
+    private static readonly JsonWriterOptions Options = new()
+    {
+        Indented = true,
+        NewLine = "\n",
+        Encoder = JavaScriptEncoder.UnsafeRelaxedJsonEscaping, // a file, not a page: names stay readable
+    };
+
+    internal static void Write(Scene scene, IBufferWriter<byte> to)
+    {
+        using Utf8JsonWriter json = new(to, Options);
+        json.WriteStartObject();
+        json.WriteString("format", SceneFile.Format);
+        json.WriteString("name", scene.Name);
+        Vector(json, "gravity_m_per_s2", scene.Gravity);
+        json.WriteNumber("resolution_m", scene.Resolution);
+
+        // Where it is what the bodies say anyway it stays open, so that someone who edits a radius need not think of it.
+        if (scene.SmallestRadius != LeastRadius(scene))
+        {
+            json.WriteNumber("smallest_radius_m", scene.SmallestRadius);
+        }
+
+        json.WriteStartArray("planes");
+        foreach (StaticPlane plane in scene.Planes)
+        {
+            json.WriteStartObject();
+            json.WriteString("name", plane.Name);
+            Vector(json, "normal", plane.Normal);
+            json.WriteNumber("offset_m", plane.Offset);
+            json.WriteNumber("restitution", plane.Restitution);
+            json.WriteEndObject();
+        }
+
+        json.WriteEndArray();
+        json.WriteStartArray("static_spheres");
+        foreach (StaticSphere sphere in scene.StaticSpheres)
+        {
+            json.WriteStartObject();
+            json.WriteString("name", sphere.Name);
+            Vector(json, "centre_m", sphere.Centre);
+            json.WriteNumber("radius_m", sphere.Radius);
+            json.WriteNumber("restitution", sphere.Restitution);
+            json.WriteEndObject();
+        }
+
+        json.WriteEndArray();
+        json.WriteStartArray("bodies");
+        foreach (SceneBody body in scene.Bodies)
+        {
+            Body(json, body);
+        }
+
+        json.WriteEndArray();
+        json.WriteEndObject();
+    }
+
+    /// <summary>The fewest digits that read back as the same number of ticks: 0.005, where the span itself is a sum of powers of two.</summary>
+    internal static double Seconds(SimDuration span)
+    {
+        double exact = span.ToSeconds();
+        for (int digits = 1; digits < 17; digits++)
+        {
+            double shorter = double.Parse(exact.ToString("E" + (digits - 1), CultureInfo.InvariantCulture), CultureInfo.InvariantCulture);
+            if (shorter is >= 1e-6 and <= 1 && SimDuration.FromSeconds(shorter) == span)
+            {
+                return shorter;
+            }
+        }
+
+        return exact;
+    }
+
+    /// <summary>The smallest radius of a scene that promises none.</summary>
+    private static double LeastRadius(Scene scene)
+    {
+        double least = 1e9;
+        foreach (SceneBody body in scene.Bodies)
+        {
+            least = System.Math.Min(least, body.Spec.Radius);
+        }
+
+        return least;
+    }
+
+    private static void Body(Utf8JsonWriter json, in SceneBody body)
+    {
+        json.WriteStartObject();
+        json.WriteString("name", body.Name);
+        json.WriteNumber("radius_m", body.Spec.Radius);
+        json.WriteNumber("mass_kg", body.Spec.Mass);
+        json.WriteNumber("restitution", body.Spec.Restitution);
+        Vector(json, "position_m", body.Position);
+        Vector(json, "velocity_m_per_s", body.Velocity);
+        json.WriteString("motion", MotionNames.Of(body.Spec.Flight));
+
+        // A closed form ignores the step, but the scene's hash sees it.
+        if (body.Spec.Flight != MotionLaw.Ballistic || body.Spec.Step != BodySpec.DefaultStep)
+        {
+            json.WriteNumber("step_s", Seconds(body.Spec.Step));
+        }
+
+        json.WriteEndObject();
+    }
+
+    // On one line; the writer's own indentation would spread it over five.
+    private static void Vector(Utf8JsonWriter json, string key, in Vector3D v)
+    {
+        json.WritePropertyName(key);
+        json.WriteRawValue($"[{NumberText.RoundTrip(v.X)}, {NumberText.RoundTrip(v.Y)}, {NumberText.RoundTrip(v.Z)}]");
+    }
+}

@@ -1,0 +1,106 @@
+using System;
+using System.Linq;
+using FsCheck;
+using FsCheck.Fluent;
+using LagSim.Harness.Scenes;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Tests.Scenes;
+
+/// <summary>Scenes of every kind that a builder accepts: normals and offsets of all bits, bodies that start apart.</summary>
+internal static class SceneGen
+{
+    private static readonly Gen<double> Unit = from a in Gen.Choose(0, int.MaxValue - 1)
+                                               from b in Gen.Choose(0, int.MaxValue - 1)
+                                               select (a + (b / (double)int.MaxValue)) / int.MaxValue;
+
+    private static readonly Gen<double> Signed = Gen.OneOf(Unit.Select(u => (2 * u) - 1), Gen.Elements(0, -0.0, 1, -1, 0.1, 1e-300, 5e-324));
+
+    private static readonly Gen<Vector3D> Direction = from x in Signed
+                                                      from y in Signed
+                                                      from z in Signed
+                                                      from scale in Log(-100, 100)
+                                                      select Usable(new Vector3D(x * scale, y * scale, z * scale));
+
+    private static readonly Gen<string> Prefix = Gen.Elements("a", "Ball ", "\"\\/", "é∞", "𝄞<&>'", "\u2028", "\uFEFF", new string('n', 50));
+
+    private static readonly Gen<SimDuration> Step = Gen.OneOf(
+        Gen.Constant(BodySpec.DefaultStep),
+        Gen.Choose(1, 1_000_000).Select(us => SimDuration.FromSeconds(us / 1e6)),
+        Unit.Select(u => SimDuration.FromTicks(1_100_000 + (long)(u * (SimDuration.TicksPerSecond - 1_100_000)))));
+
+    internal static readonly Gen<(Vector3D Normal, Vector3D Point)> Plane =
+        from normal in Direction from point in Within(1e11) select (normal, point);
+
+    /// <summary>Any scene without supplied accelerations. Its planes lie far below, so that nothing overlaps at the start.</summary>
+    internal static readonly Gen<Scene> Any =
+        from name in Prefix
+        from gravity in Within(1e5)
+        from resolution in Log(-14, -4)
+        from smallest in Gen.OneOf(Gen.Constant(0.0), Log(-8, 8))
+        from planes in Gen.Choose(0, 3)
+        from planeSeeds in Gen.ArrayOf(Plane, planes)
+        from spheres in Gen.ArrayOf(Log(-8, 8))
+        from bodies in Gen.ArrayOf(Body)
+        select Build(name, gravity, resolution, smallest, planeSeeds, spheres, bodies);
+
+    private static Gen<(BodySpec Spec, Vector3D Velocity)> Body =>
+        from radius in Log(-8, 8)
+        from mass in Log(-29, 29)
+        from restitution in Gen.OneOf(Unit, Gen.Elements(0.0, -0.0, 1.0))
+        from rk4 in Gen.Elements(true, false)
+        from step in Step
+        from velocity in Within(100)
+        select (new BodySpec(radius, mass, restitution, rk4 ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic, step), velocity);
+
+    private static Gen<double> Log(int least, int most) =>
+        from u in Unit from e in Gen.Choose(least, most - 1) select (1 + (9 * u)) * Math.Pow(10, e);
+
+    private static Gen<Vector3D> Within(double limit) =>
+        from x in Signed from y in Signed from z in Signed select new Vector3D(x * limit, y * limit, z * limit);
+
+    private static Vector3D Usable(Vector3D v) => v.Length is > 1e-140 and < 1e140 ? v : Vector3D.Up;
+
+    private static Scene Build(
+        string name,
+        Vector3D gravity,
+        double resolution,
+        double smallest,
+        (Vector3D Normal, Vector3D Point)[] planes,
+        double[] spheres,
+        (BodySpec Spec, Vector3D Velocity)[] bodies)
+    {
+        SceneBuilder builder = new SceneBuilder(name).WithGravity(gravity).WithResolution(resolution);
+        double least = bodies.Select(b => b.Spec.Radius).Append(smallest > 0 ? smallest : 1e9).Min();
+        if (smallest > 0)
+        {
+            builder.WithSmallestRadius(smallest);
+        }
+
+        // All parts stand in a row; a plane that would cut it is moved to the far side of it.
+        double x = 0.1;
+        for (int i = 0; i < spheres.Length; i++)
+        {
+            builder.AddStaticSphere($"{name}s{i}", new Vector3D(x + spheres[i], 1 / 3.0, -0.0), spheres[i], 0.7);
+            x += (2.01 * spheres[i]) + 0.3;
+        }
+
+        for (int i = 0; i < bodies.Length; i++)
+        {
+            (BodySpec spec, Vector3D velocity) = bodies[i];
+            builder.AddBody($"{name}b{i}", spec, new Vector3D(x + spec.Radius, 0.1, 1e-17), velocity * (1e8 * least));
+            x += (2.01 * spec.Radius) + 0.3;
+        }
+
+        for (int i = 0; i < planes.Length && x < 1e11; i++)
+        {
+            Vector3D unit = new SceneBuilder("u").AddPlane("u", planes[i].Normal, 0).Build().Planes[0].Normal;
+            double offset = Vector3D.Dot(unit, planes[i].Point);
+            Vector3D far = offset > -4 * (x + 1) ? unit * (-5 * (x + 1) * (1 + Math.Abs(offset) / 1e11)) : planes[i].Point;
+            builder.AddPlane($"{name}p{i}", planes[i].Normal, far, i / 3.0);
+        }
+
+        return builder.Build();
+    }
+}
