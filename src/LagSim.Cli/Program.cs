@@ -2,6 +2,7 @@ using System;
 using System.CommandLine;
 using System.CommandLine.Help;
 using System.IO;
+using System.Text;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
 using LagSim.Harness.Peers;
@@ -13,7 +14,11 @@ namespace LagSim.Cli;
 /// <summary>The tool's entry: parses, runs one command, and turns what went wrong into a sentence and an exit code.</summary>
 internal static class Program
 {
-    internal static int Main(string[] arguments) => Run(arguments, Console.Out, Console.Error);
+    internal static int Main(string[] arguments)
+    {
+        Console.OutputEncoding = new UTF8Encoding(encoderShouldEmitUTF8Identifier: false); // tables and curves are not in every code page
+        return Run(arguments, Console.Out, Console.Error);
+    }
 
     /// <summary>One call of the tool, results to one writer, progress and errors to the other.</summary>
     internal static int Run(string[] arguments, TextWriter output, TextWriter error)

@@ -8,7 +8,7 @@ namespace LagSim.Cli.Commands;
 /// <summary>The options that every command has, and how options are checked.</summary>
 internal sealed class CommonOptions
 {
-    internal Option<ulong> Seed { get; } = new("--seed") 
+    internal Option<ulong> Seed { get; } = new("--seed")
     {
         Description = "The luck of links and clocks; the same seed gives the same run.",
         DefaultValueFactory = _ => 1,
@@ -16,7 +16,7 @@ internal sealed class CommonOptions
         CustomParser = ParseSeed,
     };
 
-    internal Option<string?> Out { get; } = new("--out") { Description = "A folder for CSV and SVG files and a report.html that shows them.", HelpName = "FOLDER" };
+    internal Option<string?> Out { get; } = Path("--out", "A folder for CSV and SVG files and a report.html that shows them.", "FOLDER");
 
     internal Option<bool> Json { get; } = new("--json") { Description = "Print one JSON document and nothing else on stdout." };
 
@@ -41,6 +41,20 @@ internal sealed class CommonOptions
             option.DefaultValueFactory = _ => value;
         }
 
+        return option;
+    }
+
+    /// <summary>An option that names a file or folder; no file system has one of an empty name.</summary>
+    internal static Option<string?> Path(string name, string description, string help)
+    {
+        Option<string?> option = new(name) { Description = description, HelpName = help };
+        option.Validators.Add(result =>
+        {
+            if (result.Tokens.Count == 1 && (result.Tokens[0].Value.Length == 0 || result.Tokens[0].Value.Contains('\0', StringComparison.Ordinal)))
+            {
+                result.AddError($"{name} is '{result.Tokens[0].Value.Replace("\0", "\\0", StringComparison.Ordinal)}'; it must be the name of a {help.ToLowerInvariant()}.");
+            }
+        });
         return option;
     }
 

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.CommandLine;
+using System.IO;
 using System.Linq;
 using LagSim.Cli.Output;
 using LagSim.Harness.Drop;
@@ -73,6 +74,11 @@ internal static class DropCommand
 
     private static int Run(ToolConsole console, DropOptions options, bool allStrategies, string? folder, bool json)
     {
+        if (folder is not null)
+        {
+            Directory.CreateDirectory(folder); // what cannot be written is to be said before half a minute has gone by
+        }
+
         string title = options.IsVirtual ? "drop, virtual time" : $"drop, {options.Length.ToSeconds():0} s in real time over UDP";
         IReadOnlyList<DropRun> runs = console.WithProgress(title, options.Length, progress => DropTest.Run(options, progress));
         List<DropRun> strategies = LateEventStrategies.Names.Select(name => DropTest.Run(Teleport(options, name))[0]).ToList();
@@ -91,10 +97,12 @@ internal static class DropCommand
             DropTables.Write(console, options, runs, strategies, folder);
         }
 
-        // What promises agreement must agree, in the comparison too.
-        bool disagreed = runs.Concat(strategies).Any(run => LateEventStrategies.Create(run.Options.Strategy).PromisesAgreement && !run.Agrees);
-        return disagreed ? ExitCode.CheckFailed : ExitCode.Done;
+        return ExitCodeOf(runs.Concat(strategies));
     }
+
+    /// <summary>What promises agreement must agree, in the comparison too.</summary>
+    internal static int ExitCodeOf(IEnumerable<DropRun> runs) =>
+        runs.Any(run => LateEventStrategies.Create(run.Options.Strategy).PromisesAgreement && !run.Agrees) ? ExitCode.CheckFailed : ExitCode.Done;
 
     private static DropOptions Teleport(DropOptions options, string strategy) =>
         options with { Cases = [DropCase.Teleport], Strategy = strategy, IsVirtual = true };

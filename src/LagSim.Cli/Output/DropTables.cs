@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
@@ -17,6 +18,11 @@ internal static class DropTables
     {
         console.Rich.WriteLine($"lagsim {ToolVersion.Text}   drop   seed {options.Seed}   scene {JsonDocumentWriter.Hash(runs[0].SceneHash)}   "
             + $"{options.Strategy}, {MotionNames.Of(options.Motion)}, {options.Peers} peers, {options.Link.Name}, {DropNames.Time(options)} time");
+        foreach (DropRun run in runs)
+        {
+            WritePicture(console, run);
+        }
+
         console.Rich.Write(Summary(runs));
         foreach (DropRun run in runs)
         {
@@ -29,6 +35,23 @@ internal static class DropTables
         {
             console.Rich.WriteLine($"Charts, CSV and report.html are in {folder}.");
         }
+    }
+
+    /// <summary>The heights of all peers over one another, and below them their distance, which is blank where it is exactly zero.</summary>
+    private static void WritePicture(ToolConsole console, DropRun run)
+    {
+        int columns = Math.Clamp(console.Rich.Profile.Width - 12, 40, 120);
+        console.Output.WriteLine($"{DropNames.Case(run.Case)}: height of the ball in m, as {run.Options.Peers} peers showed it");
+        console.Output.Write(TextChart.Draw(run.Trace.Seconds, run.Trace.Heights, columns, 8, NumberText.Short));
+        double[] logarithms = Array.ConvertAll(run.Trace.SeenTrueTimeError, error => error > 0 ? Math.Log10(error) : double.NaN);
+        string errors = TextChart.Draw(run.Trace.Seconds, [logarithms], columns, 4, power => NumberText.Short(Math.Pow(10, power)));
+        if (errors.Length > 0)
+        {
+            console.Output.WriteLine("distance between the peers in m, at the same true time (logarithmic)");
+            console.Output.Write(errors);
+        }
+
+        console.Output.WriteLine();
     }
 
     private static Table Summary(IReadOnlyList<DropRun> runs)

@@ -1,4 +1,5 @@
 using System.Collections.Generic;
+using System.Linq;
 using LagSim.Harness.Metrics;
 using LagSim.Harness.Peers;
 using LagSim.Time;
@@ -36,9 +37,9 @@ public sealed record DropRun(
     double? CpuCoresAtRest,
     DropTrace Trace)
 {
-    /// <summary>Whether all peers' timelines agree to the bit, before and after the event and at the time of it, and nothing was missed.</summary>
+    /// <summary>Whether all peers' timelines and hashes agree to the bit, before and after the event and at the time of it, and nothing was missed.</summary>
     public bool Agrees =>
-        Differing(Settled.Before) + Differing(Settled.During) + Differing(Settled.After) == 0;
+        Differing(Settled.Before) + Differing(Settled.During) + Differing(Settled.After) == 0 && StateHashes.Distinct().Count() == 1;
 
     private static long Differing(ErrorAccumulator errors)
     {

@@ -66,7 +66,7 @@ public abstract class PeerGroup : IDisposable
     /// <summary>Lets time pass until the host's shared clock reads that long after the start, watching.</summary>
     public abstract void RunUntil(SimDuration sinceStart, Action<SimDuration>? progress);
 
-    /// <summary>As <see cref="RunUntil"/>, but unwatched at the end, while what rests is measured.</summary>
+    /// <summary>As <see cref="RunUntil"/>, until every peer's shared clock reads that; unwatched at the end, while what rests is measured.</summary>
     public abstract void RunQuietlyUntil(SimDuration sinceStart, Action<SimDuration>? progress);
 
     /// <summary>Has a peer do something, now.</summary>
@@ -77,6 +77,19 @@ public abstract class PeerGroup : IDisposable
 
     /// <inheritdoc/>
     public abstract void Dispose();
+
+    /// <summary>A session that ended in the middle of a run makes what is measured meaningless.</summary>
+    private protected static void ThrowIfEnded(int peer, SessionState state, Session session)
+    {
+        if (state == SessionState.Ended)
+        {
+            throw new PeerGroupException($"Peer {peer} dropped out: {session.EndReason}");
+        }
+    }
+
+    /// <summary>How long it is until the slowest of some shared clocks reads <paramref name="end"/>; zero or less once it does.</summary>
+    private protected static SimDuration LeftUntil(SimTime end, IEnumerable<Session> sessions) =>
+        sessions.Select(session => end - session.SharedTime.Now).Max();
 
     private protected void PrepareSamples(SimDuration length, SimDuration interval)
     {

@@ -89,12 +89,19 @@ public sealed class RealPeers : PeerGroup
     }
 
     /// <inheritdoc/>
-    public override void RunUntil(SimDuration sinceStart, Action<SimDuration>? progress)
+    public override void RunUntil(SimDuration sinceStart, Action<SimDuration>? progress) =>
+        Run(Start + sinceStart, [threads[0].Session], progress);
+
+    private void Run(SimTime end, Session[] clocks, Action<SimDuration>? progress)
     {
-        SimTime end = Start + sinceStart;
-        while (threads[0].Session.SharedTime.Now < end)
+        while (LeftUntil(end, clocks) > SimDuration.Zero)
         {
             Sample();
+            for (int peer = 0; peer < PeerCount; peer++)
+            {
+                ThrowIfEnded(peer, threads[peer].State, threads[peer].Session);
+            }
+
             progress?.Invoke(threads[0].Session.SharedTime.Now - Start);
             Thread.Sleep(PollMilliseconds);
         }
@@ -116,7 +123,7 @@ public sealed class RealPeers : PeerGroup
 
         bool rested = atRest && Array.TrueForAll(threads, t => t.Latest()!.Number == pictures[Array.IndexOf(threads, t)]);
         CpuCoresAtRest = rested ? used / seconds : null;
-        RunUntil(sinceStart, progress);
+        Run(Start + sinceStart, Array.ConvertAll(threads, t => t.Session), progress);
     }
 
     /// <inheritdoc/>

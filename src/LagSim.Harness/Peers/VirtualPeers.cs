@@ -77,12 +77,16 @@ public sealed class VirtualPeers : PeerGroup
     }
 
     /// <inheritdoc/>
-    public override void RunUntil(SimDuration sinceStart, Action<SimDuration>? progress)
+    public override void RunUntil(SimDuration sinceStart, Action<SimDuration>? progress) => Run(Start + sinceStart, [sessions[0]], progress);
+
+    /// <inheritdoc/>
+    public override void RunQuietlyUntil(SimDuration sinceStart, Action<SimDuration>? progress) => Run(Start + sinceStart, sessions, progress);
+
+    private void Run(SimTime end, Session[] clocks, Action<SimDuration>? progress)
     {
-        SimTime end = Start + sinceStart;
-        while (sessions[0].SharedTime.Now < end)
+        for (SimDuration left; (left = LeftUntil(end, clocks)) > SimDuration.Zero;)
         {
-            SimTime next = clock.Now + (end - sessions[0].SharedTime.Now);
+            SimTime next = clock.Now + left;
             for (int peer = 0; peer < PeerCount; peer++)
             {
                 if (!Seen[peer].IsComplete)
@@ -93,12 +97,14 @@ public sealed class VirtualPeers : PeerGroup
 
             Advance(next);
             Sample();
+            for (int peer = 0; peer < PeerCount; peer++)
+            {
+                ThrowIfEnded(peer, sessions[peer].State, sessions[peer]);
+            }
+
             progress?.Invoke(sessions[0].SharedTime.Now - Start);
         }
     }
-
-    /// <inheritdoc/>
-    public override void RunQuietlyUntil(SimDuration sinceStart, Action<SimDuration>? progress) => RunUntil(sinceStart, progress);
 
     /// <inheritdoc/>
     public override ExternalEvent Do(int peer, PlayerAction action)

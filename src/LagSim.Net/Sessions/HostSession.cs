@@ -176,6 +176,7 @@ public sealed class HostSession : Session
                 : null;
             if (refusal is RefusalReason reason)
             {
+                Counters.DatagramsIgnored++;
                 Send(bytes.Slice(0, new RefusalDatagram(nonce, reason).Encode(bytes)), from);
                 return;
             }
@@ -235,7 +236,7 @@ public sealed class HostSession : Session
 
         // The watermark is a promise about the whole log: with an entry left out it could not yet be relied on.
         update.Watermark = World is null || next < log.Count ? SimTime.MinValue : Watermark;
-        SimDuration wait = WaitAfterUpdate(next > joiner.Acknowledged, now - joiner.Link.Heard);
+        SimDuration wait = WaitAfterUpdate(next > joiner.Acknowledged, joiner.Link.Silence(now));
         Send(joiner.Link.Seal(now + wait), joiner.Link.Other);
     }
 

@@ -41,6 +41,9 @@ public sealed class JoinerSession : Session
         State = SessionState.Joining;
     }
 
+    /// <summary>How late the host accepts an event, as it said; zero before it has.</summary>
+    public SimDuration History { get; private set; }
+
     /// <summary>What is known of the distance between the two clocks.</summary>
     public ClockSync ClockSync { get; } = new();
 
@@ -91,6 +94,11 @@ public sealed class JoinerSession : Session
         {
             SharedTime.Adjust(ClockSync.Offset);
             State = State == SessionState.Synchronising ? SessionState.Waiting : State;
+        }
+
+        if (IsOverdue(link.Silence(now)))
+        {
+            link.Hasten(now); // the host has not heard of this peer; it answers every update at once, so the other way is looked after
         }
 
         // Its clock is set first: events are late or not by it.
@@ -160,6 +168,7 @@ public sealed class JoinerSession : Session
         if (State == SessionState.Joining && welcome.Nonce == nonce)
         {
             Peer = welcome.Peer;
+            History = welcome.History;
             link = new UpdateLink(welcome.SessionId, welcome.Peer, host, Clock.Now);
             State = SessionState.Synchronising;
         }
@@ -251,7 +260,7 @@ public sealed class JoinerSession : Session
             }
         }
 
-        SimDuration wait = !SharedTime.IsSet || World is null ? Pace : WaitAfterUpdate(unacknowledged.Count > 0, now - to.Heard);
+        SimDuration wait = !SharedTime.IsSet || World is null ? Pace : WaitAfterUpdate(unacknowledged.Count > 0, to.Silence(now));
         Send(to.Seal(now + wait), host);
     }
 }

@@ -67,44 +67,25 @@ public abstract class Session
 
     /// <summary>Does what is due: takes in datagrams, brings the world ahead, sends.</summary>
     /// <returns>How long until something is due again, unless a datagram or an action comes first.</returns>
+    /// <remarks>A world that cannot be simulated any further ends the session, with the reason; whatever others send, it does not throw.</remarks>
     public SimDuration Step()
     {
-        while (Port.TryReceive(buffer, out int length, out PeerAddress from))
+        try
         {
-            Counters.DatagramsReceived++;
-            Receive(buffer.AsSpan(0, length), from);
+            return StepOnce();
         }
-
-        SimTime now = Clock.Now;
-        if (State != SessionState.Ended)
+        catch (SimulationException failure)
         {
-            Tend(now);
+            EndWorld(failure);
+            return SimDuration.MaxValue;
         }
-
-        SimTime due = State == SessionState.Ended ? SimTime.MaxValue : NextDue(now);
-        if (World is not null && State != SessionState.Ended)
-        {
-            SimTime shared = SharedTime.Now;
-            SimTime worldDue = World.Step(shared);
-            if (worldDue != SimTime.MaxValue)
-            {
-                due = SimTime.Min(due, now + (worldDue - shared));
-            }
-
-            BeginRunning(shared);
-            if (State != SessionState.Running)
-            {
-                due = SimTime.Min(due, now + (World.Simulation.Start - shared));
-            }
-        }
-
-        return due == SimTime.MaxValue ? SimDuration.MaxValue : due - now;
     }
 
     /// <summary>Does something to the shared world, now: seen here at once, by the others as soon as they hear of it.</summary>
     /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
     /// <exception cref="InvalidOperationException">The session is not running.</exception>
     /// <exception cref="SceneException">A value may not enter the world; nothing happened.</exception>
+    /// <exception cref="SimulationException">The world cannot be simulated with it; the session has ended.</exception>
     public ExternalEvent Do(in PlayerAction action)
     {
         if (State != SessionState.Ended && SharedTime.IsSet)
@@ -118,7 +99,16 @@ public abstract class Session
         }
 
         ExternalEvent external = action.Stamp(SharedTime.Now, Peer, LastSequence + 1);
-        World.Submit(external);
+        try
+        {
+            World.Submit(external);
+        }
+        catch (SimulationException failure)
+        {
+            EndWorld(failure);
+            throw;
+        }
+
         LastSequence++;
         Publish(external);
         return external;
@@ -202,11 +192,14 @@ public abstract class Session
     private protected void Commit(SimTime watermark) => World?.Simulation.DropHistoryBefore(watermark - Options.ExtraHistory);
 
     /// <summary>
-    /// How long to wait before the next update. Who was not heard of when it was due is written to as if something were unacknowledged: else a
+    /// Whether one end of a link has not heard of the other when it should have. They then write as if something were unacknowledged: else a
     /// burst of losses, which is counted in datagrams, would last as long as the timeout.
     /// </summary>
+    private protected bool IsOverdue(SimDuration silence) => silence > Options.KeepAlive + (Options.KeepAlive / 4);
+
+    /// <summary>How long to wait before the next update.</summary>
     private protected SimDuration WaitAfterUpdate(bool hasUnacknowledged, SimDuration silence) =>
-        hasUnacknowledged || silence > Options.KeepAlive + (Options.KeepAlive / 4) ? Options.ResendInterval : Options.KeepAlive;
+        hasUnacknowledged || IsOverdue(silence) ? Options.ResendInterval : Options.KeepAlive;
 
     /// <summary>Counts a datagram that could not be decoded.</summary>
     private protected bool IsWellFormed(bool decoded)
@@ -219,6 +212,49 @@ public abstract class Session
     {
         Port.Send(datagram, to);
         Counters.DatagramsSent++;
+    }
+
+    private SimDuration StepOnce()
+    {
+        while (Port.TryReceive(buffer, out int length, out PeerAddress from))
+        {
+            Counters.DatagramsReceived++;
+            Receive(buffer.AsSpan(0, length), from);
+        }
+
+        SimTime now = Clock.Now;
+        if (State != SessionState.Ended)
+        {
+            Tend(now);
+        }
+
+        SimTime due = State == SessionState.Ended ? SimTime.MaxValue : NextDue(now);
+        if (World is not null && State != SessionState.Ended)
+        {
+            SimTime shared = SharedTime.Now;
+            SimTime worldDue = World.Step(shared);
+            if (worldDue != SimTime.MaxValue)
+            {
+                // A shared clock that is behind is bent to run up to 5 % fast: by the own clock the time then comes that much sooner.
+                SimDuration left = worldDue - shared;
+                due = SimTime.Min(due, now + (SharedTime.Remaining > SimDuration.Zero ? left - (left / 20) : left));
+            }
+
+            BeginRunning(shared);
+            if (State != SessionState.Running)
+            {
+                due = SimTime.Min(due, now + (World.Simulation.Start - shared));
+            }
+        }
+
+        return due == SimTime.MaxValue ? SimDuration.MaxValue : due - now;
+    }
+
+    /// <summary>Nothing is to be read from a world that failed; the pictures that were published still can be.</summary>
+    private void EndWorld(SimulationException failure)
+    {
+        Farewell();
+        End($"The world cannot be simulated any further. {failure.Message}");
     }
 
     private void BeginRunning(SimTime shared)

@@ -14,6 +14,7 @@ internal sealed class UpdateLink
     private uint lastReceived;
     private SimTime echoSent = SimTime.MinValue;
     private SimTime echoReceived = SimTime.MinValue;
+    private SimDuration unheard;
 
     internal UpdateLink(ulong sessionId, byte self, PeerAddress other, SimTime now)
     {
@@ -36,6 +37,9 @@ internal sealed class UpdateLink
     /// <summary>When the next update is due, by the own clock.</summary>
     internal SimTime Due { get; private set; }
 
+    /// <summary>The longer of two silences: for how long nothing came, and for how long the other said, when it last wrote, that nothing came there.</summary>
+    internal SimDuration Silence(SimTime now) => now - Heard > unheard ? now - Heard : unheard;
+
     /// <summary>Notes an update that came; false for one that was overtaken or came twice, whose clock readings are then of no use.</summary>
     internal bool Note(UpdateDatagram update, SimTime now)
     {
@@ -48,6 +52,7 @@ internal sealed class UpdateLink
         lastReceived = update.Number;
         echoSent = update.Sent;
         echoReceived = now;
+        unheard = update.EchoReceived == SimTime.MinValue ? SimDuration.Zero : update.Sent - update.EchoReceived; // both by its own clock
         return true;
     }
 

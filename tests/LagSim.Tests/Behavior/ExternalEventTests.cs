@@ -1,0 +1,215 @@
+using System;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Behavior;
+
+/// <summary>What players do to a world, and what becomes of it when it comes late, twice, too late or for nobody.</summary>
+public sealed class ExternalEventTests
+{
+    private static readonly BodyId Guest = new(1, 1, 0);
+
+    private static Scene Space => new SceneBuilder("space").WithGravity(Floating).AddBody("ball", Ball(mass: 2), V(0), V(1)).Build();
+
+    private static ExternalEvent SpawnAt(double seconds) => ExternalEvent.Spawn(At(seconds), 1, 1, Ball(), V(0, 5), V(0, 0, 1));
+
+    [Fact]
+    public void Spawn_AtItsTime_IsThereFromThatTickOn()
+    {
+        Simulation simulation = new(Space, KeepAll);
+        Assert.Equal(SubmitResult.Queued, simulation.Submit(SpawnAt(1)));
+        simulation.AdvanceTo(At(3));
+        Assert.False(simulation.TryRead(Guest, At(1) - SimDuration.OneTick, out _));
+        Assert.True(simulation.TryRead(Guest, At(1), out BodyState born));
+        Assert.Equal(V(0, 5), born.Position);
+        Assert.Equal(V(0, 5, 2), Read(simulation, Guest, 3).Position);
+    }
+
+    [Fact]
+    public void Remove_AtItsTime_TakesTheBodyOutOfEverything()
+    {
+        Simulation simulation = new(Space, KeepAll);
+        simulation.Submit(ExternalEvent.Spawn(At(0.5), 1, 1, Ball(), V(3), V(0)));
+        simulation.Submit(ExternalEvent.Remove(At(1), 2, 1, Guest));
+        simulation.AdvanceTo(At(5));
+        Assert.True(simulation.TryRead(Guest, At(1) - SimDuration.OneTick, out _));
+        Assert.False(simulation.TryRead(Guest, At(1), out BodyState gone));
+        Assert.Equal(MotionLaw.Absent, gone.Motion);
+        Assert.Empty(Impacts(simulation, First)); // it flew through where the guest was
+        Assert.NotEmpty(Impacts(With(Space, 5, ExternalEvent.Spawn(At(0.5), 1, 1, Ball(), V(3), V(0))), First));
+    }
+
+    [Fact]
+    public void TeleportSetVelocityImpulse_Each_DoesWhatItSays()
+    {
+        Simulation simulation = With(
+            Space, 6,
+            ExternalEvent.Teleport(At(1), 1, 1, First, V(10, 20, 30)),
+            ExternalEvent.SetVelocity(At(2), 1, 2, First, V(0, 3)),
+            ExternalEvent.Impulse(At(4), 1, 3, First, V(0, 0, 8)));
+        Assert.Equal(V(10, 20, 30), Read(simulation, First, 2).Position); // a teleport leaves it without velocity
+        Assert.Equal(V(10, 26, 30), Read(simulation, First, 4).Position);
+        Assert.Equal(V(0, 3, 4), Read(simulation, First, 4).Velocity); // 8 N s on 2 kg
+        Assert.Equal(V(10, 32, 38), Read(simulation, First, 6).Position);
+    }
+
+    [Fact]
+    public void SpawnAndTeleport_AtTheSameTick_BothCount()
+    {
+        Simulation simulation = With(Space, 2, ExternalEvent.Teleport(At(1), 0, 7, Guest, V(0, 9)), SpawnAt(1));
+        Assert.Equal(V(0, 9), Read(simulation, Guest, 1).Position);
+    }
+
+    [Fact]
+    public void Deeds_ToABodyThatIsNotThere_DoNothingUntilItsSpawnArrives()
+    {
+        ExternalEvent deed = ExternalEvent.SetVelocity(At(1), 2, 1, Guest, V(0, 0, -4));
+        Simulation simulation = With(Space, 2, deed);
+        Simulation untouched = Run(Space, 2);
+        Assert.Equal(untouched.StateHash(At(2)), simulation.StateHash(At(2)));
+        Assert.Equal(untouched.EventHash(At(2)), simulation.EventHash(At(2)));
+
+        Assert.Equal(SubmitResult.RolledBack, simulation.Submit(SpawnAt(0.5)));
+        Assert.Equal(V(0, 5, 0.5 - 4), Read(simulation, Guest, 2).Position);
+        Simulation onTime = With(Space, 2, SpawnAt(0.5), deed);
+        Assert.Equal(onTime.StateHash(At(2)), simulation.StateHash(At(2)));
+        Assert.Equal(onTime.EventHash(At(2)), simulation.EventHash(At(2)));
+    }
+
+    [Fact]
+    public void Retract_OfAnAppliedEvent_IsAsIfItHadNeverBeen()
+    {
+        ExternalEvent deed = ExternalEvent.SetVelocity(At(1), 2, 1, First, V(0, 1));
+        Simulation simulation = With(Space, 2, deed);
+        Assert.NotEqual(Run(Space, 2).StateHash(At(2)), simulation.StateHash(At(2)));
+        Assert.True(simulation.Retract(deed));
+        Assert.False(simulation.Retract(deed));
+        Assert.Equal(Run(Space, 2).StateHash(At(2)), simulation.StateHash(At(2)));
+        Assert.Equal(Run(Space, 2).EventHash(At(2)), simulation.EventHash(At(2)));
+    }
+
+    [Fact]
+    public void Retract_OfAQueuedEvent_LeavesTheOthersQueued()
+    {
+        ExternalEvent first = ExternalEvent.SetVelocity(At(1), 2, 1, First, V(0, 1)), second = ExternalEvent.SetVelocity(At(1.5), 2, 2, First, V(0, 2));
+        Simulation simulation = new(Space, KeepAll);
+        simulation.Submit(first);
+        simulation.Submit(second);
+        Assert.True(simulation.Retract(first));
+        simulation.AdvanceTo(At(2));
+        Assert.Equal(0, simulation.Rollbacks);
+        Assert.Equal(V(1.5, 1), Read(simulation, First, 2).Position);
+    }
+
+    [Fact]
+    public void Retract_OfASpawnOthersWereHitBy_TakesTheHitsBackToo()
+    {
+        ExternalEvent spawn = ExternalEvent.Spawn(At(0.5), 1, 1, Ball(), V(3), V(0));
+        Simulation simulation = With(Space, 5, spawn);
+        Assert.NotEmpty(Impacts(simulation, First));
+        Assert.True(simulation.Retract(spawn));
+        Assert.Equal(Run(Space, 5).EventHash(At(5)), simulation.EventHash(At(5)));
+    }
+
+    [Fact]
+    public void Retract_OfAnUnknownEvent_IsFalse()
+    {
+        Simulation simulation = Run(Space, 1);
+        Assert.False(simulation.Retract(ExternalEvent.Remove(At(0.5), 1, 1, First)));
+        Assert.False(simulation.Retract(ExternalEvent.Remove(At(0.5), 1, 1, Guest)));
+    }
+
+    [Fact]
+    public void SubmitAndRetract_BeforeTheHistory_ChangeNothing()
+    {
+        ExternalEvent old = ExternalEvent.SetVelocity(At(0.5), 1, 1, First, V(0, 1));
+        Simulation simulation = new(Space, new SimulationOptions(default, SimDuration.FromSeconds(1)));
+        simulation.Submit(old);
+        for (int i = 1; i <= 100; i++)
+        {
+            simulation.Submit(ExternalEvent.SetVelocity(At(0.05 * i), 2, (uint)i, First, V(0, 1 + (i % 2))));
+            simulation.AdvanceTo(At(0.05 * i));
+        }
+
+        Assert.Equal(At(5) - SimDuration.FromSeconds(1), simulation.HistoryEdge);
+        ulong before = simulation.StateHash(At(5));
+        Assert.Equal(SubmitResult.TooOld, simulation.Submit(ExternalEvent.Remove(simulation.HistoryEdge - SimDuration.OneTick, 3, 1, First)));
+        Assert.False(simulation.Retract(old));
+        Assert.Equal(before, simulation.StateHash(At(5)));
+        Assert.Equal(0, simulation.Rollbacks);
+        Assert.Equal(SubmitResult.RolledBack, simulation.Submit(ExternalEvent.Remove(simulation.HistoryEdge, 3, 1, First)));
+        Assert.Throws<ArgumentOutOfRangeException>(() => simulation.StateHash(simulation.HistoryEdge - SimDuration.OneTick));
+        simulation.DropHistoryBefore(At(4.5));
+        Assert.Equal(SubmitResult.TooOld, simulation.Submit(ExternalEvent.Remove(At(4.4), 3, 2, First)));
+    }
+
+    [Fact]
+    public void Submit_TheSameEventAgain_IsADuplicateQueuedOrApplied()
+    {
+        ExternalEvent deed = ExternalEvent.Impulse(At(1), 2, 1, First, V(0, 2));
+        Simulation simulation = new(Space, KeepAll);
+        Assert.Equal(SubmitResult.Queued, simulation.Submit(deed));
+        Assert.Equal(SubmitResult.Duplicate, simulation.Submit(deed));
+        simulation.AdvanceTo(At(2));
+        Assert.Equal(SubmitResult.Duplicate, simulation.Submit(deed));
+        Assert.Equal(V(1, 1), Read(simulation, First, 2).Velocity);
+        Assert.Equal(0, simulation.Rollbacks);
+
+        // The control: another sequence number is another deed.
+        Assert.Equal(SubmitResult.RolledBack, simulation.Submit(ExternalEvent.Impulse(At(1), 2, 2, First, V(0, 2))));
+        Assert.Equal(V(1, 2), Read(simulation, First, 2).Velocity);
+    }
+
+    [Fact]
+    public void Impulse_ThatWouldExceedTheFastestSpeed_HasNoEffect()
+    {
+        Simulation simulation = With(Space, 2, ExternalEvent.Impulse(At(1), 1, 1, First, V(1e300)));
+        Assert.Equal(Run(Space, 2).StateHash(At(2)), simulation.StateHash(At(2)));
+    }
+
+    [Fact]
+    public void Forwarded_LateTeleport_AgreesWithItsOwnPathFromTheArrivalOn()
+    {
+        Scene scene = Drop(1, 0.8, MotionLaw.RungeKutta4);
+        ExternalEvent teleport = ExternalEvent.Teleport(At(0.3), 1, 1, First, V(0, 4));
+        Simulation onTime = With(scene, 3, teleport);
+        Simulation late = Run(scene, 0.35);
+        late.SubmitForwarded(teleport, At(0.325));
+        late.AdvanceTo(At(3));
+        Assert.NotEqual(onTime.StateHash(At(0.31)), late.StateHash(At(0.31))); // what was before the arrival stays
+        SameBits(Read(onTime, First, 0.33), Read(late, First, 0.33));
+        SameBits(Read(onTime, First, 3), Read(late, First, 3));
+        Assert.Throws<ArgumentOutOfRangeException>(() => late.SubmitForwarded(teleport, At(0.29)));
+    }
+
+    [Fact]
+    public void TwoSpawns_InEitherOrderOfArrival_GiveTheSameBits()
+    {
+        // Other slots, other order of discovery, one and the same impact of three at once.
+        ExternalEvent left = ExternalEvent.Spawn(At(0.1), 1, 1, Ball(mass: 1.7), V(-0.2, 5, 0.5), V(0, -7));
+        ExternalEvent right = ExternalEvent.Spawn(At(0.1), 2, 1, Ball(mass: 0.3), V(0.4, 5, 0.5), V(0, -7));
+        Scene scene = new SceneBuilder("floor").WithSmallestRadius(0.1).AddPlane("floor", Vector3D.Up, V(0), 0.9).AddStaticSphere("dome", V(0), 1, 0.7).AddBody("ball", Ball(), V(0, 2.5, -0.4)).Build();
+        ExternalEvent[] spawns = [left, ExternalEvent.Spawn(At(0.1), 3, 1, Ball(0.1), V(0.1, 8), V(0, -1)), right];
+        Simulation a = With(scene, 2, spawns), b = With(scene, 2, spawns.Reverse().ToArray());
+        Assert.True(a.EventsProcessed > 6);
+        Assert.Equal(a.StateHash(At(2)), b.StateHash(At(2)));
+        Assert.Equal(a.EventHash(At(2)), b.EventHash(At(2)));
+        SameTimelines(a, b);
+    }
+
+    private static Simulation With(Scene scene, double seconds, params ExternalEvent[] events)
+    {
+        Simulation simulation = new(scene, KeepAll);
+        foreach (ExternalEvent external in events)
+        {
+            simulation.Submit(external);
+        }
+
+        simulation.AdvanceTo(At(seconds));
+        return simulation;
+    }
+}

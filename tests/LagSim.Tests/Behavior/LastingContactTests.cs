@@ -1,0 +1,137 @@
+using System;
+using System.Linq;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Behavior;
+
+/// <summary>Lasting contacts that no plane covers: they go on by hops, in a bounded number of events, and nothing sinks into anything.</summary>
+public sealed class LastingContactTests
+{
+    [Theory]
+    [InlineData(0)]
+    [InlineData(0.5)]
+    [InlineData(0.9)]
+    public void StaticSphere_BallExactlyOnTop_StaysWithSomeThousandEventsASecond(double e)
+    {
+        Scene scene = Dome(0, e);
+        Simulation simulation = Run(scene, 10);
+        long before = simulation.EventsProcessed;
+        simulation.AdvanceTo(At(11));
+        Assert.InRange(simulation.EventsProcessed - before, 1, 2500);
+        BodyState state = Read(simulation, First, 11);
+        Assert.Equal(0, state.Position.X);
+        Assert.InRange(state.Position.Y, 1.5 - 1e-9, 1.5 + 1e-5);
+    }
+
+    [Fact]
+    public void StaticSphere_BallOffCentre_RollsOffAndRestsOnTheFloor()
+    {
+        Simulation simulation = Run(Dome(0.01, 0.3), 20);
+        BodyState state = Read(simulation, First, 20);
+        Near(0.5 - 2, state.Position.Y, 1e-8);
+        Assert.True(state.Position.X > 1);
+        Assert.Equal(MotionLaw.Sliding, state.Motion);
+        Assert.InRange(simulation.EventsProcessed, 100, 10_000);
+    }
+
+    [Theory]
+    [InlineData(0.3, 1)]
+    [InlineData(0.8, 1)]
+    [InlineData(0.3, 10)]
+    [InlineData(0.5, 0.1)]
+    public void Stack_OfTwo_StaysUpInABoundedNumberOfEvents(double e, double massAbove)
+    {
+        Simulation simulation = Run(Stack(e, 1, massAbove), 10);
+        long before = simulation.EventsProcessed;
+        simulation.AdvanceTo(At(11));
+        Assert.InRange(simulation.EventsProcessed - before, 1, 2500);
+        Assert.InRange(Read(simulation, First, 11).Position.Y, 0.5 - 2e-9, 0.5 + 2e-9);
+        Assert.InRange(Read(simulation, Second, 11).Position.Y, 1.5 - 2e-9, 1.5 + 1e-5);
+        Assert.True(LeastGap(simulation, At(11)) > -2e-9);
+    }
+
+    [Theory]
+    [InlineData(0.05, 1)]
+    [InlineData(0.5, 1)]
+    [InlineData(0.5, 10)]
+    public void Stack_OfThree_StaysUpInABoundedNumberOfEvents(double e, double massOnTop)
+    {
+        // The ball in the middle must pass the load on by hops: their number grows with the mass ratio.
+        Scene scene = new SceneBuilder("three").AddPlane("floor", Vector3D.Up, V(0), e).AddBody("below", Ball(e: e), V(0, 0.5))
+            .AddBody("middle", Ball(e: e), V(0, 1.5)).AddBody("top", Ball(mass: massOnTop, e: e), V(0, 2.6)).Build();
+        Simulation simulation = Run(scene, 2);
+        long before = simulation.EventsProcessed;
+        simulation.AdvanceTo(At(2.5));
+        Assert.InRange(simulation.EventsProcessed - before, 1, 4000 * massOnTop);
+        Assert.InRange(Read(simulation, Third, 2.5).Position.Y, 2.5 - 2e-9, 2.5 + 2e-5);
+        Assert.True(LeastGap(simulation, At(2.5)) > -2e-9);
+    }
+
+    [Theory]
+    [InlineData(0.02)]
+    [InlineData(0.05)]
+    public void ThreeBalls_RestitutionBelowTheThreshold_CollapseAndEnd(double e)
+    {
+        Assert.True(e < 7 - (4 * Math.Sqrt(3)));
+        Simulation simulation = Run(Three(e), 5);
+        Assert.InRange(simulation.EventsProcessed, 10, 1000);
+        Assert.Contains(Impacts(simulation, Second), impact => impact.Key.Round > 0); // so close together that they share a tick
+        Near(0, Momentum(simulation, At(5)).X, 1e-14);
+        Assert.True(LeastGap(simulation, At(5)) > -1e-9);
+    }
+
+    [Theory]
+    [InlineData(0.09)]
+    [InlineData(0.5)]
+    public void ThreeBalls_RestitutionAboveTheThreshold_PartAfterAFewHits(double e)
+    {
+        Assert.True(e > 7 - (4 * Math.Sqrt(3)));
+        Simulation simulation = Run(Three(e), 5);
+        Assert.InRange(simulation.EventsProcessed, 2, 40);
+        Assert.DoesNotContain(Impacts(simulation, Second), impact => impact.Key.Round > 0);
+        Assert.True(LeastGap(simulation, At(5)) > 0);
+    }
+
+    [Theory]
+    [InlineData(1, 0)]
+    [InlineData(1, 9.81)]
+    [InlineData(0.5, 9.81)]
+    [InlineData(0, 0)]
+    public void BetweenTwoPlanes_WithNoRoom_TheBallKeepsOnlyItsMotionAlong(double e, double g)
+    {
+        Scene scene = new SceneBuilder("press").WithGravity(V(0, -g)).AddPlane("floor", Vector3D.Up, V(0), e).AddPlane("ceiling", V(0, -1), V(0, 1), e)
+            .AddBody("ball", Ball(), V(0, 0.5), V(2, 1)).Build();
+        Simulation simulation = Run(scene, 5);
+        BodyState state = Read(simulation, First, 5);
+        Near(V(10, 0.5), state.Position, 2e-9);
+        Near(V(2), state.Velocity, 1e-6);
+        Assert.InRange(simulation.EventsProcessed, 1, 10_000);
+    }
+
+    [Theory]
+    [InlineData(0.1, 0.5)]
+    [InlineData(0.001, 0.5)]
+    [InlineData(0.001, 0.9)]
+    public void Wedge_BallDrivenIntoIt_JamsInFiniteEvents(double slope, double e)
+    {
+        double jam = ((0.5 * Math.Sqrt(1 + (slope * slope))) - 1) / slope;
+        Scene scene = new SceneBuilder("wedge").AddPlane("left", V(1, slope), V(-1), e).AddPlane("right", V(-1, slope), V(1), e)
+            .AddBody("ball", Ball(), V(0.0001, jam + (0.001 / slope)), V(0, -1)).Build();
+        Simulation simulation = Run(scene, 5);
+        Near(jam, Read(simulation, First, 5).Position.Y, 1e-6);
+        Assert.Equal(MotionLaw.Resting, Read(simulation, First, 5).Motion);
+        Assert.InRange(simulation.EventsProcessed, 3, 2000);
+    }
+
+    private static Scene Dome(double x, double e) => new SceneBuilder("dome").AddPlane("floor", Vector3D.Up, V(0, -2), 0).AddStaticSphere("dome", V(0), 1, e)
+        .AddBody("ball", Ball(), V(x, 1.6)).Build();
+
+    private static Scene Stack(double e, double below, double above) => new SceneBuilder("stack").AddPlane("floor", Vector3D.Up, V(0), e)
+        .AddBody("below", Ball(mass: below, e: e), V(0, 0.5)).AddBody("above", Ball(mass: above, e: e), V(0, 1.75)).Build();
+
+    private static Scene Three(double e) => new SceneBuilder("three").WithGravity(Floating)
+        .AddBody("left", Ball(e: e), V(-2), V(1)).AddBody("middle", Ball(e: e), V(0)).AddBody("right", Ball(e: e), V(2.5), V(-1)).Build();
+}

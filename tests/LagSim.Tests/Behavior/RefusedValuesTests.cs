@@ -1,0 +1,127 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Behavior;
+
+/// <summary>What may not enter the world is refused at the door, by a sentence that names the value.</summary>
+public sealed class RefusedValuesTests
+{
+    private static readonly Dictionary<string, (Func<SceneBuilder, SceneBuilder> Spoil, string[] Words)> Scenes = new()
+    {
+        ["nan position"] = (b => b.AddBody("x", Ball(), V(0, double.NaN)), ["position", "'x'", "NaN"]),
+        ["infinite velocity"] = (b => b.AddBody("x", Ball(), V(0, 9), V(double.PositiveInfinity)), ["velocity", "'x'", "Infinity"]),
+        ["far away"] = (b => b.AddBody("x", Ball(), V(2e12, 9)), ["position", "'x'", "2000000000000"]),
+        ["too fast"] = (b => b.AddBody("x", Ball(), V(0, 9), V(1e12)), ["velocity", "'x'", "1000000000000", "tenth"]),
+        ["negative radius"] = (b => b.AddBody("x", Ball(-1), V(0, 9)), ["radius", "'x'", "-1"]),
+        ["nan radius"] = (b => b.AddBody("x", Ball(double.NaN), V(0, 9)), ["radius", "'x'", "NaN"]),
+        ["no mass"] = (b => b.AddBody("x", Ball(mass: 0), V(0, 9)), ["mass", "'x'", "0"]),
+        ["restitution"] = (b => b.AddBody("x", Ball(e: 1.5), V(0, 9)), ["restitution", "'x'", "1.5"]),
+        ["law"] = (b => b.AddBody("x", Ball(flight: MotionLaw.Resting), V(0, 9)), ["motion law", "'x'", "Resting"]),
+        ["step"] = (b => b.AddBody("x", Ball(flight: MotionLaw.RungeKutta4, step: 2), V(0, 9)), ["step", "'x'", "2s"]),
+        ["no such force"] = (b => b.AddBody("x", Ball(flight: MotionLaw.RungeKutta4, force: 3), V(0, 9)), ["'x'", "acceleration 3"]),
+        ["force on ballistic"] = (
+            b => b.AddAcceleration(new Force((_, _, _) => default)).AddBody("x", Ball(force: 1), V(0, 9)), ["'x'", "Ballistic", "RungeKutta4"]),
+        ["overlap"] = (b => b.AddBody("x", Ball(), V(0, 0.25)), ["'x'", "0.25", "floor"]),
+        ["overlap of two"] = (b => b.AddBody("x", Ball(), V(0, 9)).AddBody("y", Ball(), V(0, 9.5)), ["'y'", "'x'", "0.5"]),
+        ["same name"] = (b => b.AddBody("floor", Ball(), V(0, 9)), ["'floor'", "unique"]),
+        ["no name"] = (b => b.AddBody("", Ball(), V(0, 9)), ["''", "name"]),
+        ["gravity"] = (b => b.WithGravity(V(0, double.NaN)), ["gravity", "NaN"]),
+        ["resolution"] = (b => b.WithResolution(0), ["resolution", "0"]),
+        ["smallest radius"] = (b => b.WithSmallestRadius(-1), ["smallest radius", "-1"]),
+        ["no normal"] = (b => b.AddPlane("p", V(0), V(0)), ["'p'", "normal"]),
+        ["plane restitution"] = (b => b.AddPlane("p", V(1), V(0), 2), ["'p'", "restitution", "2"]),
+        ["sphere radius"] = (b => b.AddStaticSphere("s", V(0), 0), ["'s'", "radius"]),
+    };
+
+    private static readonly Dictionary<string, (ExternalEvent Event, string[] Words)> Events = new()
+    {
+        ["default"] = (default, ["None"]),
+        ["sequence 0"] = (ExternalEvent.Remove(At(1), 1, 0, First), ["sequence", "0"]),
+        ["no such body"] = (ExternalEvent.Remove(At(1), 1, 1, BodyId.OfScene(7)), ["0.0.7", "no such body"]),
+        ["index of a spawn"] = (ExternalEvent.Remove(At(1), 1, 1, new BodyId(1, 1, 3)), ["1.1.3", "index 0"]),
+        ["spawn 0"] = (ExternalEvent.Remove(At(1), 1, 1, new BodyId(1, 0, 0)), ["1.0.0", "count from 1"]),
+        ["nan place"] = (ExternalEvent.Teleport(At(1), 1, 1, First, V(double.NaN, 5)), ["position", "NaN"]),
+        ["infinite impulse"] = (ExternalEvent.Impulse(At(1), 1, 1, First, V(double.NegativeInfinity)), ["impulse", "Infinity"]),
+        ["too fast"] = (ExternalEvent.SetVelocity(At(1), 1, 1, First, V(1e12)), ["velocity", "1000000000000"]),
+        ["into the floor"] = (ExternalEvent.Teleport(At(1), 1, 1, First, V(0, 0.25)), ["position", "0.25", "'floor'"]),
+        ["into the dome"] = (ExternalEvent.Teleport(At(1), 1, 1, First, V(10, 1)), ["position", "'dome'"]),
+        ["spawn too small"] = (ExternalEvent.Spawn(At(1), 1, 1, Ball(0.1), V(0, 5)), ["radius", "0.1", "0.5"]),
+        ["spawn without spec"] = (ExternalEvent.Spawn(At(1), 1, 1, default, V(0, 5)), ["radius", "0"]),
+        ["spawn below the floor"] = (ExternalEvent.Spawn(At(1), 1, 1, Ball(), V(0, -5)), ["5.5", "'floor'"]),
+    };
+
+    public static TheoryData<string> SceneCases => [.. Scenes.Keys];
+
+    public static TheoryData<string> EventCases => [.. Events.Keys];
+
+    [Theory]
+    [MemberData(nameof(SceneCases))]
+    public void Build_InvalidValue_IsRefusedByNameAndValue(string name)
+    {
+        (Func<SceneBuilder, SceneBuilder> spoil, string[] words) = Scenes[name];
+        string message = Assert.Throws<SceneException>(() => spoil(Good()).Build()).Message;
+        Assert.All(words, word => Assert.Contains(word, message, StringComparison.Ordinal));
+    }
+
+    [Theory]
+    [MemberData(nameof(EventCases))]
+    public void Submit_InvalidValue_IsRefusedAndNothingChanges(string name)
+    {
+        (ExternalEvent external, string[] words) = Events[name];
+        Simulation simulation = new(Good().Build(), KeepAll);
+        simulation.AdvanceTo(At(2));
+        ulong before = simulation.StateHash(At(2));
+        string message = Assert.Throws<SceneException>(() => simulation.Submit(external)).Message;
+        Assert.All(words, word => Assert.Contains(word, message, StringComparison.Ordinal));
+        Assert.Equal(before, simulation.StateHash(At(2)));
+        Assert.Equal(1, simulation.BodyCount);
+        simulation.AdvanceTo(At(3)); // and it is not faulted
+    }
+
+    [Fact]
+    public void BuildAndSubmit_ValuesAtTheEdge_ArePermitted()
+    {
+        Simulation simulation = new(Good().AddBody("x", Ball(), V(0, 2.5)).Build(), KeepAll); // touching
+        Assert.Equal(SubmitResult.Queued, simulation.Submit(ExternalEvent.Teleport(At(1), 1, 1, First, V(5, 0.5))));
+        Assert.Equal(SubmitResult.Queued, simulation.Submit(ExternalEvent.SetVelocity(At(1), 1, 2, First, V(0.05 * (1L << 40)))));
+    }
+
+    [Fact]
+    public void NegativeZero_InAScene_HashesLikeZero()
+    {
+        Scene plus = new SceneBuilder("a").AddBody("x", Ball(), V(0, 0, 0), V(0)).Build();
+        Scene minus = new SceneBuilder("a").AddBody("x", Ball(), V(-0.0, -0.0, -0.0), V(-0.0)).Build();
+        Assert.Equal(plus.Hash, minus.Hash);
+        Assert.Equal(Run(plus, 1).StateHash(At(1)), Run(minus, 1).StateHash(At(1)));
+        Assert.NotEqual(plus.Hash, new SceneBuilder("a").AddBody("x", Ball(), V(double.Epsilon), V(0)).Build().Hash);
+    }
+
+    [Fact]
+    public void AdvanceTo_ForceThatGivesNaN_FaultsWithASentenceAndStaysFaulted()
+    {
+        Scene scene = new SceneBuilder("nan").AddAcceleration(new Force((t, _, _) => V(t > 0.5 ? double.NaN : 0)))
+            .AddBody("x", Ball(flight: MotionLaw.RungeKutta4, force: 1), V(0)).Build();
+        Simulation simulation = new(scene, KeepAll);
+        SimulationException failure = Assert.Throws<SimulationException>(() => simulation.AdvanceTo(At(1)));
+        Assert.Contains("0.0.0", failure.Message, StringComparison.Ordinal);
+        Assert.Contains("NaN", failure.Message, StringComparison.Ordinal);
+        Assert.Same(failure, Assert.Throws<InvalidOperationException>(() => simulation.AdvanceTo(At(1))).InnerException);
+        Assert.Throws<InvalidOperationException>(() => simulation.StateHash(At(0.1)));
+    }
+
+    [Fact]
+    public void AdvanceTo_BackInTime_IsRefusedAndHarmless()
+    {
+        Simulation simulation = Run(Drop(1, 0.5), 1);
+        Assert.Throws<ArgumentOutOfRangeException>(() => simulation.AdvanceTo(At(0.5)));
+        simulation.AdvanceTo(At(2));
+    }
+
+    private static SceneBuilder Good() => new SceneBuilder("good").AddPlane("floor", Vector3D.Up, V(0), 0.5).AddStaticSphere("dome", V(10, 0), 1)
+        .AddBody("ball", Ball(), V(0, 1.5));
+}

@@ -1,0 +1,195 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Determinism;
+
+/// <summary>The one invariant: the state is a fold of the scene and the events in canonical order, whatever the order in which they came.</summary>
+public sealed class InvariantTests
+{
+    private const int Worlds = 320;
+
+    /// <summary>Seeds in blocks, so that a failure names a block and the message the seed.</summary>
+    public static TheoryData<int> Blocks => [.. Enumerable.Range(0, 8)];
+
+    [Theory]
+    [MemberData(nameof(Blocks))]
+    public void State_EventsInAnyOrderLateTwiceOrTakenBack_IsThatOfAWorldThatHadThemBefore(int block)
+    {
+        AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed));
+    }
+
+    [Theory]
+    [MemberData(nameof(Blocks))]
+    public void State_HistoryBarelyLongEnough_IsTheSameToo(int block)
+    {
+        AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed, SimDuration.FromSeconds(0.2)));
+    }
+
+    [Fact]
+    public void State_AnotherStartTime_IsTheSameToTheBit()
+    {
+        foreach (int seed in Enumerable.Range(9000, 40))
+        {
+            RandomWorld world = new(seed);
+            foreach (SimTime start in new[] { At(123456.789), SimTime.FromTicks(-1), SimTime.FromTicks(-(1L << 62)), SimTime.FromTicks(3L << 61) })
+            {
+                SimDuration shift = start - SimTime.Zero;
+                Simulation expected = world.OnTime();
+                Simulation actual = world.OnTime(
+                    world.Events.Select(external => external.At(external.Time + shift)), options: new SimulationOptions(start, SimDuration.MaxValue));
+                foreach (SimTime time in RandomWorld.Times)
+                {
+                    Assert.True(expected.StateHash(time) == actual.StateHash(time + shift), $"seed {seed}, start {start}");
+                    Assert.Equal(expected.EventHash(time), actual.EventHash(time + shift));
+                }
+            }
+        }
+    }
+
+    [Fact]
+    public void State_AdvancedInManyStepsOrOne_IsTheSameToTheBit()
+    {
+        foreach (int seed in Enumerable.Range(7000, 60))
+        {
+            RandomWorld world = new(seed);
+            Random steps = new(seed);
+            Simulation actual = new(world.Scene, KeepAll);
+            foreach (ExternalEvent external in world.Events)
+            {
+                actual.Submit(external);
+            }
+
+            while (actual.SimulatedTo < At(RandomWorld.End))
+            {
+                SimTime next = actual.SimulatedTo + SimDuration.FromSeconds(Math.Pow(10, -6 * steps.NextDouble()) * 0.2);
+                actual.AdvanceTo(SimTime.Min(next, At(RandomWorld.End)));
+                actual.StateHash(actual.SimulatedTo);
+                actual.EventHash(SimTime.Min(actual.Horizon, At(RandomWorld.End)));
+            }
+
+            Assert.True(RandomWorld.Difference(world.OnTime(), actual) is null, $"seed {seed}");
+            SameTimelines(world.OnTime(), actual);
+        }
+    }
+
+    [Fact]
+    public void Check_OneEventLostForGood_IsSeenToFail()
+    {
+        // Of every event that did something: one that met no body is rightly not missed.
+        int lost = 0, seen = 0;
+        foreach (int seed in Enumerable.Range(0, 60))
+        {
+            RandomWorld world = new(seed);
+            Simulation whole = world.OnTime();
+            HashSet<EventKey> effective = Bodies(whole).SelectMany(body => whole.Timeline(body)).Select(entry => entry.Key).ToHashSet();
+            foreach (ExternalEvent external in world.Events.Where(external => effective.Contains(external.Key)))
+            {
+                lost++;
+                seen += RandomWorld.Difference(whole, world.OnTime(world.Events.Where(other => !other.Equals(external)))) is null ? 0 : 1;
+            }
+        }
+
+        Assert.True(lost > 150, $"{lost}");
+        Assert.Equal(lost, seen);
+    }
+
+    [Fact]
+    public void Check_OneBitOfAStartVelocityPerturbed_IsSeenToFail()
+    {
+        foreach (int seed in Enumerable.Range(0, 40))
+        {
+            RandomWorld world = new(seed);
+            Assert.NotNull(RandomWorld.Difference(world.OnTime(), world.OnTime(scene: Perturbed(world.Scene))));
+        }
+    }
+
+    [Fact]
+    public void Check_TimelinesCutByTimeInsteadOfByKey_IsSeenToFail()
+    {
+        Assert.True(Differences(simulation => simulation.CutsByTime = true) > 20);
+    }
+
+    [Fact]
+    public void Check_OperandsOfAContactSwapped_IsSeenToFail()
+    {
+        Assert.True(Differences(simulation => simulation.SwapsOperands = true) > 20);
+    }
+
+    [Fact]
+    public void Differences_NothingBroken_AreNone()
+    {
+        Assert.Equal(0, Differences(_ => { }));
+    }
+
+    [Fact]
+    public void Worlds_AsDrawn_AreFullOfTiesAndRollbacks()
+    {
+        // The invariant is worth what the worlds are: late events, impacts of several at once, events at the tick of an impact.
+        int rollbacks = 0, several = 0, atImpacts = 0, rounds = 0, impacts = 0;
+        foreach (int seed in Enumerable.Range(0, 100))
+        {
+            RandomWorld world = new(seed);
+            Simulation simulation = world.Shuffled(seed);
+            rollbacks += (int)simulation.Rollbacks;
+            EventKey[] all = Bodies(simulation).SelectMany(body => simulation.Timeline(body)).Select(entry => entry.Key).ToArray();
+            EventKey[] hits = all.Where(key => key.Kind == EventKind.Impact).ToArray();
+            impacts += hits.Length;
+            several += hits.GroupBy(key => key).Count(group => group.Count() > 2);
+            rounds += all.Count(key => key.Round > 0);
+            atImpacts += world.Events.Count(external => hits.Any(hit => hit.Time == external.Time));
+        }
+
+        string counts = $"{rollbacks} rollbacks, {impacts} impacts, {several} of several, {atImpacts} at impacts, {rounds} in later rounds";
+        Assert.True(rollbacks > 300 && several > 4 && atImpacts > 30 && rounds > 100, counts);
+    }
+
+    private static void AssertNone(int block, Func<RandomWorld, Simulation> onTime, Func<RandomWorld, int, Simulation> late)
+    {
+        for (int seed = block; seed < Worlds; seed += Blocks.Count())
+        {
+            RandomWorld world = new(seed);
+            string? difference = RandomWorld.Difference(onTime(world), late(world, seed));
+            Assert.True(difference is null, $"seed {seed}: {difference}");
+        }
+    }
+
+    private static int Differences(Action<Simulation> breaks) => Enumerable.Range(0, 80).Count(seed =>
+    {
+        RandomWorld world = new(seed);
+        return RandomWorld.Difference(world.OnTime(), world.Shuffled(seed, prepare: breaks)) is not null;
+    });
+
+    private static Scene Perturbed(Scene scene)
+    {
+        SceneBuilder builder = new SceneBuilder(scene.Name).WithGravity(scene.Gravity).WithSmallestRadius(scene.SmallestRadius);
+        foreach (StaticPlane plane in scene.Planes)
+        {
+            builder.AddPlane(plane.Name, plane.Normal, plane.Normal * plane.Offset, plane.Restitution);
+        }
+
+        foreach (StaticSphere sphere in scene.StaticSpheres)
+        {
+            builder.AddStaticSphere(sphere.Name, sphere.Centre, sphere.Radius, sphere.Restitution);
+        }
+
+        foreach (IAcceleration acceleration in scene.Accelerations)
+        {
+            builder.AddAcceleration(acceleration);
+        }
+
+        for (int i = 0; i < scene.Bodies.Count; i++)
+        {
+            SceneBody body = scene.Bodies[i];
+            Vector3D v = body.Velocity;
+            builder.AddBody(body.Name, body.Spec, body.Position, i > 0 ? v : new Vector3D(Math.BitIncrement(v.X), v.Y, v.Z));
+        }
+
+        return builder.Build();
+    }
+}

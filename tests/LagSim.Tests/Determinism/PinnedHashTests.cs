@@ -1,0 +1,55 @@
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Determinism;
+
+/// <summary>The very bits of some worlds, the same in Debug and Release and on every machine. A hash that moves belongs in the changelog.</summary>
+public sealed class PinnedHashTests
+{
+    [Theory]
+    [InlineData("drop", 1663898684166190757UL, 835043358955592738UL)]
+    [InlineData("integrated", 11975514299284432918UL, 11092246644800043823UL)]
+    [InlineData("pile", 13706318074203816766UL, 15523526010485993468UL)]
+    [InlineData("random", 5396391072543592667UL, 12649937164011671051UL)]
+    public void Hashes_OfAWorld_AreTheOnesOnRecord(string name, ulong state, ulong events)
+    {
+        Simulation simulation = World(name);
+        SimTime end = simulation.SimulatedTo;
+        Assert.Equal((state, events), (simulation.StateHash(end), simulation.EventHash(end)));
+    }
+
+    [Fact]
+    public void Hashes_OneTickEarlier_AreOthers()
+    {
+        Simulation simulation = World("integrated");
+        Assert.NotEqual(simulation.StateHash(simulation.SimulatedTo), simulation.StateHash(simulation.SimulatedTo - SimDuration.OneTick));
+    }
+
+    private static Simulation World(string name)
+    {
+        switch (name)
+        {
+            case "drop":
+                return Run(Drop(1, 0.8), 3);
+            case "integrated":
+                Scene scene = new SceneBuilder("integrated").AddPlane("slope", V(0.6, 0.8), V(0), 0.7)
+                    .AddAcceleration(new Force((t, x, v) => (v * (-0.1 * v.Length)) + V(0, 0, t - x.Z)))
+                    .AddBody("dragged", Ball(0.25, 2, 0.9, MotionLaw.RungeKutta4, force: 1), V(0, 2), V(1, 0, 3))
+                    .AddBody("free", Ball(0.25, 1, 0.9), V(0.5, 4), V(0, -1)).Build();
+                return Run(scene, 2);
+            case "pile":
+                SceneBuilder builder = new SceneBuilder("pile").AddPlane("left", V(0.6, 0.8), V(0), 0.5).AddPlane("right", V(-0.6, 0.8), V(0), 0.5)
+                    .AddStaticSphere("stone", V(0, 0), 0.5, 0.3);
+                for (int i = 0; i < 6; i++)
+                {
+                    builder.AddBody($"ball {i}", Ball(0.25, 1 + i, 0.6), V(((i * 7) % 5 * 0.1) - 0.2, 1.5 + (0.6 * i), 0.01 * i));
+                }
+
+                return Run(builder.Build(), 2);
+            default:
+                return new RandomWorld(3).OnTime();
+        }
+    }
+}

@@ -1,0 +1,219 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Determinism;
+
+/// <summary>A scene and external events drawn by a seed: much symmetry and few different times, so that almost everything ties.</summary>
+internal sealed class RandomWorld
+{
+    internal const double End = 1.25;
+
+    private static readonly double[] Restitutions = [0, 0.05, 0.5, 0.8, 1];
+    private static readonly double[] Masses = [0.5, 1, 1, 1, 3, 20];
+
+    private readonly Random random;
+
+    internal RandomWorld(int seed)
+    {
+        random = new Random(seed);
+        Scene = DrawScene();
+        Events = DrawEvents();
+    }
+
+    internal Scene Scene { get; }
+
+    /// <summary>What happens, in no particular order; no event twice.</summary>
+    internal List<ExternalEvent> Events { get; }
+
+    /// <summary>The instants at which hashes are compared.</summary>
+    internal static IEnumerable<SimTime> Times => Enumerable.Range(0, 11).Select(i => At(End * i / 10));
+
+    /// <summary>The world that had everything before it began.</summary>
+    internal Simulation OnTime(IEnumerable<ExternalEvent>? events = null, Scene? scene = null, SimulationOptions? options = null)
+    {
+        Simulation simulation = new(scene ?? Scene, options ?? KeepAll);
+        foreach (ExternalEvent external in events ?? Events)
+        {
+            simulation.Submit(external);
+        }
+
+        simulation.AdvanceTo(simulation.Start + SimDuration.FromSeconds(End));
+        return simulation;
+    }
+
+    /// <summary>
+    /// A world that hears of everything in some order, at any moment of its progress, some of it twice, and of some things that are taken back
+    /// again. With a history, never later than that allows.
+    /// </summary>
+    internal Simulation Shuffled(int seed, SimDuration? history = null, Action<Simulation>? prepare = null)
+    {
+        Random arrivals = new(seed);
+        Simulation simulation = new(Scene, new SimulationOptions(default, history ?? SimDuration.MaxValue));
+        prepare?.Invoke(simulation);
+        double latest = history is SimDuration kept ? kept.ToSeconds() * 0.999 : End;
+        List<(double When, ExternalEvent Event, bool Retracts)> news = [];
+        foreach (ExternalEvent external in Events)
+        {
+            double stamp = external.Time.ToSeconds();
+            double When() => Math.Max(0, Math.Min(stamp + latest, arrivals.Next(4) == 0 ? stamp : stamp + (latest * ((arrivals.NextDouble() * 1.5) - 0.5))));
+            news.Add((When(), external, false));
+            if (arrivals.Next(3) == 0)
+            {
+                news.Add((When(), external, false)); // heard twice
+            }
+        }
+
+        for (int i = 0; i < 2; i++)
+        {
+            // What turns out never to have been: heard first, taken back later.
+            ExternalEvent never = Decoy(arrivals, i);
+            double heard = Math.Min(never.Time.ToSeconds() + (latest * arrivals.NextDouble()), End);
+            double takenBack = Math.Min(heard + (arrivals.NextDouble() * 0.3), never.Time.ToSeconds() + latest);
+            news.Add((Math.Min(heard, takenBack), never, false));
+            news.Add((takenBack, never, true));
+        }
+
+        foreach ((double when, ExternalEvent external, bool retracts) in news.OrderBy(n => n.When))
+        {
+            SimTime now = At(Math.Min(when, End));
+            simulation.AdvanceTo(SimTime.Max(now, simulation.SimulatedTo));
+            if (retracts)
+            {
+                simulation.Retract(external);
+            }
+            else if (simulation.Submit(external) == SubmitResult.TooOld)
+            {
+                throw new InvalidOperationException($"Too old at {now}: {external}");
+            }
+
+            if (arrivals.Next(5) == 0)
+            {
+                simulation.StateHash(simulation.SimulatedTo); // reading leaves no trace
+            }
+        }
+
+        simulation.AdvanceTo(At(End));
+        return simulation;
+    }
+
+    /// <summary>The first instant at which two worlds differ; null if they agree in every bit that is compared.</summary>
+    internal static string? Difference(Simulation expected, Simulation actual)
+    {
+        foreach (SimTime time in Times.Where(t => t >= expected.HistoryEdge && t >= actual.HistoryEdge))
+        {
+            if (expected.StateHash(time) != actual.StateHash(time))
+            {
+                return $"other states at {time}";
+            }
+
+            if (expected.EventHash(time) != actual.EventHash(time))
+            {
+                return $"other events up to {time}";
+            }
+        }
+
+        return null;
+    }
+
+    private T Pick<T>(params T[] from) => from[random.Next(from.Length)];
+
+    private Scene DrawScene()
+    {
+        SceneBuilder builder = new SceneBuilder("random").WithSmallestRadius(0.25);
+        bool falls = random.Next(5) > 0;
+        if (!falls)
+        {
+            builder.WithGravity(Floating);
+        }
+
+        builder.AddPlane("floor", Pick(Vector3D.Up, Vector3D.Up, V(0.6, 0.8)), V(0), Pick(Restitutions));
+        if (random.Next(2) == 0)
+        {
+            builder.AddPlane("west", V(1), V(-3), Pick(Restitutions)).AddPlane("east", V(-1), V(5), Pick(Restitutions));
+        }
+
+        if (random.Next(2) == 0)
+        {
+            builder.AddStaticSphere("dome", V(1, -4, 0), 5, Pick(Restitutions)); // its top is at 1 m
+        }
+
+        builder.AddAcceleration(new Force((t, x, v) => (v * -0.3) + V(-x.X, t, 0)));
+        bool oneHeight = random.Next(2) == 0;
+        double height = 2 + (random.Next(8) / 8.0);
+        int bodies = random.Next(2, 9);
+        int integrated = random.Next(3);
+        for (int i = 0; i < bodies; i++)
+        {
+            Vector3D x = V(-2 + (0.75 * (i % 4)) + 0.5, (oneHeight ? height : height + (random.Next(4) / 4.0)) + (i / 4 * 2), random.Next(2) / 8.0);
+            builder.AddBody($"ball {i}", DrawSpec(integrated), x, V(Pick(-1.0, 0, 0, 1), Pick(0, 0, -2.0), Pick(0, 0, 0.5)));
+        }
+
+        return builder.Build();
+    }
+
+    private BodySpec DrawSpec(int integrated)
+    {
+        bool steps = integrated > random.Next(3);
+        return Ball(
+            Pick(0.25, 0.25, 0.3125), Pick(Masses), Pick(Restitutions), steps ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic,
+            steps ? Pick(0.03125, 0.03125, 0.05) : 0, (byte)(steps ? random.Next(2) : 0));
+    }
+
+    private List<ExternalEvent> DrawEvents()
+    {
+        // Times: a few round ones, and those at which something happens anyway, with the ticks next to them.
+        Simulation quiet = Run(Scene, End);
+        SimTime[] busy = Bodies(quiet).SelectMany(body => quiet.Timeline(body)).Select(entry => entry.Key.Time)
+            .Where(time => time > At(0) && time < At(End)).Distinct().OrderBy(_ => random.Next()).Take(3).ToArray();
+        List<SimTime> times = [At(0), At(0.25), At(0.5), At(0.5), .. busy, .. busy];
+        times.AddRange(busy.Select(time => time + SimDuration.OneTick));
+        times.AddRange(busy.Select(time => time - SimDuration.OneTick));
+        List<BodyId> known = Bodies(quiet).ToList();
+        uint[] sequences = new uint[4];
+        List<ExternalEvent> events = [];
+        int count = random.Next(3, 9);
+        for (int i = 0; i < count; i++)
+        {
+            byte peer = (byte)random.Next(0, 4);
+            uint sequence = ++sequences[peer];
+            SimTime time = times[random.Next(times.Count)];
+            BodyId body = known[random.Next(known.Count)];
+            if (random.Next(4) == 0)
+            {
+                ExternalEvent spawn = ExternalEvent.Spawn(time, peer, sequence, DrawSpec(1), Place(), V(0, Pick(0.0, -3)));
+                known.Add(spawn.Body);
+                known.Add(spawn.Body); // things happen to it, before it is there as well
+                events.Add(spawn);
+            }
+            else
+            {
+                events.Add(Deed(random, time, peer, sequence, body));
+            }
+        }
+
+        return events;
+    }
+
+    private Vector3D Place() => V(Pick(0.0, 0.5, 1, 2), Pick(4.0, 4, 3.5), Pick(0, 0.25));
+
+    private ExternalEvent Deed(Random from, SimTime time, byte peer, uint sequence, BodyId body) => from.Next(5) switch
+    {
+        0 => ExternalEvent.Remove(time, peer, sequence, body),
+        1 => ExternalEvent.SetVelocity(time, peer, sequence, body, V(from.Next(-2, 3), from.Next(-2, 3))),
+        2 => ExternalEvent.Impulse(time, peer, sequence, body, V(from.Next(-1, 2), from.Next(0, 4))),
+        _ => ExternalEvent.Teleport(time, peer, sequence, body, V(from.Next(0, 4) * 0.5, 3.5 + (from.Next(3) * 0.5)), V(0, from.Next(-2, 1))),
+    };
+
+    private ExternalEvent Decoy(Random arrivals, int i)
+    {
+        SimTime time = Events.Count > 0 && arrivals.Next(2) == 0 ? Events[arrivals.Next(Events.Count)].Time : At(arrivals.NextDouble() * End);
+        return arrivals.Next(4) == 0
+            ? ExternalEvent.Spawn(time, 9, (uint)i + 1, Ball(0.25), V(arrivals.Next(4), 4), V(0, -2))
+            : Deed(arrivals, time, 9, (uint)i + 1, BodyId.OfScene(arrivals.Next(Scene.Bodies.Count)));
+    }
+}

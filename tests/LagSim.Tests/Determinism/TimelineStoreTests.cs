@@ -1,0 +1,195 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+using Xunit;
+
+namespace LagSim.Tests.Determinism;
+
+/// <summary>The flat, linked timelines against plain lists.</summary>
+public sealed class TimelineStoreTests
+{
+    private const int Slots = 5;
+
+    private delegate EventKey Cut(in EventKey key);
+
+    [Theory]
+    [InlineData(1)]
+    [InlineData(2)]
+    [InlineData(3)]
+    public void Store_AnySequenceOfOperations_AgreesWithTheModel(int seed)
+    {
+        Assert.Null(FirstDisagreement(seed, (in EventKey key) => key));
+    }
+
+    [Fact]
+    public void Check_CutByTimeInsteadOfByKey_IsSeenToFail()
+    {
+        Assert.NotNull(FirstDisagreement(1, (in EventKey key) => EventKey.Before(key.Time)));
+    }
+
+    [Fact]
+    public void EventHash_AppendedAndCutAgain_IsWhatItWas()
+    {
+        TimelineStore store = new(default);
+        store.AddSlot(0);
+        Append(store, 0, Key(1, 0), 1);
+        ulong before = store.EventHash;
+        Append(store, 0, Key(2, 0), 2);
+        Append(store, 0, Key(2, 1), 3);
+        Assert.NotEqual(before, store.EventHash);
+        Assert.Equal(2, store.CutFrom(0, BodyId.OfScene(0), Key(2, 0)));
+        Assert.Equal(before, store.EventHash);
+    }
+
+    [Fact]
+    public void EventHash_AppendedInAnotherOrderOfBodies_IsTheSame()
+    {
+        TimelineStore a = new(default), b = new(default);
+        foreach (TimelineStore store in new[] { a, b })
+        {
+            store.AddSlot(0);
+            store.AddSlot(1);
+        }
+
+        Append(a, 0, Key(1, 0), 1);
+        Append(a, 1, Key(1, 0), 2);
+        Append(b, 1, Key(1, 0), 2);
+        Append(b, 0, Key(1, 0), 1);
+        Assert.Equal(a.EventHash, b.EventHash);
+    }
+
+    [Theory]
+    [InlineData("time")]
+    [InlineData("round")]
+    [InlineData("place")]
+    [InlineData("body")]
+    public void EventHash_OneThingDiffers_Differs(string what)
+    {
+        TimelineStore a = new(default), b = new(default);
+        a.AddSlot(0);
+        b.AddSlot(0);
+        Append(a, 0, Key(5, 0), 1);
+        EventKey key = what switch { "time" => Key(6, 0), "round" => Key(5, 1), _ => Key(5, 0) };
+        MotionSegment segment = Segment(key, what == "place" ? Math.BitIncrement(1.0) : 1);
+        b.Append(0, BodyId.OfScene(what == "body" ? 1 : 0), key, segment, default);
+        Assert.NotEqual(a.EventHash, b.EventHash);
+    }
+
+    private static string? FirstDisagreement(int seed, Cut cut)
+    {
+        Random random = new(seed);
+        TimelineStore store = new(default);
+        List<(EventKey Key, double Mark, ulong Hash)>[] model = [.. Enumerable.Range(0, Slots).Select(_ => new List<(EventKey, double, ulong)>())];
+        ulong dropped = 0;
+        long time = 0;
+        HashSet<long> serials = [];
+        for (int slot = 0; slot < Slots; slot++)
+        {
+            store.AddSlot(slot);
+        }
+
+        for (int i = 0; i < 4000; i++)
+        {
+            int slot = random.Next(Slots);
+            BodyId body = BodyId.OfScene(slot);
+            switch (random.Next(8))
+            {
+                case 0:
+                    EventKey from = Key(time - random.Next(6), (uint)random.Next(3));
+                    for (int s = 0; s < Slots; s++)
+                    {
+                        EventKey at = cut(from);
+                        int expected = model[s].RemoveAll(entry => entry.Key >= from);
+                        if (store.CutFrom(s, BodyId.OfScene(s), at) != expected)
+                        {
+                            return $"cut after {i}";
+                        }
+                    }
+
+                    break;
+                case 1:
+                    SimTime edge = SimTime.FromTicks(time - random.Next(4, 12));
+                    store.DropBefore(slot, edge);
+                    while (model[slot].Count > 1 && model[slot][1].Key.Time < edge)
+                    {
+                        dropped += model[slot][0].Hash;
+                        model[slot].RemoveAt(0);
+                    }
+
+                    break;
+                default:
+                    time += random.Next(2);
+                    EventKey key = Key(time, 0);
+                    if (model[slot].Count > 0 && model[slot][^1].Key >= key)
+                    {
+                        key = Key(model[slot][^1].Key.Time.Ticks, model[slot][^1].Key.Round + 1);
+                    }
+
+                    store.Append(slot, body, key, Segment(key, i), Dense(i));
+                    if (!serials.Add(store.Serial(store.Last(slot))))
+                    {
+                        return $"serial used twice after {i}";
+                    }
+
+                    model[slot].Add((key, i, store.HashOf(store.Last(slot), body)));
+                    break;
+            }
+
+            if (Compare(store, slot, model[slot], SimTime.FromTicks(time - random.Next(10))) is string difference)
+            {
+                return $"{difference} after {i}";
+            }
+
+            ulong sum = model.SelectMany(list => list).Aggregate(dropped, (total, entry) => total + entry.Hash);
+            if (store.EventHash != sum || store.Alive != model.Sum(list => list.Count))
+            {
+                return $"hash or count after {i}";
+            }
+        }
+
+        return null;
+    }
+
+    private static string? Compare(TimelineStore store, int slot, List<(EventKey Key, double Mark, ulong Hash)> model, SimTime time)
+    {
+        int at = store.First(slot);
+        int previous = TimelineStore.None;
+        foreach ((EventKey key, double mark, _) in model)
+        {
+            if (at == TimelineStore.None || store.Key(at) != key || store.Segment(at).Position.X != mark || store.Previous(at) != previous)
+            {
+                return "walk";
+            }
+
+            if (mark % 2 == 0 && store.Dense(at).Quintic.Z != mark)
+            {
+                return "dense output";
+            }
+
+            previous = at;
+            at = store.Next(at);
+        }
+
+        int found = store.At(slot, time);
+        int index = model.FindLastIndex(entry => entry.Key.Time <= time);
+        double expected = index < 0 ? double.NaN : model[index].Mark;
+        double actual = found == TimelineStore.None ? double.NaN : store.Segment(found).Position.X;
+        return at == TimelineStore.None && store.Last(slot) == previous && expected.Equals(actual) ? null : "lookup";
+    }
+
+    private static void Append(TimelineStore store, int slot, in EventKey key, double mark) =>
+        store.Append(slot, BodyId.OfScene(slot), key, Segment(key, mark), Dense(mark));
+
+    private static EventKey Key(long ticks, uint round) =>
+        new(SimTime.FromTicks(ticks), round, EventKind.Impact, BodyId.OfScene(0), BodyId.OfScene(0), 0, 0);
+
+    private static MotionSegment Segment(in EventKey key, double mark) => new(
+        mark % 2 == 0 ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic, key.Time, SimTime.MaxValue, new Vector3D(mark, 0, 0), default, default);
+
+    private static DenseOutput Dense(double mark) => new(default, default, new Vector3D(0, 0, mark));
+}

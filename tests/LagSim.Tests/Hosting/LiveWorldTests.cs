@@ -1,0 +1,172 @@
+using System;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Hosting;
+using LagSim.Scenes;
+using LagSim.Tests.Determinism;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Hosting;
+
+/// <summary>A world kept ahead of a clock, in virtual time, and the pictures of it.</summary>
+public sealed class LiveWorldTests
+{
+    private static readonly SimulationOptions Kept = new(default, SimDuration.FromSeconds(1));
+
+    [Fact]
+    public void Step_WheneverDue_KeepsThePictureAheadOfTheClock()
+    {
+        LiveWorld world = new(RandomScene, Kept);
+        SimTime now = At(0);
+        for (int i = 0; i < 200; i++)
+        {
+            SimTime due = world.Step(now);
+            Picture picture = world.Pictures.Latest();
+            Assert.True(picture.Covers(now) && picture.To > now, $"{now}: {picture.From} to {picture.To}");
+            Assert.True(due > now);
+            Assert.True(picture.Covers(SimTime.Min(due, At(1000))));
+            now = SimTime.Min(due, now + SimDuration.FromSeconds(0.02));
+        }
+
+        Assert.Equal(0, world.LateSteps);
+        Assert.Equal(SimDuration.Zero, world.MaxLateness);
+    }
+
+    [Theory]
+    [InlineData(1)]
+    [InlineData(2)]
+    [InlineData(3)]
+    [InlineData(4)]
+    public void Picture_AfterEventsLateAndTakenBack_ReadsWhatTheSimulationReads(int seed)
+    {
+        (int compared, int different) = Follow(seed, publishes: true);
+        Assert.True(compared > 1000, $"{compared}");
+        Assert.Equal(0, different);
+    }
+
+    [Fact]
+    public void Picture_NotPublishedAfterARollback_IsSeenToDiffer()
+    {
+        Assert.True(Enumerable.Range(1, 4).Sum(seed => Follow(seed, publishes: false).Different) > 0);
+    }
+
+    [Fact]
+    public void Step_WorldAtRest_IsNeverDueAgain()
+    {
+        LiveWorld world = new(Drop(0, 0.5), Kept);
+        Assert.Equal(SimTime.MaxValue, world.Step(At(0)));
+        long number = world.Pictures.Latest().Number;
+        Assert.Equal(SimTime.MaxValue, world.Step(At(5000)));
+        Picture picture = world.Pictures.Latest();
+        Assert.Equal(number, picture.Number); // nothing changed, nothing published
+        Assert.True(picture.TryRead(First, At(5000), out BodyState state));
+        Assert.Equal(MotionLaw.Resting, state.Motion);
+
+        // The control: a push makes it move, and due.
+        world.Submit(ExternalEvent.Impulse(At(5000), 1, 1, First, V(0, 3)));
+        Assert.NotEqual(SimTime.MaxValue, world.Step(At(5000)));
+        picture = world.Pictures.Latest();
+        Assert.True(picture.Number > number && picture.Covers(At(5000.01)));
+        Assert.True(picture.TryRead(First, At(5000.01), out state));
+        Assert.Equal(MotionLaw.Ballistic, state.Motion);
+    }
+
+    [Fact]
+    public void Step_TooLate_IsCountedAndMeasured()
+    {
+        LiveWorld world = new(Drop(1, 1), Kept);
+        world.Step(At(0));
+        SimTime horizon = world.Simulation.Horizon;
+        world.Step(horizon + SimDuration.FromSeconds(0.25));
+        Assert.Equal(1, world.LateSteps);
+        Assert.Equal(SimDuration.FromSeconds(0.25), world.MaxLateness);
+        Assert.True(world.Pictures.Latest().Covers(horizon + SimDuration.FromSeconds(0.25)));
+    }
+
+    [Fact]
+    public void Picture_UnknownBodyOrTime_IsNotRead()
+    {
+        LiveWorld world = new(Drop(1, 1), Kept);
+        Assert.False(world.Pictures.Latest().TryRead(First, At(0), out _)); // before the first
+        world.Step(At(0));
+        Picture picture = world.Pictures.Latest();
+        Assert.True(picture.TryRead(First, At(0), out _));
+        Assert.False(picture.TryRead(Second, At(0), out _));
+        Assert.False(picture.TryRead(First, At(100), out BodyState state));
+        Assert.Equal(MotionLaw.Absent, state.Motion);
+        Assert.False(picture.TryRead(First, At(0) - SimDuration.OneTick, out _));
+        Assert.Equal(1, picture.BodyCount);
+        Assert.Equal(First, picture.BodyAt(0));
+    }
+
+    [Fact]
+    public void Constructor_SpansOutOfRange_AreRefused()
+    {
+        Scene scene = Drop(1, 1);
+        Assert.Throws<ArgumentOutOfRangeException>(() => new LiveWorld(scene, Kept, SimDuration.Zero));
+        Assert.Throws<ArgumentOutOfRangeException>(() => new LiveWorld(scene, Kept, SimDuration.FromSeconds(1.1)));
+        Assert.Throws<ArgumentOutOfRangeException>(() => new LiveWorld(scene, Kept, picturePast: -SimDuration.OneTick));
+        Assert.Throws<ArgumentOutOfRangeException>(() => new LiveWorld(scene, Kept, SimDuration.FromSeconds(1)));
+        Assert.Throws<ArgumentNullException>(() => new LiveWorld(scene, null!));
+    }
+
+    private static Scene RandomScene => new RandomWorld(3).Scene;
+
+    /// <summary>Plays a world with events heard late, twice and taken back, and compares pictures with the simulation at random times.</summary>
+    private static (int Compared, int Different) Follow(int seed, bool publishes)
+    {
+        Random random = new(seed);
+        RandomWorld drawn = new(seed);
+        LiveWorld world = new(drawn.Scene, Kept, picturePast: SimDuration.FromSeconds(0.3));
+        ExternalEvent[] events = drawn.Events.OrderBy(_ => random.Next()).ToArray();
+        int compared = 0, different = 0, next = 0;
+        for (int frame = 0; frame < 75; frame++)
+        {
+            SimTime now = At(frame / 60.0);
+            world.Step(now);
+            if (frame % 5 == 4 && next < events.Length)
+            {
+                ExternalEvent external = events[next++];
+                if (publishes)
+                {
+                    world.Submit(external);
+                    if (random.Next(3) == 0)
+                    {
+                        world.Step(now);
+                        world.Retract(external);
+                    }
+
+                    world.Step(now);
+                }
+                else
+                {
+                    world.Simulation.Submit(external);
+                }
+            }
+
+            if (random.Next(3) == 0)
+            {
+                continue; // the reader misses some pictures
+            }
+
+            Picture picture = world.Pictures.Latest();
+            for (int k = 0; k < 8; k++)
+            {
+                SimTime last = SimTime.Min(picture.To, now + world.LookAhead);
+                SimTime time = picture.From + SimDuration.FromTicks((long)(random.NextDouble() * (last - picture.From).Ticks));
+                time = k switch { 0 => picture.From, 1 => last, _ => time };
+                foreach (BodyId body in Bodies(world.Simulation))
+                {
+                    bool there = world.Simulation.TryRead(body, time, out BodyState expected);
+                    bool shown = picture.TryRead(body, time, out BodyState actual);
+                    compared++;
+                    different += there == shown && expected.IsSameBits(actual) ? 0 : 1;
+                }
+            }
+        }
+
+        return (compared, different);
+    }
+}

@@ -1,0 +1,135 @@
+using System;
+using System.Threading;
+using LagSim.Events;
+using LagSim.Hosting;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Hosting;
+
+/// <summary>Whole pictures from one thread to another without a lock.</summary>
+public sealed class PictureExchangeTests
+{
+    private const int Publications = 20_000;
+
+    [Fact]
+    public void Latest_WhileAnotherThreadPublishes_IsAlwaysOneWholePictureAndNeverAnOlderOne()
+    {
+        (long seen, string? fault) = Stress(exchange => exchange.Latest());
+        Assert.Null(fault);
+        Assert.True(seen > 1);
+    }
+
+    [Fact]
+    public void Stress_OfAWorldThatDoesNotKeepItsPromise_IsSeenToFail()
+    {
+        // The control: bodies that do not move together stand for a torn picture.
+        Simulation simulation = Pair();
+        simulation.Submit(ExternalEvent.SetVelocity(At(1), 1, 1, First, V(3)));
+        simulation.AdvanceTo(At(2));
+        PictureExchange exchange = new();
+        exchange.Publish(simulation, At(0));
+        Assert.NotNull(Inconsistency(exchange.Latest(), At(1.5)));
+        Assert.Null(Inconsistency(exchange.Latest(), At(0.5)));
+    }
+
+    [Fact]
+    public void Latest_NothingNew_IsTheSamePicture()
+    {
+        PictureExchange exchange = new();
+        Assert.Equal(0, exchange.Latest().Number);
+        Simulation simulation = Pair();
+        exchange.Publish(simulation, At(0));
+        exchange.Publish(simulation, At(0));
+        Picture picture = exchange.Latest();
+        Assert.Equal(2, picture.Number);
+        Assert.Same(picture, exchange.Latest());
+        exchange.Publish(simulation, At(0));
+        Assert.Equal(2, picture.Number); // what the reader holds does not change
+        Assert.Equal(3, exchange.Latest().Number);
+    }
+
+    /// <summary>
+    /// Two bodies always set to one and the same velocity, by two events at one tick: in a whole picture they agree at every instant. The
+    /// writer publishes again and again, rolls back, and spawns; the reader checks each picture it gets.
+    /// </summary>
+    private static (long Seen, string? Fault) Stress(Func<PictureExchange, Picture> read)
+    {
+        PictureExchange exchange = new();
+        string? fault = null;
+        bool done = false;
+        Exception? failure = null;
+        Thread writer = new(() =>
+        {
+            try
+            {
+                Write(exchange);
+            }
+            catch (Exception e)
+            {
+                failure = e;
+            }
+
+            Volatile.Write(ref done, true);
+        });
+        writer.Start();
+        long last = 0, seen = 0;
+        bool ended = false;
+        while (!ended && fault is null)
+        {
+            ended = Volatile.Read(ref done);
+            Picture picture = read(exchange);
+            if (picture.Number < last)
+            {
+                fault = $"picture {picture.Number} after {last}";
+            }
+
+            seen += picture.Number > last ? 1 : 0;
+            last = picture.Number;
+            if (last > 0)
+            {
+                SimTime middle = picture.From + ((SimTime.Min(picture.To, At(1_000_000)) - picture.From) / 2);
+                fault ??= Inconsistency(picture, picture.From) ?? Inconsistency(picture, middle) ?? Inconsistency(picture, SimTime.Min(picture.To, At(1_000_000)));
+            }
+        }
+
+        writer.Join();
+        return failure is not null ? (seen, failure.ToString()) : (seen, fault ?? (last == Publications ? null : $"the last seen was {last}"));
+    }
+
+    private static void Write(PictureExchange exchange)
+    {
+        Random random = new(3);
+        Simulation simulation = Pair();
+        for (uint i = 1; i <= Publications; i++)
+        {
+            simulation.AdvanceTo(At(i / 1000.0));
+            SimTime when = SimTime.Max(At((i - random.Next(3)) / 1000.0), At(0)); // often late
+            Vector3D v = V(random.Next(-9, 10), random.Next(-9, 10));
+            simulation.Submit(ExternalEvent.SetVelocity(when, 1, i, First, v));
+            simulation.Submit(ExternalEvent.SetVelocity(when, 1, i, Second, v));
+            if (i % 1000 == 0)
+            {
+                simulation.Submit(ExternalEvent.Spawn(when, 2, i, Ball(0.1), V(0, 0, 100 + i)));
+            }
+
+            exchange.Publish(simulation, SimTime.Max(At((i / 1000.0) - 0.05), simulation.HistoryEdge));
+        }
+    }
+
+    private static Simulation Pair() => new(
+        new SceneBuilder("pair").WithGravity(Floating).WithSmallestRadius(0.1).AddBody("a", Ball(), V(0)).AddBody("b", Ball(), V(0, 0, 10)).Build(),
+        new SimulationOptions(default, SimDuration.FromSeconds(0.5)));
+
+    private static string? Inconsistency(Picture picture, SimTime time)
+    {
+        if (!picture.TryRead(First, time, out BodyState a) || !picture.TryRead(Second, time, out BodyState b))
+        {
+            return $"picture {picture.Number} lacks a body at {time}";
+        }
+
+        return a.Velocity == b.Velocity && a.Position + V(0, 0, 10) == b.Position ? null : $"picture {picture.Number} is torn at {time}";
+    }
+}

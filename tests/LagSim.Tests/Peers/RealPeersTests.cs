@@ -1,0 +1,43 @@
+using System.Linq;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Harness.Peers;
+using LagSim.Harness.Scenes;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Peers;
+
+/// <summary>The one test over real sockets and threads: that it works, not how fast.</summary>
+public sealed class RealPeersTests
+{
+    [Fact(Timeout = 60_000)]
+    public async System.Threading.Tasks.Task Run_ThreePeersOverLoopback_AgreeToTheBit()
+    {
+        await System.Threading.Tasks.Task.Run(
+            () =>
+            {
+                SimDuration length = SimDuration.FromSeconds(1.2);
+                PeerGroupOptions options = new(3, LinkProfiles.PureDelay(5), Length: length);
+                using RealPeers peers = new(BuiltInScenes.Drop(2, 0.8), options);
+                peers.Connect();
+                peers.RunUntil(SimDuration.FromSeconds(0.1), null);
+                ExternalEvent lifted = peers.Do(1, PlayerAction.Teleport(BodyId.OfScene(0), new Vector3D(0, 3, 0)));
+                ExternalEvent pushed = peers.Do(0, PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(1, 2, 0)));
+                peers.RunQuietlyUntil(length, null);
+                peers.Finish();
+
+                Assert.True(lifted.Time > peers.Start && pushed.Sequence == 1);
+                SimTime end = peers.Grid.At(peers.Grid.Count - 1);
+                Assert.Single(Enumerable.Range(0, 3).Select(p => peers.Session(p).World!.Simulation.StateHash(end)).Distinct());
+                Assert.Single(Enumerable.Range(0, 3).Select(p => peers.Session(p).World!.Simulation.EventHash(end)).Distinct());
+                Assert.All(Enumerable.Range(0, 3), p => Assert.Equal((SessionState.Running, 2L), (peers.Session(p).State, peers.Session(p).Counters.EventsAccepted)));
+                Assert.Equal(0, PeerComparison.Errors(peers.Settled, peers.Grid, 1, 0, peers.Grid.Count, null, end).Before.ToStatistics().DifferingBits);
+                Assert.True(peers.Settled.All(s => s.IsShown(0) && s.IsShown(peers.Grid.Count - 1)));
+                Assert.True(peers.Traffic(2).BytesSent > 0);
+            },
+            TestContext.Current.CancellationToken);
+    }
+}

@@ -1,0 +1,82 @@
+using System;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Harness.Peers;
+using LagSim.Harness.Scenes;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Peers;
+
+public sealed class VirtualPeersTests
+{
+    [Fact]
+    public void Connect_LinkThatLosesEverything_FailsWithASentence()
+    {
+        using VirtualPeers peers = new(BuiltInScenes.Pair(), new PeerGroupOptions(2, new LinkProfile("dead", new LinkLeg(1, lossPercent: 100))));
+        PeerGroupException failed = Assert.Throws<PeerGroupException>(peers.Connect);
+        Assert.Equal("No answer from virtual:0 within 10 s.", failed.Message);
+    }
+
+    [Fact]
+    public void RunUntil_APeerThatDropsOut_FailsWithASentence()
+    {
+        using VirtualPeers peers = new(BuiltInScenes.Pair(), new PeerGroupOptions(3, LinkProfiles.Lan, Length: SimDuration.FromSeconds(20)));
+        peers.Connect();
+        peers.Network.SetLink(2, 0, new LinkLeg(0, lossPercent: 100));
+        PeerGroupException failed = Assert.Throws<PeerGroupException>(() => peers.RunUntil(SimDuration.FromSeconds(20), null));
+        Assert.Equal("Peer 2 dropped out: The host at virtual:0 heard nothing from this peer for too long.", failed.Message);
+    }
+
+    [Fact]
+    public void RunUntil_AnyTime_StopsWhenTheHostsClockReadsIt()
+    {
+        using VirtualPeers peers = new(BuiltInScenes.Pair(), new PeerGroupOptions(3, LinkProfiles.Awful, Length: SimDuration.FromSeconds(3)));
+        peers.Connect();
+        peers.RunUntil(SimDuration.FromSeconds(2.5), null);
+        Assert.InRange((peers.Session(0).SharedTime.Now - peers.Start).ToSeconds(), 2.5, 2.5 + 1e-6);
+        peers.RunQuietlyUntil(SimDuration.FromSeconds(3), null);
+        Assert.All(Enumerable.Range(0, 3), p => Assert.True(peers.Session(p).SharedTime.Now >= peers.Start + SimDuration.FromSeconds(3)));
+    }
+
+    [Fact]
+    public void Seen_OfPeersWhoseClocksDiffer_IsTheSameAtTheSameSharedTime()
+    {
+        using VirtualPeers peers = new(BuiltInScenes.Pair(), new PeerGroupOptions(3, LinkProfiles.PureDelay(40), Length: SimDuration.FromSeconds(4)));
+        peers.Connect();
+        peers.RunUntil(SimDuration.FromSeconds(1), null);
+        peers.Do(2, PlayerAction.Impulse(BodyId.OfScene(1), new Vector3D(1, 4, 0)));
+        peers.RunQuietlyUntil(SimDuration.FromSeconds(4), null);
+        peers.Finish();
+        Assert.All(peers.Seen, s => Assert.True(s.IsComplete));
+        int news = peers.Grid.FirstAfter(peers.Start + SimDuration.FromSeconds(1.1));
+        for (int n = 0; n < peers.Grid.Count; n++)
+        {
+            PeerComparison.Distance(peers.Settled, 2, n, out bool settled);
+            PeerComparison.Distance(peers.Seen, 2, n, out bool seen);
+            Assert.False(settled);
+            Assert.True(!seen || (n >= 199 && n < news), $"sample {n}");
+        }
+
+        PeerComparison.Distance(peers.Seen, 2, 202, out bool during);
+        Assert.True(during); // before the news had come
+    }
+
+    [Fact]
+    public void Lose_TheEventForGood_IsSeenInWhatSettles()
+    {
+        using VirtualPeers peers = new(BuiltInScenes.Pair(), new PeerGroupOptions(2, LinkProfiles.PureDelay(40), Length: SimDuration.FromSeconds(4)));
+        peers.Connect();
+        peers.RunUntil(SimDuration.FromSeconds(1), null);
+        peers.Network.SetLink(1, 0, new LinkLeg(0, lossPercent: 100));
+        peers.Do(1, PlayerAction.Impulse(BodyId.OfScene(1), new Vector3D(1, 4, 0)));
+        peers.RunQuietlyUntil(SimDuration.FromSeconds(4), null);
+        peers.Finish();
+        Assert.True(PeerComparison.Distance(peers.Settled, 2, peers.Grid.Count - 1, out bool differs) > 0.1);
+        Assert.True(differs);
+        Assert.Equal(SessionState.Running, peers.Session(0).State);
+    }
+}

@@ -1,0 +1,168 @@
+using System.Linq;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Sessions;
+
+public sealed class LeavingTests
+{
+    [Fact]
+    public void Leave_Host_EndsTheJoinersWithASentenceAndLeavesTheWorldReadable()
+    {
+        SessionGroup group = Three();
+        group.Do(0, PlayerAction.Teleport(First, V(0, 4)));
+        group.Settle(1);
+        group.Host.Leave();
+        group.Run(0.2);
+        Assert.Equal("This peer left.", group.Host.EndReason);
+        Assert.All(group.Sessions, s => Assert.Equal(SessionState.Ended, s.State));
+        Assert.All(group.Sessions.Skip(1), s => Assert.Equal("The host at virtual:0 ended the session.", s.EndReason));
+        Assert.Null(group.Difference());
+        Assert.Throws<System.InvalidOperationException>(() => group.Do(1, PlayerAction.Remove(First)));
+    }
+
+    [Fact]
+    public void Leave_HostWhoseGoodbyeIsLost_EndsTheJoinersWithTheSameSentence()
+    {
+        SessionGroup group = Three();
+        group.Cut(0, 1);
+        group.Cut(0, 2);
+        group.Host.Leave();
+        group.Run(0.05);
+        Assert.All(group.Sessions.Skip(1), s => Assert.Equal(SessionState.Running, s.State));
+        group.Restore(0, 1);
+        group.Restore(0, 2);
+        group.Run(5);
+        Assert.All(group.Sessions.Skip(1), s => Assert.Equal("The host at virtual:0 ended the session.", s.EndReason));
+    }
+
+    [Fact]
+    public void Leave_HostWhileAnEventIsOnItsWay_TakesNothingInAnyMore()
+    {
+        SessionGroup group = Three();
+        group.Do(1, PlayerAction.Teleport(First, V(0, 4)));
+        group.Host.Leave();
+        group.Run(1);
+        Assert.Equal(0, group.Host.Counters.EventsAccepted);
+        Assert.True(group.Host.Counters.DatagramsIgnored > 0);
+    }
+
+    [Fact]
+    public void Leave_Joiner_LeavesTheOthersRunning()
+    {
+        SessionGroup group = Three();
+        group.Sessions[1].Leave();
+        group.Run(0.2);
+        Assert.Equal(1, group.Host.JoinerCount);
+        GoesOn(group);
+    }
+
+    [Fact]
+    public void Silence_OfAJoiner_LeavesTheOthersRunningAndTellsIt()
+    {
+        SessionGroup group = Three(timeout: 3);
+        group.Cut(1, 0);
+        group.Run(2.5);
+        Assert.Equal(2, group.Host.JoinerCount);
+        group.Run(1);
+        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.Equal("The host at virtual:0 heard nothing from this peer for too long.", group.Sessions[1].EndReason);
+        GoesOn(group);
+    }
+
+    [Fact]
+    public void Silence_OfTheHost_EndsTheJoinerWithASentence()
+    {
+        SessionGroup group = Three(timeout: 3);
+        group.Cut(0, 1);
+        group.Run(2.5);
+        Assert.Equal(SessionState.Running, group.Sessions[1].State);
+        group.Run(1);
+        Assert.Equal("The host at virtual:0 fell silent for 3 s.", group.Sessions[1].EndReason);
+        GoesOn(group);
+    }
+
+    [Fact]
+    public void Silence_ShorterThanTheTimeout_EndsNothing()
+    {
+        SessionGroup group = Three(timeout: 3);
+        group.Cut(1, 0);
+        group.Cut(0, 1);
+        group.Run(2);
+        group.Restore(1, 0);
+        group.Restore(0, 1);
+        group.Run(10);
+        Assert.All(group.Sessions, s => Assert.Equal(SessionState.Running, s.State));
+    }
+
+    [Fact]
+    public void KeepAlive_LossInBurstsAndNothingToSay_IsNotTakenForSilence()
+    {
+        // Bursts are counted in datagrams: at one keep-alive in two seconds a burst of five would last as long as the timeout.
+        for (ulong seed = 1; seed <= 20; seed++)
+        {
+            SessionGroup group = new SessionGroup(Deeds.Box(), 3, LinkProfiles.Awful, seed).Connect();
+            group.Run(120);
+            Assert.All(group.Sessions, s => Assert.Equal(SessionState.Running, s.State));
+        }
+    }
+
+    [Fact]
+    public void KeepAlive_NothingToSayOnAGoodLink_CostsADatagramInTwoSeconds()
+    {
+        SessionGroup group = Three();
+        group.Run(5);
+        long before = group.Sessions[1].Counters.DatagramsSent;
+        group.Run(60);
+        Assert.InRange(group.Sessions[1].Counters.DatagramsSent - before, 28, 32);
+    }
+
+    [Fact]
+    public void Step_WorldThatCannotGoOn_EndsEverySessionWithASentenceAndDoesNotThrow()
+    {
+        // Permitted, but from there gravity alone leads out of the range in which a state means something.
+        SessionGroup group = Three();
+        double limit = 0.1 * group.Scene.SmallestRadius * SimDuration.TicksPerSecond;
+        RawJoiner other = new(group);
+        other.Claim(1, ExternalEvent.Teleport(group.Host.SharedTime.Now, other.Peer, 1, BodyId.OfScene(3), V(0, 1e12), V(0, -limit)));
+        group.Run(1);
+        Assert.All(group.Sessions, s => Assert.Equal(SessionState.Ended, s.State));
+        Assert.StartsWith("The world cannot be simulated any further. At ", group.Host.EndReason, System.StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Do_WorldThatCannotGoOnWithIt_ThrowsAndEndsTheSession()
+    {
+        SessionGroup group = Three();
+        double limit = 0.1 * group.Scene.SmallestRadius * SimDuration.TicksPerSecond;
+        Assert.Throws<SimulationException>(() => group.Do(1, PlayerAction.Teleport(BodyId.OfScene(3), V(0, 1e12), V(0, -limit))));
+        Assert.Equal(SessionState.Ended, group.Sessions[1].State);
+        group.Run(1);
+        Assert.Equal(1, group.Host.JoinerCount);
+        GoesOn(group);
+    }
+
+    private static SessionGroup Three(double timeout = 10) => new SessionGroup(Deeds.Box(), 3, LinkProfiles.PureDelay(5), 2, _ => new SessionOptions
+    {
+        Timeout = SimDuration.FromSeconds(timeout), KeepAlive = SimDuration.FromSeconds(timeout / 5), ExtraHistory = SimDuration.FromSeconds(60),
+    }).Connect();
+
+    private static void GoesOn(SessionGroup group)
+    {
+        Session[] running = group.Sessions.Where(s => s.State == SessionState.Running).ToArray();
+        Assert.Contains(group.Host, running);
+        Assert.Equal(2, running.Length);
+        long[] before = running.Select(s => s.Counters.EventsAccepted).ToArray();
+        group.Do(2, PlayerAction.SetVelocity(First, V(0, 3)));
+        group.Do(0, PlayerAction.SetVelocity(Second, V(0, 4)));
+        group.Run(0.5);
+        Assert.Equal(before.Select(n => n + 2), running.Select(s => s.Counters.EventsAccepted));
+        SimTime now = running.Min(s => s.World!.Simulation.SimulatedTo);
+        Assert.Equal(running[0].World!.Simulation.StateHash(now), running[1].World!.Simulation.StateHash(now));
+    }
+}

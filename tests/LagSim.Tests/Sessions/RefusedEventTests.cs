@@ -1,0 +1,99 @@
+using System.Linq;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>What the host says no to is taken back by who did it, however late the no comes.</summary>
+public sealed class RefusedEventTests
+{
+    private const double History = 0.3;
+
+    [Theory]
+    [InlineData(true, true)]
+    [InlineData(true, false)]
+    [InlineData(false, true)] // nothing gets to the host, but its watermark gets to the sender
+    [InlineData(false, false)]
+    public void TooLate_LinkCutForLongerThanTheHistory_IsTakenBackByTheSender(bool bothWays, bool keepsMore)
+    {
+        for (ulong seed = 1; seed <= 5; seed++)
+        {
+            SessionGroup group = Group(seed, keepsMore ? 60 : 0);
+            group.Run(0.2 * seed);
+            group.Cut(1, 0);
+            if (bothWays)
+            {
+                group.Cut(0, 1);
+            }
+
+            ExternalEvent late = group.Do(1, PlayerAction.SetVelocity(First, V(2, 6)));
+            group.Run(0.1);
+            ExternalEvent spawn = group.Do(1, PlayerAction.Spawn(Ball(0.25), V(0, 4)));
+            group.Run(0.5);
+            group.Do(0, PlayerAction.Impulse(Second, V(-1, 4))); // and the others have the host's news meanwhile
+            group.Run(0.5);
+            Assert.True(group.Sessions[1].World!.Simulation.TryRead(spawn.Body, group.Sessions[1].World!.Simulation.SimulatedTo, out _));
+            group.Restore(1, 0);
+            group.Restore(0, 1);
+            ExternalEvent inTime = group.Do(1, PlayerAction.Impulse(Third, V(1, 1)));
+            Assert.True(group.Settle(4));
+            group.Run(3);
+
+            Assert.Equal([late, spawn], group.Log.Values.Where(e => e.Verdict == Verdict.TooLate).Select(e => e.Event));
+            Assert.Contains(inTime, group.Accepted);
+            Assert.All(group.Sessions, s => Assert.Equal((2, 2, 0), (s.Counters.EventsAccepted, s.Counters.EventsRefused, s.Counters.EventsLost)));
+            Assert.True(group.Difference() is null, $"seed {seed}: {group.Difference()}");
+            Assert.NotNull(group.Difference(group.Alone(group.Log.Values.Select(e => e.Event)))); // the refused ones would have shown
+        }
+    }
+
+    [Fact]
+    public void TooLate_LinkCutForLessThanTheHistory_IsAccepted()
+    {
+        SessionGroup group = Group(1, 0);
+        group.Cut(1, 0);
+        ExternalEvent late = group.Do(1, PlayerAction.SetVelocity(First, V(2, 6)));
+        group.Run(History - 0.1);
+        group.Restore(1, 0);
+        Assert.True(group.Settle(1));
+        Assert.Equal([late], group.Accepted);
+        Assert.Null(group.Difference());
+    }
+
+    [Fact]
+    public void Commit_WhileAnOwnEventIsNotJudged_KeepsWhatTakingItBackNeedsAndNoMore()
+    {
+        SessionGroup group = Group(3, 0);
+        group.Cut(1, 0);
+        ExternalEvent late = group.Do(1, PlayerAction.SetVelocity(First, V(2, 6)));
+        group.Run(2.5);
+        Assert.True(group.Host.World!.Simulation.HistoryEdge > late.Time);
+        Assert.True(group.Sessions[1].World!.Simulation.HistoryEdge <= late.Time);
+        Assert.True(group.Sessions[2].World!.Simulation.HistoryEdge > late.Time);
+        group.Restore(1, 0);
+        group.Run(4);
+        Assert.True(group.Sessions[1].World!.Simulation.HistoryEdge > late.Time);
+    }
+
+    [Fact]
+    public void Do_ValueThatMayNotEnter_ThrowsAndTakesNoNumber()
+    {
+        SessionGroup group = Group(1, 0);
+        Assert.Throws<SceneException>(() => group.Do(1, PlayerAction.SetVelocity(First, V(double.NaN))));
+        Assert.Throws<SceneException>(() => group.Do(1, PlayerAction.Teleport(BodyId.OfScene(99), V(0, 4))));
+        Assert.Throws<SceneException>(() => group.Do(0, PlayerAction.Teleport(First, V(0, -4))));
+        Assert.Equal(1u, group.Do(1, PlayerAction.SetVelocity(First, V(1))).Sequence);
+        Assert.True(group.Settle(1));
+        Assert.Null(group.Difference());
+    }
+
+    private static SessionGroup Group(ulong seed, double extra) => new SessionGroup(
+        Deeds.Box(), 3, LinkProfiles.PureDelay(5), seed,
+        _ => new SessionOptions { History = SimDuration.FromSeconds(History), ExtraHistory = SimDuration.FromSeconds(extra), KeepAlive = SimDuration.FromSeconds(0.1) }).Connect();
+}

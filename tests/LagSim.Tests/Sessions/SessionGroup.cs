@@ -1,0 +1,204 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>A host and joiners in virtual time, with every option at hand, and with the host's log as it was seen on the wire.</summary>
+internal sealed class SessionGroup
+{
+    internal const ulong SessionId = 0x5E55_1017;
+
+    private static readonly SimDuration Hour = SimDuration.FromSeconds(3600);
+
+    private readonly SimTime[] due;
+    private readonly UpdateDatagram tapped = new();
+
+    /// <summary>Peers that are not connected yet: the host has number 0 in the network, the joiners 1 and up.</summary>
+    internal SessionGroup(Scene scene, int peers, LinkProfile link, ulong seed = 1, Func<int, SessionOptions>? options = null, Func<int, Scene>? scenes = null, int? expected = null)
+    {
+        Scene = scene;
+        Network = new VirtualNetwork(Clock, seed, link);
+        Network.Lose((from, _, datagram) =>
+        {
+            Tap(from, datagram.Span);
+            return false;
+        });
+        Random luck = new((int)seed);
+        due = new SimTime[peers];
+        Ports = Enumerable.Range(0, peers).Select(Network.CreatePort).ToArray();
+        Sessions = new Session[peers];
+        for (int peer = 0; peer < peers; peer++)
+        {
+            SkewedClock own = new(Clock, (luck.NextDouble() * 40) - 20, SimDuration.FromSeconds(luck.NextDouble() * 3600));
+            SessionOptions chosen = options?.Invoke(peer) ?? new SessionOptions { ExtraHistory = SimDuration.FromSeconds(60) };
+            chosen.ExpectedJoiners = expected ?? peers - 1;
+            Scene mine = scenes?.Invoke(peer) ?? scene;
+            Sessions[peer] = peer == 0
+                ? new HostSession(mine, Ports[0], own, chosen, SessionId)
+                : new JoinerSession(mine, Ports[peer], own, chosen, PeerAddress.Virtual(0), seed + (ulong)peer);
+            due[peer] = Clock.Now;
+        }
+    }
+
+    internal Scene Scene { get; }
+
+    internal VirtualClock Clock { get; } = new(SimTime.FromSeconds(10));
+
+    internal VirtualNetwork Network { get; }
+
+    internal IDatagramPort[] Ports { get; }
+
+    internal Session[] Sessions { get; }
+
+    internal HostSession Host => (HostSession)Sessions[0];
+
+    /// <summary>What the host said to each event, by place in its log, as datagrams carried it.</summary>
+    internal SortedDictionary<uint, UpdateEntry> Log { get; } = [];
+
+    internal IEnumerable<ExternalEvent> Accepted => Log.Values.Where(e => e.Verdict == Verdict.Accepted).Select(e => e.Event);
+
+    /// <summary>Whether the log is read off the wire; to be turned off where a test itself speaks as the host.</summary>
+    internal bool IsTapped { get; set; } = true;
+
+    /// <summary>Called before each step of a peer.</summary>
+    internal Action<int>? BeforeStep { get; set; }
+
+    internal JoinerSession Joiner(int peer) => (JoinerSession)Sessions[peer];
+
+    /// <summary>Lets that much true time pass.</summary>
+    internal void Run(double seconds)
+    {
+        SimTime end = Clock.Now + SimDuration.FromSeconds(seconds);
+        while (Clock.Now < end)
+        {
+            Advance(end);
+        }
+    }
+
+    /// <summary>Lets time pass until something is so; false if it was not within that many seconds.</summary>
+    internal bool RunUntil(Func<bool> isSo, double seconds = 30)
+    {
+        SimTime deadline = Clock.Now + SimDuration.FromSeconds(seconds);
+        while (!isSo())
+        {
+            if (Clock.Now >= deadline)
+            {
+                return false;
+            }
+
+            Advance(deadline);
+        }
+
+        return true;
+    }
+
+    /// <summary>Until all run.</summary>
+    internal SessionGroup Connect()
+    {
+        Assert.True(RunUntil(() => Sessions.All(s => s.State == SessionState.Running)), string.Join(" ", Sessions.Select(s => $"{s.State} {s.EndReason}")));
+        return this;
+    }
+
+    internal ExternalEvent Do(int peer, PlayerAction action)
+    {
+        ExternalEvent external = Sessions[peer].Do(action);
+        due[peer] = Clock.Now;
+        return external;
+    }
+
+    /// <summary>Until every joiner has heard of the whole log, and the host of every event that was done.</summary>
+    internal bool Settle(int done, double seconds = 60) => RunUntil(
+        () => Sessions.All(s => s.State == SessionState.Ended || s.Counters.EventsAccepted + s.Counters.EventsRefused == done), seconds);
+
+    /// <summary>Loses everything from one peer to another from now on, until <see cref="Restore"/>.</summary>
+    internal void Cut(int from, int to) => Network.SetLink(from, to, new LinkLeg(0, lossPercent: 100));
+
+    internal void Restore(int from, int to, double delayMilliseconds = 5) => Network.SetLink(from, to, new LinkLeg(delayMilliseconds));
+
+    /// <summary>The world of one who had all accepted events at once, and no network.</summary>
+    internal Simulation Alone(IEnumerable<ExternalEvent>? events = null)
+    {
+        Simulation simulation = new(Scene, new SimulationOptions(Host.World!.Simulation.Start, SimDuration.MaxValue));
+        foreach (ExternalEvent external in events ?? Accepted)
+        {
+            simulation.Submit(external);
+        }
+
+        simulation.AdvanceTo(Host.World.Simulation.SimulatedTo);
+        return simulation;
+    }
+
+    /// <summary>The first difference between that world and any peer's, at many instants of what all still have; null for none.</summary>
+    internal string? Difference(Simulation? expected = null)
+    {
+        expected ??= Alone();
+        SimTime first = SimTime.Max(expected.Start, Sessions.Max(s => s.World!.Simulation.HistoryEdge));
+        SimTime last = Sessions.Min(s => s.World!.Simulation.SimulatedTo);
+        const int instants = 40;
+        for (int i = 0; i <= instants; i++)
+        {
+            SimTime time = first + ((last - first) / instants * i);
+            for (int peer = 0; peer < Sessions.Length; peer++)
+            {
+                Simulation actual = Sessions[peer].World!.Simulation;
+                if (actual.StateHash(time) != expected.StateHash(time))
+                {
+                    return $"peer {peer} has another state at {time - expected.Start} after the start";
+                }
+
+                if (actual.EventHash(time) != expected.EventHash(time))
+                {
+                    return $"peer {peer} has other events up to {time - expected.Start} after the start";
+                }
+            }
+        }
+
+        return null;
+    }
+
+    private void Advance(SimTime limit)
+    {
+        SimTime next = SimTime.Min(limit, due.Min());
+        next = Network.NextDelivery is SimTime delivery ? SimTime.Min(next, delivery) : next;
+        bool delivered = Network.DeliverUntil(SimTime.Max(next, Clock.Now)) > 0;
+        for (int peer = 0; peer < Sessions.Length; peer++)
+        {
+            if (delivered || due[peer] <= Clock.Now)
+            {
+                BeforeStep?.Invoke(peer);
+                SimDuration wait = Sessions[peer].Step();
+                due[peer] = wait > Hour ? SimTime.MaxValue : Clock.Now + (wait > SimDuration.Zero ? wait : SimDuration.OneTick);
+            }
+        }
+    }
+
+    private void Tap(int from, ReadOnlySpan<byte> datagram)
+    {
+        if (from != 0 || !IsTapped || !tapped.TryDecode(datagram, out _))
+        {
+            return;
+        }
+
+        uint index = tapped.FirstIndex;
+        foreach (UpdateEntry entry in tapped.Entries)
+        {
+            // The host says yes or no once: what stands in the log never changes.
+            if (Log.TryGetValue(index, out UpdateEntry before))
+            {
+                Assert.Equal(before.Verdict, entry.Verdict);
+                Assert.Equal(before.Event, entry.Event);
+            }
+
+            Log[index++] = entry;
+        }
+    }
+}
