@@ -3,7 +3,6 @@ using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
-using LagSim.Timelines;
 
 namespace LagSim;
 

@@ -1,7 +1,6 @@
 using System;
 using System.Collections.Generic;
 using System.CommandLine;
-using System.Globalization;
 using System.IO;
 using System.Linq;
 using LagSim.Cli.Output;
@@ -55,7 +54,7 @@ internal static class RunCommand
 
             RunSummary summary = Run(
                 console, loaded, SimDuration.FromSeconds(parsed.GetValue(until)), eventFile, sampleFile,
-                SimDuration.FromSeconds(parsed.GetValue(every)), parsed.GetValue(repeat));
+                parsed.GetValue(every), parsed.GetValue(repeat));
             if (folder is not null)
             {
                 RunReport.Write(folder, loaded, summary, parsed.GetValue(common.Seed), sampleFile);
@@ -76,7 +75,7 @@ internal static class RunCommand
     }
 
     private static RunSummary Run(
-        ToolConsole console, Scene scene, SimDuration length, string? eventFile, string? sampleFile, SimDuration every, int repeat)
+        ToolConsole console, Scene scene, SimDuration length, string? eventFile, string? sampleFile, double every, int repeat)
     {
         using ResultFile? eventOutput = ResultFile.Open(console, eventFile);
         using ResultFile? sampleOutput = ResultFile.Open(console, sampleFile);
@@ -86,7 +85,7 @@ internal static class RunCommand
             sampleOutput.Writer, "time_s", "body", "x_m", "y_m", "z_m", "vx_m_per_s", "vy_m_per_s", "vz_m_per_s", "motion");
         SceneRun run = new(scene)
         {
-            SampleEvery = every,
+            SampleEverySeconds = every,
             OnEvent = eventCsv is null ? null : e => eventCsv.WriteRow(
                 [e.Key.Time.ToSeconds(), e.Kind, scene.Bodies[e.Body.Index].Name, e.Other, .. Numbers(e.State)]),
             OnSample = sampleCsv is null ? null : (time, simulation) => Sample(sampleCsv, scene, simulation, time),

@@ -1,6 +1,5 @@
 using System.CommandLine;
 using System.IO;
-using System.Text.Json;
 using LagSim.Cli.Output;
 using LagSim.Harness.Scenes;
 using LagSim.Scenes;

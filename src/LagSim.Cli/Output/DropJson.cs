@@ -41,13 +41,8 @@ internal static class DropJson
         Phases(json, "seen", run.Seen);
         Phases(json, "seen_true_time", run.SeenTrueTime);
         Phases(json, "settled", run.Settled);
-        json.WriteStartArray("state_hashes");
-        foreach (ulong hash in run.StateHashes)
-        {
-            json.WriteStringValue(JsonDocumentWriter.Hash(hash));
-        }
-
-        json.WriteEndArray();
+        Hashes(json, "state_hashes", run.StateHashes);
+        Hashes(json, "event_hashes", run.EventHashes);
         json.WriteNumber("clock_error_ms", run.ClockErrorMilliseconds);
         json.WriteNumber("events", run.Events);
         json.WriteNumber("heals", run.Heals);
@@ -65,6 +60,17 @@ internal static class DropJson
         json.WriteEndObject();
         JsonDocumentWriter.Number(json, "cpu_cores_at_rest", run.CpuCoresAtRest);
         json.WriteEndObject();
+    }
+
+    private static void Hashes(Utf8JsonWriter json, string key, IReadOnlyList<ulong> hashes)
+    {
+        json.WriteStartArray(key);
+        foreach (ulong hash in hashes)
+        {
+            json.WriteStringValue(JsonDocumentWriter.Hash(hash));
+        }
+
+        json.WriteEndArray();
     }
 
     private static void Phases(Utf8JsonWriter json, string key, PhaseErrors errors)

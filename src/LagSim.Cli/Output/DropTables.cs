@@ -104,7 +104,7 @@ internal static class DropTables
         + $"bytes/s {string.Join(" ", run.BytesSentPerSecond.Select(NumberText.Short))}, "
         + (run.Case == DropCase.Teleport ? $"event {NumberText.Short(run.Lateness.Max)} ms late, " : "")
         + (run.CpuCoresAtRest is double cpu ? $"at rest {NumberText.Short(100 * cpu)} % of a core, " : "")
-        + $"hashes {string.Join(" ", run.StateHashes.Select(h => JsonDocumentWriter.Hash(h)))}"
+        + $"event hashes {string.Join(" ", run.EventHashes.Select(h => JsonDocumentWriter.Hash(h)))}"
         + (run.Agrees ? " (equal)" : " (NOT equal)");
 
     private static Table Strategies(IReadOnlyList<DropRun> runs)

@@ -18,18 +18,28 @@ internal static class RunReport
 
     internal static void Write(string folder, Scene scene, RunSummary run, ulong seed, string? sampleFile)
     {
+        HtmlReport report = new(
+            $"LagSim run of {scene.Name}",
+            string.Create(CultureInfo.InvariantCulture, $"{run.Until.ToSeconds()} s, {run.End.EventsProcessed} events, {run.End.ImpactsProcessed} impacts. Samples: {Path.GetFileName(sampleFile)}."),
+            new ReportFooter("lagsim", ToolVersion.Text, seed, JsonDocumentWriter.Hash(scene.Hash)));
+        if (scene.Bodies.Count > 0 && run.Until > SimTime.Zero)
+        {
+            LineChart chart = Heights(scene, run.Until - SimTime.Zero);
+            chart.Save(Path.Combine(folder, "heights.svg"));
+            report.AddChart(chart);
+        }
+
+        report.Save(Path.Combine(folder, "report.html"));
+    }
+
+    private static LineChart Heights(Scene scene, SimDuration length)
+    {
         int bodies = System.Math.Min(scene.Bodies.Count, MostBodies);
         List<double> seconds = [];
         List<double>[] heights = Enumerable.Range(0, bodies).Select(_ => new List<double>()).ToArray();
-        SimDuration length = run.Until - SimTime.Zero;
-        if (bodies == 0 || length == SimDuration.Zero)
-        {
-            return;
-        }
-
         new SceneRun(scene)
         {
-            SampleEvery = SimDuration.FromTicks(System.Math.Max(1, length.Ticks / Samples)),
+            SampleEverySeconds = System.Math.Max(1e-9, length.ToSeconds() / Samples),
             OnSample = (time, simulation) =>
             {
                 seconds.Add(time.ToSeconds());
@@ -43,16 +53,9 @@ internal static class RunReport
 
         double[] x = seconds.ToArray();
         string shown = bodies < scene.Bodies.Count ? string.Create(CultureInfo.InvariantCulture, $" (the first {bodies} bodies)") : "";
-        LineChart chart = new(
+        return new LineChart(
             $"Scene {scene.Name}",
             "Height of each body against time.",
             [new ChartPanel($"Height of the centres{shown}", "height (m)", heights.Select((h, n) => new ChartSeries(scene.Bodies[n].Name, x, h.ToArray(), SeriesStyle.Line, n)).ToArray()) { PlotHeight = 300 }]);
-        chart.Save(Path.Combine(folder, "heights.svg"));
-        new HtmlReport(
-            $"LagSim run of {scene.Name}",
-            string.Create(CultureInfo.InvariantCulture, $"{run.Until.ToSeconds()} s, {run.End.EventsProcessed} events, {run.End.ImpactsProcessed} impacts. Samples: {Path.GetFileName(sampleFile)}."),
-            new ReportFooter("lagsim", ToolVersion.Text, seed, JsonDocumentWriter.Hash(scene.Hash)))
-            .AddChart(chart)
-            .Save(Path.Combine(folder, "report.html"));
     }
 }

@@ -1,4 +1,3 @@
-using System;
 using System.Collections.Generic;
 using LagSim.Harness.Links;
 using LagSim.Net.Strategies;

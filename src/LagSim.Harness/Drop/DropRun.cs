@@ -1,8 +1,6 @@
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Harness.Metrics;
-using LagSim.Harness.Peers;
-using LagSim.Time;
 
 namespace LagSim.Harness.Drop;
 
@@ -13,6 +11,7 @@ namespace LagSim.Harness.Drop;
 /// <param name="SeenTrueTime">Errors as seen, at the same true instant.</param>
 /// <param name="Settled">Errors of what the timelines say once all news has arrived.</param>
 /// <param name="StateHashes">Each peer's state at the case's last sample, the host first.</param>
+/// <param name="EventHashes">Each peer's hash of all events up to then: the state at the end of a case is rest, this is how it got there.</param>
 /// <param name="SceneHash">The scene's.</param>
 /// <param name="ClockErrorMilliseconds">The largest error of a shared clock.</param>
 /// <param name="Events">How many events the host's world went through in this case.</param>
@@ -28,6 +27,7 @@ public sealed record DropRun(
     PhaseErrors SeenTrueTime,
     PhaseErrors Settled,
     IReadOnlyList<ulong> StateHashes,
+    IReadOnlyList<ulong> EventHashes,
     ulong SceneHash,
     double ClockErrorMilliseconds,
     long Events,
@@ -39,7 +39,8 @@ public sealed record DropRun(
 {
     /// <summary>Whether all peers' timelines and hashes agree to the bit, before and after the event and at the time of it, and nothing was missed.</summary>
     public bool Agrees =>
-        Differing(Settled.Before) + Differing(Settled.During) + Differing(Settled.After) == 0 && StateHashes.Distinct().Count() == 1;
+        Differing(Settled.Before) + Differing(Settled.During) + Differing(Settled.After) == 0 && StateHashes.Distinct().Count() == 1
+        && EventHashes.Distinct().Count() == 1;
 
     private static long Differing(ErrorAccumulator errors)
     {

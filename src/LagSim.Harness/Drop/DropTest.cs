@@ -62,8 +62,9 @@ public static class DropTest
         bool isTeleport = which == DropCase.Teleport;
         SimTime? stamp = isTeleport ? lifted.Time : null;
         SimTime dealt = isTeleport ? LastDealt(peers, lifted.Time) : peers.Start;
-        int first = peers.Grid.FirstAfter(peers.Start + from);
-        int end = isTeleport || options.Cases.Count == 1 ? peers.Grid.FirstAfter(peers.Start + to) : BeforeLift(peers, options, lifted);
+        bool isAlone = options.Cases.Count == 1;
+        int first = isTeleport && !isAlone ? BeforeLift(peers, options, lifted) : peers.Grid.FirstAfter(peers.Start + from);
+        int end = isTeleport || isAlone ? peers.Grid.FirstAfter(peers.Start + to) : BeforeLift(peers, options, lifted);
         double seconds = (to - from).ToSeconds();
 
         return new DropRun(
@@ -72,7 +73,8 @@ public static class DropTest
             Errors(peers.Seen),
             Errors(peers.SeenTrueTime),
             Errors(peers.Settled),
-            Enumerable.Range(0, peers.PeerCount).Select(p => peers.Session(p).World!.Simulation.StateHash(peers.Grid.At(end - 1))).ToArray(),
+            Hashes((simulation, time) => simulation.StateHash(time)),
+            Hashes((simulation, time) => simulation.EventHash(time)),
             peers.Scene.Hash,
             end > first ? peers.ClockErrorMilliseconds[first..end].Max() : 0,
             HostEvents(peers, first, end).Count(),
@@ -82,11 +84,14 @@ public static class DropTest
             which == options.Cases[^1] ? peers.CpuCoresAtRest : null,
             Trace(peers, first, end, stamp, dealt));
 
+        ulong[] Hashes(Func<Simulation, SimTime, ulong> hash) =>
+            Enumerable.Range(0, peers.PeerCount).Select(p => hash(peers.Session(p).World!.Simulation, peers.Grid.At(end - 1))).ToArray();
+
         PhaseErrors Errors(IReadOnlyList<PeerSamples> samples) =>
             PeerComparison.Errors(samples, peers.Grid, peers.Bodies.Length, first, end, stamp, dealt);
     }
 
-    /// <summary>The number of the first instant that the lift may have changed: the case before it ends there.</summary>
+    /// <summary>The number of the first instant that the lift may have changed: the case before it ends there, and its own begins.</summary>
     private static int BeforeLift(PeerGroup peers, DropOptions options, in ExternalEvent lifted) =>
         Math.Min(peers.Grid.FirstAfter(peers.Start + options.Window(DropCase.SameStart).Last), peers.Grid.FirstAfter(lifted.Time - SimDuration.OneTick));
 
@@ -95,12 +100,9 @@ public static class DropTest
     private static IEnumerable<double> Latenesses(PeerGroup peers) =>
         Enumerable.Range(0, peers.PeerCount).SelectMany(p => peers.Session(p).Counters.Lateness).Select(late => late.ToMilliseconds());
 
-    /// <summary>When the last peer had heard of the event, by its own shared clock.</summary>
-    private static SimTime LastDealt(PeerGroup peers, SimTime stamp)
-    {
-        double latest = Latenesses(peers).DefaultIfEmpty(0).Max();
-        return stamp + SimDuration.FromMilliseconds(Math.Max(0, latest));
-    }
+    /// <summary>When the last peer showed the event, by its own shared clock; a peer that never heard of it is not waited for.</summary>
+    private static SimTime LastDealt(PeerGroup peers, SimTime stamp) =>
+        Enumerable.Range(0, peers.PeerCount).Select(p => peers.Session(p).Counters.LastShown).Append(stamp).Max();
 
     private static IEnumerable<TimelineEntry> HostEvents(PeerGroup peers, int first, int end)
     {

@@ -5,8 +5,8 @@ using System.Net;
 using System.Threading;
 using LagSim.Events;
 using LagSim.Harness.Links;
-using LagSim.Net.Carriers;
 using LagSim.Hosting;
+using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -92,23 +92,6 @@ public sealed class RealPeers : PeerGroup
     public override void RunUntil(SimDuration sinceStart, Action<SimDuration>? progress) =>
         Run(Start + sinceStart, [threads[0].Session], progress);
 
-    private void Run(SimTime end, Session[] clocks, Action<SimDuration>? progress)
-    {
-        while (LeftUntil(end, clocks) > SimDuration.Zero)
-        {
-            Sample();
-            for (int peer = 0; peer < PeerCount; peer++)
-            {
-                ThrowIfEnded(peer, threads[peer].State, threads[peer].Session);
-            }
-
-            progress?.Invoke(threads[0].Session.SharedTime.Now - Start);
-            Thread.Sleep(PollMilliseconds);
-        }
-
-        Sample();
-    }
-
     /// <inheritdoc/>
     public override void RunQuietlyUntil(SimDuration sinceStart, Action<SimDuration>? progress)
     {
@@ -160,6 +143,23 @@ public sealed class RealPeers : PeerGroup
         {
             port.Dispose();
         }
+    }
+
+    private void Run(SimTime end, Session[] clocks, Action<SimDuration>? progress)
+    {
+        while (LeftUntil(end, clocks) > SimDuration.Zero)
+        {
+            Sample();
+            for (int peer = 0; peer < PeerCount; peer++)
+            {
+                ThrowIfEnded(peer, threads[peer].State, threads[peer].Session);
+            }
+
+            progress?.Invoke(threads[0].Session.SharedTime.Now - Start);
+            Thread.Sleep(PollMilliseconds);
+        }
+
+        Sample();
     }
 
     private void Sample()

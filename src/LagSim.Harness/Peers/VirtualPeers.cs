@@ -82,30 +82,6 @@ public sealed class VirtualPeers : PeerGroup
     /// <inheritdoc/>
     public override void RunQuietlyUntil(SimDuration sinceStart, Action<SimDuration>? progress) => Run(Start + sinceStart, sessions, progress);
 
-    private void Run(SimTime end, Session[] clocks, Action<SimDuration>? progress)
-    {
-        for (SimDuration left; (left = LeftUntil(end, clocks)) > SimDuration.Zero;)
-        {
-            SimTime next = clock.Now + left;
-            for (int peer = 0; peer < PeerCount; peer++)
-            {
-                if (!Seen[peer].IsComplete)
-                {
-                    next = SimTime.Min(next, clock.Now + AtLeastATick(Seen[peer].NextTime - sessions[peer].SharedTime.Now));
-                }
-            }
-
-            Advance(next);
-            Sample();
-            for (int peer = 0; peer < PeerCount; peer++)
-            {
-                ThrowIfEnded(peer, sessions[peer].State, sessions[peer]);
-            }
-
-            progress?.Invoke(sessions[0].SharedTime.Now - Start);
-        }
-    }
-
     /// <inheritdoc/>
     public override ExternalEvent Do(int peer, PlayerAction action)
     {
@@ -141,6 +117,30 @@ public sealed class VirtualPeers : PeerGroup
                 SimDuration wait = sessions[peer].Step();
                 due[peer] = wait > SimDuration.FromSeconds(3600) ? SimTime.MaxValue : clock.Now + AtLeastATick(wait);
             }
+        }
+    }
+
+    private void Run(SimTime end, Session[] clocks, Action<SimDuration>? progress)
+    {
+        for (SimDuration left; (left = LeftUntil(end, clocks)) > SimDuration.Zero;)
+        {
+            SimTime next = clock.Now + left;
+            for (int peer = 0; peer < PeerCount; peer++)
+            {
+                if (!Seen[peer].IsComplete)
+                {
+                    next = SimTime.Min(next, clock.Now + AtLeastATick(Seen[peer].NextTime - sessions[peer].SharedTime.Now));
+                }
+            }
+
+            Advance(next);
+            Sample();
+            for (int peer = 0; peer < PeerCount; peer++)
+            {
+                ThrowIfEnded(peer, sessions[peer].State, sessions[peer]);
+            }
+
+            progress?.Invoke(sessions[0].SharedTime.Now - Start);
         }
     }
 

@@ -33,8 +33,8 @@ public sealed class SceneRun
     /// <summary>Called with the world at every sample's time, the start included.</summary>
     public Action<SimTime, Simulation>? OnSample { get; init; }
 
-    /// <summary>The distance between samples; above zero.</summary>
-    public SimDuration SampleEvery { get; init; } = SimDuration.FromMilliseconds(10);
+    /// <summary>The distance between samples in seconds; at least 1e-9. Each sample's time is rounded to a tick by itself, so no error adds up.</summary>
+    public double SampleEverySeconds { get; init; } = 0.01;
 
     /// <summary>Runs the scene and gives the world at its end.</summary>
     public Simulation Run(SimDuration length, Action<SimDuration>? progress = null)
@@ -43,6 +43,7 @@ public sealed class SceneRun
         Simulation simulation = new(scene, new SimulationOptions(SimTime.Zero, Stride * 4));
         SimTime reported = SimTime.Zero - SimDuration.OneTick;
         SimTime sample = SimTime.Zero;
+        long samples = 0;
         SimTime now = SimTime.Zero;
         while (true)
         {
@@ -52,7 +53,7 @@ public sealed class SceneRun
             if (OnSample is not null && now == sample)
             {
                 OnSample(now, simulation);
-                sample += SampleEvery;
+                sample = SimTime.FromSeconds(++samples * SampleEverySeconds);
             }
 
             progress?.Invoke(now - SimTime.Zero);

@@ -20,6 +20,7 @@ public abstract class Session
     private readonly byte[] buffer = new byte[IDatagramPort.MaxDatagramBytes];
     private readonly ILateEventStrategy strategy;
     private readonly UpdateDatagram received = new();
+    private bool hasUnshown;
 
     private protected Session(Scene scene, IDatagramPort port, IClock clock, SessionOptions options)
     {
@@ -109,6 +110,7 @@ public abstract class Session
             throw;
         }
 
+        hasUnshown = true;
         LastSequence++;
         Publish(external);
         return external;
@@ -160,6 +162,7 @@ public abstract class Session
             throw new InvalidOperationException("An event cannot be accepted before there is a world.");
         }
 
+        hasUnshown = true;
         SimTime now = SharedTime.Now;
         Counters.AddLateness(now - external.Time);
         World.Advance(now); // what was shown up to now is simulated, so what changes it counts as changed
@@ -233,6 +236,12 @@ public abstract class Session
         {
             SimTime shared = SharedTime.Now;
             SimTime worldDue = World.Step(shared);
+            if (hasUnshown)
+            {
+                Counters.LastShown = SharedTime.Now;
+                hasUnshown = false;
+            }
+
             if (worldDue != SimTime.MaxValue)
             {
                 // A shared clock that is behind is bent to run up to 5 % fast: by the own clock the time then comes that much sooner.

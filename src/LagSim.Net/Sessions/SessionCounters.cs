@@ -35,6 +35,9 @@ public sealed class SessionCounters
     /// <summary>Events of other peers that changed what was already simulated.</summary>
     public long Heals { get; internal set; }
 
+    /// <summary>The shared time at which a picture first showed the newest event, one's own or another's; the earliest instant before any.</summary>
+    public SimTime LastShown { get; internal set; } = SimTime.MinValue;
+
     /// <summary>By how much the events of other peers came after their own time; negative for those that came before.</summary>
     public IReadOnlyList<SimDuration> Lateness => lateness;
 

@@ -1,7 +1,5 @@
 using System;
-using System.Linq;
 using LagSim.Scenes;
-using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

@@ -2,7 +2,6 @@ using System;
 using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Scenes;
-using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

@@ -1,7 +1,6 @@
 using System;
 using System.Numerics;
 using LagSim.Hosting;
-using LagSim.Net.Clocks;
 using LagSim.Time;
 using Xunit;
 

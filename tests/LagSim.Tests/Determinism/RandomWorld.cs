@@ -153,6 +153,14 @@ internal sealed class RandomWorld
             builder.AddBody($"ball {i}", DrawSpec(integrated), x, V(Pick(-1.0, 0, 0, 1), Pick(0, 0, -2.0), Pick(0, 0, 0.5)));
         }
 
+        if (random.Next(2) == 0)
+        {
+            // Three that meet at one tick, half a second on, unless something happens to them before.
+            builder.AddBody("left", DrawSpec(0), V(-1.5, 6, 3), V(2, 0, 0))
+                .AddBody("middle", DrawSpec(0), V(0, 6, 3))
+                .AddBody("right", DrawSpec(0), V(1.5, 6, 3), V(-2, 0, 0));
+        }
+
         return builder.Build();
     }
 

@@ -1,4 +1,3 @@
-using System;
 using LagSim.Harness.Peers;
 using LagSim.Hosting;
 using LagSim.Scenes;

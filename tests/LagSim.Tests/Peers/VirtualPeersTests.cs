@@ -1,4 +1,3 @@
-using System;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Links;

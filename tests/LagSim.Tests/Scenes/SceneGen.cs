@@ -2,7 +2,6 @@ using System;
 using System.Linq;
 using FsCheck;
 using FsCheck.Fluent;
-using LagSim.Harness.Scenes;
 using LagSim.Scenes;
 using LagSim.Time;
 

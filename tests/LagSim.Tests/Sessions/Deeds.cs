@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Scenes;
-using LagSim.Time;
 using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Sessions;

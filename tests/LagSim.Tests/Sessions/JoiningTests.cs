@@ -4,7 +4,6 @@ using LagSim.Harness.Links;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
-using LagSim.Scenes;
 using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;

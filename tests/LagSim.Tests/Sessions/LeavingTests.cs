@@ -149,7 +149,9 @@ public sealed class LeavingTests
 
     private static SessionGroup Three(double timeout = 10) => new SessionGroup(Deeds.Box(), 3, LinkProfiles.PureDelay(5), 2, _ => new SessionOptions
     {
-        Timeout = SimDuration.FromSeconds(timeout), KeepAlive = SimDuration.FromSeconds(timeout / 5), ExtraHistory = SimDuration.FromSeconds(60),
+        Timeout = SimDuration.FromSeconds(timeout),
+        KeepAlive = SimDuration.FromSeconds(timeout / 5),
+        ExtraHistory = SimDuration.FromSeconds(60),
     }).Connect();
 
     private static void GoesOn(SessionGroup group)

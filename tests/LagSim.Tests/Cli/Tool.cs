@@ -1,0 +1,56 @@
+using System;
+using System.IO;
+using LagSim.Cli;
+using Xunit;
+
+namespace LagSim.Tests.Cli;
+
+/// <summary>One call of the tool, in this process.</summary>
+internal sealed class Tool
+{
+    private Tool(int exitCode, string output, string error)
+    {
+        ExitCode = exitCode;
+        Output = output;
+        Error = error;
+    }
+
+    internal int ExitCode { get; }
+
+    internal string Output { get; }
+
+    internal string Error { get; }
+
+    internal static Tool Run(params string[] arguments)
+    {
+        using StringWriter output = new(), error = new();
+        int code = Program.Run(arguments, output, error);
+        return new Tool(code, output.ToString(), error.ToString());
+    }
+
+    /// <summary>A call that must be refused with that exit code, nothing on stdout, and all of these in what it says.</summary>
+    internal static void Refuses(int exitCode, string[] arguments, params string[] says)
+    {
+        Tool tool = Run(arguments);
+        Assert.True(exitCode == tool.ExitCode, $"{string.Join(' ', arguments)}: exit code {tool.ExitCode}: {tool.Error}");
+        Assert.Equal("", tool.Output);
+        Assert.All(says, word => Assert.Contains(word, tool.Error, StringComparison.Ordinal));
+        Assert.DoesNotContain("   at ", tool.Error, StringComparison.Ordinal); // a sentence, not a stack
+    }
+
+    internal Tool Done()
+    {
+        Assert.True(ExitCode == 0, $"exit code {ExitCode}: {Error}");
+        return this;
+    }
+}
+
+/// <summary>A folder of a test's own, gone afterwards.</summary>
+internal sealed class TemporaryFolder : IDisposable
+{
+    internal string Path { get; } = Directory.CreateTempSubdirectory("lagsim-test-").FullName;
+
+    internal string this[string name] => System.IO.Path.Combine(Path, name);
+
+    public void Dispose() => Directory.Delete(Path, recursive: true);
+}

@@ -1,0 +1,165 @@
+using System;
+using System.IO;
+using System.Linq;
+using Xunit;
+
+namespace LagSim.Tests.Cli;
+
+/// <summary>What the tool refuses, and with what sentence.</summary>
+public sealed class UsageTests
+{
+    private const int Usage = 2;
+    private const int Input = 3;
+
+    [Theory]
+    [InlineData("--rate-hz", "NaN", "between 1 and 10000")]
+    [InlineData("--rate-hz", "0.5", "between 1 and 10000")]
+    [InlineData("--rate-hz", "Infinity", "between 1 and 10000")]
+    [InlineData("--rate-hz", "fast", "between 1 and 10000")]
+    [InlineData("--delay-ms", "-1", "between 0 and 2000")]
+    [InlineData("--delay-ms", "NaN", "between 0 and 2000")]
+    [InlineData("--delay-ms", "2000.1", "between 0 and 2000")]
+    [InlineData("--delay-ms", "2,5", "between 0 and 2000")]
+    [InlineData("--peers", "1", "between 2 and 9")]
+    [InlineData("--peers", "10", "between 2 and 9")]
+    [InlineData("--peers", "2.5", "between 2 and 9")]
+    [InlineData("--peers", "99999999999", "between 2 and 9")]
+    [InlineData("--height-m", "0.49", "between 0.5 and 1000000")]
+    [InlineData("--height-m", "-Infinity", "between 0.5 and 1000000")]
+    [InlineData("--second-height-m", "nan", "between 0.5 and 1000000")]
+    [InlineData("--second-height-m", "1e7", "between 0.5 and 1000000")]
+    [InlineData("--restitution", "1.0001", "between 0 and 1")]
+    [InlineData("--restitution", "-0.1", "between 0 and 1")]
+    [InlineData("--restitution", "", "between 0 and 1")]
+    [InlineData("--seed", "-1", "between 0 and 18446744073709551615")]
+    [InlineData("--seed", "1.5", "between 0 and 18446744073709551615")]
+    [InlineData("--seed", "18446744073709551616", "between 0 and 18446744073709551615")]
+    public void Drop_NumberOutOfRange_IsRefusedWithOptionValueAndRange(string option, string value, string range) =>
+        Tool.Refuses(Usage, ["drop", "--time", "virtual", option, value], option, $"'{value}'", range);
+
+    [Theory]
+    [InlineData("--case", "both", "same-start")]
+    [InlineData("--strategy", "healin", "full-rollback")]
+    [InlineData("--motion", "euler", "ballistic")]
+    [InlineData("--time", "now", "virtual")]
+    [InlineData("--transport", "tcp", "udp")]
+    public void Drop_UnknownWord_IsRefusedWithTheWordsThereAre(string option, string value, string known) =>
+        Tool.Refuses(Usage, ["drop", option, value], $"'{value}'", known);
+
+    [Fact]
+    public void Drop_UnknownProfile_IsRefusedWithTheProfilesThereAre() =>
+        Tool.Refuses(Usage, ["drop", "--time", "virtual", "--profile", "5g-moon"], "'5g-moon'", "loopback, lan, awful", "delay-Nms");
+
+    [Fact]
+    public void Drop_DelayAndProfile_AreRefusedTogether() =>
+        Tool.Refuses(Usage, ["drop", "--time", "virtual", "--delay-ms", "25", "--profile", "lan"], "--delay-ms and --profile exclude each other");
+
+    [Fact]
+    public void Drop_LiteNetLib_IsRefusedWithWhereItIs() =>
+        Tool.Refuses(Usage, ["drop", "--transport", "litenetlib"], "--transport litenetlib", "LagSim.Net.LiteNetLib");
+
+    [Theory]
+    [InlineData("--until-s", "NaN", "between 0 and 1000000")]
+    [InlineData("--until-s", "-1", "between 0 and 1000000")]
+    [InlineData("--until-s", "1e300", "between 0 and 1000000")]
+    [InlineData("--every-s", "0", "and 1000000")]
+    [InlineData("--every-s", "-0.01", "and 1000000")]
+    [InlineData("--every-s", "1e-10", "and 1000000")]
+    [InlineData("--repeat", "0", "between 1 and 1000000")]
+    [InlineData("--repeat", "x", "between 1 and 1000000")]
+    [InlineData("--seed", "one", "between 0 and")]
+    public void Run_NumberOutOfRange_IsRefusedWithOptionValueAndRange(string option, string value, string range) =>
+        Tool.Refuses(Usage, ["run", "drop", option, value], option, $"'{value}'", range);
+
+    [Fact]
+    public void Run_UnknownMotion_IsRefusedWithTheWordsThereAre() => Tool.Refuses(Usage, ["run", "drop", "--motion", "verlet"], "'verlet'", "rk4", "ballistic");
+
+    [Theory]
+    [InlineData("--events", "-", "--samples", "-")]
+    [InlineData("--events", "-", "--json", null)]
+    [InlineData("--samples", "-", "--json", null)]
+    public void Run_TwoThingsOnStdout_AreRefused(string first, string second, string third, string? fourth) =>
+        Tool.Refuses(Usage, new[] { "run", "drop", first, second, third, fourth }.OfType<string>().ToArray(), "Only one of --events -, --samples - and --json");
+
+    [Theory]
+    [InlineData("--events")]
+    [InlineData("--samples")]
+    [InlineData("--out")]
+    public void Run_EmptyName_IsRefused(string option) => Tool.Refuses(Usage, ["run", "drop", option, ""], $"{option} is ''");
+
+    [Theory]
+    [InlineData("jump", "'jump'")]
+    [InlineData("drop --speed 3", "'--speed'")]
+    [InlineData("drop 5", "'5'")]
+    [InlineData("run", "'run'")]
+    [InlineData("run drop pair", "'pair'")]
+    [InlineData("drop --peers", "'--peers'")]
+    [InlineData("drop --peers 2 --peers 3", "--peers")]
+    public void Call_ThatIsNone_IsRefusedAndPointsToTheHelp(string line, string names) => Tool.Refuses(Usage, line.Split(' '), names, "--help'.");
+
+    [Fact]
+    public void Call_Empty_SaysWhatThereIs()
+    {
+        Tool tool = Tool.Run();
+        Assert.Equal(Usage, tool.ExitCode);
+        Assert.Contains("--help", tool.Error, StringComparison.Ordinal);
+    }
+
+    [Theory]
+    [InlineData("--help")]
+    [InlineData("drop --help")]
+    [InlineData("run --help")]
+    [InlineData("scenes --help")]
+    public void Help_OfEveryCommand_GoesToStdout(string line)
+    {
+        Tool tool = Tool.Run(line.Split(' ')).Done();
+        Assert.Contains("Usage:", tool.Output, StringComparison.Ordinal);
+        Assert.Equal("", tool.Error);
+    }
+
+    [Theory]
+    [InlineData("run")]
+    [InlineData("scenes")]
+    public void Scene_Unknown_IsRefusedWithTheScenesThereAre(string command) =>
+        Tool.Refuses(Input, [command, "no-such-scene"], "no-such-scene", "drop, pair");
+
+    [Theory]
+    [InlineData("{", "line 1")]
+    [InlineData("{\"format\": \"lagsim-scene-1\", \"name\": \"x\", \"colour\": 3}", "colour")]
+    [InlineData("[]", "bad.json")]
+    [InlineData("", "bad.json")]
+    public void Scene_BadFile_IsRefusedWithItsPlace(string text, string says)
+    {
+        using TemporaryFolder folder = new();
+        File.WriteAllText(folder["bad.json"], text);
+        Tool.Refuses(Input, ["run", folder["bad.json"]], "bad.json", says);
+        Tool.Refuses(Input, ["run", folder.Path], "folder");
+    }
+
+    [Theory]
+    [InlineData("drop --time virtual --case same-start --motion ballistic --out")]
+    [InlineData("run drop --until-s 1 --out")]
+    [InlineData("run drop --until-s 1 --events")]
+    [InlineData("run drop --until-s 1 --samples")]
+    [InlineData("scenes drop --out")]
+    public void Out_ThatCannotBeWritten_IsRefused(string line)
+    {
+        // Not even root can make something below a file.
+        using TemporaryFolder folder = new();
+        File.WriteAllText(folder["file"], "");
+        Tool tool = Tool.Run([.. line.Split(' '), Path.Combine(folder["file"], "below")]);
+        Assert.True(tool.ExitCode == Input, $"exit code {tool.ExitCode}: {tool.Error}");
+        Assert.Contains("below", tool.Error, StringComparison.Ordinal);
+        Assert.Equal("", tool.Output);
+    }
+
+    [Fact]
+    public void Out_ThatCannotBeWritten_IsToldBeforeTheRun()
+    {
+        using TemporaryFolder folder = new();
+        File.WriteAllText(folder["file"], "");
+        Tool tool = Tool.Run("drop", "--out", Path.Combine(folder["file"], "below")); // in real time it would take half a minute
+        Assert.Equal(Input, tool.ExitCode);
+        Assert.DoesNotContain("...", tool.Error, StringComparison.Ordinal);
+    }
+}
