@@ -14,7 +14,7 @@ public static class ExternalEventCheck
             throw new System.ArgumentNullException(nameof(scene));
         }
 
-        string whose = $"the {external.Kind} of body {external.Body}";
+        Subject whose = new(external);
         if (external.Kind is EventKind.Grab or EventKind.HoldKnot or EventKind.Release)
         {
             throw new SceneException($"{external.Kind} is not supported yet.");
@@ -55,7 +55,7 @@ public static class ExternalEventCheck
         }
     }
 
-    private static void CheckKnown(in ExternalEvent external, Scene scene, string whose)
+    private static void CheckKnown(in ExternalEvent external, Scene scene, Subject whose)
     {
         bool ofScene = external.Body.Peer == 0 && external.Body.Sequence == 0;
         if (ofScene && external.Body.Index >= scene.BodyArray.Length)
@@ -69,7 +69,7 @@ public static class ExternalEventCheck
         }
     }
 
-    private static void CheckSpawn(in ExternalEvent external, Scene scene, string whose)
+    private static void CheckSpawn(in ExternalEvent external, Scene scene, Subject whose)
     {
         Limits.CheckSpec(external.Spec, whose, scene.AccelerationArray.Length);
         if (external.Spec.Radius < scene.SmallestRadius)
@@ -81,7 +81,7 @@ public static class ExternalEventCheck
         CheckPlace(external.Position, external.Spec.Radius, scene, whose);
     }
 
-    private static void CheckPlace(in Vector3D position, double radius, Scene scene, string whose)
+    private static void CheckPlace(in Vector3D position, double radius, Scene scene, Subject whose)
     {
         double slack = scene.Resolution + (1e-15 * (position.Length + radius));
         foreach (StaticPlane plane in scene.PlaneArray)
@@ -103,6 +103,21 @@ public static class ExternalEventCheck
         }
     }
 
-    private static SceneException Inside(string whose, in Vector3D position, double gap, string what) =>
+    private static SceneException Inside(Subject whose, in Vector3D position, double gap, string what) =>
         new($"The position of {whose}, {position}, lies {Limits.Text(-gap)} m deep inside {what}; it must be outside.");
+
+    /// <summary>What an error says the value belongs to. Made into text only then: the check is asked for every event.</summary>
+    private readonly struct Subject
+    {
+        private readonly EventKind kind;
+        private readonly BodyId body;
+
+        internal Subject(in ExternalEvent external)
+        {
+            kind = external.Kind;
+            body = external.Body;
+        }
+
+        public override string ToString() => $"the {kind} of body {body}";
+    }
 }

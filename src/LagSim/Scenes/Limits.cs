@@ -5,6 +5,7 @@ using LagSim.Time;
 namespace LagSim.Scenes;
 
 /// <summary>The ranges of every value that enters the world, each checked in one place with a sentence that names the value.</summary>
+/// <remarks>Whose value it is comes as anything that has a text, which is asked for only where there is something to say.</remarks>
 internal static class Limits
 {
     internal const double MaxCoordinate = 1e12;
@@ -16,7 +17,7 @@ internal static class Limits
     internal static readonly SimDuration MinStep = SimDuration.FromSeconds(1e-6);
     internal static readonly SimDuration MaxStep = SimDuration.FromSeconds(1);
 
-    internal static void CheckSpec(in BodySpec spec, string whose, int accelerations)
+    internal static void CheckSpec<T>(in BodySpec spec, T whose, int accelerations)
     {
         InRange(spec.Radius, MinRadius, MaxRadius, whose, "radius", "m");
         InRange(spec.Mass, MinMass, MaxMass, whose, "mass", "kg");
@@ -34,22 +35,22 @@ internal static class Limits
         if (spec.Acceleration > accelerations)
         {
             throw new SceneException(
-                $"{Capital(whose)} names supplied acceleration {spec.Acceleration}, but the scene supplies {accelerations}.");
+                $"{Capital($"{whose}")} names supplied acceleration {spec.Acceleration}, but the scene supplies {accelerations}.");
         }
 
         if (spec.Acceleration > 0 && spec.Flight == MotionLaw.Ballistic)
         {
             throw new SceneException(
-                $"{Capital(whose)} flies by Ballistic, which is exact for gravity alone, and names a supplied acceleration; use RungeKutta4.");
+                $"{Capital($"{whose}")} flies by Ballistic, which is exact for gravity alone, and names a supplied acceleration; use RungeKutta4.");
         }
     }
 
     /// <summary>The highest speed with which nothing of this radius can be missed: a tenth of it in a tick.</summary>
     internal static double MaxSpeed(double smallestRadius) => 0.1 * smallestRadius * SimDuration.TicksPerSecond;
 
-    internal static void CheckPosition(in Vector3D position, string whose) => Components(position, MaxCoordinate, whose, "position", "m");
+    internal static void CheckPosition<T>(in Vector3D position, T whose) => Components(position, MaxCoordinate, whose, "position", "m");
 
-    internal static void CheckVelocity(in Vector3D velocity, double smallestRadius, string whose)
+    internal static void CheckVelocity<T>(in Vector3D velocity, double smallestRadius, T whose)
     {
         Components(velocity, double.MaxValue, whose, "velocity", "m/s");
         double limit = MaxSpeed(smallestRadius);
@@ -61,7 +62,7 @@ internal static class Limits
         }
     }
 
-    internal static void Components(in Vector3D v, double limit, string whose, string what, string unit)
+    internal static void Components<T>(in Vector3D v, double limit, T whose, string what, string unit)
     {
         if (!v.IsFinite || Math.Abs(v.X) > limit || Math.Abs(v.Y) > limit || Math.Abs(v.Z) > limit)
         {
@@ -70,7 +71,7 @@ internal static class Limits
         }
     }
 
-    internal static void InRange(double value, double least, double most, string whose, string what, string unit)
+    internal static void InRange<T>(double value, double least, double most, T whose, string what, string unit)
     {
         if (!(value >= least && value <= most))
         {
