@@ -28,6 +28,7 @@ public sealed partial class Simulation
         {
             while (queue.Count > 0 && queue.LeastKey.Time <= time)
             {
+                ForgetUpTo(queue.LeastKey.Time);
                 Process(queue.LeastSlot, queue.LeastKey);
             }
         }
@@ -38,9 +39,15 @@ public sealed partial class Simulation
         }
 
         SimulatedTo = time;
-        if (time - Start > history)
+        ForgetUpTo(time);
+    }
+
+    /// <summary>Moves the edge of the history along, event by event, so that one long advance takes no more memory than many short ones.</summary>
+    private void ForgetUpTo(SimTime now)
+    {
+        if (now - Start > history)
         {
-            HistoryEdge = SimTime.Max(HistoryEdge, time - history);
+            HistoryEdge = SimTime.Max(HistoryEdge, now - history);
         }
     }
 

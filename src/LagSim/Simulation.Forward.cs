@@ -1,7 +1,9 @@
+using System;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim;
 
@@ -14,9 +16,10 @@ public sealed partial class Simulation
     /// </summary>
     private void Adopt(int slot, in EventKey key, in ExternalEvent external)
     {
+        // Should its stamp have left the history, when a later rollback comes here again, the oldest state that is kept has to do.
         int then = timelines.At(slot, external.Time);
-        then = then < 0 ? timelines.First(slot) : then;
-        double seconds = SecondsInto(then, external.Time);
+        then = then == TimelineStore.None ? timelines.First(slot) : then;
+        double seconds = Math.Max(0, SecondsInto(then, external.Time));
         After(
             external,
             bodies[slot].Spec,
