@@ -16,31 +16,27 @@ internal static class DropTables
     internal static void Write(
         ToolConsole console, DropOptions options, IReadOnlyList<DropRun> runs, IReadOnlyList<DropRun> strategies, string? folder)
     {
-        console.Rich.WriteLine($"lagsim {ToolVersion.Text}   drop   seed {options.Seed}   scene {JsonDocumentWriter.Hash(runs[0].SceneHash)}   "
-            + $"{options.Strategy}, {MotionNames.Of(options.Motion)}, {options.Peers} peers, {options.Link.Name}, {DropNames.Time(options)} time");
+        console.Output.WriteLine($"lagsim {ToolVersion.Text}   drop   seed {options.Seed}   scene {JsonDocumentWriter.Hash(runs[0].SceneHash)}");
+        console.Output.WriteLine(
+            $"{options.Strategy}, {MotionNames.Of(options.Motion)}, {options.Peers} peers, {options.Link.Name}, {DropNames.Time(options)} time");
         foreach (DropRun run in runs)
         {
             WritePicture(console, run);
+            console.Rich.Write(Summary(run));
+            WriteFacts(console, run);
         }
 
-        console.Rich.Write(Summary(runs));
-        foreach (DropRun run in runs)
-        {
-            console.Rich.WriteLine(Line(run));
-        }
-
-        console.Rich.WriteLine();
         console.Rich.Write(Strategies(strategies));
         if (folder is not null)
         {
-            console.Rich.WriteLine($"Charts, CSV and report.html are in {folder}.");
+            console.Output.WriteLine($"Charts, CSV and report.html are in {folder}.");
         }
     }
 
     /// <summary>The heights of all peers over one another, and below them their distance, which is blank where it is exactly zero.</summary>
     private static void WritePicture(ToolConsole console, DropRun run)
     {
-        int columns = Math.Clamp(console.Rich.Profile.Width - 12, 40, 120);
+        int columns = Math.Clamp(console.Rich.Profile.Width - 13, 40, 120);
         console.Output.WriteLine($"{DropNames.Case(run.Case)}: height of the ball in m, as {run.Options.Peers} peers showed it");
         console.Output.Write(TextChart.Draw(run.Trace.Seconds, run.Trace.Heights, columns, 8, NumberText.Short));
         double[] logarithms = Array.ConvertAll(run.Trace.SeenTrueTimeError, error => error > 0 ? Math.Log10(error) : double.NaN);
@@ -54,77 +50,83 @@ internal static class DropTables
         console.Output.WriteLine();
     }
 
-    private static Table Summary(IReadOnlyList<DropRun> runs)
+    private static Table Summary(DropRun run)
     {
-        Table table = new Table { Border = TableBorder.Rounded }
-            .Title("Height error between peers, in metres, beside what the thesis measured")
-            .AddColumns("case", "compared", "phase");
-        foreach (string column in new[] { "samples", "max", "mean", "rms", "differing bits", "stalled" })
-        {
-            table.AddColumn(new TableColumn(column).RightAligned());
-        }
-
-        table.AddColumn("thesis: max / mean / rms");
-        foreach (DropRun run in runs)
-        {
-            AddRows(table, run, "seen", run.Seen, Thesis(run.Case));
-            AddRows(table, run, "seen, true time", run.SeenTrueTime, "");
-            AddRows(table, run, "settled", run.Settled, "");
-        }
-
+        Table table = NewTable($"{DropNames.Case(run.Case)}: height error between peers, in metres", "compared", "max", "mean", "rms", "bits differ", "stalled");
+        AddRows(table, run.Case, "as seen", run.Seen);
+        AddThesis(table, run.Case);
+        AddRows(table, run.Case, "at true time", run.SeenTrueTime);
+        AddRows(table, run.Case, "as settled", run.Settled);
         return table;
     }
 
-    private static void AddRows(Table table, DropRun run, string compared, PhaseErrors errors, string thesis)
+    private static void AddRows(Table table, DropCase which, string compared, PhaseErrors errors)
     {
         foreach (Phase phase in new[] { Phase.Before, Phase.During, Phase.After })
         {
             ErrorStatistics of = errors[phase].ToStatistics();
-            if (of.Samples + of.StalledSamples == 0 || (run.Case == DropCase.Teleport && phase == Phase.Before))
+            bool isOfThisCase = which == DropCase.SameStart == (phase == Phase.Before);
+            if (isOfThisCase && of.Samples + of.StalledSamples > 0)
             {
-                continue;
+                string when = phase == Phase.Before ? "" : phase == Phase.During ? ", during" : ", after";
+                table.AddRow(
+                    compared + when, NumberText.Short(of.MaxMetres), NumberText.Short(of.MeanMetres), NumberText.Short(of.RmsMetres),
+                    string.Create(CultureInfo.InvariantCulture, $"{of.DifferingBits} of {of.Samples}"), of.StalledSamples.ToString(CultureInfo.InvariantCulture));
             }
-
-            bool compares = run.Case == DropCase.SameStart || phase == Phase.After;
-            table.AddRow(
-                DropNames.Case(run.Case), compared, run.Case == DropCase.SameStart ? "" : PhaseName(phase), of.Samples.ToString(CultureInfo.InvariantCulture),
-                NumberText.Short(of.MaxMetres), NumberText.Short(of.MeanMetres), NumberText.Short(of.RmsMetres),
-                of.DifferingBits.ToString(CultureInfo.InvariantCulture), of.StalledSamples.ToString(CultureInfo.InvariantCulture), compares ? thesis : "");
         }
     }
 
-    private static string PhaseName(Phase phase) => phase == Phase.During ? "during" : "after";
+    private static void AddThesis(Table table, DropCase which)
+    {
+        if (which == DropCase.SameStart)
+        {
+            string zero = NumberText.Short(ThesisFigures.SameStart);
+            table.AddRow("thesis, one machine", zero, zero, zero, "", "");
+        }
+        else
+        {
+            table.AddRow(
+                "thesis, after", NumberText.Short(ThesisFigures.TeleportMax), NumberText.Short(ThesisFigures.TeleportMean),
+                NumberText.Short(ThesisFigures.TeleportRms), "", "");
+        }
+    }
 
-    private static string Thesis(DropCase which) => which == DropCase.SameStart
-        ? "0 (one machine)"
-        : $"{NumberText.Short(ThesisFigures.TeleportMax)} / {NumberText.Short(ThesisFigures.TeleportMean)} / {NumberText.Short(ThesisFigures.TeleportRms)}";
-
-    private static string Line(DropRun run) =>
-        $"{DropNames.Case(run.Case)}: {run.Events} events, {run.Heals} heals, clock error {NumberText.Short(run.ClockErrorMilliseconds)} ms, "
-        + $"bytes/s {string.Join(" ", run.BytesSentPerSecond.Select(NumberText.Short))}, "
-        + (run.Case == DropCase.Teleport ? $"event {NumberText.Short(run.Lateness.Max)} ms late, " : "")
-        + (run.CpuCoresAtRest is double cpu ? $"at rest {NumberText.Short(100 * cpu)} % of a core, " : "")
-        + $"event hashes {string.Join(" ", run.EventHashes.Select(h => JsonDocumentWriter.Hash(h)))}"
-        + (run.Agrees ? " (equal)" : " (NOT equal)");
+    private static void WriteFacts(ToolConsole console, DropRun run)
+    {
+        string late = run.Case == DropCase.Teleport ? $", event {NumberText.Short(run.Lateness.Max)} ms late" : "";
+        string rest = run.CpuCoresAtRest is double cpu ? $", at rest {NumberText.Short(100 * cpu)} % of a core" : "";
+        console.Output.WriteLine($"{run.Events} events, {run.Heals} heals, clock error {NumberText.Short(run.ClockErrorMilliseconds)} ms{late}{rest}");
+        console.Output.WriteLine($"bytes/s {string.Join(" ", run.BytesSentPerSecond.Select(NumberText.Short))}");
+        console.Output.WriteLine($"event hashes {string.Join(" ", run.EventHashes.Select(h => JsonDocumentWriter.Hash(h)))} {(run.Agrees ? "(equal)" : "(NOT equal)")}");
+        console.Output.WriteLine();
+    }
 
     private static Table Strategies(IReadOnlyList<DropRun> runs)
     {
-        Table table = new Table { Border = TableBorder.Rounded }
-            .Title("Every strategy on the teleport case, virtual time: height error in metres")
-            .AddColumn("strategy");
-        foreach (string column in new[] { "seen during, max", "seen after, max", "seen after, rms", "settled during, max", "settled after, max", "differing bits after", "heals", "late ms" })
-        {
-            table.AddColumn(new TableColumn(column).RightAligned());
-        }
-
+        Table table = NewTable(
+            "Every strategy on the teleport case, virtual time: error as seen, in metres",
+            "strategy", "during", "after", "after, rms", "settled differ", "heals", "late ms");
         foreach (DropRun run in runs)
         {
             ErrorStatistics seen = run.Seen.After.ToStatistics();
             ErrorStatistics settled = run.Settled.After.ToStatistics();
             table.AddRow(
                 run.Options.Strategy, NumberText.Short(run.Seen.During.ToStatistics().MaxMetres), NumberText.Short(seen.MaxMetres), NumberText.Short(seen.RmsMetres),
-                NumberText.Short(run.Settled.During.ToStatistics().MaxMetres), NumberText.Short(settled.MaxMetres),
-                settled.DifferingBits.ToString(CultureInfo.InvariantCulture), run.Heals.ToString(CultureInfo.InvariantCulture), NumberText.Short(run.Lateness.Max));
+                string.Create(CultureInfo.InvariantCulture, $"{settled.DifferingBits} of {settled.Samples}"),
+                run.Heals.ToString(CultureInfo.InvariantCulture), NumberText.Short(run.Lateness.Max));
+        }
+
+        return table;
+    }
+
+    /// <summary>A table that fits a terminal of 80 columns: no frame, the first column a text, the others numbers.</summary>
+    private static Table NewTable(string title, params string[] columns)
+    {
+        Table table = new Table { Border = TableBorder.Horizontal }.Title(title).LeftAligned();
+        for (int i = 0; i < columns.Length; i++)
+        {
+            TableColumn column = new TableColumn(columns[i]).NoWrap().PadLeft(0).PadRight(i == columns.Length - 1 ? 0 : 1);
+            table.AddColumn(i == 0 ? column : column.RightAligned());
         }
 
         return table;

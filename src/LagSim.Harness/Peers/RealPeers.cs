@@ -18,6 +18,9 @@ public sealed class RealPeers : PeerGroup
 {
     private const int PollMilliseconds = 1;
 
+    /// <summary>Processor time over less than this is mostly chance, and what the runtime still compiles in the background.</summary>
+    private const double LeastQuietSeconds = 0.9;
+
     private static readonly SimDuration ConnectDeadline = SimDuration.FromSeconds(15);
     private static readonly SimDuration AnswerDeadline = SimDuration.FromSeconds(5);
 
@@ -95,18 +98,22 @@ public sealed class RealPeers : PeerGroup
     /// <inheritdoc/>
     public override void RunQuietlyUntil(SimDuration sinceStart, Action<SimDuration>? progress)
     {
-        RunUntil(sinceStart - QuietTime, progress);
-        long[] pictures = Array.ConvertAll(threads, t => t.Latest()!.Number);
-        bool atRest = Array.TrueForAll(threads, t => t.Latest()!.To == SimTime.MaxValue);
-        TimeSpan before = Environment.CpuUsage.TotalTime;
-        long began = Stopwatch.GetTimestamp();
-        Thread.Sleep((int)QuietTime.ToMilliseconds());
-        double seconds = Stopwatch.GetElapsedTime(began).TotalSeconds;
-        double used = (Environment.CpuUsage.TotalTime - before).TotalSeconds;
+        SimTime end = Start + sinceStart;
+        Run(end - QuietTime, [threads[0].Session], progress);
+        while (!AllRest() && threads[0].Session.SharedTime.Now < end)
+        {
+            Sample();
+            Thread.Sleep(PollMilliseconds);
+        }
 
-        bool rested = atRest && Array.TrueForAll(threads, t => t.Latest()!.Number == pictures[Array.IndexOf(threads, t)]);
-        CpuCoresAtRest = rested ? used / seconds : null;
-        Run(Start + sinceStart, Array.ConvertAll(threads, t => t.Session), progress);
+        // Only what rests may go unwatched: its picture shows afterwards what it showed all the time.
+        double left = (end - threads[0].Session.SharedTime.Now).ToSeconds();
+        if (AllRest() && left >= LeastQuietSeconds)
+        {
+            MeasureAtRest(left);
+        }
+
+        Run(end, Array.ConvertAll(threads, t => t.Session), progress);
     }
 
     /// <inheritdoc/>
@@ -160,6 +167,19 @@ public sealed class RealPeers : PeerGroup
         }
 
         Sample();
+    }
+
+    private bool AllRest() => Array.TrueForAll(threads, t => t.Latest()!.To == SimTime.MaxValue);
+
+    private void MeasureAtRest(double seconds)
+    {
+        Sample();
+        long[] pictures = Array.ConvertAll(threads, t => t.Latest()!.Number);
+        TimeSpan before = Environment.CpuUsage.TotalTime;
+        long began = Stopwatch.GetTimestamp();
+        Thread.Sleep(TimeSpan.FromSeconds(seconds));
+        double used = (Environment.CpuUsage.TotalTime - before).TotalSeconds / Stopwatch.GetElapsedTime(began).TotalSeconds;
+        CpuCoresAtRest = Array.TrueForAll(threads, t => t.Latest()!.Number == pictures[Array.IndexOf(threads, t)]) ? used : null;
     }
 
     private void Sample()
