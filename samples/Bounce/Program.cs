@@ -19,8 +19,9 @@ host.Start();
 
 for (int frame = 0; frame < 40; frame++)
 {
-    if (frame == 25)
+    if (frame == 18)
     {
+        Console.WriteLine("kick!");
         host.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0))); // 6 N s upwards, now
     }
 

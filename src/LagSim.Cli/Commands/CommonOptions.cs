@@ -16,7 +16,7 @@ internal sealed class CommonOptions
         CustomParser = ParseSeed,
     };
 
-    internal Option<string?> Out { get; } = Path("--out", "A folder for CSV and SVG files and a report.html that shows them.", "FOLDER");
+    internal Option<string?> Out { get; } = Folder("--out", "A folder for CSV and SVG files and a report.html that shows them.");
 
     internal Option<bool> Json { get; } = new("--json") { Description = "Print one JSON document and nothing else on stdout." };
 
@@ -41,6 +41,19 @@ internal sealed class CommonOptions
             option.DefaultValueFactory = _ => value;
         }
 
+        return option;
+    }
+
+    private static Option<string?> Folder(string name, string description)
+    {
+        Option<string?> option = Path(name, description, "FOLDER");
+        option.Validators.Add(result =>
+        {
+            if (result.Tokens.Count == 1 && System.IO.File.Exists(result.Tokens[0].Value))
+            {
+                result.AddError($"{name} is '{result.Tokens[0].Value}'; that is a file, it must be a folder.");
+            }
+        });
         return option;
     }
 

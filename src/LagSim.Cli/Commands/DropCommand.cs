@@ -46,7 +46,7 @@ internal static class DropCommand
         {
             if (parsed.GetValue(transport) == "litenetlib")
             {
-                throw new UsageException("--transport litenetlib is not in this build; it comes with the package LagSim.Net.LiteNetLib, built with -p:WithLiteNetLib=true.");
+                throw new UsageException("--transport litenetlib is not in this build: -p:WithLiteNetLib=true is to build its carrier, LagSim.Net.LiteNetLib, which does not exist yet.");
             }
 
             LinkProfile link = Link(parsed.GetValue(delay), parsed.GetValue(profile), out double? delayed);

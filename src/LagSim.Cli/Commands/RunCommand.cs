@@ -52,9 +52,11 @@ internal static class RunCommand
                 sampleFile ??= Path.Combine(folder, "samples.csv");
             }
 
+            RefuseSameFile(("SCENE", parsed.GetValue(scene)), ("--events", eventFile), ("--samples", sampleFile));
             RunSummary summary = Run(
                 console, loaded, SimDuration.FromSeconds(parsed.GetValue(until)), eventFile, sampleFile,
-                parsed.GetValue(every), parsed.GetValue(repeat));
+                parsed.GetValue(every), parsed.GetValue(repeat),
+                isSummaryShown: toOutput == 0 || parsed.GetValue(common.Json));
             if (folder is not null)
             {
                 RunReport.Write(folder, loaded, summary, parsed.GetValue(common.Seed), sampleFile);
@@ -74,8 +76,24 @@ internal static class RunCommand
         return command;
     }
 
+    /// <summary>Two results in one file would garble each other, and one in the scene's file would be the scene's end.</summary>
+    private static void RefuseSameFile(params (string Name, string? Path)[] files)
+    {
+        (string Name, string? Path)[] named = files.Where(f => f.Path is not (null or ResultFile.StandardOutput)).ToArray();
+        for (int i = 0; i < named.Length; i++)
+        {
+            for (int j = i + 1; j < named.Length; j++)
+            {
+                if (Path.GetFullPath(named[i].Path!) == Path.GetFullPath(named[j].Path!))
+                {
+                    throw new UsageException($"{named[i].Name} and {named[j].Name} are both '{named[j].Path}'; they must be different files.");
+                }
+            }
+        }
+    }
+
     private static RunSummary Run(
-        ToolConsole console, Scene scene, SimDuration length, string? eventFile, string? sampleFile, double every, int repeat)
+        ToolConsole console, Scene scene, SimDuration length, string? eventFile, string? sampleFile, double every, int repeat, bool isSummaryShown)
     {
         using ResultFile? eventOutput = ResultFile.Open(console, eventFile);
         using ResultFile? sampleOutput = ResultFile.Open(console, sampleFile);
@@ -92,7 +110,7 @@ internal static class RunCommand
         };
         double start = SceneRun.Energy(new Simulation(scene), SimTime.Zero);
         Simulation end = console.WithProgress($"run {scene.Name}", length, progress => run.Run(length, progress));
-        double wall = SceneRun.LeastSeconds(scene, length, repeat);
+        double wall = isSummaryShown ? SceneRun.LeastSeconds(scene, length, repeat) : double.NaN;
         return new RunSummary(end, SimTime.Zero + length, start, SceneRun.Energy(end, SimTime.Zero + length), wall);
     }
 

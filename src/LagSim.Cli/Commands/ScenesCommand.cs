@@ -49,7 +49,7 @@ internal static class ScenesCommand
         string text = SceneFile.ToJson(scene);
         if (folder is null)
         {
-            console.Output.WriteLine(text);
+            console.Output.WriteLine(text.TrimEnd());
             return;
         }
 

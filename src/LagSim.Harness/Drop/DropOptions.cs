@@ -54,6 +54,9 @@ public sealed record DropOptions
     /// <summary>The luck of links and clocks.</summary>
     public ulong Seed { get; init; } = 1;
 
+    /// <summary>Whether heights and restitution are the thesis's, so that its figures compare.</summary>
+    public bool IsThesisSetting => HeightMetres == 10 && SecondHeightMetres == 15 && Restitution == 0.8;
+
     /// <summary>How long the run takes, from the start of the scene.</summary>
     public SimDuration Length =>
         Cases.Count == 2 ? SameStartLength + TeleportLength

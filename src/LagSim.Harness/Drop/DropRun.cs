@@ -19,6 +19,7 @@ namespace LagSim.Harness.Drop;
 /// <param name="BytesSentPerSecond">Each peer's, UDP and IP headers included.</param>
 /// <param name="Lateness">By how many milliseconds other peers' events came after their stamp.</param>
 /// <param name="CpuCoresAtRest">Processor use of the whole process while all rests; null where not measured.</param>
+/// <param name="BallRested">Whether the ball was at rest when it was lifted; true of a case without a lift.</param>
 /// <param name="Trace">What there is to draw.</param>
 public sealed record DropRun(
     DropCase Case,
@@ -35,6 +36,7 @@ public sealed record DropRun(
     IReadOnlyList<double> BytesSentPerSecond,
     Percentiles Lateness,
     double? CpuCoresAtRest,
+    bool BallRested,
     DropTrace Trace)
 {
     /// <summary>Whether all peers' timelines and hashes agree to the bit, before and after the event and at the time of it, and nothing was missed.</summary>

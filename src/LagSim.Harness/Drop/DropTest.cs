@@ -82,6 +82,7 @@ public static class DropTest
             trafficBefore.Zip(trafficAfter, (a, b) => (b.BytesSent - a.BytesSent) / seconds).ToArray(),
             Percentiles.Of(isTeleport ? Latenesses(peers) : []),
             which == options.Cases[^1] ? peers.CpuCoresAtRest : null,
+            stamp is not SimTime lift || WasAtRest(peers, lift),
             Trace(peers, first, end, stamp, dealt));
 
         ulong[] Hashes(Func<Simulation, SimTime, ulong> hash) =>
@@ -94,6 +95,12 @@ public static class DropTest
     /// <summary>The number of the first instant that the lift may have changed: the case before it ends there, and its own begins.</summary>
     private static int BeforeLift(PeerGroup peers, DropOptions options, in ExternalEvent lifted) =>
         Math.Min(peers.Grid.FirstAfter(peers.Start + options.Window(DropCase.SameStart).Last), peers.Grid.FirstAfter(lifted.Time - SimDuration.OneTick));
+
+    private static bool WasAtRest(PeerGroup peers, SimTime lift)
+    {
+        peers.Session(0).World!.Simulation.TryRead(BodyId.OfScene(0), lift - SimDuration.OneTick, out BodyState before);
+        return before.Motion == MotionLaw.Resting;
+    }
 
     private static PortTraffic[] Traffic(PeerGroup peers) => Enumerable.Range(0, peers.PeerCount).Select(peers.Traffic).ToArray();
 

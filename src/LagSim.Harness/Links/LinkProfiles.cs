@@ -11,7 +11,7 @@ namespace LagSim.Harness.Links;
 public static class LinkProfiles
 {
     /// <summary>The longest pure delay, in milliseconds.</summary>
-    public const double MaxPureDelay = 60_000;
+    public const double MaxPureDelay = 2_000;
 
     private const string DelayPrefix = "delay-";
     private const string DelaySuffix = "ms";

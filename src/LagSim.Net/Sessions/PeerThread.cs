@@ -17,6 +17,7 @@ public sealed class PeerThread : IDisposable
     private readonly IDatagramPort port;
     private readonly WorldThread thread;
     private int state; // a SessionState
+    private volatile bool disposed;
 
     /// <summary>Gives the session a thread; it is not started yet. The port is not disposed with it.</summary>
     public PeerThread(Session session, IDatagramPort port, string name)
@@ -58,13 +59,26 @@ public sealed class PeerThread : IDisposable
     /// <returns>The stamped event, or the exception that <see cref="Session.Do"/> throws.</returns>
     public Task<ExternalEvent> Do(PlayerAction action) => Ask(session => session.Do(action));
 
-    /// <summary>Asks the session something on its own thread.</summary>
+    /// <summary>Asks the session something on its own thread; answered once the thread is started, cancelled if it is disposed before.</summary>
+    /// <exception cref="ObjectDisposedException">The thread has been disposed.</exception>
+    /// <exception cref="InvalidOperationException">The thread ended by an exception, the inner one.</exception>
     public Task<T> Ask<T>(Func<Session, T> question)
     {
         thread.ThrowIfFaulted();
+        if (disposed)
+        {
+            throw new ObjectDisposedException(nameof(PeerThread));
+        }
+
         TaskCompletionSource<T> answer = new(TaskCreationOptions.RunContinuationsAsynchronously);
         requests.Enqueue(() =>
         {
+            if (disposed)
+            {
+                answer.SetCanceled();
+                return;
+            }
+
             try
             {
                 answer.SetResult(question(Session));
@@ -75,6 +89,11 @@ public sealed class PeerThread : IDisposable
             }
         });
         thread.Wake();
+        if (disposed)
+        {
+            AnswerAll(); // it was disposed meanwhile, and nobody else will
+        }
+
         return answer.Task;
     }
 
@@ -83,15 +102,21 @@ public sealed class PeerThread : IDisposable
     {
         port.Arrived -= thread.Wake;
         thread.Dispose();
+        disposed = true;
+        AnswerAll();
     }
 
-    private SimDuration Step()
+    private void AnswerAll()
     {
         while (requests.TryDequeue(out Action? request))
         {
             request();
         }
+    }
 
+    private SimDuration Step()
+    {
+        AnswerAll();
         SimDuration wait = Session.Step();
         Volatile.Write(ref state, (int)Session.State);
         return wait;
