@@ -194,4 +194,26 @@ public sealed class RunCommandTests
 
         return rows;
     }
+
+    [Fact]
+    public void Run_OneFileForTwoThings_IsRefused()
+    {
+        string scene = Path.Combine(Path.GetTempPath(), $"lagsim-run-{Guid.NewGuid():N}.json");
+        try
+        {
+            Assert.Equal(0, Tool.Run("scenes", "drop", "--out", Path.GetDirectoryName(scene)!).ExitCode);
+            File.Move(Path.Combine(Path.GetDirectoryName(scene)!, "drop.json"), scene, overwrite: true);
+            string before = File.ReadAllText(scene);
+
+            Tool.Refuses(2, ["run", "pair", "--events", scene, "--samples", scene], "--events", "--samples", "different files");
+            Tool.Refuses(2, ["run", scene, "--samples", scene], "SCENE", "--samples", "different files");
+            Tool.Refuses(2, ["run", "pair", "--out", scene], "--out", "folder");
+
+            Assert.Equal(before, File.ReadAllText(scene));
+        }
+        finally
+        {
+            File.Delete(scene);
+        }
+    }
 }
