@@ -32,10 +32,16 @@ public sealed partial class Simulation
                 Process(queue.LeastSlot, queue.LeastKey);
             }
         }
-        catch (Exception failure)
+        catch (SimulationException failure)
         {
             fault = failure;
             throw;
+        }
+        catch (Exception failure)
+        {
+            // What a scene's own code threw, as a rule: it too ends the simulation, in the one way that callers know.
+            fault = new SimulationException($"The simulation failed at or after {SimulatedTo}: {failure.Message}", failure);
+            throw fault;
         }
 
         SimulatedTo = time;

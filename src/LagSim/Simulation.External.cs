@@ -32,7 +32,7 @@ public sealed partial class Simulation
             throw new ArgumentOutOfRangeException(nameof(arrival), arrival, $"An event of {external.Time} cannot arrive before it happened.");
         }
 
-        return Insert(external, external.At(arrival).Key, forwarded: true);
+        return external.Time < HistoryEdge ? SubmitResult.TooOld : Insert(external, external.At(arrival).Key, forwarded: true);
     }
 
     /// <summary>Takes an event back, as if it had never been; false if it is not there (any more).</summary>
@@ -115,7 +115,14 @@ public sealed partial class Simulation
             if (!isThere)
             {
                 bodies[slot].Spec = external.Spec;
-                OpenFlight(slot, key, external.Position, external.Velocity);
+                if (log.IsForwarded(entry))
+                {
+                    Adopt(slot, key, external);
+                }
+                else
+                {
+                    OpenFlight(slot, key, external.Position, external.Velocity);
+                }
             }
 
             return;

@@ -12,21 +12,28 @@ public sealed partial class Simulation
 {
     /// <summary>
     /// Puts the body at the key's time on the very path it would be on, had the event come in time and were nothing there but static
-    /// geometry. The path keeps its own epoch and step grid, so where nothing else was touched it agrees with the other peers bit for bit.
+    /// geometry. The path keeps its own epoch and step grid, so where it flew freely at the stamp and nothing else was touched it agrees with
+    /// the other peers bit for bit. What carried it then is found again by contact, and a closed-form flight's next
+    /// contact is looked for from the arrival on: both may differ in rounding.
     /// </summary>
     private void Adopt(int slot, in EventKey key, in ExternalEvent external)
     {
-        // Should its stamp have left the history, when a later rollback comes here again, the oldest state that is kept has to do.
-        int then = timelines.At(slot, external.Time);
-        then = then == TimelineStore.None ? timelines.First(slot) : then;
-        double seconds = Math.Max(0, SecondsInto(then, external.Time));
-        After(
-            external,
-            bodies[slot].Spec,
-            timelines.Segment(then).PositionAt(seconds, timelines.Dense(then)),
-            timelines.Segment(then).VelocityAt(seconds, timelines.Dense(then)),
-            out Vector3D position,
-            out Vector3D velocity);
+        Vector3D position = external.Position;
+        Vector3D velocity = external.Velocity;
+        if (external.Kind != EventKind.Spawn)
+        {
+            // Should its stamp have left the history, when a later rollback comes here again, the oldest state that is kept has to do.
+            int then = timelines.At(slot, external.Time);
+            then = then == TimelineStore.None ? timelines.First(slot) : then;
+            double seconds = Math.Max(0, SecondsInto(then, external.Time));
+            After(
+                external,
+                bodies[slot].Spec,
+                timelines.Segment(then).PositionAt(seconds, timelines.Dense(then)),
+                timelines.Segment(then).VelocityAt(seconds, timelines.Dense(then)),
+                out position,
+                out velocity);
+        }
 
         // A world of its own with the same start, so that a force that depends on time sees the same time.
         Simulation alone = new(Scene.WithoutBodies(), new SimulationOptions(Start, SimDuration.MaxValue));

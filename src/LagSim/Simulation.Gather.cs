@@ -52,7 +52,7 @@ public sealed partial class Simulation
         }
 
         Vector3D apart = PositionAt(timelines.Last(slot), contact) - PositionAt(timelines.Last(other), contact);
-        return apart.Length - bodies[slot].Spec.Radius - bodies[other].Spec.Radius <= Scene.Resolution;
+        return apart.Length - (bodies[slot].Spec.Radius + bodies[other].Spec.Radius) <= Scene.Resolution; // the sum is the same whoever asks
     }
 
     private int PartyOf(int slot) => Array.IndexOf(parties, slot, 0, partyCount);
@@ -81,6 +81,38 @@ public sealed partial class Simulation
         }
 
         contacts[contactCount++] = contact;
+    }
+
+    /// <summary>Parties by identity: whose slot came first, and who found whom, leaves no trace in any sum over them.</summary>
+    private void SortParties()
+    {
+        // While the parties move, contacts name them by slot.
+        for (int i = 0; i < contactCount; i++)
+        {
+            ref ContactPoint c = ref contacts[i];
+            c.First = parties[c.First];
+            c.Second = c.Second == ContactPoint.Static ? c.Second : parties[c.Second];
+        }
+
+        for (int i = 1; i < partyCount; i++)
+        {
+            int moving = parties[i];
+            int at = i;
+            while (at > 0 && bodies[moving].Id < bodies[parties[at - 1]].Id)
+            {
+                parties[at] = parties[at - 1];
+                at--;
+            }
+
+            parties[at] = moving;
+        }
+
+        for (int i = 0; i < contactCount; i++)
+        {
+            ref ContactPoint c = ref contacts[i];
+            c.First = PartyOf(c.First);
+            c.Second = c.Second == ContactPoint.Static ? c.Second : PartyOf(c.Second);
+        }
     }
 
     /// <summary>Canonical order, by identities and then surface, so that the way they were found leaves no trace in a sum.</summary>

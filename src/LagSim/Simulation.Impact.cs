@@ -39,6 +39,7 @@ public sealed partial class Simulation
     private void HandleImpact(int slot, in EventKey key)
     {
         Gather(slot, key);
+        SortParties();
         SortContacts();
 
         // One instant for all: the earliest root. The others are met within a tick, so nothing is yet deep in anything.
@@ -185,9 +186,14 @@ public sealed partial class Simulation
     /// <summary>The impact's key whichever of its contacts was popped: named by its least party and that one's least partner.</summary>
     private EventKey CanonicalKey(in EventKey popped)
     {
-        ref readonly ContactPoint least = ref contacts[0];
-        BodyId first = bodies[parties[least.First]].Id;
-        BodyId second = least.Second == ContactPoint.Static ? first : bodies[parties[least.Second]].Id;
+        int least = contacts[0].First;
+        BodyId first = bodies[parties[least]].Id;
+        BodyId second = first;
+        for (int i = 0; i < contactCount && contacts[i].First == least && second == first; i++)
+        {
+            second = contacts[i].Second == ContactPoint.Static ? first : bodies[parties[contacts[i].Second]].Id;
+        }
+
         return new EventKey(popped.Time, popped.Round, EventKind.Impact, first, second, 0, 0);
     }
 

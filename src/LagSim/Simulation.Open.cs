@@ -42,6 +42,12 @@ public sealed partial class Simulation
         if (spec.Flight == MotionLaw.RungeKutta4)
         {
             MotionSegment step = RungeKutta4.Step(forces, spec, key.Time, x, v, out DenseOutput dense);
+            if (!(step.Acceleration.IsFinite && dense.Cubic.IsFinite && dense.Quartic.IsFinite && dense.Quintic.IsFinite))
+            {
+                throw new SimulationException(
+                    $"In the step from {key.Time} the acceleration of body {bodies[slot].Id} became NaN or infinite; what supplied acceleration {spec.Acceleration} gives must be finite.");
+            }
+
             Append(slot, key, step, dense);
         }
         else

@@ -15,12 +15,17 @@ public sealed class SimulationOptions
     /// How far behind the simulated time timelines are kept, and so how late an event may come; above zero, default 1 s.
     /// <see cref="SimDuration.MaxValue"/> keeps everything.
     /// </param>
-    /// <exception cref="System.ArgumentOutOfRangeException">The history is not above zero.</exception>
+    /// <exception cref="System.ArgumentOutOfRangeException">The history is not above zero, or the start more than 72 days from the origin.</exception>
     public SimulationOptions(SimTime start = default, SimDuration? history = null)
     {
         if (history is SimDuration given && given <= SimDuration.Zero)
         {
             throw new System.ArgumentOutOfRangeException(nameof(history), given, "The history must be longer than zero.");
+        }
+
+        if (start.Ticks is < -(3L << 61) or > 3L << 61)
+        {
+            throw new System.ArgumentOutOfRangeException(nameof(start), start, "The start must lie within 72 days (3 x 2^21 s) of the origin.");
         }
 
         Start = start;

@@ -80,6 +80,7 @@ public sealed class HostSession : Session
 
         SimTime now = Clock.Now;
         joiner.Link.Note(update, now);
+        joiner.HasWritten = true;
         joiner.Ready |= update.Ready;
         if (update.EventsReceived > joiner.Acknowledged && update.EventsReceived <= log.Count)
         {
@@ -128,7 +129,7 @@ public sealed class HostSession : Session
         Commit(Watermark);
         foreach (Joiner joiner in joiners)
         {
-            if (joiner.Link.Due <= now)
+            if (joiner.HasWritten && joiner.Link.Due <= now)
             {
                 SendUpdate(joiner, now);
             }
@@ -140,7 +141,7 @@ public sealed class HostSession : Session
         SimTime due = SimTime.MaxValue;
         foreach (Joiner joiner in joiners)
         {
-            due = SimTime.Min(due, joiner.Link.Due);
+            due = SimTime.Min(due, joiner.HasWritten ? joiner.Link.Due : joiner.Link.Heard + Options.Timeout + SimDuration.OneTick);
         }
 
         return due;
@@ -169,6 +170,13 @@ public sealed class HostSession : Session
         Joiner? known = joiners.Find(j => j.Link.Other == from && j.Nonce == nonce);
         if (known is null)
         {
+            // Somebody may only pretend to be at this address: who is there and was heard of is not put out for it.
+            if (joiners.Exists(j => j.Link.Other == from && j.HasWritten && !IsOverdue(j.Link.Silence(Clock.Now))))
+            {
+                Counters.DatagramsIgnored++;
+                return;
+            }
+
             int others = joiners.FindAll(j => j.Link.Other != from).Count;
             RefusalReason? refusal = join.ConnectKey != Options.ConnectKey ? RefusalReason.WrongKey
                 : join.SceneHash != Scene.Hash ? RefusalReason.SceneDiffers
@@ -256,6 +264,9 @@ public sealed class HostSession : Session
         internal UpdateLink Link { get; }
 
         internal bool Ready { get; set; }
+
+        /// <summary>Whether an update of it came. Until then it gets none: an address that only a stranger gave must not be flooded.</summary>
+        internal bool HasWritten { get; set; }
 
         /// <summary>How many entries of the log it has.</summary>
         internal uint Acknowledged { get; set; }

@@ -116,9 +116,18 @@ public sealed class PeerThread : IDisposable
 
     private SimDuration Step()
     {
-        AnswerAll();
-        SimDuration wait = Session.Step();
-        Volatile.Write(ref state, (int)Session.State);
-        return wait;
+        try
+        {
+            AnswerAll();
+            SimDuration wait = Session.Step();
+            Volatile.Write(ref state, (int)Session.State);
+            return wait;
+        }
+        catch
+        {
+            disposed = true; // the thread ends with the exception: who still waits for an answer gets none
+            AnswerAll();
+            throw;
+        }
     }
 }

@@ -256,7 +256,7 @@ public abstract class Session
             }
         }
 
-        return due == SimTime.MaxValue ? SimDuration.MaxValue : due - now;
+        return due == SimTime.MaxValue ? SimDuration.MaxValue : due - Clock.Now; // what the step itself took is not waited again
     }
 
     /// <summary>Nothing is to be read from a world that failed; the pictures that were published still can be.</summary>

@@ -87,8 +87,7 @@ public sealed class SimulationHost : IDisposable
             world.Submit(external);
         }
 
-        SimTime now = clock.Now;
-        SimTime due = world.Step(now);
-        return due == SimTime.MaxValue ? SimDuration.MaxValue : due - now;
+        SimTime due = world.Step(clock.Now);
+        return due == SimTime.MaxValue ? SimDuration.MaxValue : due - clock.Now; // what the step itself took is not waited again
     }
 }
