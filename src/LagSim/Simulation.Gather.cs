@@ -9,34 +9,63 @@ namespace LagSim;
 /// <content>Who takes part in an impact.</content>
 public sealed partial class Simulation
 {
-    /// <summary>All contacts of this tick and round that share bodies with the first, found by following them.</summary>
-    private void Gather(int slot, in EventKey key)
+    /// <summary>
+    /// All contacts of this tick and round that share bodies with the first, and the bodies as they meet, in canonical order. Returns the
+    /// seconds from the tick to the impact.
+    /// </summary>
+    private double Gather(int slot, in EventKey key, bool withNear)
+    {
+        Follow(slot, key, withNear);
+        SortParties();
+        SortContacts();
+
+        // One instant for all: the earliest root. The others are met within a tick, so nothing is yet deep in anything.
+        double residual = double.MaxValue;
+        for (int i = 0; i < contactCount; i++)
+        {
+            residual = contacts[i].IsStruck ? Math.Min(residual, contacts[i].Time.Residual) : residual;
+        }
+
+        EvaluateParties(key.Time, residual);
+        return residual;
+    }
+
+    /// <summary>Finds contacts from body to body. Near ones are followed like those that are struck, so it does not matter where it begins.</summary>
+    private void Follow(int slot, in EventKey key, bool withNear)
     {
         partyCount = 0;
         contactCount = 0;
+        crowding = 0;
+        hasNear = false;
         AddParty(slot);
         for (int i = 0; i < partyCount; i++)
         {
             int party = parties[i];
+            int count = CrowdingAt(party, key.Time);
+            crowding = Math.Max(crowding, count);
             for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
             {
-                if (TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round)
+                bool now = TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
+                if (now || (withNear && IsNearSurface(party, count, surface, key.Time)))
                 {
-                    AddContact(new ContactPoint(i, ContactPoint.Static, surface, contact));
+                    hasNear |= !now;
+                    AddContact(new ContactPoint(i, ContactPoint.Static, surface, contact) { IsStruck = now });
                 }
             }
 
             foreach (int other in index.Candidates(party))
             {
                 bool now = TryTouchBody(party, other, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
-                if (now || (key.Round >= CollapseRound && IsTouching(party, other, key.Time, out contact)))
+                now = now || (key.Round >= CollapseRound && IsTouching(party, other, key.Time, out contact));
+                if (now || (withNear && IsNearBody(party, count, other, key.Time)))
                 {
+                    hasNear |= !now;
                     int j = PartyOf(other);
                     if (j < 0 || j > i)
                     {
                         j = j < 0 ? AddParty(other) : j;
                         bool ordered = bodies[party].Id < bodies[other].Id != SwapsOperands;
-                        AddContact(new ContactPoint(ordered ? i : j, ordered ? j : i, -1, contact));
+                        AddContact(new ContactPoint(ordered ? i : j, ordered ? j : i, -1, contact) { IsStruck = now });
                     }
                 }
             }
@@ -46,13 +75,7 @@ public sealed partial class Simulation
     private bool IsTouching(int slot, int other, SimTime time, out ContactTime contact)
     {
         ContactTime.TryMake(time, time, 0, out contact);
-        if (slot == other)
-        {
-            return false;
-        }
-
-        Vector3D apart = PositionAt(timelines.Last(slot), contact) - PositionAt(timelines.Last(other), contact);
-        return apart.Length - (bodies[slot].Spec.Radius + bodies[other].Spec.Radius) <= Scene.Resolution; // the sum is the same whoever asks
+        return slot != other && Gap(slot, other, time) <= Scene.Resolution;
     }
 
     private int PartyOf(int slot) => Array.IndexOf(parties, slot, 0, partyCount);
@@ -66,6 +89,7 @@ public sealed partial class Simulation
             Array.Resize(ref partyMasses, size);
             Array.Resize(ref partyPositions, size);
             Array.Resize(ref partyVelocities, size);
+            Array.Resize(ref partyTrial, size);
             Array.Resize(ref partyAccelerations, size);
         }
 

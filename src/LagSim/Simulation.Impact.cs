@@ -27,6 +27,7 @@ public sealed partial class Simulation
     private double[] partyMasses = new double[4];
     private Vector3D[] partyPositions = new Vector3D[4];
     private Vector3D[] partyVelocities = new Vector3D[4];
+    private Vector3D[] partyTrial = new Vector3D[4];
     private Vector3D[] partyAccelerations = new Vector3D[4];
     private ContactPoint[] contacts = new ContactPoint[8];
     private int[] touched = new int[8];
@@ -38,18 +39,12 @@ public sealed partial class Simulation
 
     private void HandleImpact(int slot, in EventKey key)
     {
-        Gather(slot, key);
-        SortParties();
-        SortContacts();
-
-        // One instant for all: the earliest root. The others are met within a tick, so nothing is yet deep in anything.
-        double residual = double.MaxValue;
-        for (int i = 0; i < contactCount; i++)
+        double residual = Gather(slot, key, withNear: !IgnoresCrowding);
+        if (hasNear && crowding < SqueezedAfter && !IsLasting())
         {
-            residual = Math.Min(residual, contacts[i].Time.Residual);
+            residual = Gather(slot, key, withNear: false);
         }
 
-        EvaluateParties(key.Time, residual);
         SetTargets(key.Round);
         int struck = contactCount;
         AddSupports();
@@ -115,26 +110,36 @@ public sealed partial class Simulation
         for (int i = 0; i < contactCount; i++)
         {
             ref ContactPoint c = ref contacts[i];
-            bool single = c.Second == ContactPoint.Static;
-            c.Normal = single
-                ? SurfaceNormal(c.Surface, partyPositions[c.First])
-                : Direction(partyPositions[c.First] - partyPositions[c.Second]);
-            if (round >= CollapseRound)
-            {
-                c.Target = 0;
-                continue;
-            }
-
-            double closing = Math.Max(0, -ImpactSolver.Closing(c, partyVelocities));
-            c.Target = Restitution(c) * closing;
-            if (!IsSupportable(c) || Vector3D.Dot(c.Normal, Scene.Gravity) >= 0)
-            {
-                Vector3D relative = single ? partyAccelerations[c.First] : partyAccelerations[c.First] - partyAccelerations[c.Second];
-                double pressing = -Vector3D.Dot(c.Normal, relative);
-                double hop = pressing > 0 ? Math.Sqrt(2 * pressing * HopHeight * Scene.Resolution) : 0;
-                c.Target = Math.Max(c.Target, Math.Max(hop, LeastRebound));
-            }
+            c.Normal = NormalOf(c);
+            double opening = ImpactSolver.Opening(c, partyVelocities);
+            c.Target = round >= CollapseRound ? 0
+                : c.IsStruck ? StruckTarget(c, -opening)
+                : Math.Min(Math.Max(0, opening), HopSpeed(Pressing(c))); // nothing may drive the two together; of itself it asks for no more than it has
         }
+    }
+
+    private Vector3D NormalOf(in ContactPoint c) => c.Second == ContactPoint.Static
+        ? SurfaceNormal(c.Surface, partyPositions[c.First])
+        : Direction(partyPositions[c.First] - partyPositions[c.Second]);
+
+    /// <summary>The speed at which the two of a contact part where they closed so fast: by restitution, but at least for a hop where no support can cover it.</summary>
+    private double StruckTarget(in ContactPoint c, double closing)
+    {
+        double rebound = hasNear ? 0 : Restitution(c) * Math.Max(0, closing);
+        if (IsSupportable(c) && Vector3D.Dot(c.Normal, Scene.Gravity) < 0)
+        {
+            return rebound;
+        }
+
+        Vector3D other = c.Second == ContactPoint.Static ? Vector3D.Zero : partyAccelerations[c.Second];
+        double pressing = Math.Max(0, -Vector3D.Dot(c.Normal, partyAccelerations[c.First] - other));
+        return Math.Max(rebound, Math.Max(HopSpeed(pressing), LeastRebound));
+    }
+
+    private double Pressing(in ContactPoint c)
+    {
+        double pressing = Math.Max(Scene.Gravity.Length, partyAccelerations[c.First].Length);
+        return c.Second == ContactPoint.Static ? pressing : Math.Max(pressing, partyAccelerations[c.Second].Length);
     }
 
     /// <summary>The lesser of the two parties' restitutions: a material behaves as named against anything more elastic.</summary>
@@ -205,7 +210,7 @@ public sealed partial class Simulation
         for (int i = 0; i < contactCount; i++)
         {
             ref readonly ContactPoint c = ref contacts[i];
-            if (c.First == party && IsSupportable(c))
+            if (c.First == party && c.IsStruck && IsSupportable(c))
             {
                 AddTouched(ref count, c.Surface);
             }
@@ -216,7 +221,7 @@ public sealed partial class Simulation
             AddTouched(ref count, supports[k]);
         }
 
-        Open(slot, key, partyPositions[party], partyVelocities[party], -residual, touched.AsSpan(0, count));
+        Open(slot, key, partyPositions[party], partyVelocities[party], -residual, touched.AsSpan(0, count), hasNear ? CrowdingAt(slot, key.Time) : Math.Min(CrowdingAt(slot, key.Time), CrowdedAfter));
     }
 
     private void AddTouched(ref int count, int plane)

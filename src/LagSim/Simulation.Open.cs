@@ -14,9 +14,9 @@ public sealed partial class Simulation
     /// Opens the body's next segment from a state that holds <paramref name="carry"/> seconds before the key's tick (under a tick, either
     /// way): at rest on or sliding along those of the touched planes that carry it, else in free flight.
     /// </summary>
-    private void Open(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, ReadOnlySpan<int> touchedPlanes)
+    private void Open(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, ReadOnlySpan<int> touchedPlanes, int crowding = 0)
     {
-        if (touchedPlanes.Length > 0 && TryOpenSupported(slot, key, position, velocity, carry, touchedPlanes))
+        if (touchedPlanes.Length > 0 && TryOpenSupported(slot, key, position, velocity, carry, touchedPlanes, crowding))
         {
             return;
         }
@@ -30,10 +30,10 @@ public sealed partial class Simulation
             v += a * carry;
         }
 
-        OpenFlight(slot, key, x, v);
+        OpenFlight(slot, key, x, v, crowding);
     }
 
-    private void OpenFlight(int slot, in EventKey key, in Vector3D position, in Vector3D velocity)
+    private void OpenFlight(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, int crowding = 0)
     {
         Vector3D x = position.WithoutNegativeZero();
         Vector3D v = velocity.WithoutNegativeZero();
@@ -48,11 +48,11 @@ public sealed partial class Simulation
                     $"In the step from {key.Time} the acceleration of body {bodies[slot].Id} became NaN or infinite; what supplied acceleration {spec.Acceleration} gives must be finite.");
             }
 
-            Append(slot, key, step, dense);
+            Append(slot, key, step.WithCrowding(crowding), dense);
         }
         else
         {
-            Append(slot, key, new MotionSegment(MotionLaw.Ballistic, key.Time, SimTime.MaxValue, x, v, Scene.Gravity), default);
+            Append(slot, key, new MotionSegment(MotionLaw.Ballistic, key.Time, SimTime.MaxValue, x, v, Scene.Gravity, crowding: crowding), default);
         }
     }
 
@@ -62,7 +62,7 @@ public sealed partial class Simulation
     /// the plane, and it rests from the end of that time on. Tangential motion goes on unchanged: frictionless bounces do not touch it.
     /// </summary>
     private bool TryOpenSupported(
-        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, ReadOnlySpan<int> touchedPlanes)
+        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, ReadOnlySpan<int> touchedPlanes, int crowding)
     {
         if (bodies[slot].Spec.Acceleration != 0)
         {
@@ -94,12 +94,12 @@ public sealed partial class Simulation
         bool rests = tangential == Vector3D.Zero && acceleration == Vector3D.Zero;
         if (rests && left == SimDuration.Zero)
         {
-            Append(slot, key, MotionSegment.AtRest(key.Time, start, supports), default);
+            Append(slot, key, MotionSegment.AtRest(key.Time, start, supports).WithCrowding(crowding), default);
         }
         else
         {
             SimTime end = rests ? key.Time + left : SimTime.MaxValue;
-            Append(slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, end, start, tangential, acceleration, supports), default);
+            Append(slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, end, start, tangential, acceleration, supports, crowding), default);
         }
 
         return true;

@@ -215,6 +215,8 @@ public sealed partial class Simulation
         return length > 0 ? apart / length : Vector3D.Up;
     }
 
+    private Vector3D PositionAt(int segment, SimTime time) => timelines.Segment(segment).PositionAt(SecondsInto(segment, time), timelines.Dense(segment));
+
     private Vector3D PositionAt(int segment, in ContactTime contact) =>
         timelines.Segment(segment).PositionAt(SecondsInto(segment, contact.Tick) + contact.Residual, timelines.Dense(segment));
 

@@ -16,6 +16,7 @@ internal struct ContactPoint
         Time = time;
         Normal = default;
         Target = 0;
+        IsStruck = true;
     }
 
     /// <summary>The body whose identity is the lesser of the two, or the only one.</summary>
@@ -27,7 +28,11 @@ internal struct ContactPoint
     /// <summary>Which static surface: planes by index, static spheres after them; -1 between two bodies.</summary>
     internal int Surface;
 
+    /// <summary>When it is struck; meaningless where it is not.</summary>
     internal ContactTime Time;
+
+    /// <summary>Whether the two strike each other in this impact, or only last on each other while something strikes them.</summary>
+    internal bool IsStruck;
 
     /// <summary>From the second party to the first.</summary>
     internal Vector3D Normal;

@@ -11,20 +11,40 @@ namespace LagSim.Contacts;
 /// <para>It is the least-squares problem with bounds that Lawson and Hanson solve by an active set ("Solving Least Squares Problems", 1974,
 /// ch. 23): finite, and independent of the order in which the contacts were found, for they come in canonical order. If no velocities
 /// satisfy all targets (a body squeezed between surfaces that cannot give way), every target becomes 0, which is always possible.</para>
-/// <para>Allocates only when an impact has more contacts than any before.</para>
+/// <para>The rows of the active contacts are made orthogonal in the space of the bodies' motions, by modified Gram-Schmidt with 1/mass as
+/// weight, rather than by factors of the matrix of their products: where a light body carries a heavy one, that matrix has already lost
+/// the heavy one to rounding. No square roots: small integer systems, such as equal masses in a row, stay exact and a symmetric impact
+/// keeps its symmetry.</para>
+/// <para>Cost: contacts^2 times bodies. Allocates only when an impact has more contacts or bodies than any before.</para>
 /// </remarks>
 internal sealed class ImpactSolver
 {
     private const double Tolerance = 1e-12;
 
-    private double[] system = new double[16]; // A = J M^-1 J^T, row by row
-    private double[] factor = new double[16];
+    /// <summary>
+    /// What is left of a row's part at one body counts as nothing below this share of what was taken away: normals that differ by less than a
+    /// microradian are one. A light body squeezed between two such is held, and not shot out sideways at a million times their speed.
+    /// </summary>
+    private const double Cancelled = 1e-6;
+
     private double[] demand = new double[4]; // target - u before
     private double[] impulse = new double[4];
-    private double[] trial = new double[4];
     private int[] active = new int[4];
     private bool[] isActive = new bool[4];
     private bool[] dependent = new bool[4];
+
+    // By place in the active set.
+    private Vector3D[] basis = new Vector3D[16]; // row by row: the orthogonal rows, a part for each body
+    private double[] share = new double[16]; // row by row: how much of each earlier basis row a contact's row has
+    private double[] weight = new double[4]; // of a basis row: its square, by 1/mass
+    private double[] along = new double[4]; // the impulse along each basis row
+    private double[] trial = new double[4];
+
+    // By body.
+    private double[] size = new double[4];
+    private Vector3D[] change = new Vector3D[4];
+
+    private int bodies;
 
     /// <summary>Changes the velocities by the impulses of all contacts. <paramref name="masses"/> and velocities by number of body.</summary>
     internal void Solve(ReadOnlySpan<ContactPoint> contacts, ReadOnlySpan<double> masses, Span<Vector3D> velocities)
@@ -35,26 +55,23 @@ internal sealed class ImpactSolver
             return;
         }
 
+        bodies = velocities.Length;
         Grow(contacts.Length);
-        Assemble(contacts, masses, velocities, plastic: false);
-        if (!TrySolve(contacts.Length))
+        Demand(contacts, velocities, plastic: false);
+        if (!TrySolve(contacts, masses))
         {
-            Assemble(contacts, masses, velocities, plastic: true);
-            TrySolve(contacts.Length);
+            Demand(contacts, velocities, plastic: true);
+            TrySolve(contacts, masses);
         }
 
-        for (int i = 0; i < contacts.Length; i++)
+        for (int b = 0; b < bodies; b++)
         {
-            ref readonly ContactPoint c = ref contacts[i];
-            velocities[c.First] += c.Normal * (impulse[i] / masses[c.First]);
-            if (c.Second != ContactPoint.Static)
-            {
-                velocities[c.Second] -= c.Normal * (impulse[i] / masses[c.Second]);
-            }
+            velocities[b] += change[b];
         }
     }
 
-    internal static double Closing(in ContactPoint contact, ReadOnlySpan<Vector3D> velocities) =>
+    /// <summary>How fast the two of a contact part; negative while they close.</summary>
+    internal static double Opening(in ContactPoint contact, ReadOnlySpan<Vector3D> velocities) =>
         Vector3D.Dot(
             contact.Normal,
             contact.Second == ContactPoint.Static ? velocities[contact.First] : velocities[contact.First] - velocities[contact.Second]);
@@ -62,7 +79,7 @@ internal sealed class ImpactSolver
     // By mass fractions instead of impulses: a few ulp at any mass ratio, and an elastic bounce off a plane is exactly a mirror.
     private static void Single(in ContactPoint c, ReadOnlySpan<double> masses, Span<Vector3D> velocities)
     {
-        double change = c.Target - Closing(c, velocities);
+        double change = c.Target - Opening(c, velocities);
         if (!(change > 0))
         {
             return;
@@ -79,49 +96,18 @@ internal sealed class ImpactSolver
         velocities[c.Second] -= c.Normal * (change * (masses[c.First] / whole));
     }
 
-    private void Assemble(ReadOnlySpan<ContactPoint> contacts, ReadOnlySpan<double> masses, ReadOnlySpan<Vector3D> velocities, bool plastic)
+    private void Demand(ReadOnlySpan<ContactPoint> contacts, ReadOnlySpan<Vector3D> velocities, bool plastic)
+    {
+        for (int i = 0; i < contacts.Length; i++)
+        {
+            demand[i] = (plastic ? 0 : contacts[i].Target) - Opening(contacts[i], velocities);
+        }
+    }
+
+    /// <summary>Lawson and Hanson's active-set method; false if some demand cannot be met. Leaves the change of every velocity.</summary>
+    private bool TrySolve(ReadOnlySpan<ContactPoint> contacts, ReadOnlySpan<double> masses)
     {
         int n = contacts.Length;
-        for (int i = 0; i < n; i++)
-        {
-            demand[i] = (plastic ? 0 : contacts[i].Target) - Closing(contacts[i], velocities);
-            for (int j = 0; j < n; j++)
-            {
-                system[(i * n) + j] = Coupling(contacts[i], contacts[j], masses);
-            }
-        }
-    }
-
-    private static double Coupling(in ContactPoint a, in ContactPoint b, ReadOnlySpan<double> masses)
-    {
-        double sum = 0;
-        double along = Vector3D.Dot(a.Normal, b.Normal);
-        if (a.First == b.First)
-        {
-            sum += along / masses[a.First];
-        }
-
-        if (a.Second != ContactPoint.Static && a.Second == b.Second)
-        {
-            sum += along / masses[a.Second];
-        }
-
-        if (a.First == b.Second)
-        {
-            sum -= along / masses[a.First];
-        }
-
-        if (a.Second != ContactPoint.Static && a.Second == b.First)
-        {
-            sum -= along / masses[a.Second];
-        }
-
-        return sum;
-    }
-
-    /// <summary>Lawson and Hanson's active-set method; false if some demand cannot be met.</summary>
-    private bool TrySolve(int n)
-    {
         int count = 0;
         double scale = 0;
         for (int i = 0; i < n; i++)
@@ -132,6 +118,7 @@ internal sealed class ImpactSolver
             scale = Math.Max(scale, Math.Abs(demand[i]));
         }
 
+        Array.Clear(change, 0, bodies);
         double least = Tolerance * scale;
         for (int pass = 0; pass < 10 * n; pass++)
         {
@@ -139,7 +126,7 @@ internal sealed class ImpactSolver
             double gap = least;
             for (int i = 0; i < n; i++)
             {
-                double missing = isActive[i] || dependent[i] ? 0 : Missing(i, n);
+                double missing = isActive[i] || dependent[i] ? 0 : Missing(contacts[i], i);
                 if (missing > gap)
                 {
                     worst = i;
@@ -152,24 +139,21 @@ internal sealed class ImpactSolver
                 break;
             }
 
-            active[count++] = worst;
-            isActive[worst] = true;
-            if (!Factor(count, n))
+            active[count] = worst;
+            if (!TryAddRow(contacts[worst], count, masses))
             {
-                // Its normal is a combination of those already active: it pushes nothing that they do not.
-                isActive[worst] = false;
-                dependent[worst] = true;
-                count--;
+                dependent[worst] = true; // its normal is a combination of those already active: it pushes nothing that they do not
                 continue;
             }
 
-            count = Retreat(count, n);
+            isActive[worst] = true;
+            count = Retreat(contacts, masses, count + 1);
             Array.Clear(dependent, 0, n);
         }
 
         for (int i = 0; i < n; i++)
         {
-            if (!isActive[i] && Missing(i, n) > 1e3 * least)
+            if (!isActive[i] && Missing(contacts[i], i) > 1e3 * least)
             {
                 return false;
             }
@@ -178,12 +162,14 @@ internal sealed class ImpactSolver
         return true;
     }
 
+    private double Missing(in ContactPoint contact, int i) => demand[i] - Opening(contact, change.AsSpan(0, bodies));
+
     /// <summary>Moves from the last impulses towards the active set's solution, dropping contacts that would have to pull.</summary>
-    private int Retreat(int count, int n)
+    private int Retreat(ReadOnlySpan<ContactPoint> contacts, ReadOnlySpan<double> masses, int count)
     {
         while (true)
         {
-            Substitute(count, n);
+            Substitute(count);
             double step = 1;
             for (int k = 0; k < count; k++)
             {
@@ -200,104 +186,191 @@ internal sealed class ImpactSolver
 
             if (step >= 1)
             {
+                ChangeBy(contacts, count, masses);
                 return count;
             }
 
-            int kept = 0;
-            for (int k = 0; k < count; k++)
-            {
-                int i = active[k];
-                if (trial[k] < 0 && impulse[i] <= 1e-15 * Math.Abs(trial[k]))
-                {
-                    impulse[i] = 0;
-                    isActive[i] = false;
-                }
-                else
-                {
-                    active[kept++] = i;
-                }
-            }
-
-            count = kept;
-            Factor(count, n);
+            count = Drop(contacts, masses, count);
         }
     }
 
-    private double Missing(int i, int n)
+    /// <summary>Takes the contacts whose impulse has come down to nothing out of the active set; the rows from the first of them on are made anew.</summary>
+    private int Drop(ReadOnlySpan<ContactPoint> contacts, ReadOnlySpan<double> masses, int count)
     {
-        double missing = demand[i];
-        for (int j = 0; j < n; j++)
+        int kept = 0;
+        int intact = count;
+        for (int k = 0; k < count; k++)
         {
-            missing -= system[(i * n) + j] * impulse[j];
+            int i = active[k];
+            if (trial[k] < 0 && impulse[i] <= 1e-15 * Math.Abs(trial[k]))
+            {
+                impulse[i] = 0;
+                isActive[i] = false;
+                intact = Math.Min(intact, k);
+            }
+            else
+            {
+                active[kept++] = i;
+            }
         }
 
-        return missing;
+        int row = intact;
+        for (int k = intact; k < kept; k++)
+        {
+            int i = active[k];
+            active[row] = i;
+            if (TryAddRow(contacts[i], row, masses))
+            {
+                row++;
+            }
+            else
+            {
+                impulse[i] = 0; // rounding alone: what was independent with more rows is so with fewer
+                isActive[i] = false;
+            }
+        }
+
+        return row;
     }
 
     /// <summary>
-    /// The factors L D L^T of the active rows and columns, D on the diagonal; false if they are dependent. Without square roots small
-    /// integer systems, such as equal masses in a row, stay exact and a symmetric impact keeps its symmetry.
+    /// Makes the basis row of a contact: its own row less what it shares with the rows before, twice, so that rounding leaves nothing of
+    /// them. False if nothing is left.
     /// </summary>
-    private bool Factor(int count, int n)
+    private bool TryAddRow(in ContactPoint contact, int row, ReadOnlySpan<double> masses)
     {
-        for (int r = 0; r < count; r++)
+        Span<Vector3D> mine = basis.AsSpan(row * bodies, bodies);
+        Span<double> shares = share.AsSpan(row * demand.Length, row + 1);
+        mine.Clear();
+        shares.Clear();
+        Array.Clear(size, 0, bodies);
+        mine[contact.First] = contact.Normal;
+        size[contact.First] = 1;
+        if (contact.Second != ContactPoint.Static)
         {
-            for (int c = 0; c <= r; c++)
+            mine[contact.Second] = -contact.Normal;
+            size[contact.Second] = 1;
+        }
+
+        TakeAway(mine, shares, row, masses);
+        for (int b = 0; b < bodies; b++)
+        {
+            if (mine[b].Length <= Cancelled * size[b])
             {
-                double sum = system[(active[r] * n) + active[c]];
-                for (int k = 0; k < c; k++)
-                {
-                    sum -= factor[(r * n) + k] * factor[(c * n) + k] * factor[(k * n) + k];
-                }
-
-                if (r == c && !(sum > Tolerance * system[(active[r] * n) + active[r]]))
-                {
-                    return false;
-                }
-
-                factor[(r * n) + c] = r == c ? sum : sum / factor[(c * n) + c];
+                mine[b] = Vector3D.Zero; // a part this small that counts, at a light body between heavy ones, comes back in the second pass
             }
         }
 
-        return true;
+        TakeAway(mine, shares, row, masses);
+        weight[row] = Product(mine, mine, masses);
+        return weight[row] > 0;
     }
 
-    private void Substitute(int count, int n)
+    private void TakeAway(Span<Vector3D> mine, Span<double> shares, int rows, ReadOnlySpan<double> masses)
+    {
+        for (int k = 0; k < rows; k++)
+        {
+            ReadOnlySpan<Vector3D> theirs = basis.AsSpan(k * bodies, bodies);
+            double part = Product(mine, theirs, masses) / weight[k];
+            shares[k] += part;
+            for (int b = 0; b < bodies; b++)
+            {
+                mine[b] -= theirs[b] * part;
+                size[b] = Math.Max(size[b], theirs[b].Length * Math.Abs(part));
+            }
+        }
+    }
+
+    private static double Product(ReadOnlySpan<Vector3D> a, ReadOnlySpan<Vector3D> b, ReadOnlySpan<double> masses)
+    {
+        double sum = 0;
+        for (int i = 0; i < a.Length; i++)
+        {
+            sum += Vector3D.Dot(a[i], b[i]) / masses[i];
+        }
+
+        return sum;
+    }
+
+    /// <summary>The impulses with which the active contacts meet their demands exactly: first along the basis rows, then of each contact.</summary>
+    private void Substitute(int count)
     {
         for (int r = 0; r < count; r++)
         {
-            trial[r] = demand[active[r]];
+            double rest = demand[active[r]];
             for (int k = 0; k < r; k++)
             {
-                trial[r] -= factor[(r * n) + k] * trial[k];
+                rest -= share[(r * demand.Length) + k] * (along[k] * weight[k]);
             }
+
+            along[r] = rest / weight[r];
         }
 
         for (int r = count - 1; r >= 0; r--)
         {
-            trial[r] /= factor[(r * n) + r];
+            trial[r] = along[r];
             for (int k = r + 1; k < count; k++)
             {
-                trial[r] -= factor[(k * n) + r] * trial[k];
+                trial[r] -= share[(k * demand.Length) + r] * trial[k];
             }
+        }
+    }
+
+    /// <summary>
+    /// The bodies' changes of velocity: by the contacts' impulses, which keep a symmetric impact symmetric, but along the basis rows where
+    /// the impulses at a light body nearly cancel.
+    /// </summary>
+    private void ChangeBy(ReadOnlySpan<ContactPoint> contacts, int count, ReadOnlySpan<double> masses)
+    {
+        for (int b = 0; b < bodies; b++)
+        {
+            Vector3D byImpulse = Vector3D.Zero;
+            Vector3D byBasis = Vector3D.Zero;
+            double impulses = 0;
+            double parts = 0;
+            for (int k = 0; k < count; k++)
+            {
+                Vector3D part = basis[(k * bodies) + b] * along[k];
+                byBasis += part;
+                parts += part.Length;
+                ref readonly ContactPoint c = ref contacts[active[k]];
+                if (c.First == b || c.Second == b)
+                {
+                    byImpulse += c.Normal * (c.First == b ? trial[k] : -trial[k]);
+                    impulses += Math.Abs(trial[k]);
+                }
+            }
+
+            change[b] = (impulses <= 16 * parts ? byImpulse : byBasis) / masses[b];
         }
     }
 
     private void Grow(int contacts)
     {
-        if (contacts <= demand.Length)
+        if (contacts > demand.Length)
         {
-            return;
+            int count = Math.Max(contacts, 2 * demand.Length);
+            demand = new double[count];
+            impulse = new double[count];
+            active = new int[count];
+            isActive = new bool[count];
+            dependent = new bool[count];
+            share = new double[count * count];
+            weight = new double[count];
+            along = new double[count];
+            trial = new double[count];
         }
 
-        int size = Math.Max(contacts, 2 * demand.Length);
-        system = new double[size * size];
-        factor = new double[size * size];
-        demand = new double[size];
-        impulse = new double[size];
-        trial = new double[size];
-        active = new int[size];
-        isActive = new bool[size];
-        dependent = new bool[size];
+        if (bodies > change.Length)
+        {
+            int count = Math.Max(bodies, 2 * change.Length);
+            size = new double[count];
+            change = new Vector3D[count];
+        }
+
+        if (demand.Length * bodies > basis.Length)
+        {
+            basis = new Vector3D[demand.Length * Math.Max(bodies, change.Length)];
+        }
     }
 }

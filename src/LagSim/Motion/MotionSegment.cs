@@ -7,7 +7,14 @@ namespace LagSim.Motion;
 internal readonly struct MotionSegment
 {
     internal MotionSegment(
-        MotionLaw law, SimTime epoch, SimTime end, in Vector3D position, in Vector3D velocity, in Vector3D acceleration, SupportSet supports = default)
+        MotionLaw law,
+        SimTime epoch,
+        SimTime end,
+        in Vector3D position,
+        in Vector3D velocity,
+        in Vector3D acceleration,
+        SupportSet supports = default,
+        int crowding = 0)
     {
         Law = law;
         Epoch = epoch;
@@ -16,6 +23,7 @@ internal readonly struct MotionSegment
         Velocity = velocity;
         Acceleration = acceleration;
         Supports = supports;
+        Crowding = crowding;
     }
 
     /// <summary>The instant at which the state below holds; the formula counts its time from here.</summary>
@@ -35,11 +43,17 @@ internal readonly struct MotionSegment
 
     internal SupportSet Supports { get; }
 
+    /// <summary>How many impacts in succession, up to the one that opened this, came soon after the one before and on the same spot.</summary>
+    internal int Crowding { get; }
+
     internal bool IsPresent => Law != MotionLaw.Absent;
 
     /// <summary>A path that never moves: a static sphere, or a body at rest.</summary>
     internal static MotionSegment AtRest(SimTime epoch, in Vector3D position, SupportSet supports = default) =>
         new(MotionLaw.Resting, epoch, SimTime.MaxValue, position, Vector3D.Zero, Vector3D.Zero, supports);
+
+    /// <summary>The same piece of path, opened by the last of so many impacts on the spot.</summary>
+    internal MotionSegment WithCrowding(int crowding) => new(Law, Epoch, End, Position, Velocity, Acceleration, Supports, crowding);
 
     /// <summary>No body.</summary>
     internal static MotionSegment Nothing(SimTime epoch) =>

@@ -15,12 +15,15 @@ internal sealed class RandomWorld
 
     private static readonly double[] Restitutions = [0, 0.05, 0.5, 0.8, 1];
     private static readonly double[] Masses = [0.5, 1, 1, 1, 3, 20];
+    private static readonly double[] ExtremeMasses = [1e-30, 1e-3, 1, 1e6, 1e30];
 
     private readonly Random random;
+    private readonly double[] masses;
 
     internal RandomWorld(int seed)
     {
         random = new Random(seed);
+        masses = Pick(Masses, Masses, Masses, ExtremeMasses);
         Scene = DrawScene();
         Events = DrawEvents();
     }
@@ -168,7 +171,7 @@ internal sealed class RandomWorld
     {
         bool steps = integrated > random.Next(3);
         return Ball(
-            Pick(0.25, 0.25, 0.3125), Pick(Masses), Pick(Restitutions), steps ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic,
+            Pick(0.25, 0.25, 0.3125), Pick(masses), Pick(Restitutions), steps ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic,
             steps ? Pick(0.03125, 0.03125, 0.05) : 0, (byte)(steps ? random.Next(2) : 0));
     }
 

@@ -105,7 +105,7 @@ public sealed class ImpactSolverTests
         Vector3D[] after = (Vector3D[])impact.Velocities.Clone();
         solve(impact.Contacts, impact.Masses, after);
         double slack = 1e-6 * impact.Scale;
-        bool separates = impact.Contacts.All(c => ImpactSolver.Closing(c, after) >= -slack);
+        bool separates = impact.Contacts.All(c => ImpactSolver.Opening(c, after) >= -slack);
         bool staysFinite = after.All(v => v.IsFinite);
         double before = impact.Energy(impact.Velocities), now = impact.Energy(after);
         bool momentum = impact.Contacts.Any(c => c.Second == ContactPoint.Static)
@@ -132,7 +132,7 @@ public sealed class ImpactSolverTests
                 {
                     Normal = Direction(random),
                 };
-                double closing = -ImpactSolver.Closing(contacts[i], velocities);
+                double closing = -ImpactSolver.Opening(contacts[i], velocities);
                 if (closing < 0)
                 {
                     contacts[i].Normal = -contacts[i].Normal; // only what closes takes part in an impact

