@@ -16,13 +16,14 @@ public sealed class JoinerSession : Session
     /// <summary>How long between two tries to be let in, and between two exchanges while the clock is set.</summary>
     private static readonly SimDuration Pace = SimDuration.FromMilliseconds(20);
 
-    private readonly List<ExternalEvent> unacknowledged = new();
+    private readonly List<ExternalEvent> unjudged = new(); // own events whose verdict has not come, oldest first
     private readonly PeerAddress host;
     private readonly ulong nonce;
     private readonly SimTime began;
     private UpdateLink? link;
     private SimTime joinDue;
     private uint entriesReceived;
+    private uint acknowledged; // how many own events the host has; their verdicts may come later
 
     /// <summary>Asks to be let in, from the first step on.</summary>
     /// <param name="scene">The scene that the host is expected to have.</param>
@@ -108,7 +109,7 @@ public sealed class JoinerSession : Session
             TakeEntries(update, now);
         }
 
-        unacknowledged.RemoveAll(e => e.Sequence <= update.EventsReceived);
+        acknowledged = Math.Max(acknowledged, Math.Min(update.EventsReceived, LastSequence));
     }
 
     private protected override void Tend(SimTime now)
@@ -141,7 +142,7 @@ public sealed class JoinerSession : Session
 
     private protected override void Publish(in ExternalEvent external)
     {
-        unacknowledged.Add(external);
+        unjudged.Add(external);
         link!.Hasten(Clock.Now);
     }
 
@@ -219,8 +220,10 @@ public sealed class JoinerSession : Session
         // The watermark speaks of the log up to this update's last entry; with a gap before it, it does not hold here yet.
         if (update.Watermark != SimTime.MinValue && index <= entriesReceived + 1)
         {
-            // What is not judged yet may have to be taken back, and for that its history must still be there.
-            Commit(unacknowledged.Count == 0 ? update.Watermark : SimTime.Min(update.Watermark, unacknowledged[0].Time));
+            // What is not judged yet, or still to be done, may have to be taken back, and for that its history must be there. Own stamps
+            // never go back. That the host has an event is not enough: an older update may come between that and its verdict.
+            SimTime needed = unjudged.Count > 0 ? unjudged[0].Time : SharedTime.Now;
+            Commit(SimTime.Min(update.Watermark, needed));
         }
 
         if (any)
@@ -236,9 +239,14 @@ public sealed class JoinerSession : Session
         bool accepted = entry.Verdict == Verdict.Accepted && MayEnter(external);
         Counters.EventsAccepted += accepted ? 1 : 0;
         Counters.EventsRefused += accepted ? 0 : 1;
+        while (own && unjudged.Count > 0 && unjudged[0].Sequence <= external.Sequence)
+        {
+            unjudged.RemoveAt(0); // a peer's own events stand in the log in their order
+        }
+
         if (own && !accepted)
         {
-            World!.Retract(external);
+            Counters.EventsLost += World!.Retract(external) ? 0 : 1;
         }
         else if (!own && accepted)
         {
@@ -251,16 +259,16 @@ public sealed class JoinerSession : Session
         UpdateDatagram update = to.Compose(now);
         update.EventsReceived = entriesReceived;
         update.Ready = SharedTime.IsSet;
-        update.FirstIndex = unacknowledged.Count > 0 ? unacknowledged[0].Sequence : LastSequence + 1;
-        foreach (ExternalEvent external in unacknowledged)
+        update.FirstIndex = acknowledged + 1;
+        foreach (ExternalEvent external in unjudged)
         {
-            if (!update.TryAdd(Verdict.Pending, external))
+            if (external.Sequence > acknowledged && !update.TryAdd(Verdict.Pending, external))
             {
                 break;
             }
         }
 
-        SimDuration wait = !SharedTime.IsSet || World is null ? Pace : WaitAfterUpdate(unacknowledged.Count > 0, to.Silence(now));
+        SimDuration wait = !SharedTime.IsSet || World is null ? Pace : WaitAfterUpdate(acknowledged < LastSequence, to.Silence(now));
         Send(to.Seal(now + wait), host);
     }
 }

@@ -29,7 +29,10 @@ public sealed class SessionCounters
     /// <summary>Events that the host refused, one's own included.</summary>
     public long EventsRefused { get; internal set; }
 
-    /// <summary>Accepted events that came too late for the history this peer still had. Its world may differ from then on.</summary>
+    /// <summary>
+    /// Accepted events that came too late for the history this peer still had, and own refused ones that were no longer there to be taken
+    /// back. Its world may differ from then on.
+    /// </summary>
     public long EventsLost { get; internal set; }
 
     /// <summary>Events of other peers that changed what was already simulated.</summary>

@@ -1,6 +1,7 @@
 using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Links;
+using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
@@ -79,6 +80,98 @@ public sealed class RefusedEventTests
         group.Restore(1, 0);
         group.Run(4);
         Assert.True(group.Sessions[1].World!.Simulation.HistoryEdge > late.Time);
+    }
+
+    [Fact]
+    public void TooLate_AcknowledgedBeforeTheVerdictThenAnOldWatermark_IsStillTakenBack()
+    {
+        // The host has the event and says so, but its verdict no longer fits into the datagram; and an older update, whose watermark holds
+        // for a log that ended before all this, comes after it.
+        SessionGroup group = Group(1, 0);
+        UpdateDatagram read = new();
+        byte[] old = [];
+        bool acknowledged = false;
+        group.Network.Lose((from, to, datagram) =>
+        {
+            if (acknowledged || from != 0 || to != 1 || !read.TryDecode(datagram.Span, out _))
+            {
+                return false;
+            }
+
+            acknowledged = read.EventsReceived == 1;
+            old = acknowledged || read.Entries.Length > 0 ? old : datagram.ToArray();
+            return !acknowledged;
+        });
+        group.Cut(1, 0);
+        ExternalEvent late = group.Do(1, PlayerAction.SetVelocity(First, V(2, 6)));
+        group.Run(2 * History);
+        const int others = 40;
+        for (int i = 0; i < others; i++)
+        {
+            group.Do(0, PlayerAction.Impulse(Second, V(0.01, 0.1)));
+        }
+
+        group.Restore(1, 0);
+        Assert.True(group.RunUntil(() => acknowledged, 2));
+        Assert.True(read.Watermark == SimTime.MinValue && read.Entries.Length < others);
+        Assert.True(read.TryDecode(old, out _) && read.Watermark > late.Time);
+        group.Ports[0].Send(old, PeerAddress.Virtual(1));
+        Assert.True(group.Settle(others + 1, 4));
+
+        Assert.Equal([late], group.Log.Values.Where(e => e.Verdict == Verdict.TooLate).Select(e => e.Event));
+        Assert.All(group.Sessions, s => Assert.Equal((1, 0), (s.Counters.EventsRefused, s.Counters.EventsLost)));
+        group.Run(1);
+        Assert.True(group.Difference() is null, group.Difference());
+    }
+
+    [Fact]
+    public void Do_OwnTimeBehindTheHostsWatermark_IsSeenHereAtOnceAndTakenBack()
+    {
+        // The way from the host becomes shorter all at once: until the clock has been bent, it is behind by more than the history.
+        SessionGroup group = new SessionGroup(
+            Deeds.Box(), 2, new LinkProfile("uneven", toHost: new LinkLeg(5), fromHost: new LinkLeg(300)), 1,
+            _ => new SessionOptions { History = SimDuration.FromSeconds(0.05), KeepAlive = SimDuration.FromSeconds(0.02) }).Connect();
+        group.Run(3);
+        group.Restore(0, 1);
+        group.Run(0.1);
+        ExternalEvent behind = group.Do(1, PlayerAction.SetVelocity(First, V(2, 6)));
+        Assert.True(behind.Time < group.Host.Watermark);
+        Simulation world = group.Sessions[1].World!.Simulation;
+        Assert.Equal(V(2, 6), Read(world, First, behind.Time).Velocity);
+
+        Assert.True(group.Settle(1, 4));
+        Assert.Equal([Verdict.TooLate], group.Log.Values.Select(e => e.Verdict));
+        group.Run(4);
+        Assert.Equal(0, group.Sessions[1].Counters.EventsLost);
+        Assert.True(group.Difference() is null, group.Difference());
+    }
+
+    [Theory]
+    [InlineData(0.05, 0)]
+    [InlineData(2, 1)]
+    public void Retract_OfWhatWasAcceptedAndForgotten_IsCountedAsLost(double secondsBetween, int lost)
+    {
+        // No host of ours takes back its word.
+        SessionGroup group = Group(1, 0);
+        UpdateDatagram last = new();
+        group.Network.Lose((from, to, datagram) =>
+        {
+            _ = from == 0 && to == 1 && last.TryDecode(datagram.Span, out _);
+            return false;
+        });
+        ExternalEvent own = group.Do(1, PlayerAction.SetVelocity(First, V(2, 6)));
+        Assert.True(group.Settle(1, 1));
+        group.Run(secondsBetween);
+        group.IsTapped = false;
+        last.Number++;
+        last.FirstIndex = 2;
+        last.ClearEntries();
+        last.TryAdd(Verdict.TooLate, own);
+        byte[] bytes = new byte[last.EncodedLength];
+        last.Encode(bytes);
+        group.Ports[0].Send(bytes, PeerAddress.Virtual(1));
+        group.Run(0.02);
+        Assert.Equal((1, lost), (group.Sessions[1].Counters.EventsRefused, group.Sessions[1].Counters.EventsLost));
     }
 
     [Fact]
