@@ -1,4 +1,5 @@
 using System;
+using System.Threading;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -7,8 +8,9 @@ namespace LagSim.Hosting;
 
 /// <summary>A simulation kept ahead of a clock: it is advanced to now plus the look-ahead, and its picture published.</summary>
 /// <remarks>
-/// For the simulation's thread, in real or virtual time alike, except <see cref="Pictures"/>, which is how another thread reads. What changes
-/// the world goes through this type, so that the next <see cref="Step"/> publishes it.
+/// For the simulation's thread, in real or virtual time alike, except <see cref="Pictures"/>, which is how another thread reads, and
+/// <see cref="LateSteps"/> and <see cref="MaxLateness"/>, which any thread may read, each for itself. What changes the world goes through this
+/// type, so that the next <see cref="Step"/> publishes it.
 /// </remarks>
 public sealed class LiveWorld
 {
@@ -20,6 +22,8 @@ public sealed class LiveWorld
 
     private readonly SimDuration picturePast;
     private bool changed = true;
+    private long lateSteps;
+    private long maxLatenessTicks;
 
     /// <summary>Keeps a new simulation of the scene ahead.</summary>
     /// <param name="scene">What is simulated.</param>
@@ -63,11 +67,11 @@ public sealed class LiveWorld
     /// <summary>Where another thread, one only, gets its picture.</summary>
     public PictureExchange Pictures { get; } = new();
 
-    /// <summary>How often a step found the clock beyond what was simulated, so that a reader had to stall.</summary>
-    public long LateSteps { get; private set; }
+    /// <summary>How often a step found the clock beyond what was simulated, so that a reader had to stall. From any thread.</summary>
+    public long LateSteps => Volatile.Read(ref lateSteps);
 
-    /// <summary>The furthest the clock was beyond what was simulated when a step began.</summary>
-    public SimDuration MaxLateness { get; private set; }
+    /// <summary>The furthest the clock was beyond what was simulated when a step began. From any thread.</summary>
+    public SimDuration MaxLateness => SimDuration.FromTicks(Volatile.Read(ref maxLatenessTicks));
 
     /// <summary>Submits an event at its own time.</summary>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
@@ -110,9 +114,9 @@ public sealed class LiveWorld
     {
         if (Simulation.Horizon < now)
         {
-            SimDuration late = now - Simulation.Horizon;
-            LateSteps++;
-            MaxLateness = late > MaxLateness ? late : MaxLateness;
+            long late = (now - Simulation.Horizon).Ticks;
+            Volatile.Write(ref lateSteps, lateSteps + 1);
+            Volatile.Write(ref maxLatenessTicks, Math.Max(maxLatenessTicks, late));
         }
 
         Advance(now);

@@ -8,8 +8,8 @@ namespace LagSim.Hosting;
 
 /// <summary>A world for one machine: simulated ahead of real time on its own thread, acted on and read from the game's.</summary>
 /// <remarks>
-/// <see cref="Do"/> may be called from any thread, <see cref="Picture"/> from one. An action is stamped when it is done, and seen in the
-/// pictures that follow a moment later. For several machines see the peers of LagSim.Net, which keep their worlds in the same way.
+/// Every member may be called from any thread, but <see cref="Picture"/> from one only. An action is stamped when it is done, and seen in
+/// the pictures that follow a moment later. For several machines see the peers of LagSim.Net, which keep their worlds in the same way.
 /// </remarks>
 public sealed class SimulationHost : IDisposable
 {
@@ -19,6 +19,7 @@ public sealed class SimulationHost : IDisposable
     private readonly LiveWorld world;
     private readonly WorldThread thread;
     private uint lastSequence;
+    private volatile bool disposed;
 
     /// <summary>A world whose scene starts now by the clock. It stands still until <see cref="Start"/>.</summary>
     /// <param name="scene">What is simulated.</param>
@@ -60,10 +61,16 @@ public sealed class SimulationHost : IDisposable
     /// <summary>Does something to the world, now.</summary>
     /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
     /// <exception cref="SceneException">A value may not enter the world; nothing happened.</exception>
+    /// <exception cref="ObjectDisposedException">The thread has been stopped for good; nothing would come of it.</exception>
     /// <exception cref="InvalidOperationException">The simulation ended by an exception, the inner one.</exception>
     public ExternalEvent Do(in PlayerAction action)
     {
         thread.ThrowIfFaulted();
+        if (disposed)
+        {
+            throw new ObjectDisposedException(nameof(SimulationHost));
+        }
+
         ExternalEvent external;
         lock (stamping)
         {
@@ -77,8 +84,12 @@ public sealed class SimulationHost : IDisposable
         return external;
     }
 
-    /// <summary>Stops the thread and waits for it.</summary>
-    public void Dispose() => thread.Dispose();
+    /// <summary>Stops the thread and waits for it. The last picture stays readable; nothing more can be done to the world.</summary>
+    public void Dispose()
+    {
+        disposed = true;
+        thread.Dispose();
+    }
 
     private SimDuration Step()
     {

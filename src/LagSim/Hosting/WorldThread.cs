@@ -15,6 +15,7 @@ public sealed class WorldThread : IDisposable
     private readonly AutoResetEvent wake = new(false);
     private readonly Thread thread;
     private Exception? fault;
+    private long steps;
     private volatile bool stopping;
     private bool disposed;
 
@@ -31,7 +32,7 @@ public sealed class WorldThread : IDisposable
     public Exception? Fault => Volatile.Read(ref fault);
 
     /// <summary>How many steps were done.</summary>
-    public long Steps { get; private set; }
+    public long Steps => Volatile.Read(ref steps);
 
     /// <summary>Starts it; once.</summary>
     public void Start() => thread.Start();
@@ -81,7 +82,7 @@ public sealed class WorldThread : IDisposable
             while (!stopping)
             {
                 SimDuration left = step();
-                Steps++;
+                Volatile.Write(ref steps, steps + 1); // nobody else writes it
                 if (left > SimDuration.Zero && !stopping)
                 {
                     wake.WaitOne(Milliseconds(left));

@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 using System.Threading;
 using LagSim.Events;
 using LagSim.Hosting;
@@ -34,6 +35,19 @@ public sealed class WorldThreadTests
 
         Assert.True(stepped.Wait(Deadline, TestContext.Current.CancellationToken));
         Assert.InRange(thread.Steps, 99, 101);
+    }
+
+    [Fact]
+    public void Steps_ReadInATightLoopOnAnotherThread_IsSeenToGrow()
+    {
+        using ManualResetEventSlim reads = new();
+        using WorldThread thread = new("test", () =>
+        {
+            reads.Wait();
+            return SimDuration.MaxValue;
+        });
+        thread.Start();
+        Assert.True(GrowsBefore(thread, 30_000_000_000, reads));
     }
 
     [Fact]
@@ -125,6 +139,16 @@ public sealed class WorldThreadTests
     }
 
     [Fact]
+    public void Host_ActionAfterDispose_ThrowsInsteadOfBeingForgotten()
+    {
+        SimulationHost host = new(Drop(0, 0.5), new ManualClock());
+        host.Start();
+        host.Do(PlayerAction.Impulse(First, V(0, 3)));
+        host.Dispose();
+        Assert.Throws<ObjectDisposedException>(() => host.Do(PlayerAction.Impulse(First, V(0, 3))));
+    }
+
+    [Fact]
     public void Host_WorldAtRest_DoesNoSteps()
     {
         ManualClock clock = new();
@@ -159,6 +183,22 @@ public sealed class WorldThreadTests
         }, Deadline));
         Assert.IsType<SimulationException>(failure!.InnerException);
         Assert.Throws<InvalidOperationException>(() => host.Do(PlayerAction.Remove(First)));
+    }
+
+    /// <summary>Nothing in the loop but the reading, so that a compiler may move that out of it where it is an ordinary one.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+    private static bool GrowsBefore(WorldThread thread, long patience, ManualResetEventSlim reads)
+    {
+        reads.Set();
+        while (thread.Steps == 0)
+        {
+            if (--patience == 0)
+            {
+                return false;
+            }
+        }
+
+        return true;
     }
 
     private static void PromptlyDisposed(bool start, SimDuration wait)
