@@ -8,7 +8,7 @@ namespace LagSim.Hosting;
 /// <summary>One body's timeline inside a picture: a copy that follows the simulation's by taking over only what changed.</summary>
 internal sealed class PictureTimeline
 {
-    private Entry[] entries = new Entry[8];
+    private Entry[] entries = Array.Empty<Entry>(); // a body that is only heard of never needs one
     private int first;
     private int end;
 
@@ -31,8 +31,8 @@ internal sealed class PictureTimeline
                 break;
             }
 
-            fresh++;
             bool covers = store.Key(at).Time <= edge;
+            fresh += covers && !store.Segment(at).IsPresent ? 0 : 1; // before the first entry there is no body; that needs no entry of its own
             at = covers ? TimelineStore.None : store.Previous(at);
         }
 

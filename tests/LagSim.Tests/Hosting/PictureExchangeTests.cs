@@ -51,6 +51,51 @@ public sealed class PictureExchangeTests
         Assert.Equal(3, exchange.Latest().Number);
     }
 
+    [Fact]
+    public void Publish_BodiesOnlyHeardOf_CostLittleMemory()
+    {
+        // Anybody can name bodies that nobody spawned. While nobody reads, two of the three buffers take turns.
+        const int bodies = 4096, buffers = 2;
+        Simulation simulation = Pair();
+        for (uint i = 1; i <= bodies; i++)
+        {
+            simulation.Submit(ExternalEvent.SetVelocity(At(0.1), 1, i, new BodyId(1, i, 0), V(1)));
+        }
+
+        PictureExchange exchange = new();
+        long before = GC.GetAllocatedBytesForCurrentThread();
+        for (int i = 0; i < buffers; i++)
+        {
+            exchange.Publish(simulation, At(0));
+        }
+
+        long each = (GC.GetAllocatedBytesForCurrentThread() - before) / (bodies * buffers);
+        Assert.True(each <= 64, $"{each} bytes a body and buffer");
+        Assert.Equal(bodies + 2, exchange.Latest().BodyCount);
+    }
+
+    [Fact]
+    public void Latest_BodySpawnedLongAfterItWasHeardOf_ShowsItFromThenOn()
+    {
+        Simulation simulation = Pair();
+        BodyId late = new(1, 2, 0);
+        simulation.Submit(ExternalEvent.SetVelocity(At(0.1), 1, 1, late, V(1)));
+        simulation.AdvanceTo(At(1));
+        PictureExchange exchange = new();
+        exchange.Publish(simulation, At(0.9));
+        Assert.False(exchange.Latest().TryRead(late, At(1), out _));
+
+        simulation.Submit(ExternalEvent.Spawn(At(0.95), 1, 2, Ball(0.1), V(0, 0, 50)));
+        exchange.Publish(simulation, At(0.9));
+        Assert.False(exchange.Latest().TryRead(late, At(0.94), out _));
+        Assert.True(exchange.Latest().TryRead(late, At(1), out _));
+
+        simulation.Submit(ExternalEvent.Remove(At(0.98), 1, 3, late));
+        exchange.Publish(simulation, At(0.9));
+        Assert.True(exchange.Latest().TryRead(late, At(0.97), out _));
+        Assert.False(exchange.Latest().TryRead(late, At(1), out _));
+    }
+
     /// <summary>
     /// Two bodies always set to one and the same velocity, by two events at one tick: in a whole picture they agree at every instant. The
     /// writer publishes again and again, rolls back, and spawns; the reader checks each picture it gets.
