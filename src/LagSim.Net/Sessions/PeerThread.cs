@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Concurrent;
-using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Events;
 using LagSim.Hosting;
@@ -16,7 +15,6 @@ public sealed class PeerThread : IDisposable
     private readonly ConcurrentQueue<Action> requests = new();
     private readonly IDatagramPort port;
     private readonly WorldThread thread;
-    private int state; // a SessionState
     private volatile bool disposed;
 
     /// <summary>Gives the session a thread; it is not started yet. The port is not disposed with it.</summary>
@@ -28,16 +26,17 @@ public sealed class PeerThread : IDisposable
         port.Arrived += thread.Wake;
     }
 
-    /// <summary>The session. Of its members only the shared time may be read while the thread runs.</summary>
+    /// <summary>The session. While the thread runs, read of it only what it says may be read from any thread.</summary>
     public Session Session { get; }
 
-    /// <summary>Where the peer stood after its last step.</summary>
+    /// <summary>Where the peer stands.</summary>
+    /// <exception cref="InvalidOperationException">The thread ended by an exception, the inner one.</exception>
     public SessionState State
     {
         get
         {
             thread.ThrowIfFaulted();
-            return (SessionState)Volatile.Read(ref state);
+            return Session.State;
         }
     }
 
@@ -119,9 +118,7 @@ public sealed class PeerThread : IDisposable
         try
         {
             AnswerAll();
-            SimDuration wait = Session.Step();
-            Volatile.Write(ref state, (int)Session.State);
-            return wait;
+            return Session.Step();
         }
         catch
         {

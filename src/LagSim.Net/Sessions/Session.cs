@@ -12,8 +12,9 @@ namespace LagSim.Net.Sessions;
 
 /// <summary>One peer's part in a shared world: it talks through a datagram port, keeps the shared time, and keeps a world ahead of it.</summary>
 /// <remarks>
-/// For one thread, in real time (<see cref="PeerThread"/> gives it one) or in virtual time, where the harness steps it. Only
-/// <see cref="SharedTime"/> and the world's pictures may be read from elsewhere.
+/// For one thread, in real time (<see cref="PeerThread"/> gives it one) or in virtual time, where the harness steps it. From any thread may
+/// be read: <see cref="Scene"/>, <see cref="SharedTime"/>, <see cref="State"/>, <see cref="EndReason"/>, and which <see cref="World"/> it is;
+/// of the world itself only its pictures, its counts of late steps, and when it started.
 /// </remarks>
 public abstract class Session
 {
@@ -21,6 +22,9 @@ public abstract class Session
     private readonly ILateEventStrategy strategy;
     private readonly UpdateDatagram received = new();
     private bool hasUnshown;
+    private volatile SessionState state;
+    private volatile string? endReason;
+    private volatile LiveWorld? world;
 
     private protected Session(Scene scene, IDatagramPort port, IClock clock, SessionOptions options)
     {
@@ -39,17 +43,21 @@ public abstract class Session
     /// <summary>The session's time; readable once <see cref="SharedClock.IsSet"/>, from any thread.</summary>
     public SharedClock SharedTime { get; }
 
-    /// <summary>Where the peer stands.</summary>
-    public SessionState State { get; private protected set; }
+    /// <summary>Where the peer stands. From any thread.</summary>
+    public SessionState State
+    {
+        get => state;
+        private protected set => state = value;
+    }
 
-    /// <summary>Why the session ended, as a sentence; null while it goes on.</summary>
-    public string? EndReason { get; private set; }
+    /// <summary>Why the session ended, as a sentence; null while it goes on. From any thread: it is there once <see cref="State"/> says so.</summary>
+    public string? EndReason => endReason;
 
     /// <summary>This peer's number; 0 is the host. Meaningful once joined.</summary>
     public byte Peer { get; private protected set; }
 
-    /// <summary>The world, from the moment its start is known.</summary>
-    public LiveWorld? World { get; private set; }
+    /// <summary>The world, from the moment its start is known; the same from then on. From any thread, but see the remarks for what is in it.</summary>
+    public LiveWorld? World => world;
 
     /// <summary>What was counted.</summary>
     public SessionCounters Counters { get; } = new();
@@ -142,15 +150,15 @@ public abstract class Session
 
     private protected void End(string reason)
     {
+        endReason ??= reason; // first: who reads that it ended reads why
         State = SessionState.Ended;
-        EndReason ??= reason;
     }
 
     /// <summary>Makes the world, once its start is known.</summary>
     private protected void Begin(SimTime start)
     {
         // The session itself decides what is forgotten, by the watermark; the simulation's own limit would go by its look-ahead.
-        World ??= new LiveWorld(
+        world ??= new LiveWorld(
             Scene, new SimulationOptions(start, SimDuration.MaxValue), Options.LookAhead, Options.PicturePast);
     }
 

@@ -1,6 +1,8 @@
 using System;
 using System.Net;
+using System.Threading;
 using System.Threading.Tasks;
+using LagSim.Harness.Links;
 using LagSim.Harness.Scenes;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
@@ -43,6 +45,42 @@ public sealed class PeerThreadTests
         thread.Dispose();
 
         Assert.Throws<ObjectDisposedException>(() => { _ = thread.Ask(_ => 1); });
+    }
+
+    [Fact]
+    public void EndReason_OnceTheStateReadsEndedOnAnotherThread_IsThere()
+    {
+        using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
+        Session[] sessions = new Session[2000];
+        for (int i = 0; i < sessions.Length; i++)
+        {
+            sessions[i] = new HostSession(BuiltInScenes.Pair(), port, new VirtualClock(), new SessionOptions(), 7);
+        }
+
+        int missing = 0;
+        using ManualResetEventSlim watched = new();
+        Thread reader = new(() =>
+        {
+            watched.Set();
+            foreach (Session session in sessions)
+            {
+                while (session.State != SessionState.Ended)
+                {
+                    Thread.SpinWait(1);
+                }
+
+                missing += session.EndReason is null ? 1 : 0;
+            }
+        });
+        reader.Start();
+        watched.Wait(TestContext.Current.CancellationToken);
+        foreach (Session session in sessions)
+        {
+            session.Leave();
+        }
+
+        reader.Join();
+        Assert.Equal(0, missing);
     }
 
     private static TimeSpan Deadline => TimeSpan.FromSeconds(20);
