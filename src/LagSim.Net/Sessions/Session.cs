@@ -176,7 +176,7 @@ public abstract class Session
         World.Advance(now); // what was shown up to now is simulated, so what changes it counts as changed
         switch (strategy.Apply(World, external, now))
         {
-            case SubmitResult.RolledBack:
+            case SubmitResult.RolledBack when strategy.RewritesPast && external.Time < now:
                 Counters.Heals++;
                 break;
             case SubmitResult.TooOld:

@@ -35,7 +35,7 @@ public sealed class SessionCounters
     /// </summary>
     public long EventsLost { get; internal set; }
 
-    /// <summary>Events of other peers that changed what was already simulated.</summary>
+    /// <summary>Late events of other peers for which timelines were rewritten back to the event; none with a strategy that rewrites no past.</summary>
     public long Heals { get; internal set; }
 
     /// <summary>The shared time at which a picture first showed the newest event, one's own or another's; the earliest instant before any.</summary>

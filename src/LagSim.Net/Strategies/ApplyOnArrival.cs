@@ -14,6 +14,9 @@ public sealed class ApplyOnArrival : ILateEventStrategy
     public bool PromisesAgreement => false;
 
     /// <inheritdoc/>
+    public bool RewritesPast => false;
+
+    /// <inheritdoc/>
     public SubmitResult Apply(LiveWorld world, in ExternalEvent external, SimTime arrival) =>
         world.Submit(external.Time >= arrival ? external : external.At(arrival));
 }

@@ -14,5 +14,8 @@ public sealed class FullRollback : ILateEventStrategy
     public bool PromisesAgreement => true;
 
     /// <inheritdoc/>
+    public bool RewritesPast => true;
+
+    /// <inheritdoc/>
     public SubmitResult Apply(LiveWorld world, in ExternalEvent external, SimTime arrival) => world.Submit(external);
 }

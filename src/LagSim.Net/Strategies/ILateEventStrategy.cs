@@ -14,6 +14,9 @@ public interface ILateEventStrategy
     /// <summary>Whether all peers that use it end up with the same world, bit for bit.</summary>
     bool PromisesAgreement { get; }
 
+    /// <summary>Whether a late event takes effect at its own time, so that what was there since is rewritten.</summary>
+    bool RewritesPast { get; }
+
     /// <summary>Brings the event into the world.</summary>
     /// <param name="world">The world, simulated to beyond <paramref name="arrival"/>.</param>
     /// <param name="external">The event as its sender stamped it.</param>

@@ -16,6 +16,9 @@ public sealed class LatencyForward : ILateEventStrategy
     /// <summary>False: peers agree only where the late body met no other in between.</summary>
     public bool PromisesAgreement => false;
 
+    /// <summary>False: what lies before the arrival stays as it was.</summary>
+    public bool RewritesPast => false;
+
     /// <inheritdoc/>
     public SubmitResult Apply(LiveWorld world, in ExternalEvent external, SimTime arrival) =>
         external.Time >= arrival ? world.Submit(external) : world.SubmitForwarded(external, arrival);

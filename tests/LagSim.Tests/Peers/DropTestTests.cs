@@ -76,7 +76,7 @@ public sealed class DropTestTests
         Assert.Equal(0, run.Seen.After.ToStatistics().DifferingBits);
         Assert.Equal(peers, run.StateHashes.Count);
         Assert.Single(run.StateHashes.Distinct());
-        Assert.Equal(peers - 1, run.Heals); // all but the one who lifted it
+        Assert.Equal(strategy == "full-rollback" ? peers - 1 : 0, run.Heals); // all but the one who lifted it
         Assert.InRange(run.Seen.During.ToStatistics().MaxMetres, 14.49, 14.5);
 
         // Only full rollback rewrites what was before the news as well.
@@ -99,7 +99,7 @@ public sealed class DropTestTests
         // 25 ms late at 17 m/s.
         Assert.InRange(after.MaxMetres, 0.40, 0.45);
         Assert.False(run.Agrees);
-        Assert.Equal(1, run.Heals);
+        Assert.Equal(0, run.Heals); // it happens when it arrives; nothing that was is rewritten
     }
 
     [Fact]
@@ -152,7 +152,7 @@ public sealed class DropTestTests
         Assert.All(runs, run => Assert.True(run.Agrees));
         Assert.All(runs, run => Assert.Single(run.StateHashes.Distinct()));
         Assert.All(runs, run => Assert.Equal(0, run.Seen.Before.ToStatistics().DifferingBits));
-        Assert.Equal(2, runs[1].Heals);
+        Assert.InRange(runs[1].Heals, link == "delay-0ms" ? 0 : 2, 2); // without a delay it is the clocks that say whether it came late at all
 
         // What is seen too late to be shown is counted: beyond half a second, or after losses, joiners hear of the start when it is past.
         double late = profile!.FromHost.DelayMilliseconds - 500;
