@@ -14,15 +14,19 @@ public sealed class HostSession : Session
 {
     private readonly List<LoggedVerdict> log = new();
     private readonly List<Joiner> joiners = new();
+    private readonly bool[] hasActed = new bool[byte.MaxValue + 1]; // by number: an event that bears it was judged
     private readonly ulong sessionId;
-    private byte lastPeer;
+    private ulong joins;
 
     /// <summary>Opens a session and waits for joiners.</summary>
     /// <param name="scene">The scene that all share.</param>
     /// <param name="port">What carries datagrams; not disposed with the session.</param>
     /// <param name="clock">This machine's own clock.</param>
     /// <param name="options">How to take part.</param>
-    /// <param name="sessionId">A number that no other session on these machines has; choose it at random.</param>
+    /// <param name="sessionId">
+    /// A number that no other session on these machines has; choose it at random. It is the first joiner's, and each further one gets the next:
+    /// so what is still on its way from or to a former joiner is not taken for that of one who came later with the same address and number.
+    /// </param>
     public HostSession(Scene scene, IDatagramPort port, IClock clock, SessionOptions options, ulong sessionId)
         : base(scene, port, clock, options)
     {
@@ -53,7 +57,7 @@ public sealed class HostSession : Session
         else if (type == DatagramType.Leave)
         {
             if (IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _))
-                && joiners.RemoveAll(j => j.Link.Other == from && j.Peer == leave.Peer && leave.SessionId == sessionId) == 0)
+                && joiners.RemoveAll(j => j.Link.Other == from && j.Peer == leave.Peer && j.Link.SessionId == leave.SessionId) == 0)
             {
                 Counters.DatagramsIgnored++;
             }
@@ -67,7 +71,7 @@ public sealed class HostSession : Session
     private protected override void OnUpdate(UpdateDatagram update, PeerAddress from)
     {
         Joiner? joiner = joiners.Find(j => j.Link.Other == from);
-        if (joiner is null || update.SessionId != sessionId || update.Peer != joiner.Peer || State == SessionState.Ended)
+        if (joiner is null || update.SessionId != joiner.Link.SessionId || update.Peer != joiner.Peer || State == SessionState.Ended)
         {
             Counters.DatagramsIgnored++;
             if (joiner is not null && State == SessionState.Ended)
@@ -98,6 +102,7 @@ public sealed class HostSession : Session
             if (sequence++ == joiner.EventsReceived + 1)
             {
                 joiner.EventsReceived++;
+                hasActed[joiner.Peer] = true;
                 Judge(entry.Event, joiner.Peer, joiner.EventsReceived);
             }
         }
@@ -160,7 +165,7 @@ public sealed class HostSession : Session
     private void SayGoodbye(Joiner joiner, LeaveReason reason)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];
-        Send(bytes.Slice(0, new LeaveDatagram(sessionId, 0, reason).Encode(bytes)), joiner.Link.Other);
+        Send(bytes.Slice(0, new LeaveDatagram(joiner.Link.SessionId, 0, reason).Encode(bytes)), joiner.Link.Other);
     }
 
     private void OnJoin(in JoinDatagram join, PeerAddress from)
@@ -178,9 +183,10 @@ public sealed class HostSession : Session
             }
 
             int others = joiners.FindAll(j => j.Link.Other != from).Count;
+            byte number = FreeNumber(from);
             RefusalReason? refusal = join.ConnectKey != Options.ConnectKey ? RefusalReason.WrongKey
                 : join.SceneHash != Scene.Hash ? RefusalReason.SceneDiffers
-                : others >= SessionOptions.MaxJoiners || lastPeer == byte.MaxValue ? RefusalReason.Full
+                : others >= SessionOptions.MaxJoiners || number == 0 ? RefusalReason.Full
                 : null;
             if (refusal is RefusalReason reason)
             {
@@ -190,11 +196,25 @@ public sealed class HostSession : Session
             }
 
             joiners.RemoveAll(j => j.Link.Other == from); // the same address under a new nonce: it started again
-            known = new Joiner(++lastPeer, nonce, new UpdateLink(sessionId, 0, from, Clock.Now));
+            known = new Joiner(number, nonce, new UpdateLink(sessionId + joins++, 0, from, Clock.Now));
             joiners.Add(known);
         }
 
-        Send(bytes.Slice(0, new WelcomeDatagram(nonce, sessionId, known.Peer, Options.History).Encode(bytes)), from);
+        Send(bytes.Slice(0, new WelcomeDatagram(nonce, known.Link.SessionId, known.Peer, Options.History).Encode(bytes)), from);
+    }
+
+    /// <summary>The least number that no other address has and that stands in no event; 0 if there is none.</summary>
+    private byte FreeNumber(PeerAddress from)
+    {
+        for (int number = 1; number <= byte.MaxValue; number++)
+        {
+            if (!hasActed[number] && !joiners.Exists(j => j.Peer == number && j.Link.Other != from))
+            {
+                return (byte)number;
+            }
+        }
+
+        return 0;
     }
 
     private void Judge(in ExternalEvent external, byte sender, uint sequence)

@@ -137,17 +137,6 @@ public sealed class JoiningTests
     }
 
     [Fact]
-    public void Join_SameAddressStartedAgain_TakesThePlaceOfTheFormerOne()
-    {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.Lan).Connect();
-        byte[] bytes = new byte[WireFormat.JoinBytes];
-        new JoinDatagram(0, 777, group.Scene.Hash).Encode(bytes);
-        group.Ports[1].Send(bytes, PeerAddress.Virtual(0));
-        group.Run(0.2);
-        Assert.Equal(1, group.Host.JoinerCount);
-    }
-
-    [Fact]
     public void Host_ExpectsTwoJoinersAndHasOne_DoesNotStart()
     {
         SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.Lan, expected: 2);

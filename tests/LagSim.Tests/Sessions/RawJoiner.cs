@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Net.Carriers;
@@ -21,19 +22,54 @@ internal sealed class RawJoiner
         this.group = group;
         group.Network.Connect(address, 0, LinkProfiles.PureDelay(1));
         port = group.Network.CreatePort(address);
-        byte[] bytes = new byte[WireFormat.JoinBytes];
-        new JoinDatagram(0, 4711, group.Scene.Hash).Encode(bytes);
-        Send(bytes);
-        group.Run(0.01);
-        Assert.True(port.TryReceive(buffer, out int length, out _));
-        Assert.True(WelcomeDatagram.TryDecode(buffer.AsSpan(0, length), out WelcomeDatagram welcome, out _));
+        Join(4711);
+    }
+
+    internal byte Peer { get; private set; }
+
+    internal ulong SessionId { get; private set; }
+
+    /// <summary>Asks to be let in, under a nonce, and is.</summary>
+    internal void Join(ulong nonce)
+    {
+        Assert.Equal(DatagramType.Welcome, Ask(nonce));
+        Assert.True(WelcomeDatagram.TryDecode(buffer.AsSpan(0, WireFormat.WelcomeBytes), out WelcomeDatagram welcome, out _));
+        Assert.Equal(nonce, welcome.Nonce);
         Peer = welcome.Peer;
         SessionId = welcome.SessionId;
     }
 
-    internal byte Peer { get; }
+    /// <summary>Asks to be let in and tells what the answer was; null for none.</summary>
+    internal DatagramType? Ask(ulong nonce)
+    {
+        Received();
+        byte[] bytes = new byte[WireFormat.JoinBytes];
+        new JoinDatagram(0, nonce, group.Scene.Hash).Encode(bytes);
+        Send(bytes);
+        group.Run(0.01);
+        return port.TryReceive(buffer, out _, out _) ? (DatagramType)buffer[3] : null;
+    }
 
-    internal ulong SessionId { get; }
+    /// <summary>The type and length of each datagram that came since the last look.</summary>
+    internal List<(DatagramType Type, int Length)> Received()
+    {
+        List<(DatagramType, int)> all = [];
+        while (port.TryReceive(buffer, out int length, out _))
+        {
+            all.Add(((DatagramType)buffer[3], length));
+        }
+
+        return all;
+    }
+
+    /// <summary>Says goodbye.</summary>
+    internal void Leave()
+    {
+        byte[] bytes = new byte[WireFormat.LeaveBytes];
+        new LeaveDatagram(SessionId, Peer, LeaveReason.Left).Encode(bytes);
+        Send(bytes);
+        group.Run(0.01);
+    }
 
     /// <summary>An update that claims to carry these events from that number on; sent and delivered.</summary>
     internal void Claim(uint firstIndex, params ExternalEvent[] events)

@@ -1,0 +1,102 @@
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>Who asks to be let in may be somebody else, or nobody: what that costs the host, its joiners, and whoever really is at that address.</summary>
+public sealed class StrangerTests
+{
+    private readonly SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
+    private readonly RawJoiner stranger;
+
+    public StrangerTests() => stranger = new RawJoiner(group);
+
+    [Fact]
+    public void Join_SameNonceAgain_IsTheSameJoiner()
+    {
+        (byte, ulong) first = (stranger.Peer, stranger.SessionId);
+        stranger.Join(4711);
+        Assert.Equal((first, 2), ((stranger.Peer, stranger.SessionId), group.Host.JoinerCount));
+
+        // And it goes on where it was: what it did already is not taken in twice.
+        ExternalEvent external = ExternalEvent.SetVelocity(group.Host.SharedTime.Now, stranger.Peer, 1, First, V(0, 5));
+        stranger.Claim(1, external);
+        stranger.Join(4711);
+        stranger.Claim(1, external);
+        Assert.Equal((first, 2), ((stranger.Peer, stranger.SessionId), group.Host.JoinerCount));
+        Assert.Equal([external], group.Accepted);
+    }
+
+    [Fact]
+    public void Join_AnotherNonceFromOneWhoIsHeardOf_PutsNobodyOut()
+    {
+        stranger.Claim(1);
+        long ignored = group.Host.Counters.DatagramsIgnored;
+        Assert.NotEqual(DatagramType.Welcome, stranger.Ask(1));
+        Assert.Equal(ignored + 1, group.Host.Counters.DatagramsIgnored);
+        stranger.Claim(1, ExternalEvent.SetVelocity(group.Host.SharedTime.Now, stranger.Peer, 1, First, V(0, 5)));
+        Assert.Equal((1, 2), (group.Host.Counters.EventsAccepted, group.Host.JoinerCount));
+    }
+
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Join_AnotherNonceFromOneWhoIsNotHeardOf_TakesItsPlace(bool hadWritten)
+    {
+        if (hadWritten)
+        {
+            stranger.Claim(1);
+            group.Run(3);
+        }
+
+        byte[] former = stranger.Bytes(1, ExternalEvent.SetVelocity(group.Host.SharedTime.Now, stranger.Peer, 1, First, V(0, 9)));
+        stranger.Join(1);
+        Assert.Equal(2, group.Host.JoinerCount);
+
+        // What the former one still had on its way is not taken for the new one's.
+        long ignored = group.Host.Counters.DatagramsIgnored;
+        stranger.Send(former);
+        group.Run(0.01);
+        Assert.Equal((ignored + 1, 0), (group.Host.Counters.DatagramsIgnored, group.Host.Counters.EventsAccepted));
+        ExternalEvent external = ExternalEvent.SetVelocity(group.Host.SharedTime.Now, stranger.Peer, 1, First, V(0, 5));
+        stranger.Claim(1, external);
+        Assert.Equal([external], group.Accepted);
+    }
+
+    [Fact]
+    public void Join_AddressThatNeverWrites_GetsOneSmallAnswerEachTimeAndAGoodbye()
+    {
+        const int joins = 50;
+        for (int i = 0; i < joins; i++)
+        {
+            Assert.Equal(DatagramType.Welcome, stranger.Ask(4711));
+            group.Do(0, PlayerAction.Impulse(Second, V(0.1, 1))); // news that a joiner would get at once
+        }
+
+        Assert.Empty(stranger.Received());
+        group.Run(30);
+        Assert.Equal([(DatagramType.Leave, WireFormat.LeaveBytes)], stranger.Received());
+        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.True(WireFormat.WelcomeBytes <= WireFormat.JoinBytes + 1 && WireFormat.RefusalBytes < WireFormat.JoinBytes);
+    }
+
+    [Fact]
+    public void Updates_ToAJoinerThatFellSilent_EndWithItsTimeout()
+    {
+        stranger.Claim(1);
+        group.Do(0, PlayerAction.Impulse(Second, V(0.1, 1)));
+        stranger.Received();
+        group.Run(30);
+        List<(DatagramType Type, int Length)> received = stranger.Received();
+        double most = SessionOptions.DefaultTimeout.ToSeconds() / new SessionOptions().ResendInterval.ToSeconds();
+        Assert.InRange(received.Count(d => d.Type == DatagramType.Update), most / 2, most + 1); // it is news, so it is sent again and again
+        Assert.Equal(DatagramType.Leave, received[^1].Type);
+        Assert.Equal(1, group.Host.JoinerCount);
+    }
+}
