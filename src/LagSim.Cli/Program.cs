@@ -3,6 +3,7 @@ using System.CommandLine;
 using System.CommandLine.Help;
 using System.IO;
 using System.Text;
+using System.Threading;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
 using LagSim.Harness.Peers;
@@ -17,13 +18,15 @@ internal static class Program
     internal static int Main(string[] arguments)
     {
         Console.OutputEncoding = new UTF8Encoding(encoderShouldEmitUTF8Identifier: false); // tables and curves are not in every code page
-        return Run(arguments, Console.Out, Console.Error);
+        using Interruption interruption = new();
+        int code = Run(arguments, StandardOutput.Open(), Console.Error, interruption.Token);
+        return interruption.ExitCode ?? code;
     }
 
-    /// <summary>One call of the tool, results to one writer, progress and errors to the other.</summary>
-    internal static int Run(string[] arguments, TextWriter output, TextWriter error)
+    /// <summary>One call of the tool, results to one writer, progress and errors to the other, until it is done or asked to stop.</summary>
+    internal static int Run(string[] arguments, TextWriter output, TextWriter error, CancellationToken stop)
     {
-        ToolConsole console = new(output, error);
+        ToolConsole console = new(output, error, stop);
         // Not a RootCommand: that is named after the assembly, which cannot be called as the tool is.
         Command root = new("lagsim", "LagSim: a shared physical world without lag. Results go to stdout, progress to stderr.")
         {
@@ -49,7 +52,17 @@ internal static class Program
 
         try
         {
-            return parsed.Invoke(new InvocationConfiguration { Output = output, Error = error, EnableDefaultExceptionHandler = false });
+            int code = parsed.Invoke(new InvocationConfiguration { Output = output, Error = error, EnableDefaultExceptionHandler = false });
+            output.Flush();
+            return code;
+        }
+        catch (OperationCanceledException) when (stop.IsCancellationRequested)
+        {
+            return ExitCode.Interrupted;
+        }
+        catch (IOException failure) when (StandardOutput.IsClosedPipe(failure))
+        {
+            return ExitCode.ClosedPipe;
         }
         catch (UsageException mistake)
         {

@@ -1,6 +1,5 @@
 using System.Collections.Generic;
 using System.CommandLine;
-using System.IO;
 using System.Linq;
 using LagSim.Cli.Output;
 using LagSim.Harness.Drop;
@@ -75,12 +74,18 @@ internal static class DropCommand
     {
         if (folder is not null)
         {
-            Directory.CreateDirectory(folder); // what cannot be written is to be said before half a minute has gone by
+            OutputFolder.ThrowIfNotWritable(folder); // to be said before half a minute has gone by
         }
 
         string title = options.IsVirtual ? "drop, virtual time" : $"drop, {options.Length.ToSeconds():0} s in real time over UDP";
-        IReadOnlyList<DropRun> runs = console.WithProgress(title, options.Length, progress => DropTest.Run(options, progress));
-        List<DropRun> strategies = LateEventStrategies.Names.Select(name => DropTest.Run(Teleport(options, name))[0]).ToList();
+        IReadOnlyList<DropRun> runs = console.WithProgress(
+            title, options.Length.ToSeconds(), progress => DropTest.Run(options, done => progress(done.ToSeconds())));
+        DropOptions[] compared = LateEventStrategies.Names.Select(name => Teleport(options, name)).ToArray();
+        double each = compared[0].Length.ToSeconds();
+        List<DropRun> strategies = console.WithProgress(
+            "every strategy, virtual time",
+            each * compared.Length,
+            progress => compared.Select((other, n) => DropTest.Run(other, done => progress((n * each) + done.ToSeconds()))[0]).ToList());
         List<DropRun> reported = [.. runs, .. allStrategies ? strategies : []];
         if (folder is not null)
         {

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.CommandLine;
+using System.Globalization;
 using System.IO;
 using System.Linq;
 using LagSim.Cli.Output;
@@ -15,6 +16,9 @@ namespace LagSim.Cli.Commands;
 /// <summary><c>lagsim run</c>: one instance of a scene in virtual time.</summary>
 internal static class RunCommand
 {
+    /// <summary>Some 1.5 GB of CSV.</summary>
+    private const double MostSampleRows = 1e7;
+
     internal static Command Create(ToolConsole console)
     {
         CommonOptions common = new();
@@ -31,8 +35,9 @@ internal static class RunCommand
         {
             string? eventFile = parsed.GetValue(events);
             string? sampleFile = parsed.GetValue(samples);
-            int toOutput = new[] { eventFile == ResultFile.StandardOutput, sampleFile == ResultFile.StandardOutput, parsed.GetValue(common.Json) }.Count(b => b);
-            if (toOutput > 1)
+            bool json = parsed.GetValue(common.Json);
+            int streams = new[] { eventFile, sampleFile }.Count(file => file == ResultFile.StandardOutput);
+            if (streams + (json ? 1 : 0) > 1)
             {
                 throw new UsageException("Only one of --events -, --samples - and --json can have stdout.");
             }
@@ -47,28 +52,27 @@ internal static class RunCommand
             string? folder = parsed.GetValue(common.Out);
             if (folder is not null)
             {
-                Directory.CreateDirectory(folder);
                 eventFile ??= Path.Combine(folder, "events.csv");
                 sampleFile ??= Path.Combine(folder, "samples.csv");
             }
 
             RefuseSameFile(("SCENE", parsed.GetValue(scene)), ("--events", eventFile), ("--samples", sampleFile));
-            RunSummary summary = Run(
-                console, loaded, SimDuration.FromSeconds(parsed.GetValue(until)), eventFile, sampleFile,
-                parsed.GetValue(every), parsed.GetValue(repeat),
-                isSummaryShown: toOutput == 0 || parsed.GetValue(common.Json));
-            if (folder is not null)
+            if (sampleFile is not null)
             {
-                RunReport.Write(folder, loaded, summary, parsed.GetValue(common.Seed), sampleFile);
+                RefuseTooManyRows(parsed.GetValue(every), parsed.GetValue(until), loaded.Bodies.Count);
             }
 
-            if (parsed.GetValue(common.Json))
+            Request request = new(
+                loaded, SimDuration.FromSeconds(parsed.GetValue(until)), eventFile, sampleFile, parsed.GetValue(every),
+                streams > 0 ? 0 : parsed.GetValue(repeat), folder, parsed.GetValue(common.Seed));
+            RunSummary summary = Run(console, request, isBarShown: streams == 0 || !console.IsTerminal);
+            if (json)
             {
-                RunOutput.WriteJson(console.Output, loaded, summary, parsed.GetValue(common.Seed));
+                RunOutput.WriteJson(console.Output, loaded, summary, request.Seed);
             }
-            else if (toOutput == 0)
+            else if (streams == 0)
             {
-                RunOutput.WriteTable(console, loaded, summary, parsed.GetValue(common.Seed));
+                RunOutput.WriteTable(console, loaded, summary, request.Seed);
             }
 
             return ExitCode.Done;
@@ -92,26 +96,62 @@ internal static class RunCommand
         }
     }
 
-    private static RunSummary Run(
-        ToolConsole console, Scene scene, SimDuration length, string? eventFile, string? sampleFile, double every, int repeat, bool isSummaryShown)
+    /// <summary>A slip of the exponent is not to fill the disk.</summary>
+    private static void RefuseTooManyRows(double every, double until, int bodies)
     {
-        using ResultFile? eventOutput = ResultFile.Open(console, eventFile);
-        using ResultFile? sampleOutput = ResultFile.Open(console, sampleFile);
+        double rows = (Math.Floor(until / every) + 1) * bodies;
+        if (rows > MostSampleRows)
+        {
+            throw new UsageException(string.Create(
+                CultureInfo.InvariantCulture,
+                $"--every-s is {every}; up to --until-s {until} that is {rows:N0} rows of samples, one for each instant and body, and at most {MostSampleRows:N0} are allowed."));
+        }
+    }
+
+    private static RunSummary Run(ToolConsole console, Request request, bool isBarShown)
+    {
+        (Scene scene, SimDuration length) = (request.Scene, request.Length);
+        if (request.Folder is string folder)
+        {
+            OutputFolder.ThrowIfNotWritable(folder);
+            Directory.CreateDirectory(folder); // the tables are written as the run goes
+        }
+
+        // The run that is written, those that are timed with a warm-up before them, and one for the picture.
+        double once = length.ToSeconds();
+        double timing = request.Timed == 0 ? 0 : once * (request.Timed + 1);
+        double picture = request.Folder is null ? 0 : once;
+        return console.WithProgress($"run {scene.Name}", once + timing + picture, progress =>
+        {
+            double start = SceneRun.Energy(new Simulation(scene), SimTime.Zero);
+            Simulation end = Write(console, request, done => progress(done.ToSeconds()));
+            double wall = request.Timed == 0 ? double.NaN : SceneRun.LeastSeconds(scene, length, request.Timed, done => progress(once + done));
+            RunSummary summary = new(end, SimTime.Zero + length, start, SceneRun.Energy(end, SimTime.Zero + length), wall);
+            if (request.Folder is not null)
+            {
+                RunReport.Write(request.Folder, scene, summary, request.Seed, request.SampleFile, done => progress(once + timing + done.ToSeconds()));
+            }
+
+            return summary;
+        }, isBarShown);
+    }
+
+    private static Simulation Write(ToolConsole console, Request request, Action<SimDuration> progress)
+    {
+        Scene scene = request.Scene;
+        using ResultFile? eventOutput = ResultFile.Open(console, request.EventFile);
+        using ResultFile? sampleOutput = ResultFile.Open(console, request.SampleFile);
         CsvFile? eventCsv = eventOutput is null ? null : new CsvFile(
             eventOutput.Writer, "time_s", "kind", "body", "other", "x_m", "y_m", "z_m", "vx_m_per_s", "vy_m_per_s", "vz_m_per_s");
         CsvFile? sampleCsv = sampleOutput is null ? null : new CsvFile(
             sampleOutput.Writer, "time_s", "body", "x_m", "y_m", "z_m", "vx_m_per_s", "vy_m_per_s", "vz_m_per_s", "motion");
-        SceneRun run = new(scene)
+        return new SceneRun(scene)
         {
-            SampleEverySeconds = every,
+            SampleEverySeconds = request.Every,
             OnEvent = eventCsv is null ? null : e => eventCsv.WriteRow(
                 [e.Key.Time.ToSeconds(), e.Kind, scene.Bodies[e.Body.Index].Name, e.Other, .. Numbers(e.State)]),
             OnSample = sampleCsv is null ? null : (time, simulation) => Sample(sampleCsv, scene, simulation, time),
-        };
-        double start = SceneRun.Energy(new Simulation(scene), SimTime.Zero);
-        Simulation end = console.WithProgress($"run {scene.Name}", length, progress => run.Run(length, progress));
-        double wall = isSummaryShown ? SceneRun.LeastSeconds(scene, length, repeat) : double.NaN;
-        return new RunSummary(end, SimTime.Zero + length, start, SceneRun.Energy(end, SimTime.Zero + length), wall);
+        }.Run(request.Length, progress);
     }
 
     private static void Sample(CsvFile csv, Scene scene, Simulation simulation, SimTime time)
@@ -125,4 +165,8 @@ internal static class RunCommand
 
     private static IEnumerable<object?> Numbers(BodyState state) =>
         [state.Position.X, state.Position.Y, state.Position.Z, state.Velocity.X, state.Velocity.Y, state.Velocity.Z];
+
+    /// <summary>What is asked for; timed so many times, 0 for a run that only streams.</summary>
+    private sealed record Request(
+        Scene Scene, SimDuration Length, string? EventFile, string? SampleFile, double Every, int Timed, string? Folder, ulong Seed);
 }

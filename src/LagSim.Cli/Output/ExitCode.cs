@@ -12,4 +12,13 @@ internal static class ExitCode
 
     /// <summary>Something could not be read, written or reached, or is not valid.</summary>
     internal const int Input = 3;
+
+    /// <summary>Ctrl-C, as shells report it: 128 and the number of the signal.</summary>
+    internal const int Interrupted = 130;
+
+    /// <summary>Nobody reads the results any more.</summary>
+    internal const int ClosedPipe = 141;
+
+    /// <summary>Asked to terminate.</summary>
+    internal const int Terminated = 143;
 }

@@ -30,5 +30,9 @@ internal sealed class ResultFile : IDisposable
         {
             Writer.Dispose();
         }
+        else
+        {
+            Writer.Flush(); // whatever ended the run, its rows so far are results
+        }
     }
 }

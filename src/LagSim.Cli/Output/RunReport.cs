@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
@@ -16,7 +17,7 @@ internal static class RunReport
     private const int Samples = 2000;
     private const int MostBodies = 7;
 
-    internal static void Write(string folder, Scene scene, RunSummary run, ulong seed, string? sampleFile)
+    internal static void Write(string folder, Scene scene, RunSummary run, ulong seed, string? sampleFile, Action<SimDuration> progress)
     {
         HtmlReport report = new(
             $"LagSim run of {scene.Name}",
@@ -24,7 +25,7 @@ internal static class RunReport
             new ReportFooter("lagsim", ToolVersion.Text, seed, JsonDocumentWriter.Hash(scene.Hash)));
         if (scene.Bodies.Count > 0 && run.Until > SimTime.Zero)
         {
-            LineChart chart = Heights(scene, run.Until - SimTime.Zero);
+            LineChart chart = Heights(scene, run.Until - SimTime.Zero, progress);
             chart.Save(Path.Combine(folder, "heights.svg"));
             report.AddChart(chart);
         }
@@ -32,14 +33,14 @@ internal static class RunReport
         report.Save(Path.Combine(folder, "report.html"));
     }
 
-    private static LineChart Heights(Scene scene, SimDuration length)
+    private static LineChart Heights(Scene scene, SimDuration length, Action<SimDuration> progress)
     {
-        int bodies = System.Math.Min(scene.Bodies.Count, MostBodies);
+        int bodies = Math.Min(scene.Bodies.Count, MostBodies);
         List<double> seconds = [];
         List<double>[] heights = Enumerable.Range(0, bodies).Select(_ => new List<double>()).ToArray();
         new SceneRun(scene)
         {
-            SampleEverySeconds = System.Math.Max(1e-9, length.ToSeconds() / Samples),
+            SampleEverySeconds = Math.Max(1e-9, length.ToSeconds() / Samples),
             OnSample = (time, simulation) =>
             {
                 seconds.Add(time.ToSeconds());
@@ -49,7 +50,7 @@ internal static class RunReport
                     heights[body].Add(state.Position.Y);
                 }
             },
-        }.Run(length);
+        }.Run(length, progress);
 
         double[] x = seconds.ToArray();
         string shown = bodies < scene.Bodies.Count ? string.Create(CultureInfo.InvariantCulture, $" (the first {bodies} bodies)") : "";

@@ -1,6 +1,6 @@
 using System;
 using System.IO;
-using LagSim.Time;
+using System.Threading;
 using Spectre.Console;
 
 namespace LagSim.Cli.Output;
@@ -10,22 +10,28 @@ internal sealed class ToolConsole
 {
     private const int WidthOfAFile = 150;
 
-    internal ToolConsole(TextWriter output, TextWriter error)
+    private readonly CancellationToken stop;
+
+    internal ToolConsole(TextWriter output, TextWriter error, CancellationToken stop)
     {
+        this.stop = stop;
         Output = output;
         Error = error;
-        bool isTerminal = ReferenceEquals(output, Console.Out) && !Console.IsOutputRedirected;
+        IsTerminal = ReferenceEquals(output, Console.Out) && !Console.IsOutputRedirected;
         Rich = AnsiConsole.Create(new AnsiConsoleSettings
         {
             Out = new AnsiConsoleOutput(output),
-            Ansi = isTerminal ? AnsiSupport.Detect : AnsiSupport.No,
-            ColorSystem = isTerminal ? ColorSystemSupport.Detect : ColorSystemSupport.NoColors,
+            Ansi = IsTerminal ? AnsiSupport.Detect : AnsiSupport.No,
+            ColorSystem = IsTerminal ? ColorSystemSupport.Detect : ColorSystemSupport.NoColors,
         });
-        if (!isTerminal)
+        if (!IsTerminal)
         {
             Rich.Profile.Width = WidthOfAFile; // else a table in a file is broken to 80 columns
         }
     }
+
+    /// <summary>Whether somebody watches the results as they come.</summary>
+    internal bool IsTerminal { get; }
 
     /// <summary>Results, as plain text.</summary>
     internal TextWriter Output { get; }
@@ -37,23 +43,47 @@ internal sealed class ToolConsole
     internal IAnsiConsole Rich { get; }
 
     /// <summary>Runs something long, with a bar on the error stream where that is a terminal, else a line at the start.</summary>
-    internal T WithProgress<T>(string title, SimDuration length, Func<Action<SimDuration>?, T> work)
+    /// <param name="title">What runs.</param>
+    /// <param name="length">How much there is to do, in simulated seconds.</param>
+    /// <param name="work">Does it, and says from time to time how much is done.</param>
+    /// <param name="isBarShown">Whether there may be a bar: not over results that scroll by on the same terminal.</param>
+    /// <exception cref="OperationCanceledException">The user has asked for an end.</exception>
+    internal T WithProgress<T>(string title, double length, Func<Action<double>, T> work, bool isBarShown = true)
     {
-        IAnsiConsole bars = AnsiConsole.Create(new AnsiConsoleSettings { Out = new AnsiConsoleOutput(Error) });
-        if (!ReferenceEquals(Error, Console.Error) || Console.IsErrorRedirected)
+        if (!isBarShown || !ReferenceEquals(Error, Console.Error) || Console.IsErrorRedirected)
         {
             Error.WriteLine($"{title} ...");
-            return work(null);
+            return work(_ => Pause());
         }
 
-        return bars.Progress()
+        return AnsiConsole.Create(new AnsiConsoleSettings { Out = new AnsiConsoleOutput(Error) }).Progress()
             .Columns(new TaskDescriptionColumn(), new ProgressBarColumn(), new PercentageColumn(), new RemainingTimeColumn())
             .Start(progress =>
             {
-                ProgressTask task = progress.AddTask(Markup.Escape(title), maxValue: length.ToSeconds());
-                T result = work(done => task.Value = done.ToSeconds());
+                ProgressTask task = progress.AddTask(Markup.Escape(title), maxValue: length);
+                T result = work(done =>
+                {
+                    Pause();
+                    task.Value = done;
+                });
                 task.Value = task.MaxValue;
                 return result;
             });
+    }
+
+    /// <summary>Puts back what a progress bar hides.</summary>
+    internal static void ShowCursor()
+    {
+        if (!Console.IsErrorRedirected)
+        {
+            AnsiConsole.Create(new AnsiConsoleSettings { Out = new AnsiConsoleOutput(Console.Error) }).Cursor.Show();
+        }
+    }
+
+    /// <summary>Between two pieces of work: stops if asked to, and hands on what has been written, so that a reader that has gone is noticed.</summary>
+    private void Pause()
+    {
+        stop.ThrowIfCancellationRequested();
+        Output.Flush();
     }
 }

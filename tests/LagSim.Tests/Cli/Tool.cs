@@ -24,7 +24,7 @@ internal sealed class Tool
     internal static Tool Run(params string[] arguments)
     {
         using StringWriter output = new(), error = new();
-        int code = Program.Run(arguments, output, error);
+        int code = Program.Run(arguments, output, error, TestContext.Current.CancellationToken);
         return new Tool(code, output.ToString(), error.ToString());
     }
 

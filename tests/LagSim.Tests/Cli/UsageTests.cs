@@ -71,6 +71,16 @@ public sealed class UsageTests
     public void Run_NumberOutOfRange_IsRefusedWithOptionValueAndRange(string option, string value, string range) =>
         Tool.Refuses(Usage, ["run", "drop", option, value], option, $"'{value}'", range);
 
+    [Theory]
+    [InlineData("run drop --every-s 1e-9 --samples -", "--every-s is 1E-09", "10,000,000,001 rows")]
+    [InlineData("run pair --every-s 1e-6 --samples never-made.csv", "--every-s is 1E-06", "20,000,002 rows")]
+    [InlineData("run drop --until-s 1e6 --out never-made", "--until-s 1000000", "100,000,001 rows")]
+    public void Run_TooManySamples_IsRefusedWithTheirNumberAndWhatIsAllowed(string line, string value, string rows)
+    {
+        Tool.Refuses(Usage, line.Split(' '), value, rows, "at most 10,000,000 are allowed");
+        Assert.False(Path.Exists("never-made") || Path.Exists("never-made.csv"));
+    }
+
     [Fact]
     public void Run_UnknownMotion_IsRefusedWithTheWordsThereAre() => Tool.Refuses(Usage, ["run", "drop", "--motion", "verlet"], "'verlet'", "rk4", "ballistic");
 

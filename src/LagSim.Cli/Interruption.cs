@@ -1,0 +1,54 @@
+using System;
+using System.Runtime.InteropServices;
+using System.Threading;
+
+namespace LagSim.Cli;
+
+/// <summary>Ctrl-C and a request to terminate: the work is asked to stop, so that files end with a whole row and the cursor comes back.</summary>
+internal sealed class Interruption : IDisposable
+{
+    /// <summary>How long the work has to stop by itself. A world at work cannot be interrupted in the middle of a step.</summary>
+    private static readonly TimeSpan Grace = TimeSpan.FromSeconds(2);
+
+    private readonly CancellationTokenSource asked = new();
+    private readonly ManualResetEventSlim stopped = new();
+    private readonly PosixSignalRegistration[] registrations;
+
+    internal Interruption() => registrations =
+    [
+        PosixSignalRegistration.Create(PosixSignal.SIGINT, signal => On(signal, Output.ExitCode.Interrupted)),
+        PosixSignalRegistration.Create(PosixSignal.SIGTERM, signal => On(signal, Output.ExitCode.Terminated)),
+    ];
+
+    /// <summary>What a command looks at between two pieces of work.</summary>
+    internal CancellationToken Token => asked.Token;
+
+    /// <summary>The exit code that tells the signal; null if there was none.</summary>
+    internal int? ExitCode { get; private set; }
+
+    public void Dispose()
+    {
+        stopped.Set();
+        foreach (PosixSignalRegistration registration in registrations)
+        {
+            registration.Dispose();
+        }
+    }
+
+    private void On(PosixSignalContext signal, int exitCode)
+    {
+        if (ExitCode is not null)
+        {
+            return; // the second time the system's own way: at once
+        }
+
+        ExitCode = exitCode;
+        signal.Cancel = true;
+        asked.Cancel();
+        if (!stopped.Wait(Grace))
+        {
+            Output.ToolConsole.ShowCursor();
+            Environment.Exit(exitCode);
+        }
+    }
+}

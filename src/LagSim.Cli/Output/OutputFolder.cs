@@ -1,0 +1,47 @@
+using System;
+using System.IO;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>The folder that <c>--out</c> names: whether it can be written is known before a long run, and yet it is made only when there is something to put in.</summary>
+internal static class OutputFolder
+{
+    /// <summary>Tries it out, and leaves everything as it was.</summary>
+    /// <exception cref="IOException">The folder cannot be made, or nothing can be written to it.</exception>
+    /// <exception cref="UnauthorizedAccessException">The same, for lack of permission.</exception>
+    internal static void ThrowIfNotWritable(string folder)
+    {
+        string path = Path.TrimEndingDirectorySeparator(Path.GetFullPath(folder));
+        string? there = path;
+        while (there is not null && !Directory.Exists(there))
+        {
+            there = Path.GetDirectoryName(there);
+        }
+
+        try
+        {
+            Directory.CreateDirectory(path);
+            using FileStream probe = new(
+                Path.Combine(path, $".lagsim-{Guid.NewGuid():N}"), FileMode.CreateNew, FileAccess.Write, FileShare.None, 1, FileOptions.DeleteOnClose);
+        }
+        finally
+        {
+            RemoveEmpty(path, there);
+        }
+    }
+
+    /// <summary>Removes a folder and those it lies in up to one that was there before; one in which somebody has put something stays.</summary>
+    private static void RemoveEmpty(string? path, string? upTo)
+    {
+        try
+        {
+            for (; path is not null && path != upTo; path = Path.GetDirectoryName(path))
+            {
+                Directory.Delete(path);
+            }
+        }
+        catch (Exception failure) when (failure is IOException or UnauthorizedAccessException)
+        {
+        }
+    }
+}

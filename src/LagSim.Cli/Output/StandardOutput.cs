@@ -1,0 +1,39 @@
+using System;
+using System.IO;
+using System.Text;
+using Microsoft.Win32.SafeHandles;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>Standard output as results go to it: in blocks where it is no terminal, and with an error where the reader of a pipe has gone.</summary>
+internal static class StandardOutput
+{
+    private const int BrokenPipe = 32; // EPIPE
+
+    internal static TextWriter Open() =>
+        Console.IsOutputRedirected ? Writer(Pipe(1) ?? Console.OpenStandardOutput()) : Console.Out;
+
+    /// <summary>Whether writing failed because nobody reads any more, which is no mistake of anybody: <c>lagsim ... | head -1</c>.</summary>
+    internal static bool IsClosedPipe(IOException failure) => failure.HResult == BrokenPipe;
+
+    /// <summary>The pipe with that descriptor; null if it is something else. <see cref="Console"/>'s own stream hides that a pipe is closed.</summary>
+    internal static Stream? Pipe(nint descriptor)
+    {
+        if (OperatingSystem.IsWindows())
+        {
+            return null; // it has no such descriptors; there a run goes on to its end
+        }
+
+        try
+        {
+            FileStream stream = new(new SafeFileHandle(descriptor, ownsHandle: false), FileAccess.Write, bufferSize: 0);
+            return stream.CanSeek ? null : stream; // a file's end is to stay where the shell's next command looks for it
+        }
+        catch (Exception failure) when (failure is IOException or UnauthorizedAccessException or ArgumentException)
+        {
+            return null; // closed from the start
+        }
+    }
+
+    private static StreamWriter Writer(Stream stream) => new(stream, new UTF8Encoding(encoderShouldEmitUTF8Identifier: false));
+}

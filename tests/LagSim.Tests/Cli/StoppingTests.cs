@@ -1,0 +1,135 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.IO.Pipes;
+using System.Linq;
+using System.Text;
+using System.Threading;
+using LagSim.Cli;
+using LagSim.Cli.Output;
+using LagSim.Harness.Runs;
+using LagSim.Harness.Scenes;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Cli;
+
+/// <summary>A run that nobody wants to go on ends, and leaves nothing half done.</summary>
+public sealed class StoppingTests
+{
+    private const int BrokenPipe = 32;
+    private const int NoSpace = 28;
+
+    [Theory]
+    [InlineData("--samples")]
+    [InlineData("--events")]
+    public void Run_ReaderHasGone_EndsQuietly(string table)
+    {
+        using FailingWriter output = new(BrokenPipe);
+        using StringWriter error = new();
+        Assert.Equal(141, Program.Run(["run", "pair", "--motion", "rk4", "--until-s", "40000", table, "-"], output, error, TestContext.Current.CancellationToken));
+        Assert.Equal("run pair ...", error.ToString().Trim());
+        Assert.Equal(1, output.Failures); // no row after the one that was not read
+    }
+
+    [Fact]
+    public void Run_OutputFails_IsToldWithTheReason()
+    {
+        using FailingWriter output = new(NoSpace);
+        using StringWriter error = new();
+        Assert.Equal(3, Program.Run(["run", "pair", "--samples", "-"], output, error, TestContext.Current.CancellationToken));
+        Assert.Contains("it failed", error.ToString(), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Pipe_ReaderHasGone_IsAClosedPipe()
+    {
+        Assert.SkipWhen(OperatingSystem.IsWindows(), "Windows has no such descriptors.");
+        using AnonymousPipeServerStream writing = new(PipeDirection.Out);
+        using AnonymousPipeClientStream reading = new(PipeDirection.In, writing.ClientSafePipeHandle);
+        using Stream pipe = StandardOutput.Pipe(writing.SafePipeHandle.DangerousGetHandle())!;
+        pipe.Write("x"u8);
+        Assert.Equal('x', reading.ReadByte());
+        reading.Dispose();
+        Assert.True(StandardOutput.IsClosedPipe(Assert.ThrowsAny<IOException>(() => pipe.Write("x"u8))));
+    }
+
+    [Fact]
+    public void Run_Interrupted_EndsWithAWholeRow()
+    {
+        using CancellationTokenSource stop = new();
+        using StoppingWriter output = new(stop);
+        using StringWriter error = new();
+        Assert.Equal(130, Program.Run(["run", "pair", "--samples", "-"], output, error, stop.Token));
+        string[] lines = output.ToString().Split("\r\n");
+        Assert.Equal("", lines[^1]);
+        Assert.InRange(lines.Length, 3, 10);
+        Assert.All(lines.SkipLast(1), line => Assert.Equal(9, line.Split(',').Length));
+    }
+
+    [Theory]
+    [InlineData("drop --time virtual --out")]
+    [InlineData("drop --time virtual --case same-start --json --out")]
+    public void Drop_Interrupted_LeavesNoFolder(string line)
+    {
+        using TemporaryFolder folder = new();
+        using StringWriter output = new(), error = new();
+        Assert.Equal(130, Program.Run([.. line.Split(' '), folder["new/one"]], output, error, new CancellationToken(canceled: true)));
+        Assert.Equal("", output.ToString());
+        Assert.Empty(Directory.GetFileSystemEntries(folder.Path));
+    }
+
+    [Fact]
+    public void Folder_TriedOut_IsAsItWas()
+    {
+        using TemporaryFolder folder = new();
+        File.WriteAllText(folder["kept"], "");
+        OutputFolder.ThrowIfNotWritable(folder.Path);
+        OutputFolder.ThrowIfNotWritable(folder["new/one/"]);
+        Assert.ThrowsAny<IOException>(() => OutputFolder.ThrowIfNotWritable(folder["kept/below"]));
+        Assert.Equal([folder["kept"]], Directory.GetFileSystemEntries(folder.Path));
+    }
+
+    [Fact]
+    public void LeastSeconds_OfSeveralRuns_TellsHowFarAllOfThemAre()
+    {
+        List<double> told = [];
+        SceneRun.LeastSeconds(BuiltInScenes.Pair(), SimDuration.FromSeconds(25), 2, told.Add);
+        Assert.Equal([10, 20, 25, 35, 45, 50, 60, 70, 75], told);
+    }
+
+    [Fact]
+    public void Run_OfAWorldAtRest_TakesNoSteps()
+    {
+        int steps = 0, events = 0;
+        SceneRun run = new(BuiltInScenes.Drop()) { OnEvent = _ => events++ };
+        run.Run(SimDuration.FromSeconds(900_000), _ => steps++);
+        Assert.InRange(steps, 40, 60); // it rests after 12.53 s, looked at every 0.25 s
+        Assert.Equal(53, events);
+    }
+
+    /// <summary>An output that takes some text and then fails, as a pipe does once its reader has what it wanted.</summary>
+    private sealed class FailingWriter(int reason) : StringWriter
+    {
+        internal int Failures { get; private set; }
+
+        public override Encoding Encoding => Encoding.UTF8;
+
+        public override void Write(string? value)
+        {
+            if (GetStringBuilder().Length > 500)
+            {
+                Failures++;
+                throw new IOException("it failed", reason);
+            }
+
+            base.Write(value);
+        }
+    }
+
+    /// <summary>An output whose reader presses Ctrl-C when the first row is there.</summary>
+    private sealed class StoppingWriter(CancellationTokenSource stop) : StringWriter
+    {
+        public override void Flush() => stop.Cancel();
+    }
+}
