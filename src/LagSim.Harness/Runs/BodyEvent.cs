@@ -7,6 +7,6 @@ namespace LagSim.Harness.Runs;
 /// <param name="Key">The event.</param>
 /// <param name="Kind"><c>impact</c>, <c>rest</c>, <c>wake</c>, or the external event's name.</param>
 /// <param name="Body">The body.</param>
-/// <param name="Other">What it met: a body's or surface's name; empty for what is no meeting.</param>
+/// <param name="Other">What it met in an impact: a body's or a surface's name, of several it met one; empty for all other events.</param>
 /// <param name="State">The body right after.</param>
 public readonly record struct BodyEvent(EventKey Key, string Kind, BodyId Body, string Other, BodyState State);

@@ -18,6 +18,8 @@ public sealed class SceneRun
     /// <summary>How far it is advanced at a time when it is timed: long enough that starting and stopping the watch is nothing.</summary>
     private static readonly SimDuration TimedStride = SimDuration.FromSeconds(10);
 
+    private const string Impact = "impact";
+
     private readonly Scene scene;
     private readonly MotionLaw[] lastLaw;
     private readonly List<BodyEvent> pending = [];
@@ -129,54 +131,56 @@ public sealed class SceneRun
         pending.Clear();
         for (int body = 0; body < scene.Bodies.Count; body++)
         {
-            foreach (TimelineEntry entry in simulation.Timeline(BodyId.OfScene(body)).Where(e => e.Key.Time > after && e.Key.Time <= upTo))
+            BodyId id = BodyId.OfScene(body);
+            TimelineEntry? last = null;
+            foreach (TimelineEntry entry in simulation.Timeline(id))
             {
-                MotionLaw before = lastLaw[body];
-                MotionLaw law = lastLaw[body] = entry.State.Motion;
-                if (entry.Key.Kind is not (EventKind.Start or EventKind.StepEnd))
+                if (entry.Key.Time > after && entry.Key.Time <= upTo)
                 {
-                    Add(body, entry, entry.Key.Kind.ToString().ToLowerInvariant());
+                    Add(simulation, id, entry, last);
                 }
 
-                if (law == MotionLaw.Resting && before != MotionLaw.Resting)
-                {
-                    Add(body, entry, "rest");
-                }
-                else if (before == MotionLaw.Resting && law != MotionLaw.Resting)
-                {
-                    Add(body, entry, "wake");
-                }
+                last = entry;
             }
         }
 
-        foreach (BodyEvent happened in pending.OrderBy(e => e.Key).ThenBy(e => e.Body))
+        BodyEvent[] inOrder = pending.OrderBy(e => e.Key).ThenBy(e => e.Body).ToArray();
+        foreach (BodyEvent happened in inOrder)
         {
-            OnEvent(happened);
+            bool isOfBodies = happened.Kind == Impact && happened.Other.Length == 0;
+            BodyId? other = isOfBodies ? ImpactPartner.Body(happened, inOrder, scene) : null;
+            OnEvent(other is BodyId partner ? happened with { Other = scene.Bodies[partner.Index].Name } : happened);
         }
     }
 
-    private void Add(int body, in TimelineEntry entry, string kind) =>
-        pending.Add(new BodyEvent(entry.Key, kind, BodyId.OfScene(body), Partner(BodyId.OfScene(body), entry), entry.State));
-
-    /// <summary>What a body met: another body, or the static surface that is nearest at that moment.</summary>
-    private string Partner(BodyId body, in TimelineEntry entry)
+    private void Add(Simulation simulation, BodyId body, in TimelineEntry entry, in TimelineEntry? last)
     {
-        if (entry.Key.Kind != EventKind.Impact)
+        MotionLaw before = lastLaw[body.Index];
+        MotionLaw law = lastLaw[body.Index] = entry.State.Motion;
+        if (entry.Key.Kind is not (EventKind.Start or EventKind.StepEnd))
         {
-            return "";
+            bool isOfSurface = entry.Key.Kind == EventKind.Impact && entry.Key.Body == entry.Key.Other;
+            string surface = isOfSurface
+                ? ImpactPartner.Surface(scene, scene.Bodies[body.Index].Spec.Radius, Before(simulation, body, entry, last), entry.State)
+                : "";
+            pending.Add(new BodyEvent(entry.Key, entry.Key.Kind.ToString().ToLowerInvariant(), body, surface, entry.State));
         }
 
-        if (entry.Key.Other != entry.Key.Body)
+        if (law == MotionLaw.Resting != (before == MotionLaw.Resting))
         {
-            BodyId other = body == entry.Key.Body ? entry.Key.Other : entry.Key.Body;
-            return scene.Bodies[other.Index].Name;
+            pending.Add(new BodyEvent(entry.Key, law == MotionLaw.Resting ? "rest" : "wake", body, "", entry.State));
+        }
+    }
+
+    /// <summary>The body right before an event: after the one before it, if that is of the same tick, else a tick ago.</summary>
+    private static BodyState Before(Simulation simulation, BodyId body, in TimelineEntry entry, in TimelineEntry? last)
+    {
+        if (last is TimelineEntry earlier && earlier.Key.Time == entry.Key.Time)
+        {
+            return earlier.State;
         }
 
-        double radius = scene.Bodies[body.Index].Spec.Radius;
-        Vector3D position = entry.State.Position;
-        IEnumerable<(string Name, double Gap)> surfaces = scene.Planes
-            .Select(plane => (plane.Name, plane.Gap(position, radius)))
-            .Concat(scene.StaticSpheres.Select(sphere => (sphere.Name, (position - sphere.Centre).Length - sphere.Radius - radius)));
-        return surfaces.MinBy(surface => Math.Abs(surface.Gap)).Name;
+        simulation.TryRead(body, entry.Key.Time - SimDuration.OneTick, out BodyState before);
+        return before;
     }
 }
