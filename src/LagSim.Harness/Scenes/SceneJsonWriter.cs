@@ -1,4 +1,6 @@
+using System;
 using System.Buffers;
+using System.Collections.Generic;
 using System.Globalization;
 using System.Text.Encodings.Web;
 using System.Text.Json;
@@ -33,38 +35,35 @@ internal static class SceneJsonWriter
             json.WriteNumber("smallest_radius_m", scene.SmallestRadius);
         }
 
-        json.WriteStartArray("planes");
-        foreach (StaticPlane plane in scene.Planes)
+        List(json, "planes", scene.Planes, plane =>
         {
-            json.WriteStartObject();
             json.WriteString("name", plane.Name);
             Vector(json, "normal", plane.Normal);
             json.WriteNumber("offset_m", plane.Offset);
             json.WriteNumber("restitution", plane.Restitution);
-            json.WriteEndObject();
-        }
-
-        json.WriteEndArray();
-        json.WriteStartArray("static_spheres");
-        foreach (StaticSphere sphere in scene.StaticSpheres)
+        });
+        List(json, "static_spheres", scene.StaticSpheres, sphere =>
         {
-            json.WriteStartObject();
             json.WriteString("name", sphere.Name);
             Vector(json, "centre_m", sphere.Centre);
             json.WriteNumber("radius_m", sphere.Radius);
             json.WriteNumber("restitution", sphere.Restitution);
+        });
+        List(json, "bodies", scene.Bodies, body => Body(json, body));
+        json.WriteEndObject();
+    }
+
+    private static void List<T>(Utf8JsonWriter json, string key, IReadOnlyList<T> parts, Action<T> write)
+    {
+        json.WriteStartArray(key);
+        foreach (T part in parts)
+        {
+            json.WriteStartObject();
+            write(part);
             json.WriteEndObject();
         }
 
         json.WriteEndArray();
-        json.WriteStartArray("bodies");
-        foreach (SceneBody body in scene.Bodies)
-        {
-            Body(json, body);
-        }
-
-        json.WriteEndArray();
-        json.WriteEndObject();
     }
 
     /// <summary>The fewest digits that read back as the same number of ticks: 0.005, where the span itself is a sum of powers of two.</summary>
@@ -89,7 +88,7 @@ internal static class SceneJsonWriter
         double least = 1e9;
         foreach (SceneBody body in scene.Bodies)
         {
-            least = System.Math.Min(least, body.Spec.Radius);
+            least = Math.Min(least, body.Spec.Radius);
         }
 
         return least;
@@ -97,7 +96,6 @@ internal static class SceneJsonWriter
 
     private static void Body(Utf8JsonWriter json, in SceneBody body)
     {
-        json.WriteStartObject();
         json.WriteString("name", body.Name);
         json.WriteNumber("radius_m", body.Spec.Radius);
         json.WriteNumber("mass_kg", body.Spec.Mass);
@@ -111,8 +109,6 @@ internal static class SceneJsonWriter
         {
             json.WriteNumber("step_s", Seconds(body.Spec.Step));
         }
-
-        json.WriteEndObject();
     }
 
     // On one line; the writer's own indentation would spread it over five.
