@@ -34,7 +34,7 @@ internal static class DropJson
         json.WriteString("strategy", run.Options.Strategy);
         json.WriteString("motion", MotionNames.Of(run.Options.Motion));
         json.WriteString("time", DropNames.Time(run.Options));
-        json.WriteString("transport", "udp");
+        json.WriteString("transport", DropNames.Transport(run.Options));
         json.WriteString("profile", run.Options.DelayMilliseconds is null ? run.Options.Link.Name : null);
         JsonDocumentWriter.Number(json, "delay_ms", run.Options.DelayMilliseconds);
         json.WriteNumber("peers", run.Options.Peers);

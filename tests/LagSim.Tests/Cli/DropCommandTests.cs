@@ -5,6 +5,7 @@ using System.IO;
 using System.Linq;
 using System.Text.Json;
 using LagSim.Cli.Commands;
+using LagSim.Cli.Output;
 using LagSim.Harness.Drop;
 using LagSim.Harness.Links;
 using LagSim.Scenes;
@@ -38,7 +39,7 @@ public sealed class DropCommandTests
         foreach (JsonElement run in runs)
         {
             Assert.Equal(RunKeys, Keys(run));
-            Assert.Equal(("full-rollback", "rk4", "virtual", "udp"), (Text(run, "strategy"), Text(run, "motion"), Text(run, "time"), Text(run, "transport")));
+            Assert.Equal(("full-rollback", "rk4", "virtual", "virtual"), (Text(run, "strategy"), Text(run, "motion"), Text(run, "time"), Text(run, "transport")));
             Assert.Equal(JsonValueKind.Null, run.GetProperty("profile").ValueKind);
             Assert.Equal(25, run.GetProperty("delay_ms").GetDouble());
             Assert.Equal(2, run.GetProperty("peers").GetInt32());
@@ -181,6 +182,9 @@ public sealed class DropCommandTests
         DropRun hash = Run("full-rollback");
         Assert.Equal(1, DropCommand.ExitCodeOf([hash with { StateHashes = [1, 2] }]));
     }
+
+    [Fact]
+    public void Transport_InRealTime_IsUdp() => Assert.Equal("udp", DropNames.Transport(new DropOptions()));
 
     internal static T WithComma<T>(Func<T> work)
     {
