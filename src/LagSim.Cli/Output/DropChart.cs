@@ -30,9 +30,6 @@ internal static class DropChart
             new("as seen, at the same true time", trace.Seconds, trace.SeenTrueTimeError, SeriesStyle.Line, 3),
             new("as settled", trace.Seconds, trace.SettledError, SeriesStyle.Dashed, 4),
         ];
-        ReferenceLine[] thesis = run.Case == DropCase.Teleport
-            ? [new ReferenceLine(ThesisFigures.TeleportRms, "thesis, rms 0.029 m")]
-            : [];
         return new LineChart(
             $"Drop test, {DropNames.Case(run.Case)}, {run.Options.Strategy}",
             "Height of the ball at each peer against shared time, and below it how far apart the peers were.",
@@ -40,7 +37,7 @@ internal static class DropChart
                 new ChartPanel("Height of the ball's centre, as seen", "height (m)", heights) { Markers = [.. markers, .. lift], PlotHeight = 260 },
                 new ChartPanel("Distance between the peers", "error (m)", errors)
                 {
-                    Scale = ChartScale.Log10, LogFloor = ErrorFloor, ReferenceLines = thesis, Markers = lift,
+                    Scale = ChartScale.Log10, LogFloor = ErrorFloor, ReferenceLines = Thesis(run), Markers = lift,
                 },
             ])
         {
@@ -51,7 +48,8 @@ internal static class DropChart
     internal static LineChart OfStrategies(IReadOnlyList<DropRun> runs)
     {
         ChartSeries[] errors = runs
-            .Select((run, n) => new ChartSeries(run.Options.Strategy, run.Trace.Seconds, run.Trace.SeenError, SeriesStyle.Line, n))
+            .Select((run, n) => new ChartSeries(
+                run.Options.Strategy, run.Trace.Seconds, run.Trace.SeenError, n == runs.Count - 1 ? SeriesStyle.Dashed : SeriesStyle.Line, n)) // the last lies over others
             .ToArray();
         return new LineChart(
             "Drop test, teleport: every strategy",
@@ -60,11 +58,14 @@ internal static class DropChart
                 new ChartPanel("Distance between the peers, as seen", "error (m)", errors)
                 {
                     Scale = ChartScale.Log10, LogFloor = ErrorFloor, PlotHeight = 260,
-                    ReferenceLines = [new ReferenceLine(ThesisFigures.TeleportRms, "thesis, rms 0.029 m")],
+                    ReferenceLines = Thesis(runs[0]),
                 },
             ])
         {
             XLabel = "shared time since the start of the scene (s)",
         };
     }
+    /// <summary>The thesis's figure, where it compares.</summary>
+    private static ReferenceLine[] Thesis(DropRun run) =>
+        run.Case == DropCase.Teleport && run.Options.IsThesisSetting ? [new ReferenceLine(ThesisFigures.TeleportRms, "thesis, rms 0.029 m")] : [];
 }

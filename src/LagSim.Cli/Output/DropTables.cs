@@ -113,7 +113,7 @@ internal static class DropTables
     private static Table Strategies(IReadOnlyList<DropRun> runs)
     {
         Table table = NewTable(
-            "Every strategy, a ball lifted from rest, virtual time: error as seen, in metres",
+            "every strategy, lifted from rest, virtual time: error as seen, in metres",
             "strategy", "during", "after", "after, rms", "settled differ", "heals", "late ms");
         foreach (DropRun run in runs)
         {

@@ -71,7 +71,7 @@ internal sealed class LogAxis : Axis
     /// <summary>Plain numbers on a short axis, powers of ten on one that a plain number would not fit; never a mixture.</summary>
     private string Label(int exponent, int digit)
     {
-        if ((_low >= -4 && _high <= 4) || exponent is >= -1 and <= 1)
+        if (_low >= -4 && _high <= 4)
         {
             return (digit * Math.Pow(10.0, exponent)).ToString("0.####", CultureInfo.InvariantCulture);
         }

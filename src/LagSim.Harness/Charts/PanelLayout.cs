@@ -81,10 +81,14 @@ internal sealed class PanelLayout
     {
         List<(double From, double To, int Row)> taken = [];
         List<(MarkerLabel Label, int Row)> placed = [];
-        foreach (ChartMarker marker in Panel.Markers.Where(m => m.Kind == MarkerKind.Line).OrderBy(m => m.X))
+        // Where labels collide it is the one whose line stands clear of the others that is raised: no line goes through a text.
+        IEnumerable<(ChartMarker Marker, double X, double Width, bool IsLeft)> lines = Panel.Markers
+            .Where(m => m.Kind == MarkerKind.Line)
+            .Select(m => (Marker: m, X: X.Map(m.X), Width: SvgElements.TextWidth(m.Label) + 6.0))
+            .Select(m => (m.Marker, m.X, m.Width, IsLeft: m.X + m.Width > X.Length))
+            .OrderBy(m => m.IsLeft ? m.X : -m.X);
+        foreach ((ChartMarker marker, double x, double width, bool left) in lines)
         {
-            double x = X.Map(marker.X), width = SvgElements.TextWidth(marker.Label) + 6.0;
-            bool left = x + width > X.Length;
             (double from, double to) = left ? (x - width, x) : (x, x + width);
             int row = 0;
             while (row < MostMarkerRows && taken.Any(t => t.Row == row && from < t.To && to > t.From))

@@ -87,6 +87,15 @@ public sealed class AxisTests
         Assert.InRange(axis.Ticks.Count(t => t.Label is not null), 3, 20);
     }
 
+    [Fact]
+    public void Fit_LogOfManyDecades_HasPowersOfTenOnly()
+    {
+        Axis axis = Fit(ChartScale.Log10, 1e-8, 1e3);
+
+        Assert.All(axis.Ticks.Where(t => t.Label is not null), t => Assert.StartsWith("10", t.Label));
+        Assert.Contains(axis.Ticks, t => t.Label == "10\u2070");
+    }
+
     private static string Labels(Axis axis) => string.Join('|', axis.Ticks.Where(t => t.Label is not null).Select(t => t.Label));
 
     private static Axis Fit(ChartScale scale, params double[] values) => Fit(scale, values, null);

@@ -123,6 +123,23 @@ public sealed class LineChartTests
         }
     }
 
+    [Theory]
+    [InlineData(10, 10.5, "first")]
+    [InlineData(29, 29.5, "second")] // at the right edge labels stand to the left of their lines
+    public void ToSvg_LabelsThatCollide_AreNotCrossedByALine(double first, double second, string raised)
+    {
+        ChartPanel panel = new("h", "height (m)", [new ChartSeries("s", [0, 30], [0, 1])])
+        {
+            Markers = [new ChartMarker(first, "the first event"), new ChartMarker(second, "the second event")],
+        };
+
+        XElement svg = XElement.Parse(new LineChart("t", "", [panel]).ToSvg());
+
+        XElement[] labels = svg.Descendants(Svg + "text").Where(t => t.Value.EndsWith("event", StringComparison.Ordinal)).ToArray();
+        Assert.Equal(2, labels.Length);
+        Assert.Contains(raised, labels.MinBy(t => (double)t.Attribute("y")!)!.Value, StringComparison.Ordinal);
+    }
+
     [Fact]
     public void ToSvg_ManyImpactsAtOnePlace_AreDrawnOnce()
     {

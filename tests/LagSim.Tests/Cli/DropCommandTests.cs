@@ -122,6 +122,7 @@ public sealed class DropCommandTests
     public void Table_OfADrop_PutsTheThesissFigureBesideOurs()
     {
         Tool tool = Tool.Run("drop", "--time", "virtual").Done();
+        Assert.DoesNotContain("  metres", tool.Output, StringComparison.Ordinal); // no title is broken in two
         foreach (string expected in new[] { "same-start", "teleport", "at true time", "as settled, after", "none", "latency-forward", "(equal)" })
         {
             Assert.Contains(expected, tool.Output, StringComparison.Ordinal);
@@ -157,6 +158,30 @@ public sealed class DropCommandTests
         Assert.Equal(3, page.Split("<svg").Length - 1);
         Assert.Contains("same-start", page, StringComparison.Ordinal);
         Assert.All(files.Where(file => file.EndsWith(".svg", StringComparison.Ordinal)), file => Assert.StartsWith("<svg", File.ReadAllText(folder[$"new/one/{file}"]), StringComparison.Ordinal));
+    }
+
+    [Fact]
+    public void Out_OfStrategiesThatGiveTheSameCurve_ShowsBoth()
+    {
+        using TemporaryFolder folder = new();
+        Tool.Run("drop", "--time", "virtual", "--case", "teleport", "--motion", "ballistic", "--out", folder.Path).Done();
+        string chart = File.ReadAllText(folder["drop-strategies.svg"]);
+        Assert.Contains("class=\"line c1\"", chart, StringComparison.Ordinal);
+        Assert.Contains("class=\"line c2 dashed\"", chart, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Out_OfAnotherTestThanTheThesiss_DoesNotShowItsFigure()
+    {
+        using TemporaryFolder folder = new();
+        Assert.Contains("thesis", Page(), StringComparison.Ordinal);
+        Assert.DoesNotContain("thesis", Page("--second-height-m", "20"), StringComparison.Ordinal);
+
+        string Page(params string[] more)
+        {
+            Tool.Run(["drop", "--time", "virtual", "--case", "teleport", "--motion", "ballistic", "--out", folder.Path, .. more]).Done();
+            return File.ReadAllText(folder["report.html"]);
+        }
     }
 
     [Fact]
