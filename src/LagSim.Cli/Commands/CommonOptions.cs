@@ -2,6 +2,7 @@ using System;
 using System.CommandLine;
 using System.CommandLine.Parsing;
 using System.Globalization;
+using System.Linq;
 
 namespace LagSim.Cli.Commands;
 
@@ -47,18 +48,28 @@ internal sealed class CommonOptions
     private static Option<string?> Folder(string name, string description)
     {
         Option<string?> option = Path(name, description, "FOLDER");
-        option.Validators.Add(result =>
-        {
-            if (result.Tokens.Count == 1 && System.IO.File.Exists(result.Tokens[0].Value))
-            {
-                result.AddError($"{name} is '{result.Tokens[0].Value}'; that is a file, it must be a folder.");
-            }
-        });
+        Refuse(option, System.IO.File.Exists, "that is a file, it must be a folder");
         return option;
     }
 
+    /// <summary>An option that names a file to write.</summary>
+    internal static Option<string?> File(string name, string description)
+    {
+        Option<string?> option = Path(name, description, "FILE");
+        Refuse(option, file => file != Output.ResultFile.StandardOutput && System.IO.Directory.Exists(file), "that is a folder, it must be a file");
+        return option;
+    }
+
+    private static void Refuse(Option<string?> option, Func<string, bool> isWrong, string why) => option.Validators.Add(result =>
+    {
+        if (result.Tokens.Count == 1 && isWrong(result.Tokens[0].Value))
+        {
+            result.AddError($"{option.Name} is '{result.Tokens[0].Value}'; {why}.");
+        }
+    });
+
     /// <summary>An option that names a file or folder; no file system has one of an empty name.</summary>
-    internal static Option<string?> Path(string name, string description, string help)
+    private static Option<string?> Path(string name, string description, string help)
     {
         Option<string?> option = new(name) { Description = description, HelpName = help };
         option.Validators.Add(result =>
@@ -75,7 +86,14 @@ internal sealed class CommonOptions
     internal static Option<string> Word(string name, string description, string byDefault, params string[] words)
     {
         Option<string> option = new(name) { Description = description, DefaultValueFactory = _ => byDefault };
-        option.AcceptOnlyFromAmong(words);
+        option.CompletionSources.Add(words);
+        option.Validators.Add(result =>
+        {
+            if (result.Tokens.Count == 1 && !words.Contains(result.Tokens[0].Value))
+            {
+                result.AddError($"{name} is '{result.Tokens[0].Value}'; it must be one of {string.Join(", ", words)}.");
+            }
+        });
         return option;
     }
 

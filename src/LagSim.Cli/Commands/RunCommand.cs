@@ -25,8 +25,8 @@ internal static class RunCommand
         Argument<string> scene = new("SCENE") { Description = "A built-in scene's name, or a JSON file." };
         Option<double> until = CommonOptions.Number("--until-s", "How long to run", 10, 0, 1e6);
         Option<string> motion = CommonOptions.Word("--motion", "The law of all bodies; by default the scene's own.", "scene", "scene", "rk4", "ballistic");
-        Option<string?> events = CommonOptions.Path("--events", "Write every event to this CSV file; - is stdout.", "FILE");
-        Option<string?> samples = CommonOptions.Path("--samples", "Write the state of all bodies, every so often, to this CSV file; - is stdout.", "FILE");
+        Option<string?> events = CommonOptions.File("--events", "Write every event to this CSV file; - is stdout.");
+        Option<string?> samples = CommonOptions.File("--samples", "Write the state of all bodies, every so often, to this CSV file; - is stdout.");
         Option<double> every = CommonOptions.Number("--every-s", "The time between samples", 0.01, 1e-9, 1e6);
         Option<int> repeat = CommonOptions.Whole("--repeat", "Run so many times after a warm-up; wall_s is then the least", 1, 1, 1_000_000);
         Command command = new("run", "Runs one scene in virtual time.") { scene, until, motion, events, samples, every, repeat };

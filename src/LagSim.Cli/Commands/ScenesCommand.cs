@@ -20,6 +20,11 @@ internal static class ScenesCommand
         {
             string? chosen = parsed.GetValue(name);
             string? folder = parsed.GetValue(common.Out);
+            if (chosen is null && folder is not null)
+            {
+                throw new UsageException($"--out is '{folder}', but there is nothing to write: it needs the NAME of a scene.");
+            }
+
             if (chosen is not null)
             {
                 Print(console, SceneSource.Load(chosen), folder);
@@ -51,6 +56,12 @@ internal static class ScenesCommand
         {
             console.Output.WriteLine(text.TrimEnd());
             return;
+        }
+
+        // A scene's name may be anything; it is not to lead out of the folder.
+        if (scene.Name.IndexOfAny(Path.GetInvalidFileNameChars()) >= 0)
+        {
+            throw new UsageException($"The scene is called '{scene.Name}', which cannot be a file's name; give it another, or leave out --out.");
         }
 
         Directory.CreateDirectory(folder);

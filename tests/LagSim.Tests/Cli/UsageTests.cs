@@ -44,7 +44,30 @@ public sealed class UsageTests
     [InlineData("--time", "now", "virtual")]
     [InlineData("--transport", "tcp", "udp")]
     public void Drop_UnknownWord_IsRefusedWithTheWordsThereAre(string option, string value, string known) =>
-        Tool.Refuses(Usage, ["drop", option, value], $"'{value}'", known);
+        Tool.Refuses(Usage, ["drop", option, value], $"{option} is '{value}'; it must be one of ", known, "Try 'lagsim drop --help'.");
+
+    [Theory]
+    [InlineData("--events")]
+    [InlineData("--samples")]
+    public void Run_FolderForAFile_IsRefused(string option)
+    {
+        using TemporaryFolder folder = new();
+        Tool.Refuses(Usage, ["run", "drop", option, folder.Path], $"{option} is '{folder.Path}'", "it must be a file");
+    }
+
+    [Fact]
+    public void Scenes_OutWithoutAScene_IsRefused() => Tool.Refuses(Usage, ["scenes", "--out", "never-made"], "'never-made'", "NAME");
+
+    [Theory]
+    [InlineData("../evil")]
+    [InlineData("a/b")]
+    public void Scenes_NameThatIsNoFiles_IsRefused(string name)
+    {
+        using TemporaryFolder folder = new();
+        File.WriteAllText(folder["mine.json"], $"{{\"format\": \"lagsim-scene-1\", \"name\": \"{name}\"}}");
+        Tool.Refuses(Usage, ["scenes", folder["mine.json"], "--out", folder["new/one"]], $"'{name}'", "cannot be a file's name");
+        Assert.Equal([folder["mine.json"]], Directory.GetFileSystemEntries(folder.Path));
+    }
 
     [Fact]
     public void Drop_UnknownProfile_IsRefusedWithTheProfilesThereAre() =>
