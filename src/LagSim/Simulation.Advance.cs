@@ -14,7 +14,8 @@ public sealed partial class Simulation
     /// <summary>Lets everything happen up to and including <paramref name="time"/>.</summary>
     /// <remarks>Reading, and advancing in smaller or larger steps, changes no bit of what happens. Cost: per event, not per time.</remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>.</exception>
-    /// <exception cref="SimulationException">A body left the range in which its state means something.</exception>
+    /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their memory.</exception>
+    /// <exception cref="OperationCanceledException">The options' token asked for an end; what lies behind <see cref="SimulatedTo"/> stands.</exception>
     public void AdvanceTo(SimTime time)
     {
         ThrowIfFaulted();
@@ -24,13 +25,25 @@ public sealed partial class Simulation
                 nameof(time), time, $"The world is simulated to {SimulatedTo} already; it advances, and an event that lies before rolls it back.");
         }
 
+        SimTime reached = SimulatedTo;
         try
         {
             while (queue.Count > 0 && queue.LeastKey.Time <= time)
             {
-                ForgetUpTo(queue.LeastKey.Time);
+                if (queue.LeastKey.Time > reached)
+                {
+                    cancellation.ThrowIfCancellationRequested(); // between instants: one has happened as a whole or not at all
+                    reached = queue.LeastKey.Time;
+                    ForgetUpTo(reached);
+                }
+
                 Process(queue.LeastSlot, queue.LeastKey);
             }
+        }
+        catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
+        {
+            SimulatedTo = reached;
+            throw;
         }
         catch (SimulationException failure)
         {
@@ -51,7 +64,8 @@ public sealed partial class Simulation
     /// <summary>Moves the edge of the history along, event by event, so that one long advance takes no more memory than many short ones.</summary>
     private void ForgetUpTo(SimTime now)
     {
-        if (now - Start > history)
+        // The span since the start may exceed the range of a long; as an unsigned difference it never does.
+        if ((ulong)now.Ticks - (ulong)Start.Ticks > (ulong)history.Ticks)
         {
             HistoryEdge = SimTime.Max(HistoryEdge, now - history);
         }
@@ -99,6 +113,11 @@ public sealed partial class Simulation
         {
             RungeKutta4.End(segment, timelines.Dense(last), out Vector3D position, out Vector3D velocity);
             OpenFlight(slot, key, position, velocity);
+        }
+        else if (segment.Acceleration != Vector3D.Zero)
+        {
+            throw new SimulationException(
+                $"At {key} body {bodies[slot].Id} reaches {Limits.Text(Limits.MaxSpeed(Scene.SmallestRadius))} m/s, a fifth of the smallest radius in a tick; it falls without end, and may not become faster.");
         }
         else
         {

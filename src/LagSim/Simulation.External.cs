@@ -160,8 +160,8 @@ public sealed partial class Simulation
                 carriers[k] = supports[k];
             }
 
-            // The door cannot know the velocity an impulse meets; a sum that leaves the permitted range has no effect, on every peer alike.
-            if (velocity.Length <= Limits.MaxSpeed(Scene.SmallestRadius))
+            // The door cannot know the velocity an impulse meets; a sum above what may be given has no effect, on every peer alike.
+            if (velocity.Length <= Limits.MaxGivenSpeed(Scene.SmallestRadius))
             {
                 Open(slot, key, position, velocity, 0, carriers.Slice(0, count));
             }

@@ -36,7 +36,7 @@ public sealed partial class Simulation
         }
 
         // A world of its own with the same start, so that a force that depends on time sees the same time.
-        Simulation alone = new(Scene.WithoutBodies(), new SimulationOptions(Start, SimDuration.MaxValue));
+        Simulation alone = new(Scene.WithoutBodies(), new SimulationOptions(Start, SimDuration.MaxValue, cancellation: cancellation));
         alone.AdvanceTo(SimTime.Max(alone.SimulatedTo, external.Time - SimDuration.OneTick));
         alone.Submit(ExternalEvent.Spawn(external.Time, 1, 1, bodies[slot].Spec, position, velocity));
         alone.AdvanceTo(SimTime.Max(alone.SimulatedTo, key.Time));

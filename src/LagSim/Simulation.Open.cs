@@ -52,7 +52,8 @@ public sealed partial class Simulation
         }
         else
         {
-            Append(slot, key, new MotionSegment(MotionLaw.Ballistic, key.Time, SimTime.MaxValue, x, v, Scene.Gravity, crowding: crowding), default);
+            SimTime end = EndOfRange(key.Time, v, Scene.Gravity);
+            Append(slot, key, new MotionSegment(MotionLaw.Ballistic, key.Time, end, x, v, Scene.Gravity, crowding: crowding), default);
         }
     }
 
@@ -98,7 +99,7 @@ public sealed partial class Simulation
         }
         else
         {
-            SimTime end = rests ? key.Time + left : SimTime.MaxValue;
+            SimTime end = rests ? key.Time + left : EndOfRange(key.Time, tangential, acceleration);
             Append(slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, end, start, tangential, acceleration, supports, crowding), default);
         }
 
@@ -148,6 +149,23 @@ public sealed partial class Simulation
         return onto.WithoutNegativeZero();
     }
 
+    /// <summary>
+    /// When a closed form would exceed the permitted speed: the root of |v + a t| = limit, which there is one of. Beyond the range of a time
+    /// for anything but the smallest bodies and the strongest gravity.
+    /// </summary>
+    private SimTime EndOfRange(SimTime from, in Vector3D velocity, in Vector3D acceleration)
+    {
+        double limit = Limits.MaxSpeed(Scene.SmallestRadius);
+        double a = acceleration.LengthSquared;
+        double b = Vector3D.Dot(velocity, acceleration);
+        double c = velocity.LengthSquared - (limit * limit);
+        double root = Math.Sqrt((b * b) - (a * c));
+        double seconds = b > 0 ? -c / (b + root) : (root - b) / a; // 0 / 0 without acceleration
+        return TickConversion.TryFromSeconds(seconds, out long ticks) && ticks <= SimTime.MaxValue.Ticks - Math.Max(0, from.Ticks)
+            ? from + SimDuration.FromTicks(ticks)
+            : SimTime.MaxValue;
+    }
+
     private void CheckState(int slot, in EventKey key, in Vector3D position, in Vector3D velocity)
     {
         double limit = Limits.MaxSpeed(Scene.SmallestRadius);
@@ -155,7 +173,7 @@ public sealed partial class Simulation
         {
             throw new SimulationException(
                 $"At {key} body {bodies[slot].Id} is at {position} m with {velocity} m/s; a position must stay finite, and a speed at most "
-                + $"{Limits.Text(limit)} m/s, a tenth of the smallest radius in a tick.");
+                + $"{Limits.Text(limit)} m/s, a fifth of the smallest radius in a tick.");
         }
     }
 }

@@ -223,5 +223,5 @@ public sealed partial class Simulation
     private Vector3D VelocityAt(int segment, in ContactTime contact) =>
         timelines.Segment(segment).VelocityAt(SecondsInto(segment, contact.Tick) + contact.Residual, timelines.Dense(segment));
 
-    private double SecondsInto(int segment, SimTime time) => (time - timelines.Segment(segment).Epoch).ToSeconds();
+    private double SecondsInto(int segment, SimTime time) => time.SecondsSince(timelines.Segment(segment).Epoch);
 }

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
@@ -15,7 +16,8 @@ namespace LagSim;
 /// <c>state(t) = Fold(scene, events up to t, in canonical order)</c>, bit for bit.</para>
 /// <para>Not thread-safe: one thread at a time. <c>LagSim.Hosting</c> gives it a thread of its own. No allocation per event once as many
 /// segments were alive as will be.</para>
-/// <para>An exception out of <see cref="AdvanceTo"/> or <see cref="Submit"/> other than an argument's leaves it faulted: every later call throws.</para>
+/// <para>An exception out of <see cref="AdvanceTo"/> or <see cref="Submit"/> other than an argument's leaves it faulted: every later call
+/// throws. Only one that was cancelled still stands up to <see cref="SimulatedTo"/> and can be read.</para>
 /// </remarks>
 public sealed partial class Simulation
 {
@@ -25,21 +27,24 @@ public sealed partial class Simulation
     private readonly IPairIndex index = new AllPairs();
     private readonly Forces forces;
     private readonly SimDuration history;
+    private readonly CancellationToken cancellation;
     private readonly List<int> order = new(); // slots by ascending identity
     private Body[] bodies = new Body[16];
     private Exception? fault;
 
     /// <summary>A world at the start of its scene.</summary>
     /// <exception cref="ArgumentNullException">There is no scene.</exception>
+    /// <exception cref="OperationCanceledException">The options' token asked for an end.</exception>
     public Simulation(Scene scene, SimulationOptions? options = null)
     {
         Scene = scene ?? throw new ArgumentNullException(nameof(scene));
         options ??= new SimulationOptions();
         Start = options.Start;
         history = options.History;
+        cancellation = options.Cancellation;
         SimulatedTo = Start - SimDuration.OneTick;
         HistoryEdge = Start;
-        timelines = new TimelineStore(Start);
+        timelines = new TimelineStore(Start, options.MaxSegments);
         forces = new Forces(scene, Start);
         for (int i = 0; i < scene.BodyArray.Length; i++)
         {
@@ -52,6 +57,7 @@ public sealed partial class Simulation
 
         for (int slot = 0; slot < BodyCount; slot++)
         {
+            cancellation.ThrowIfCancellationRequested();
             Predict(slot);
         }
 

@@ -1,3 +1,4 @@
+using System.Threading;
 using LagSim.Time;
 
 namespace LagSim;
@@ -9,14 +10,23 @@ public sealed class SimulationOptions
     /// <summary>The history where nothing else is said: 1 s.</summary>
     public static readonly SimDuration DefaultHistory = SimDuration.FromSeconds(1);
 
+    /// <summary>The most segments where nothing else is said: 8,388,608, some 2 GB.</summary>
+    public const int DefaultMaxSegments = 1 << 23;
+
     /// <summary>Options, each with its default.</summary>
     /// <param name="start">The instant at which the scene begins; default the origin. It has no influence on the motion, to the bit.</param>
     /// <param name="history">
     /// How far behind the simulated time timelines are kept, and so how late an event may come; above zero, default 1 s.
     /// <see cref="SimDuration.MaxValue"/> keeps everything.
     /// </param>
-    /// <exception cref="System.ArgumentOutOfRangeException">The history is not above zero, or the start more than 72 days from the origin.</exception>
-    public SimulationOptions(SimTime start = default, SimDuration? history = null)
+    /// <param name="maxSegments">
+    /// How many pieces of path all timelines together may hold, at least one; default <see cref="DefaultMaxSegments"/>. Each takes some 250
+    /// bytes. A simulation that would need more ends with a <see cref="SimulationException"/>.
+    /// </param>
+    /// <param name="cancellation">Ends whatever the simulation is at, from any thread, between two instants, with an <see cref="System.OperationCanceledException"/>.</param>
+    /// <exception cref="System.ArgumentOutOfRangeException">The history or the most segments are not above zero, or the start more than 72 days from the origin.</exception>
+    public SimulationOptions(
+        SimTime start = default, SimDuration? history = null, int maxSegments = DefaultMaxSegments, CancellationToken cancellation = default)
     {
         if (history is SimDuration given && given <= SimDuration.Zero)
         {
@@ -28,7 +38,14 @@ public sealed class SimulationOptions
             throw new System.ArgumentOutOfRangeException(nameof(start), start, "The start must lie within 72 days (3 x 2^21 s) of the origin.");
         }
 
+        if (maxSegments <= 0)
+        {
+            throw new System.ArgumentOutOfRangeException(nameof(maxSegments), maxSegments, "At least one segment must be allowed.");
+        }
+
         Start = start;
+        MaxSegments = maxSegments;
+        Cancellation = cancellation;
         History = history ?? DefaultHistory;
     }
 
@@ -37,4 +54,10 @@ public sealed class SimulationOptions
 
     /// <summary>How far behind the simulated time timelines are kept.</summary>
     public SimDuration History { get; }
+
+    /// <summary>How many pieces of path all timelines together may hold.</summary>
+    public int MaxSegments { get; }
+
+    /// <summary>Ends whatever the simulation is at.</summary>
+    public CancellationToken Cancellation { get; }
 }

@@ -22,7 +22,7 @@ public sealed class PeerThread : IDisposable
     {
         Session = session ?? throw new ArgumentNullException(nameof(session));
         this.port = port ?? throw new ArgumentNullException(nameof(port));
-        thread = new WorldThread(name, Step);
+        thread = new WorldThread(name, Step, session.Interrupt);
         port.Arrived += thread.Wake;
     }
 
@@ -96,7 +96,7 @@ public sealed class PeerThread : IDisposable
         return answer.Task;
     }
 
-    /// <summary>Stops the thread and waits for it. It does not say goodbye; <see cref="Session.Leave"/> does.</summary>
+    /// <summary>Stops the thread, in the middle of its work if it is at some, and waits for it. It does not say goodbye; <see cref="Session.Leave"/> does.</summary>
     public void Dispose()
     {
         port.Arrived -= thread.Wake;

@@ -1,4 +1,5 @@
 using System;
+using System.Threading;
 using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
@@ -21,6 +22,7 @@ public abstract class Session
     private readonly byte[] buffer = new byte[IDatagramPort.MaxDatagramBytes];
     private readonly ILateEventStrategy strategy;
     private readonly UpdateDatagram received = new();
+    private readonly CancellationTokenSource interruption = new();
     private bool hasUnshown;
     private volatile SessionState state;
     private volatile string? endReason;
@@ -124,6 +126,9 @@ public abstract class Session
         return external;
     }
 
+    /// <summary>Has a step that is simulating end soon, by an <see cref="OperationCanceledException"/>; from any thread. The world stands still from then on.</summary>
+    internal void Interrupt() => interruption.Cancel();
+
     /// <summary>Says goodbye and ends the session. The world stays readable.</summary>
     public void Leave()
     {
@@ -159,7 +164,7 @@ public abstract class Session
     {
         // The session itself decides what is forgotten, by the watermark; the simulation's own limit would go by its look-ahead.
         world ??= new LiveWorld(
-            Scene, new SimulationOptions(start, SimDuration.MaxValue), Options.LookAhead, Options.PicturePast);
+            Scene, new SimulationOptions(start, SimDuration.MaxValue, cancellation: interruption.Token), Options.LookAhead, Options.PicturePast);
     }
 
     /// <summary>Brings another peer's accepted event into the world.</summary>

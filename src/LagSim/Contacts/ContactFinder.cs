@@ -142,7 +142,7 @@ internal static class ContactFinder
             length = PathLength;
         }
 
-        double shift = (from - segment.Epoch).ToSeconds();
+        double shift = from.SecondsSince(segment.Epoch);
         if (shift != 0)
         {
             Shift(path.Slice(0, length), shift);
@@ -164,5 +164,5 @@ internal static class ContactFinder
 
     // No end means the end of time: 2^23 s is more than any instant is away.
     private static double Seconds(SimTime from, SimTime until) =>
-        until == SimTime.MaxValue ? 8388608.0 : (until - from).ToSeconds();
+        until == SimTime.MaxValue ? 8388608.0 : until.SecondsSince(from);
 }

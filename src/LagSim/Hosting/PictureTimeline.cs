@@ -79,7 +79,7 @@ internal sealed class PictureTimeline
         }
 
         ref readonly Entry entry = ref entries[low - 1];
-        return Simulation.StateOf(entry.Segment, (time - entry.Segment.Epoch).ToSeconds(), entry.Dense);
+        return Simulation.StateOf(entry.Segment, time.SecondsSince(entry.Segment.Epoch), entry.Dense);
     }
 
     private void Reserve(int fresh)

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Concurrent;
+using System.Threading;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -15,6 +16,7 @@ public sealed class SimulationHost : IDisposable
 {
     private readonly ConcurrentQueue<ExternalEvent> submitted = new();
     private readonly object stamping = new();
+    private readonly CancellationTokenSource stop = new();
     private readonly IClock clock;
     private readonly LiveWorld world;
     private readonly WorldThread thread;
@@ -28,8 +30,8 @@ public sealed class SimulationHost : IDisposable
     public SimulationHost(Scene scene, IClock clock, SimDuration? lookAhead = null)
     {
         this.clock = clock ?? throw new ArgumentNullException(nameof(clock));
-        world = new LiveWorld(scene, new SimulationOptions(clock.Now, SimDuration.FromSeconds(2)), lookAhead);
-        thread = new WorldThread("LagSim world", Step);
+        world = new LiveWorld(scene, new SimulationOptions(clock.Now, SimDuration.FromSeconds(2), cancellation: stop.Token), lookAhead);
+        thread = new WorldThread("LagSim world", Step, stop.Cancel);
     }
 
     /// <summary>The time to read the picture at.</summary>
@@ -84,7 +86,7 @@ public sealed class SimulationHost : IDisposable
         return external;
     }
 
-    /// <summary>Stops the thread and waits for it. The last picture stays readable; nothing more can be done to the world.</summary>
+    /// <summary>Stops the thread, in the middle of its work if it is at some, and waits for it. The last picture stays readable; nothing more can be done to the world.</summary>
     public void Dispose()
     {
         disposed = true;

@@ -12,6 +12,7 @@ namespace LagSim.Hosting;
 public sealed class WorldThread : IDisposable
 {
     private readonly Func<SimDuration> step;
+    private readonly Action? interrupt;
     private readonly AutoResetEvent wake = new(false);
     private readonly Thread thread;
     private Exception? fault;
@@ -22,8 +23,13 @@ public sealed class WorldThread : IDisposable
     /// <summary>A thread that is not started yet.</summary>
     /// <param name="name">What debuggers and profilers call it.</param>
     /// <param name="step">Does what is due and tells how long until something is due again; <see cref="SimDuration.MaxValue"/>: until woken.</param>
-    public WorldThread(string name, Func<SimDuration> step)
+    /// <param name="interrupt">
+    /// Has a step that is at work end soon, by an <see cref="OperationCanceledException"/>; called once, when the thread is disposed, from
+    /// whoever does that. Default: such a step is waited for.
+    /// </param>
+    public WorldThread(string name, Func<SimDuration> step, Action? interrupt = null)
     {
+        this.interrupt = interrupt;
         this.step = step ?? throw new ArgumentNullException(nameof(step));
         thread = new Thread(Run) { IsBackground = true, Name = name };
     }
@@ -56,7 +62,7 @@ public sealed class WorldThread : IDisposable
         }
     }
 
-    /// <summary>Stops after the step at hand and waits for that. Safe to call twice, and from the thread itself.</summary>
+    /// <summary>Interrupts the step at hand, or waits for it where nothing can, and ends. Safe to call twice, and from the thread itself.</summary>
     public void Dispose()
     {
         if (disposed)
@@ -66,6 +72,7 @@ public sealed class WorldThread : IDisposable
 
         disposed = true;
         stopping = true;
+        interrupt?.Invoke();
         wake.Set();
         if (thread.IsAlive && thread != Thread.CurrentThread)
         {
@@ -88,6 +95,10 @@ public sealed class WorldThread : IDisposable
                     wake.WaitOne(Milliseconds(left));
                 }
             }
+        }
+        catch (OperationCanceledException) when (stopping)
+        {
+            // As asked.
         }
         catch (Exception failure)
         {

@@ -18,5 +18,5 @@ internal readonly struct Forces
     internal Vector3D At(byte supplied, SimTime epoch, double seconds, in Vector3D position, in Vector3D velocity) =>
         supplied == 0
             ? scene.Gravity
-            : scene.Gravity + scene.AccelerationArray[supplied - 1].At((epoch - start).ToSeconds() + seconds, position, velocity);
+            : scene.Gravity + scene.AccelerationArray[supplied - 1].At(epoch.SecondsSince(start) + seconds, position, velocity);
 }

@@ -42,7 +42,7 @@ internal static class RungeKutta4
     /// <summary>The state at the step's end, which the next step starts from.</summary>
     internal static void End(in MotionSegment step, in DenseOutput dense, out Vector3D position, out Vector3D velocity)
     {
-        double h = (step.End - step.Epoch).ToSeconds();
+        double h = step.End.SecondsSince(step.Epoch);
         position = step.PositionAt(h, dense);
         velocity = step.VelocityAt(h, dense);
     }

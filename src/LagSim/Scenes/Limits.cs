@@ -45,19 +45,22 @@ internal static class Limits
         }
     }
 
-    /// <summary>The highest speed with which nothing of this radius can be missed: a tenth of it in a tick.</summary>
-    internal static double MaxSpeed(double smallestRadius) => 0.1 * smallestRadius * SimDuration.TicksPerSecond;
+    /// <summary>The highest speed that a scene or a player may give a body: a tenth of the smallest radius in a tick.</summary>
+    internal static double MaxGivenSpeed(double smallestRadius) => 0.1 * smallestRadius * SimDuration.TicksPerSecond;
+
+    /// <summary>The highest speed that a body may reach by impacts and forces: twice that, so that gravity does not end what a player just began.</summary>
+    internal static double MaxSpeed(double smallestRadius) => 2 * MaxGivenSpeed(smallestRadius);
 
     internal static void CheckPosition<T>(in Vector3D position, T whose) => Components(position, MaxCoordinate, whose, "position", "m");
 
     internal static void CheckVelocity<T>(in Vector3D velocity, double smallestRadius, T whose)
     {
         Components(velocity, double.MaxValue, whose, "velocity", "m/s");
-        double limit = MaxSpeed(smallestRadius);
+        double limit = MaxGivenSpeed(smallestRadius);
         if (!(velocity.Length <= limit))
         {
             throw new SceneException(
-                $"The velocity of {whose} is {velocity} m/s; with a smallest radius of {Text(smallestRadius)} m a speed is at most "
+                $"The velocity of {whose} is {velocity} m/s; with a smallest radius of {Text(smallestRadius)} m a speed that is given is at most "
                 + $"{Text(limit)} m/s (a tenth of that radius in a tick).");
         }
     }

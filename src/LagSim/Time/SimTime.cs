@@ -35,6 +35,14 @@ public readonly struct SimTime : IEquatable<SimTime>, IComparable<SimTime>
     /// <summary>Seconds from the origin: exact up to 2^13 s, beyond that the nearest <see cref="double"/>. For display, not for motion.</summary>
     public double ToSeconds() => Ticks * TickConversion.SecondsPerTick;
 
+    /// <summary>The seconds from another time to this, rounded once; also where the span exceeds the range of a <see cref="SimDuration"/>.</summary>
+    internal double SecondsSince(SimTime other)
+    {
+        long span = unchecked(Ticks - other.Ticks);
+        bool overflows = ((Ticks ^ other.Ticks) & (Ticks ^ span)) < 0;
+        return (overflows ? (double)Ticks - other.Ticks : span) * TickConversion.SecondsPerTick;
+    }
+
     /// <summary>Reads the exact form that <see cref="ToString"/> writes: seconds in decimal with a trailing <c>s</c>.</summary>
     /// <exception cref="FormatException">The text is not of that form, or is not a whole number of ticks within the range.</exception>
     public static SimTime Parse(string text) => new(TickText.Parse(text));

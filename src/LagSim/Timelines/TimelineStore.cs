@@ -18,6 +18,7 @@ internal sealed class TimelineStore
     internal const int None = -1;
 
     private readonly SimTime origin;
+    private readonly int most;
     private MotionSegment[] segments = new MotionSegment[32];
     private DenseOutput[] dense = Array.Empty<DenseOutput>(); // only once something is integrated
     private EventKey[] keys = new EventKey[32];
@@ -30,7 +31,12 @@ internal sealed class TimelineStore
     private int[] first = Array.Empty<int>();
     private int[] last = Array.Empty<int>();
 
-    internal TimelineStore(SimTime origin) => this.origin = origin;
+    /// <summary>No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>.</summary>
+    internal TimelineStore(SimTime origin, int most = SimulationOptions.DefaultMaxSegments)
+    {
+        this.origin = origin;
+        this.most = most;
+    }
 
     /// <summary>The sum of the hashes of all segments ever opened and not cut off again, dropped ones included.</summary>
     internal ulong EventHash { get; private set; }
@@ -73,6 +79,7 @@ internal sealed class TimelineStore
     internal long Serial(int segment) => serials[segment];
 
     /// <summary>Opens the body's next segment.</summary>
+    /// <exception cref="SimulationException">There are as many as may be.</exception>
     internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output)
     {
         int at = free;
@@ -82,6 +89,12 @@ internal sealed class TimelineStore
         }
         else
         {
+            if (used == most)
+            {
+                throw new SimulationException(
+                    $"At {key.Time} the timelines hold {most} segments, the most that the options allow: allow more, keep a shorter history, or look for what makes so many events.");
+            }
+
             at = used++;
             if (at == segments.Length)
             {

@@ -23,7 +23,7 @@ internal sealed class RandomWorld
     internal RandomWorld(int seed)
     {
         random = new Random(seed);
-        masses = Pick(Masses, Masses, Masses, ExtremeMasses);
+        masses = seed % 4 == 3 ? ExtremeMasses : Masses;
         Scene = DrawScene();
         Events = DrawEvents();
     }

@@ -2,7 +2,6 @@ using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Net.Sessions;
-using LagSim.Scenes;
 using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
@@ -125,11 +124,15 @@ public sealed class LeavingTests
     [Fact]
     public void Step_WorldThatCannotGoOn_EndsEverySessionWithASentenceAndDoesNotThrow()
     {
-        // Permitted, but from there gravity alone leads out of the range in which a state means something.
+        // Each is permitted, but the light one leaves the impact faster than a state means something.
         SessionGroup group = Three();
         double limit = 0.1 * group.Scene.SmallestRadius * SimDuration.TicksPerSecond;
         RawJoiner other = new(group);
-        other.Claim(1, ExternalEvent.Teleport(group.Host.SharedTime.Now, other.Peer, 1, BodyId.OfScene(3), V(0, 1e12), V(0, -limit)));
+        SimTime now = group.Host.SharedTime.Now;
+        other.Claim(
+            1,
+            ExternalEvent.Spawn(now, other.Peer, 1, Ball(mass: 1e9, e: 1), V(0, 1e6), V(0, limit)),
+            ExternalEvent.Spawn(now, other.Peer, 2, Ball(e: 1), V(0, 1e6 + 2), V(0, -limit)));
         group.Run(1);
         Assert.All(group.Sessions, s => Assert.Equal(SessionState.Ended, s.State));
         Assert.StartsWith("The world cannot be simulated any further. At ", group.Host.EndReason, System.StringComparison.Ordinal);
@@ -140,7 +143,8 @@ public sealed class LeavingTests
     {
         SessionGroup group = Three();
         double limit = 0.1 * group.Scene.SmallestRadius * SimDuration.TicksPerSecond;
-        Assert.Throws<SimulationException>(() => group.Do(1, PlayerAction.Teleport(BodyId.OfScene(3), V(0, 1e12), V(0, -limit))));
+        group.Do(1, PlayerAction.Spawn(Ball(mass: 1e9, e: 1), V(0, 1e6), V(0, limit)));
+        Assert.Throws<SimulationException>(() => group.Do(1, PlayerAction.Spawn(Ball(e: 1), V(0, 1e6 + 2), V(0, -limit))));
         Assert.Equal(SessionState.Ended, group.Sessions[1].State);
         group.Run(1);
         Assert.Equal(1, group.Host.JoinerCount);

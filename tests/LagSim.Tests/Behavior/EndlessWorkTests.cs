@@ -1,0 +1,134 @@
+using System;
+using System.Threading;
+using LagSim.Hosting;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Behavior;
+
+/// <summary>Scenes that ask for more events than anyone can wait for, or fall for ever: they can be stopped, and end with a sentence.</summary>
+public sealed class EndlessWorkTests
+{
+    [Fact]
+    public void AdvanceTo_Cancelled_StopsBetweenTwoInstantsAndWhatHappenedStands()
+    {
+        using CancellationTokenSource stop = new();
+        int calls = 0;
+        Scene scene = new SceneBuilder("tick").AddAcceleration(new Force((_, _, _) =>
+        {
+            if (++calls == 400)
+            {
+                stop.Cancel(); // from another thread it would be at any moment
+            }
+
+            return Vector3D.Zero;
+        })).AddBody("x", Ball(flight: MotionLaw.RungeKutta4, force: 1), V(0), V(1)).Build();
+        Simulation simulation = new(scene, new SimulationOptions(default, SimDuration.MaxValue, cancellation: stop.Token));
+        Assert.Throws<OperationCanceledException>(() => simulation.AdvanceTo(At(100)));
+        Assert.InRange(simulation.SimulatedTo.ToSeconds(), 0.2, 1);
+        Simulation whole = Run(scene, 1);
+        Assert.Equal(whole.StateHash(simulation.SimulatedTo), simulation.StateHash(simulation.SimulatedTo));
+        Assert.Equal(whole.EventHash(simulation.SimulatedTo), simulation.EventHash(simulation.SimulatedTo));
+        Assert.Throws<OperationCanceledException>(() => simulation.AdvanceTo(At(100))); // and not: it has faulted
+    }
+
+    [Fact]
+    public void Simulation_CancelledBeforeItBegins_IsNotMade()
+    {
+        Assert.Throws<OperationCanceledException>(() => new Simulation(Drop(1, 1), new SimulationOptions(cancellation: new CancellationToken(true))));
+    }
+
+    [Fact]
+    public void Dispose_HostWhoseStepWouldNeverEnd_IsPrompt()
+    {
+        // A nanosecond from wall to wall: some 1e9 impacts a second, and 33 ms are to be simulated at once.
+        using ManualResetEventSlim isAtWork = new();
+        Scene scene = new SceneBuilder("rattle").WithGravity(Floating).AddPlane("left", V(1), V(0)).AddPlane("right", V(-1), V(1.001))
+            .AddAcceleration(new Force((t, _, _) =>
+            {
+                if (t > 1e-5)
+                {
+                    isAtWork.Set();
+                }
+
+                return Vector3D.Zero;
+            }))
+            .AddBody("tells", Ball(flight: MotionLaw.RungeKutta4, step: 1e-6, force: 1), V(0.5005, 10), V(0))
+            .AddBody("ball", Ball(), V(0.5005), V(1e6)).Build();
+        SimulationHost host = new(scene, new StopwatchClock());
+        host.Start();
+        Assert.True(isAtWork.Wait(TimeSpan.FromSeconds(30), TestContext.Current.CancellationToken));
+        host.Dispose();
+        Assert.NotNull(host.Picture); // a step that is not interrupted goes on until the memory it may have is full, and has faulted
+    }
+
+    [Fact]
+    public void AdvanceTo_MoreSegmentsThanAllowed_EndsWithASentence()
+    {
+        Scene scene = new SceneBuilder("rattle").WithGravity(Floating).AddPlane("left", V(1), V(0)).AddPlane("right", V(-1), V(1.001))
+            .AddBody("ball", Ball(), V(0.5005), V(1)).Build();
+        Simulation simulation = new(scene, new SimulationOptions(default, SimDuration.FromSeconds(1), maxSegments: 500));
+        simulation.AdvanceTo(At(0.4)); // the control: a thousand impacts a second, so far fewer than 500
+        SimulationException failure = Assert.Throws<SimulationException>(() => simulation.AdvanceTo(At(0.6)));
+        Assert.Contains("500 segments", failure.Message, StringComparison.Ordinal);
+        Simulation shorter = new(scene, new SimulationOptions(default, SimDuration.FromSeconds(0.25), maxSegments: 500));
+        shorter.AdvanceTo(At(10)); // as it advises: what lies behind the history makes room
+    }
+
+    [Theory]
+    [InlineData(0)]
+    [InlineData(-1)]
+    public void Options_NoSegments_AreRefused(int segments)
+    {
+        Assert.Throws<ArgumentOutOfRangeException>(() => new SimulationOptions(maxSegments: segments));
+    }
+
+    [Theory]
+    [InlineData(0)]
+    [InlineData(3)]
+    [InlineData(-3)]
+    public void FreeFall_ThatBecomesTooFast_EndsAtThatVeryInstant(double speed)
+    {
+        // A nanometre's tenth a tick is 110 m/s, and twice that what a fall may reach.
+        Scene scene = new SceneBuilder("dust").AddBody("grain", Ball(1e-9), V(0), V(speed, speed)).Build();
+        double limit = 0.2 * 1e-9 * (1L << 40);
+        double t = (speed + Math.Sqrt((limit * limit) - (speed * speed))) / 9.81;
+        Simulation simulation = new(scene, KeepAll);
+        simulation.AdvanceTo(At(t - 1e-9));
+        Assert.InRange(Read(simulation, First, t - 1e-9).Velocity.Length, limit * (1 - 1e-8), limit);
+        SimulationException failure = Assert.Throws<SimulationException>(() => simulation.AdvanceTo(At(t + 1e-9)));
+        Assert.Contains("0.0.0", failure.Message, StringComparison.Ordinal);
+        Assert.Contains("falls without end", failure.Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Slide_ThatBecomesTooFast_EndsToo()
+    {
+        Scene scene = new SceneBuilder("slope").AddPlane("slope", V(0.6, 0.8), V(0), 0).AddBody("grain", Ball(1e-9), V(0.6e-9, 0.8e-9)).Build();
+        Assert.Equal(MotionLaw.Sliding, Read(Run(scene, 1), First, 1).Motion);
+        Assert.Throws<SimulationException>(() => Run(scene, 100));
+    }
+
+    [Fact]
+    public void Fall_OfAnOrdinaryBall_HasNoEnd()
+    {
+        Scene scene = new SceneBuilder("void").AddBody("ball", Ball(), V(0)).Build();
+        Simulation simulation = Run(scene, 8e6); // as far as time goes
+        Near(-9.81 * 8e6, Read(simulation, First, 8e6).Velocity.Y, 1e-6);
+        Assert.Equal(SimTime.MaxValue, simulation.Horizon);
+    }
+
+    [Fact]
+    public void Read_AtTheEndOfTime_FromAStartLongBefore_DoesNotOverflow()
+    {
+        Simulation simulation = new(Drop(1, 0), new SimulationOptions(SimTime.FromTicks(-(3L << 61)), SimDuration.FromSeconds(1)));
+        simulation.AdvanceTo(SimTime.MaxValue);
+        Assert.True(simulation.TryRead(First, SimTime.MaxValue, out BodyState state));
+        Assert.Equal(MotionLaw.Resting, state.Motion);
+        Simulation falls = new(new SceneBuilder("void").AddBody("ball", Ball(), V(0), V(1)).Build(), new SimulationOptions(SimTime.FromTicks(-(3L << 61)), SimDuration.MaxValue));
+        Assert.True(falls.TryRead(First, falls.Horizon, out state));
+        Near(14680064, state.Position.X, 1e-6); // 2^63 + 3 * 2^61 ticks in seconds
+    }
+}
