@@ -123,9 +123,9 @@ internal static class RunCommand
         double picture = request.Folder is null ? 0 : once;
         return console.WithProgress($"run {scene.Name}", once + timing + picture, progress =>
         {
-            double start = SceneRun.Energy(new Simulation(scene), SimTime.Zero);
+            double start = SceneRun.Energy(new Simulation(scene, new SimulationOptions(cancellation: console.Stop)), SimTime.Zero);
             Simulation end = Write(console, request, done => progress(done.ToSeconds()));
-            double wall = request.Timed == 0 ? double.NaN : SceneRun.LeastSeconds(scene, length, request.Timed, done => progress(once + done));
+            double wall = request.Timed == 0 ? double.NaN : SceneRun.LeastSeconds(scene, length, request.Timed, done => progress(once + done), console.Stop);
             RunSummary summary = new(end, SimTime.Zero + length, start, SceneRun.Energy(end, SimTime.Zero + length), wall);
             if (request.Folder is not null)
             {
@@ -147,6 +147,7 @@ internal static class RunCommand
             sampleOutput.Writer, "time_s", "body", "x_m", "y_m", "z_m", "vx_m_per_s", "vy_m_per_s", "vz_m_per_s", "motion");
         return new SceneRun(scene)
         {
+            Cancellation = console.Stop,
             SampleEverySeconds = request.Every,
             OnEvent = eventCsv is null ? null : e => eventCsv.WriteRow(
                 [e.Key.Time.ToSeconds(), e.Kind, scene.Bodies[e.Body.Index].Name, e.Other, .. Numbers(e.State)]),

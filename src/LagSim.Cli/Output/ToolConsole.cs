@@ -10,11 +10,9 @@ internal sealed class ToolConsole
 {
     private const int WidthOfAFile = 150;
 
-    private readonly CancellationToken stop;
-
     internal ToolConsole(TextWriter output, TextWriter error, CancellationToken stop)
     {
-        this.stop = stop;
+        Stop = stop;
         Output = output;
         Error = error;
         IsTerminal = ReferenceEquals(output, Console.Out) && !Console.IsOutputRedirected;
@@ -29,6 +27,9 @@ internal sealed class ToolConsole
             Rich.Profile.Width = WidthOfAFile; // else a table in a file is broken to 80 columns
         }
     }
+
+    /// <summary>Asks for an end of what takes long.</summary>
+    internal CancellationToken Stop { get; }
 
     /// <summary>Whether somebody watches the results as they come.</summary>
     internal bool IsTerminal { get; }
@@ -83,7 +84,7 @@ internal sealed class ToolConsole
     /// <summary>Between two pieces of work: stops if asked to, and hands on what has been written, so that a reader that has gone is noticed.</summary>
     private void Pause()
     {
-        stop.ThrowIfCancellationRequested();
+        Stop.ThrowIfCancellationRequested();
         Output.Flush();
     }
 }

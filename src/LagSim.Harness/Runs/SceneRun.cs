@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Diagnostics;
 using System.Linq;
+using System.Threading;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -41,11 +42,14 @@ public sealed class SceneRun
     /// <summary>The distance between samples in seconds; at least 1e-9. Each sample's time is rounded to a tick by itself, so no error adds up.</summary>
     public double SampleEverySeconds { get; init; } = 0.01;
 
+    /// <summary>Ends the run early, by an <see cref="OperationCanceledException"/>; default never.</summary>
+    public CancellationToken Cancellation { get; init; }
+
     /// <summary>Runs the scene and gives the world at its end.</summary>
     public Simulation Run(SimDuration length, Action<SimDuration>? progress = null)
     {
         SimTime end = SimTime.Zero + length;
-        Simulation simulation = new(scene, new SimulationOptions(SimTime.Zero, Stride * 4));
+        Simulation simulation = new(scene, new SimulationOptions(SimTime.Zero, Stride * 4, cancellation: Cancellation));
         SimTime reported = SimTime.Zero - SimDuration.OneTick;
         SimTime sample = SimTime.Zero;
         long samples = 0;
@@ -78,7 +82,8 @@ public sealed class SceneRun
     /// <param name="length">How much of it.</param>
     /// <param name="times">How often it counts.</param>
     /// <param name="progress">Is told how many seconds have been simulated in all runs so far; its own time does not count.</param>
-    public static double LeastSeconds(Scene scene, SimDuration length, int times, Action<double>? progress = null)
+    /// <param name="cancellation">Ends it early, by an <see cref="OperationCanceledException"/>.</param>
+    public static double LeastSeconds(Scene scene, SimDuration length, int times, Action<double>? progress = null, CancellationToken cancellation = default)
     {
         ArgumentNullException.ThrowIfNull(scene);
         SimTime end = SimTime.Zero + length;
@@ -86,7 +91,7 @@ public sealed class SceneRun
         for (int i = 0; i <= times; i++)
         {
             long began = Stopwatch.GetTimestamp();
-            Simulation simulation = new(scene);
+            Simulation simulation = new(scene, new SimulationOptions(cancellation: cancellation));
             TimeSpan spent = Stopwatch.GetElapsedTime(began);
             do
             {

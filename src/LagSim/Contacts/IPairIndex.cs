@@ -3,7 +3,7 @@ using LagSim.Motion;
 
 namespace LagSim.Contacts;
 
-/// <summary>Which bodies another body's newest motion could touch. An index may name too many, never too few, and its order decides nothing.</summary>
+/// <summary>Which bodies another body's newest motion could touch, or come as near to as a hop is high. An index may name too many, never too few, and its order decides nothing.</summary>
 internal interface IPairIndex
 {
     /// <summary>A body's newest motion is this; an absent one is taken out.</summary>

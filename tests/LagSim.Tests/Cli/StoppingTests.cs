@@ -94,7 +94,7 @@ public sealed class StoppingTests
     public void LeastSeconds_OfSeveralRuns_TellsHowFarAllOfThemAre()
     {
         List<double> told = [];
-        SceneRun.LeastSeconds(BuiltInScenes.Pair(), SimDuration.FromSeconds(25), 2, told.Add);
+        SceneRun.LeastSeconds(BuiltInScenes.Pair(), SimDuration.FromSeconds(25), 2, told.Add, TestContext.Current.CancellationToken);
         Assert.Equal([10, 20, 25, 35, 45, 50, 60, 70, 75], told);
     }
 
