@@ -10,6 +10,9 @@ namespace LagSim;
 /// <content>Opening a segment: which law a body follows from a state on.</content>
 public sealed partial class Simulation
 {
+    /// <summary>All of time, from its least to its largest value, in seconds.</summary>
+    private const double LongestSpan = 1L << 24;
+
     /// <summary>
     /// Opens the body's next segment from a state that holds <paramref name="carry"/> seconds before the key's tick (under a tick, either
     /// way): at rest on or sliding along those of the touched planes that carry it, else in free flight.
@@ -157,6 +160,11 @@ public sealed partial class Simulation
     {
         double limit = Limits.MaxSpeed(Scene.SmallestRadius);
         double a = acceleration.LengthSquared;
+        if (4 * velocity.LengthSquared <= limit * limit && 4 * a * LongestSpan * LongestSpan <= limit * limit)
+        {
+            return SimTime.MaxValue; // neither half can fill the limit
+        }
+
         double b = Vector3D.Dot(velocity, acceleration);
         double c = velocity.LengthSquared - (limit * limit);
         double root = Math.Sqrt((b * b) - (a * c));
