@@ -7,7 +7,7 @@ namespace LagSim.Cli;
 /// <summary>Ctrl-C and a request to terminate: the work is asked to stop, so that files end with a whole row and the cursor comes back.</summary>
 internal sealed class Interruption : IDisposable
 {
-    /// <summary>How long the work has to stop by itself. A world at work cannot be interrupted in the middle of a step.</summary>
+    /// <summary>How long the work has to stop by itself.</summary>
     private static readonly TimeSpan Grace = TimeSpan.FromSeconds(2);
 
     private readonly CancellationTokenSource asked = new();

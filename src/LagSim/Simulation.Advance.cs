@@ -26,24 +26,25 @@ public sealed partial class Simulation
         }
 
         SimTime reached = SimulatedTo;
+        bool isCancelled = false;
         try
         {
             while (queue.Count > 0 && queue.LeastKey.Time <= time)
             {
                 if (queue.LeastKey.Time > reached)
                 {
-                    cancellation.ThrowIfCancellationRequested(); // between instants: one has happened as a whole or not at all
+                    isCancelled = cancellation.IsCancellationRequested; // between instants: one has happened as a whole or not at all
+                    if (isCancelled)
+                    {
+                        break;
+                    }
+
                     reached = queue.LeastKey.Time;
                     ForgetUpTo(reached);
                 }
 
                 Process(queue.LeastSlot, queue.LeastKey);
             }
-        }
-        catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
-        {
-            SimulatedTo = reached;
-            throw;
         }
         catch (SimulationException failure)
         {
@@ -57,8 +58,12 @@ public sealed partial class Simulation
             throw fault;
         }
 
-        SimulatedTo = time;
-        ForgetUpTo(time);
+        SimulatedTo = isCancelled ? reached : time;
+        ForgetUpTo(SimulatedTo);
+        if (isCancelled)
+        {
+            throw new OperationCanceledException(cancellation);
+        }
     }
 
     /// <summary>Moves the edge of the history along, event by event, so that one long advance takes no more memory than many short ones.</summary>

@@ -16,10 +16,13 @@ public sealed partial class Simulation
     private const int CrowdedAfter = 8;
 
     /// <summary>
-    /// From this many on, each with something near, that takes part however fast they are: a light body is squeezed in a gap below a hop's height by
-    /// one more than some ten thousand million times as heavy, and to turn it round would take the square root of the mass ratio in impacts.
+    /// From this many on what is nearer than the scene's resolution takes part whether or not it lasts: the body is squeezed, and what goes on in
+    /// such a gap is not followed any further.
     /// </summary>
-    private const int SqueezedAfter = 1 << 19;
+    private const int SqueezedAfter = 64;
+
+    /// <summary>In a crowd of more bodies than these the load is passed on impact by impact: to solve all together costs the cube of their number.</summary>
+    private const int MostCrowded = 8;
 
     /// <summary>By how many hops' speeds a plastic impact may change velocities, in the mean by mass, of bodies in lasting contact.</summary>
     private const double LastingHops = 4;
@@ -30,11 +33,17 @@ public sealed partial class Simulation
     /// <summary>Solves impacts one by one however crowded bodies are: only a test's negative control sets it.</summary>
     internal bool IgnoresCrowding { get; set; }
 
-    /// <summary>Of the impact at hand: the most crowded party's count.</summary>
-    private int crowding;
-
     /// <summary>Of the impact at hand: whether something takes part that nothing strikes.</summary>
     private bool hasNear;
+
+    /// <summary>In the gather at hand: from what count on a body's near ones take part.</summary>
+    private int nearFrom;
+
+    /// <summary>In the gather at hand: how near is near.</summary>
+    private double reach;
+
+    /// <summary>Whether, in the gather at hand, so many take part with near ones among them that it has to be made anew without those.</summary>
+    private bool IsTooCrowded => hasNear && partyCount > MostCrowded && nearFrom == CrowdedAfter;
 
     private double NearGap => HopHeight * Scene.Resolution;
 
@@ -42,8 +51,8 @@ public sealed partial class Simulation
     private double HopSpeed(double acceleration) => Math.Sqrt(2 * acceleration * NearGap);
 
     /// <summary>
-    /// How many impacts in succession a body will have had with one at <paramref name="time"/>, each soon after the one before, and beyond
-    /// <see cref="CrowdedAfter"/> each with something near. A function of its newest segment, so that a timeline that was cut counts again as it did.
+    /// How many impacts in succession a body will have had with one at <paramref name="time"/>, each soon after the one before; no
+    /// further than to <see cref="SqueezedAfter"/>. A function of its newest segment, so that a timeline that was cut counts again as it did.
     /// </summary>
     private int CrowdingAt(int slot, SimTime time)
     {
@@ -58,7 +67,7 @@ public sealed partial class Simulation
     {
         int last = timelines.Last(slot);
         bool isPlane = surface < Scene.PlaneArray.Length;
-        if (count < CrowdedAfter || (isPlane && timelines.Segment(last).Supports.Contains(surface)))
+        if (count < nearFrom || (isPlane && timelines.Segment(last).Supports.Contains(surface)))
         {
             return false; // a support takes part anyway
         }
@@ -67,18 +76,18 @@ public sealed partial class Simulation
         double radius = bodies[slot].Spec.Radius;
         if (isPlane)
         {
-            return Scene.PlaneArray[surface].Gap(position, radius) <= NearGap;
+            return Scene.PlaneArray[surface].Gap(position, radius) <= reach;
         }
 
         ref readonly StaticSphere sphere = ref Scene.SphereArray[surface - Scene.PlaneArray.Length];
-        return (position - sphere.Centre).Length - (radius + sphere.Radius) <= NearGap;
+        return (position - sphere.Centre).Length - (radius + sphere.Radius) <= reach;
     }
 
     /// <summary>Whether two bodies of which one is crowded are so near that the other takes part, though they do not strike now.</summary>
     private bool IsNearBody(int slot, int count, int other, SimTime time)
     {
-        bool isCrowded = slot != other && (count >= CrowdedAfter || CrowdingAt(other, time) >= CrowdedAfter);
-        return isCrowded && Gap(slot, other, time) <= NearGap;
+        bool isCrowded = slot != other && (count >= nearFrom || CrowdingAt(other, time) >= nearFrom);
+        return isCrowded && Gap(slot, other, time) <= reach;
     }
 
     /// <summary>The distance between two bodies' surfaces at a tick; the same bits whoever asks.</summary>

@@ -15,7 +15,12 @@ public sealed partial class Simulation
     /// <remarks>Cost: O(1) in the bodies if it lies ahead; else that of everything since its time.</remarks>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     /// <exception cref="SimulationException">Simulating again led out of the permitted range.</exception>
-    public SubmitResult Submit(in ExternalEvent external) => Insert(external, external.Key, forwarded: false);
+    public SubmitResult Submit(in ExternalEvent external)
+    {
+        ThrowIfFaulted();
+        ExternalEventCheck.Throw(external, Scene);
+        return Insert(external, external.Key, forwarded: false);
+    }
 
     /// <summary>
     /// Adds an event that takes effect at <paramref name="arrival"/>, after its own time, by advancing the body alone from the event's time to
@@ -32,6 +37,8 @@ public sealed partial class Simulation
             throw new ArgumentOutOfRangeException(nameof(arrival), arrival, $"An event of {external.Time} cannot arrive before it happened.");
         }
 
+        ThrowIfFaulted();
+        ExternalEventCheck.Throw(external, Scene);
         return external.Time < HistoryEdge ? SubmitResult.TooOld : Insert(external, external.At(arrival).Key, forwarded: true);
     }
 
@@ -67,8 +74,6 @@ public sealed partial class Simulation
 
     private SubmitResult Insert(in ExternalEvent external, in EventKey key, bool forwarded)
     {
-        ThrowIfFaulted();
-        ExternalEventCheck.Throw(external, Scene);
         if (key.Time < HistoryEdge)
         {
             return SubmitResult.TooOld;

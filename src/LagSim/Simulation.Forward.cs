@@ -33,12 +33,18 @@ public sealed partial class Simulation
                 timelines.Segment(then).VelocityAt(seconds, timelines.Dense(then)),
                 out position,
                 out velocity);
+            if (velocity.Length > Limits.MaxGivenSpeed(Scene.SmallestRadius))
+            {
+                return; // no effect, as of such an event that comes in time
+            }
         }
 
-        // A world of its own with the same start, so that a force that depends on time sees the same time.
-        Simulation alone = new(Scene.WithoutBodies(), new SimulationOptions(Start, SimDuration.MaxValue, cancellation: cancellation));
+        // A world of its own with the same start, so that a force that depends on time sees the same time. It goes on to its end whatever is
+        // cancelled, for the instant at hand is half done; and it takes any state, also one that may not come in by the door.
+        Simulation alone = new(Scene.WithoutBodies(), new SimulationOptions(Start, SimDuration.MaxValue, maxSegments: timelines.Most));
         alone.AdvanceTo(SimTime.Max(alone.SimulatedTo, external.Time - SimDuration.OneTick));
-        alone.Submit(ExternalEvent.Spawn(external.Time, 1, 1, bodies[slot].Spec, position, velocity));
+        ExternalEvent spawn = ExternalEvent.Spawn(external.Time, 1, 1, bodies[slot].Spec, position, velocity);
+        alone.Insert(spawn, spawn.Key, forwarded: false);
         alone.AdvanceTo(SimTime.Max(alone.SimulatedTo, key.Time));
         int end = alone.timelines.Last(alone.SlotOf(new BodyId(1, 1, 0)));
         MotionSegment path = alone.timelines.Segment(end);

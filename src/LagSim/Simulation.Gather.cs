@@ -13,9 +13,11 @@ public sealed partial class Simulation
     /// All contacts of this tick and round that share bodies with the first, and the bodies as they meet, in canonical order. Returns the
     /// seconds from the tick to the impact.
     /// </summary>
-    private double Gather(int slot, in EventKey key, bool withNear)
+    private double Gather(int slot, in EventKey key, int fromCount, double gap)
     {
-        Follow(slot, key, withNear);
+        nearFrom = fromCount;
+        reach = gap;
+        Follow(slot, key);
         SortParties();
         SortContacts();
 
@@ -31,22 +33,20 @@ public sealed partial class Simulation
     }
 
     /// <summary>Finds contacts from body to body. Near ones are followed like those that are struck, so it does not matter where it begins.</summary>
-    private void Follow(int slot, in EventKey key, bool withNear)
+    private void Follow(int slot, in EventKey key)
     {
         partyCount = 0;
         contactCount = 0;
-        crowding = 0;
         hasNear = false;
         AddParty(slot);
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < partyCount && !IsTooCrowded; i++)
         {
             int party = parties[i];
             int count = CrowdingAt(party, key.Time);
-            crowding = Math.Max(crowding, count);
             for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
             {
                 bool now = TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
-                if (now || (withNear && IsNearSurface(party, count, surface, key.Time)))
+                if (now || IsNearSurface(party, count, surface, key.Time))
                 {
                     hasNear |= !now;
                     AddContact(new ContactPoint(i, ContactPoint.Static, surface, contact) { IsStruck = now });
@@ -55,9 +55,16 @@ public sealed partial class Simulation
 
             foreach (int other in index.Candidates(party))
             {
+                bool isNear = false;
                 bool now = TryTouchBody(party, other, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
-                now = now || (key.Round >= CollapseRound && IsTouching(party, other, key.Time, out contact));
-                if (now || (withNear && IsNearBody(party, count, other, key.Time)))
+                if (!now && RoundAt(key.Time, other) <= key.Round)
+                {
+                    // What was struck in this very round already is not struck in it again.
+                    now = key.Round >= CollapseRound && IsTouching(party, other, key.Time, out contact);
+                    isNear = !now && IsNearBody(party, count, other, key.Time);
+                }
+
+                if (now || isNear)
                 {
                     hasNear |= !now;
                     int j = PartyOf(other);

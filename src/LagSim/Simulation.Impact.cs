@@ -39,10 +39,10 @@ public sealed partial class Simulation
 
     private void HandleImpact(int slot, in EventKey key)
     {
-        double residual = Gather(slot, key, withNear: !IgnoresCrowding);
-        if (hasNear && crowding < SqueezedAfter && !IsLasting())
+        double residual = Gather(slot, key, IgnoresCrowding ? int.MaxValue : CrowdedAfter, NearGap);
+        if (IsTooCrowded || (hasNear && !IsLasting()))
         {
-            residual = Gather(slot, key, withNear: false);
+            residual = Gather(slot, key, SqueezedAfter, Scene.Resolution);
         }
 
         SetTargets(key.Round);
@@ -112,8 +112,9 @@ public sealed partial class Simulation
             ref ContactPoint c = ref contacts[i];
             c.Normal = NormalOf(c);
             double opening = ImpactSolver.Opening(c, partyVelocities);
+            c.Restored = round >= CollapseRound || hasNear ? 0 : Restitution(c) * Math.Max(0, -opening);
             c.Target = round >= CollapseRound ? 0
-                : c.IsStruck ? StruckTarget(c, -opening)
+                : c.IsStruck ? Math.Max(c.Restored, LeastTarget(c))
                 : Math.Min(Math.Max(0, opening), HopSpeed(Pressing(c))); // nothing may drive the two together; of itself it asks for no more than it has
         }
     }
@@ -122,18 +123,17 @@ public sealed partial class Simulation
         ? SurfaceNormal(c.Surface, partyPositions[c.First])
         : Direction(partyPositions[c.First] - partyPositions[c.Second]);
 
-    /// <summary>The speed at which the two of a contact part where they closed so fast: by restitution, but at least for a hop where no support can cover it.</summary>
-    private double StruckTarget(in ContactPoint c, double closing)
+    /// <summary>The least speed in m/s at which the two of a struck contact part: that of a hop, where no support can cover it.</summary>
+    private double LeastTarget(in ContactPoint c)
     {
-        double rebound = hasNear ? 0 : Restitution(c) * Math.Max(0, closing);
         if (IsSupportable(c) && Vector3D.Dot(c.Normal, Scene.Gravity) < 0)
         {
-            return rebound;
+            return 0;
         }
 
         Vector3D other = c.Second == ContactPoint.Static ? Vector3D.Zero : partyAccelerations[c.Second];
         double pressing = Math.Max(0, -Vector3D.Dot(c.Normal, partyAccelerations[c.First] - other));
-        return Math.Max(rebound, Math.Max(HopSpeed(pressing), LeastRebound));
+        return Math.Max(HopSpeed(pressing), LeastRebound);
     }
 
     private double Pressing(in ContactPoint c)
@@ -188,15 +188,21 @@ public sealed partial class Simulation
         return false;
     }
 
-    /// <summary>The impact's key whichever of its contacts was popped: named by its least party and that one's least partner.</summary>
+    /// <summary>The impact's key whichever of its contacts was popped: named by the least party that is struck and that one's least partner.</summary>
     private EventKey CanonicalKey(in EventKey popped)
     {
-        int least = contacts[0].First;
+        int at = 0;
+        while (!contacts[at].IsStruck)
+        {
+            at++;
+        }
+
+        int least = contacts[at].First;
         BodyId first = bodies[parties[least]].Id;
         BodyId second = first;
-        for (int i = 0; i < contactCount && contacts[i].First == least && second == first; i++)
+        for (int i = at; i < contactCount && contacts[i].First == least && second == first; i++)
         {
-            second = contacts[i].Second == ContactPoint.Static ? first : bodies[parties[contacts[i].Second]].Id;
+            second = contacts[i].Second == ContactPoint.Static || !contacts[i].IsStruck ? first : bodies[parties[contacts[i].Second]].Id;
         }
 
         return new EventKey(popped.Time, popped.Round, EventKind.Impact, first, second, 0, 0);
@@ -221,7 +227,7 @@ public sealed partial class Simulation
             AddTouched(ref count, supports[k]);
         }
 
-        Open(slot, key, partyPositions[party], partyVelocities[party], -residual, touched.AsSpan(0, count), hasNear ? CrowdingAt(slot, key.Time) : Math.Min(CrowdingAt(slot, key.Time), CrowdedAfter));
+        Open(slot, key, partyPositions[party], partyVelocities[party], -residual, touched.AsSpan(0, count), CrowdingAt(slot, key.Time));
     }
 
     private void AddTouched(ref int count, int plane)

@@ -114,15 +114,16 @@ public sealed partial class Simulation
         while (TouchSurface(slot, last, surface, isPlane, from, out contact))
         {
             round = RoundAt(contact.Tick, slot);
-            if (round <= CollapseRound || contact.Tick != opened || ClosingOnSurface(last, surface, contact) > CollapseSpeed)
+            if (contact.Tick != opened)
             {
                 return true;
             }
 
-            from = opened + CollapseWait;
-            if (from > segment.End)
+            Vector3D normal = SurfaceNormal(surface, PositionAt(last, contact));
+            double closing = -Vector3D.Dot(normal, VelocityAt(last, contact));
+            if (!TryDefer(opened, round, closing, -Vector3D.Dot(normal, AccelerationAt(last, contact)), segment.End, out from))
             {
-                return false;
+                return from == opened;
             }
         }
 
@@ -174,28 +175,53 @@ public sealed partial class Simulation
             segmentA, timelines.Dense(lastA), segmentB, timelines.Dense(lastB), reach, from, until, out contact))
         {
             round = Math.Max(RoundAt(contact.Tick, a), RoundAt(contact.Tick, b));
-            if (round <= CollapseRound || contact.Tick != opened || ClosingOfBodies(lastA, lastB, contact) > CollapseSpeed)
+            if (contact.Tick != opened)
             {
                 return true;
             }
 
-            from = opened + CollapseWait;
+            Vector3D normal = Direction(PositionAt(lastA, contact) - PositionAt(lastB, contact));
+            double closing = -Vector3D.Dot(normal, VelocityAt(lastA, contact) - VelocityAt(lastB, contact));
+            double pressing = -Vector3D.Dot(normal, AccelerationAt(lastA, contact) - AccelerationAt(lastB, contact));
+            if (!TryDefer(opened, round, closing, pressing, until, out from))
+            {
+                return from == opened;
+            }
         }
 
         return false;
     }
 
-    private double ClosingOnSurface(int last, int surface, in ContactTime contact)
+    /// <summary>
+    /// Whether a contact that closes from the opening of its segments on can wait, and until when: so slow, as rounding leaves it, that it is a
+    /// thousandth of the resolution deep only after <see cref="CollapseWait"/>. If not it is <paramref name="opened"/>, or
+    /// <see cref="SimTime.MaxValue"/> where the segments end before.
+    /// </summary>
+    private bool TryDefer(SimTime opened, uint round, double closing, double pressing, SimTime end, out SimTime until)
     {
-        Vector3D position = PositionAt(last, contact);
-        Vector3D normal = SurfaceNormal(surface, position);
-        return -Vector3D.Dot(normal, VelocityAt(last, contact));
-    }
+        // The root of u t + a t^2 / 2 = depth; if it eases off by itself, as if it did not.
+        double depth = 2e-3 * Scene.Resolution;
+        double seconds = depth / (closing + Math.Sqrt((closing * closing) + (Math.Max(0, pressing) * depth)));
+        SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
+        if (wait < CollapseWait)
+        {
+            until = opened;
+            if (round <= CollapseRound || closing > CollapseSpeed)
+            {
+                return false;
+            }
 
-    private double ClosingOfBodies(int lastA, int lastB, in ContactTime contact)
-    {
-        Vector3D apart = PositionAt(lastA, contact) - PositionAt(lastB, contact);
-        return -Vector3D.Dot(Direction(apart), VelocityAt(lastA, contact) - VelocityAt(lastB, contact));
+            wait = CollapseWait;
+        }
+
+        until = SimTime.MaxValue;
+        if (end.SecondsSince(opened) < wait.ToSeconds())
+        {
+            return false;
+        }
+
+        until = opened + wait;
+        return true;
     }
 
     private Vector3D SurfaceNormal(int surface, in Vector3D position)
@@ -222,6 +248,9 @@ public sealed partial class Simulation
 
     private Vector3D VelocityAt(int segment, in ContactTime contact) =>
         timelines.Segment(segment).VelocityAt(SecondsInto(segment, contact.Tick) + contact.Residual, timelines.Dense(segment));
+
+    private Vector3D AccelerationAt(int segment, in ContactTime contact) =>
+        timelines.Segment(segment).AccelerationAt(SecondsInto(segment, contact.Tick) + contact.Residual, timelines.Dense(segment));
 
     private double SecondsInto(int segment, SimTime time) => time.SecondsSince(timelines.Segment(segment).Epoch);
 }

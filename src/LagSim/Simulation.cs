@@ -17,7 +17,7 @@ namespace LagSim;
 /// <para>Not thread-safe: one thread at a time. <c>LagSim.Hosting</c> gives it a thread of its own. No allocation per event once as many
 /// segments were alive as will be.</para>
 /// <para>An exception out of <see cref="AdvanceTo"/> or <see cref="Submit"/> other than an argument's leaves it faulted: every later call
-/// throws. Only one that was cancelled still stands up to <see cref="SimulatedTo"/> and can be read.</para>
+/// throws. One that was cancelled still stands from <see cref="HistoryEdge"/> to <see cref="SimulatedTo"/>, if that is not before it.</para>
 /// </remarks>
 public sealed partial class Simulation
 {

@@ -16,6 +16,7 @@ internal struct ContactPoint
         Time = time;
         Normal = default;
         Target = 0;
+        Restored = 0;
         IsStruck = true;
     }
 
@@ -39,4 +40,7 @@ internal struct ContactPoint
 
     /// <summary>The relative normal speed after the impact where the contact pushes at all, in m/s, at least zero.</summary>
     internal double Target;
+
+    /// <summary>What of the target is restitution, in m/s; the rest is given so that a lasting contact comes to an end.</summary>
+    internal double Restored;
 }

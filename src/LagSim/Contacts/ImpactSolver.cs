@@ -10,7 +10,8 @@ namespace LagSim.Contacts;
 /// pull. Energy changes by -1/2 sum (1 - e_i) p_i |u_i|, so it never grows for e_i at most 1 (Moreau 1988 treats this family).</para>
 /// <para>It is the least-squares problem with bounds that Lawson and Hanson solve by an active set ("Solving Least Squares Problems", 1974,
 /// ch. 23): finite, and independent of the order in which the contacts were found, for they come in canonical order. If no velocities
-/// satisfy all targets (a body squeezed between surfaces that cannot give way), every target becomes 0, which is always possible.</para>
+/// satisfy all targets (a body squeezed between surfaces that cannot give way), or only at an expense of energy, only restitution is asked for, and
+/// if that is impossible too every target becomes 0, which never is.</para>
 /// <para>The rows of the active contacts are made orthogonal in the space of the bodies' motions, by modified Gram-Schmidt with 1/mass as
 /// weight, rather than by factors of the matrix of their products: where a light body carries a heavy one, that matrix has already lost
 /// the heavy one to rounding. No square roots: small integer systems, such as equal masses in a row, stay exact and a symmetric impact
@@ -20,6 +21,9 @@ namespace LagSim.Contacts;
 internal sealed class ImpactSolver
 {
     private const double Tolerance = 1e-12;
+
+    /// <summary>By what share of what is exchanged the energy may be off by rounding.</summary>
+    private const double Rounding = 1e-9;
 
     /// <summary>
     /// What is left of a row's part at one body counts as nothing below this share of what was taken away: normals that differ by less than a
@@ -57,11 +61,15 @@ internal sealed class ImpactSolver
 
         bodies = velocities.Length;
         Grow(contacts.Length);
-        Demand(contacts, velocities, plastic: false);
-        if (!TrySolve(contacts, masses))
+        Demand(contacts, velocities, c => c.Target);
+        if (!TrySolve(contacts, masses) || IsCostly(contacts, masses, velocities))
         {
-            Demand(contacts, velocities, plastic: true);
-            TrySolve(contacts, masses);
+            Demand(contacts, velocities, c => c.Restored);
+            if (!TrySolve(contacts, masses) || IsCostly(contacts, masses, velocities))
+            {
+                Demand(contacts, velocities, _ => 0);
+                TrySolve(contacts, masses);
+            }
         }
 
         for (int b = 0; b < bodies; b++)
@@ -96,12 +104,37 @@ internal sealed class ImpactSolver
         velocities[c.Second] -= c.Normal * (change * (masses[c.First] / whole));
     }
 
-    private void Demand(ReadOnlySpan<ContactPoint> contacts, ReadOnlySpan<Vector3D> velocities, bool plastic)
+    private void Demand(ReadOnlySpan<ContactPoint> contacts, ReadOnlySpan<Vector3D> velocities, Func<ContactPoint, double> target)
     {
         for (int i = 0; i < contacts.Length; i++)
         {
-            demand[i] = (plastic ? 0 : contacts[i].Target) - Opening(contacts[i], velocities);
+            demand[i] = target(contacts[i]) - Opening(contacts[i], velocities);
         }
+    }
+
+    /// <summary>
+    /// Whether the bodies would gain more energy than the speeds beyond restitution give them where they are free to part: twice the largest of
+    /// those for each. A row that just fits between two walls has almost no way to part, and would be shot out sideways for a micrometre's hop.
+    /// </summary>
+    private bool IsCostly(ReadOnlySpan<ContactPoint> contacts, ReadOnlySpan<double> masses, ReadOnlySpan<Vector3D> velocities)
+    {
+        double given = 0;
+        foreach (ref readonly ContactPoint c in contacts)
+        {
+            given = Math.Max(given, c.Target - c.Restored);
+        }
+
+        double gain = 0;
+        double allowed = 0;
+        for (int b = 0; b < bodies; b++)
+        {
+            Vector3D v = velocities[b];
+            Vector3D d = change[b];
+            gain += masses[b] * (Vector3D.Dot(v, d) + (0.5 * d.LengthSquared));
+            allowed += masses[b] * ((2 * given * given) + (Rounding * ((v.Length * d.Length) + d.LengthSquared)));
+        }
+
+        return !(gain <= allowed);
     }
 
     /// <summary>Lawson and Hanson's active-set method; false if some demand cannot be met. Leaves the change of every velocity.</summary>

@@ -35,7 +35,8 @@ public sealed class SceneBuilder
         return this;
     }
 
-    /// <summary>Sets the length in metres, 1e-15 to 1e-3, below which bounces on a plane are not followed hop by hop.</summary>
+    /// <summary>Sets the length in metres, 1e-15 to 1e-3, below which bounces on a plane are not followed hop by hop; default 1e-9.</summary>
+    /// <remarks>A thousand times this is the height of the hops by which contacts that no plane covers last: what shall look at rest needs it small.</remarks>
     public SceneBuilder WithResolution(double metres)
     {
         resolution = metres;

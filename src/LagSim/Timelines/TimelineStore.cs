@@ -18,7 +18,6 @@ internal sealed class TimelineStore
     internal const int None = -1;
 
     private readonly SimTime origin;
-    private readonly int most;
     private MotionSegment[] segments = new MotionSegment[32];
     private DenseOutput[] dense = Array.Empty<DenseOutput>(); // only once something is integrated
     private EventKey[] keys = new EventKey[32];
@@ -35,11 +34,14 @@ internal sealed class TimelineStore
     internal TimelineStore(SimTime origin, int most = SimulationOptions.DefaultMaxSegments)
     {
         this.origin = origin;
-        this.most = most;
+        Most = most;
     }
 
     /// <summary>The sum of the hashes of all segments ever opened and not cut off again, dropped ones included.</summary>
     internal ulong EventHash { get; private set; }
+
+    /// <summary>How many segments may be kept.</summary>
+    internal int Most { get; }
 
     /// <summary>How many segments are kept now.</summary>
     internal int Alive { get; private set; }
@@ -89,10 +91,10 @@ internal sealed class TimelineStore
         }
         else
         {
-            if (used == most)
+            if (used == Most)
             {
                 throw new SimulationException(
-                    $"At {key.Time} the timelines hold {most} segments, the most that the options allow: allow more, keep a shorter history, or look for what makes so many events.");
+                    $"At {key.Time} the timelines hold {Most} segments, the most that the options allow: allow more, keep a shorter history, or look for what makes so many events.");
             }
 
             at = used++;

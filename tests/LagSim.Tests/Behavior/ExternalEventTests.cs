@@ -18,6 +18,18 @@ public sealed class ExternalEventTests
     private static ExternalEvent SpawnAt(double seconds) => ExternalEvent.Spawn(At(seconds), 1, 1, Ball(), V(0, 5), V(0, 0, 1));
 
     [Fact]
+    public void SubmitForwarded_ImpulseBeyondThePermittedSpeed_HasNoEffectAsInTime()
+    {
+        Simulation forwarded = Run(Drop(10, 0.8), 0.5), inTime = Run(Drop(10, 0.8), 0.5);
+        ExternalEvent external = ExternalEvent.Impulse(At(0.4), 1, 1, First, V(0, 1e13));
+        forwarded.SubmitForwarded(external, At(0.45));
+        inTime.Submit(external);
+        Assert.Equal(inTime.StateHash(At(0.5)), forwarded.StateHash(At(0.5)));
+        forwarded.SubmitForwarded(ExternalEvent.Impulse(At(0.4), 1, 2, First, V(0, 1)), At(0.46)); // the control
+        Assert.NotEqual(inTime.StateHash(At(0.5)), forwarded.StateHash(At(0.5)));
+    }
+
+    [Fact]
     public void Spawn_AtItsTime_IsThereFromThatTickOn()
     {
         Simulation simulation = new(Space, KeepAll);

@@ -32,6 +32,33 @@ public sealed class InvariantTests
     }
 
     [Fact]
+    public void Keys_OfEveryTimeline_Ascend()
+    {
+        // A row in which the push comes back and forth within one tick, and random worlds.
+        SceneBuilder row = new SceneBuilder("row").AddPlane("floor", Vector3D.Up, V(0), 1).AddPlane("west", V(1), V(-2)).AddPlane("east", V(-1), V(2));
+        double[] masses = [0.1, 1, 0.1, 0.1, 0.1, 0.001, 1], restitutions = [0.5, 0, 0, 0.05, 1, 0, 1];
+        for (int i = 0; i < masses.Length; i++)
+        {
+            row.AddBody($"ball {i}", Ball(0.25, masses[i], restitutions[i]), V(-1.7 + (0.5 * i), 0.25), V(i == 0 ? 1 : 0));
+        }
+
+        Ascend(Run(row.Build(), 0.1));
+        foreach (int seed in Enumerable.Range(5000, 120))
+        {
+            Ascend(new RandomWorld(seed).OnTime());
+        }
+
+        static void Ascend(Simulation simulation)
+        {
+            for (int n = 0; n < simulation.BodyCount; n++)
+            {
+                EventKey[] keys = simulation.Timeline(simulation.BodyAt(n)).Select(entry => entry.Key).ToArray();
+                Assert.True(keys.Zip(keys.Skip(1), (a, b) => EventKey.Compare(a, b)).All(compared => compared < 0), $"{simulation.Scene.Name} {simulation.BodyAt(n)}");
+            }
+        }
+    }
+
+    [Fact]
     public void State_AnotherStartTime_IsTheSameToTheBit()
     {
         foreach (int seed in Enumerable.Range(9000, 40))
