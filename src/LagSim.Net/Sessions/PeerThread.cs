@@ -54,7 +54,8 @@ public sealed class PeerThread : IDisposable
         return Session.World?.Pictures.Latest();
     }
 
-    /// <summary>Does something to the shared world as soon as the session's thread gets to it, which is at once unless it is at work.</summary>
+    /// <summary>Does something to the shared world as soon as the session's thread gets to it, which is at once unless it is at work.
+    /// Asked before <see cref="Start"/>, it waits for the thread.</summary>
     /// <returns>The stamped event, or the exception that <see cref="Session.Do"/> throws.</returns>
     public Task<ExternalEvent> Do(PlayerAction action) => Ask(session => session.Do(action));
 
