@@ -3,6 +3,7 @@ using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim;
 
@@ -107,7 +108,13 @@ public sealed partial class Simulation
     private bool IsStale(int slot)
     {
         int partner = bodies[slot].Partner;
-        return partner != NoPartner && timelines.Serial(timelines.Last(partner)) != bodies[slot].PartnerSerial;
+        if (partner == NoPartner)
+        {
+            return false;
+        }
+
+        int last = timelines.Last(partner);
+        return last == TimelineStore.None || timelines.Serial(last) != bodies[slot].PartnerSerial; // or forgotten meanwhile
     }
 
     private void HandleStepEnd(int slot, in EventKey key)

@@ -56,6 +56,11 @@ public sealed partial class Simulation
     public ulong EventHash(SimTime time)
     {
         CheckReadable(time);
+        return EventHashUpTo(time);
+    }
+
+    private ulong EventHashUpTo(SimTime time)
+    {
         ulong sum = timelines.EventHash;
         foreach (int slot in order)
         {
@@ -96,7 +101,12 @@ public sealed partial class Simulation
 
     internal TimelineStore Timelines => timelines;
 
-    internal int SlotCount => BodyCount;
+    internal int SlotCount => slotCount;
+
+    /// <summary>Changes whenever a body is heard of or forgotten, so that a reader knows when to look at all of them anew.</summary>
+    internal long OrderVersion { get; private set; }
+
+    internal int SlotAt(int n) => order[n];
 
     internal BodyId IdOfSlot(int slot) => bodies[slot].Id;
 

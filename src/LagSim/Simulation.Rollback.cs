@@ -15,7 +15,7 @@ public sealed partial class Simulation
     {
         Rollbacks++;
         EventKey cut = CutsByTime ? new EventKey(key.Time, 0, EventKind.Spawn, default, default, 0, 0) : key;
-        for (int slot = 0; slot < BodyCount; slot++)
+        for (int slot = 0; slot < slotCount; slot++)
         {
             SegmentsCut += timelines.CutFrom(slot, bodies[slot].Id, cut);
             bodies[slot].NextExternal = log.FirstFrom(slot, key);
@@ -25,12 +25,12 @@ public sealed partial class Simulation
             }
         }
 
-        for (int slot = 0; slot < BodyCount; slot++)
+        for (int slot = 0; slot < slotCount; slot++)
         {
             queue.Remove(slot);
         }
 
-        for (int slot = 0; slot < BodyCount; slot++)
+        for (int slot = 0; slot < slotCount; slot++)
         {
             Predict(slot);
         }

@@ -30,6 +30,8 @@ public sealed partial class Simulation
     private readonly CancellationToken cancellation;
     private readonly List<int> order = new(); // slots by ascending identity
     private Body[] bodies = new Body[16];
+    private readonly Stack<int> freeSlots = new();
+    private int slotCount;
     private Exception? fault;
 
     /// <summary>A world at the start of its scene.</summary>
@@ -55,7 +57,7 @@ public sealed partial class Simulation
             OpenFlight(slot, key, body.Position, body.Velocity);
         }
 
-        for (int slot = 0; slot < BodyCount; slot++)
+        for (int slot = 0; slot < slotCount; slot++)
         {
             cancellation.ThrowIfCancellationRequested();
             Predict(slot);
@@ -79,8 +81,8 @@ public sealed partial class Simulation
     /// <summary>The last instant that can be read: nothing happens between <see cref="SimulatedTo"/> and here.</summary>
     public SimTime Horizon => queue.Count == 0 ? SimTime.MaxValue : SimTime.Max(SimulatedTo, queue.LeastKey.Time - SimDuration.OneTick);
 
-    /// <summary>How many bodies have ever been heard of, absent ones included.</summary>
-    public int BodyCount { get; private set; }
+    /// <summary>How many bodies are known, absent ones included. One that is gone for good is forgotten when room is needed.</summary>
+    public int BodyCount => order.Count;
 
     /// <summary>How many events were processed, those that were simulated again included.</summary>
     public long EventsProcessed { get; private set; }
@@ -99,17 +101,43 @@ public sealed partial class Simulation
 
     private int AddBody(BodyId id)
     {
-        int slot = BodyCount++;
-        if (slot == bodies.Length)
+        if (freeSlots.Count == 0 && slotCount == bodies.Length)
         {
-            Array.Resize(ref bodies, slot * 2);
+            ForgetAbsent();
+            if (freeSlots.Count < bodies.Length / 4)
+            {
+                Array.Resize(ref bodies, bodies.Length * 2); // else every other body would have all of them looked through
+            }
         }
+
+        int slot = freeSlots.Count > 0 ? freeSlots.Pop() : slotCount++;
 
         bodies[slot] = new Body { Id = id, NextExternal = EventLog.None, Partner = NoPartner };
         timelines.AddSlot(slot);
         log.AddSlot(slot);
         order.Insert(~FindInOrder(id), slot);
+        OrderVersion++;
         return slot;
+    }
+
+    /// <summary>Takes back the slots of bodies that are not there and that nothing inside the window says anything of.</summary>
+    private void ForgetAbsent()
+    {
+        order.RemoveAll(slot =>
+        {
+            log.DropBefore(slot, HistoryEdge);
+            timelines.DropBefore(slot, HistoryEdge);
+            int last = timelines.Last(slot);
+            bool isGone = log.IsEmpty(slot) && !timelines.Segment(last).IsPresent && timelines.Key(last).Time < HistoryEdge;
+            if (isGone)
+            {
+                timelines.Forget(slot);
+                freeSlots.Push(slot);
+                OrderVersion++;
+            }
+
+            return isGone;
+        });
     }
 
     /// <summary>The place of an identity in <see cref="order"/>, or the complement of where it belongs.</summary>

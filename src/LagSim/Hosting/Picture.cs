@@ -14,6 +14,7 @@ public sealed class Picture
     private PictureTimeline[] timelines = Array.Empty<PictureTimeline>();
     private ulong[] identities = Array.Empty<ulong>();
     private int[] slots = Array.Empty<int>();
+    private long orderVersion = -1;
 
     internal Picture()
     {
@@ -58,25 +59,20 @@ public sealed class Picture
             Array.Resize(ref slots, size);
         }
 
-        if (count > BodyCount)
+        if (simulation.OrderVersion != orderVersion)
         {
-            for (int slot = BodyCount; slot < count; slot++)
+            orderVersion = simulation.OrderVersion;
+            BodyCount = simulation.BodyCount;
+            for (int n = 0; n < BodyCount; n++)
             {
-                timelines[slot] = new PictureTimeline();
+                slots[n] = simulation.SlotAt(n);
+                identities[n] = simulation.IdOfSlot(slots[n]).Packed;
             }
-
-            for (int slot = 0; slot < count; slot++)
-            {
-                identities[slot] = simulation.IdOfSlot(slot).Packed;
-                slots[slot] = slot;
-            }
-
-            Array.Sort(identities, slots, 0, count);
-            BodyCount = count;
         }
 
         for (int slot = 0; slot < count; slot++)
         {
+            timelines[slot] ??= new PictureTimeline();
             timelines[slot].Follow(simulation.Timelines, slot, from);
         }
 

@@ -98,6 +98,9 @@ internal sealed class EventLog
         return false;
     }
 
+    /// <summary>Whether no event of a body is kept.</summary>
+    internal bool IsEmpty(int slot) => first[slot] == None;
+
     /// <summary>Forgets a body's events keyed before <paramref name="edge"/>; nothing can be cut there any more.</summary>
     internal void DropBefore(int slot, SimTime edge)
     {

@@ -170,6 +170,17 @@ internal sealed class TimelineStore
         }
     }
 
+    /// <summary>Forgets the one segment that is left of a body.</summary>
+    internal void Forget(int slot)
+    {
+        Release(first[slot]);
+        first[slot] = None;
+        last[slot] = None;
+    }
+
+    /// <summary>The hash from which this store goes on, which has what its segments would add in it already.</summary>
+    internal void ContinueFrom(ulong eventHash) => EventHash = eventHash;
+
     /// <summary>The segment that holds at <paramref name="time"/>, after all events of that tick; <see cref="None"/> before the first kept.</summary>
     internal int At(int slot, SimTime time)
     {

@@ -1,0 +1,74 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <content>Snapshots: the whole world at an instant, to go on from elsewhere.</content>
+public sealed partial class Simulation
+{
+    /// <summary>Goes on from a snapshot of a world of this scene: the same events give the same bits as in the world that it was taken of.</summary>
+    /// <param name="scene">The scene that the snapshot's world has.</param>
+    /// <param name="snapshot">From where to go on. Earlier events are in it; they are <see cref="SubmitResult.TooOld"/>.</param>
+    /// <param name="options">As of a new world, but for <see cref="SimulationOptions.Start"/>, which the snapshot tells.</param>
+    /// <exception cref="ArgumentNullException">The scene or the snapshot is missing.</exception>
+    /// <exception cref="SceneException">The snapshot holds a value that cannot be of a world of this scene; the sentence names it.</exception>
+    /// <exception cref="SimulationException">It cannot be simulated.</exception>
+    public Simulation(Scene scene, WorldSnapshot snapshot, SimulationOptions? options = null)
+    {
+        Scene = scene ?? throw new ArgumentNullException(nameof(scene));
+        SnapshotCheck.Throw(snapshot ?? throw new ArgumentNullException(nameof(snapshot)), scene);
+        options ??= new SimulationOptions();
+        Start = snapshot.Start;
+        history = options.History;
+        cancellation = options.Cancellation;
+        SimulatedTo = snapshot.Time - SimDuration.OneTick;
+        HistoryEdge = snapshot.Time;
+        timelines = new TimelineStore(Start, options.MaxSegments);
+        forces = new Forces(scene, Start);
+        foreach (ref readonly BodySnapshot body in snapshot.BodyArray.AsSpan())
+        {
+            int slot = AddBody(body.Id);
+            bodies[slot].Spec = body.Spec;
+            timelines.Append(slot, body.Id, body.Opened, body.Segment, body.Dense);
+            index.Place(slot, body.Segment);
+        }
+
+        timelines.ContinueFrom(snapshot.EventHash);
+        for (int slot = 0; slot < slotCount; slot++)
+        {
+            cancellation.ThrowIfCancellationRequested();
+            Predict(slot);
+        }
+
+        AdvanceTo(snapshot.Time);
+    }
+
+    /// <summary>The world after everything before <paramref name="time"/>. Changes nothing. Cost: the segments of all bodies since then.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">The time is outside <see cref="HistoryEdge"/> to <see cref="SimulatedTo"/>, or not after the start.</exception>
+    public WorldSnapshot Snapshot(SimTime time)
+    {
+        ThrowIfFaulted();
+        if (time < HistoryEdge || time > SimulatedTo || time <= Start)
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(time), time, $"A snapshot can be taken from {SimTime.Max(HistoryEdge, Start + SimDuration.OneTick)} to {SimulatedTo}, up to where the world is simulated.");
+        }
+
+        SimTime last = time - SimDuration.OneTick;
+        List<BodySnapshot> there = new();
+        foreach (int slot in order)
+        {
+            int at = timelines.At(slot, last);
+            if (at != TimelineStore.None && timelines.Segment(at).IsPresent)
+            {
+                there.Add(new BodySnapshot(bodies[slot].Id, bodies[slot].Spec, timelines.Key(at), timelines.Segment(at), timelines.Dense(at)));
+            }
+        }
+
+        return new WorldSnapshot(Start, time, EventHashUpTo(last), there.ToArray());
+    }
+}

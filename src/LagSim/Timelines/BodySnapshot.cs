@@ -1,0 +1,124 @@
+using System;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Timelines;
+
+/// <summary>One body of a <see cref="WorldSnapshot"/>: what it is, and the piece of path it is on.</summary>
+/// <remarks>Immutable. Any values can be put in; <see cref="Simulation(Scene, WorldSnapshot, SimulationOptions)"/> says which make a world.</remarks>
+public readonly struct BodySnapshot
+{
+    /// <summary>The most planes that carry a body together.</summary>
+    public const int MaxSupports = SupportSet.Most;
+
+    /// <summary>A body on a path that <paramref name="opened"/> began.</summary>
+    /// <param name="id">See <see cref="Id"/>.</param>
+    /// <param name="spec">See <see cref="Spec"/>.</param>
+    /// <param name="opened">See <see cref="Opened"/>.</param>
+    /// <param name="law">See <see cref="Law"/>.</param>
+    /// <param name="epoch">See <see cref="Epoch"/>.</param>
+    /// <param name="end">See <see cref="End"/>.</param>
+    /// <param name="position">See <see cref="Position"/>.</param>
+    /// <param name="velocity">See <see cref="Velocity"/>.</param>
+    /// <param name="acceleration">See <see cref="Acceleration"/>.</param>
+    /// <param name="supports">The planes that carry it, by index in the scene; at most <see cref="MaxSupports"/>.</param>
+    /// <param name="crowding">See <see cref="Crowding"/>.</param>
+    /// <param name="cubic">See <see cref="Cubic"/>.</param>
+    /// <param name="quartic">See <see cref="Quartic"/>.</param>
+    /// <param name="quintic">See <see cref="Quintic"/>.</param>
+    /// <exception cref="ArgumentException">There are more than <see cref="MaxSupports"/> supports.</exception>
+    public BodySnapshot(
+        BodyId id,
+        in BodySpec spec,
+        in EventKey opened,
+        MotionLaw law,
+        SimTime epoch,
+        SimTime end,
+        in Vector3D position,
+        in Vector3D velocity,
+        in Vector3D acceleration,
+        ReadOnlySpan<int> supports = default,
+        int crowding = 0,
+        in Vector3D cubic = default,
+        in Vector3D quartic = default,
+        in Vector3D quintic = default)
+    {
+        if (supports.Length > MaxSupports)
+        {
+            throw new ArgumentException($"{supports.Length} planes carry body {id}; at most {MaxSupports} can.", nameof(supports));
+        }
+
+        Id = id;
+        Spec = spec;
+        Opened = opened;
+        SupportSet set = new(
+            supports.Length,
+            supports.Length > 0 ? supports[0] : 0,
+            supports.Length > 1 ? supports[1] : 0,
+            supports.Length > 2 ? supports[2] : 0);
+        Segment = new MotionSegment(law, epoch, end, position, velocity, acceleration, set, crowding);
+        Dense = new DenseOutput(cubic, quartic, quintic);
+    }
+
+    internal BodySnapshot(BodyId id, in BodySpec spec, in EventKey opened, in MotionSegment segment, in DenseOutput dense)
+    {
+        Id = id;
+        Spec = spec;
+        Opened = opened;
+        Segment = segment;
+        Dense = dense;
+    }
+
+    /// <summary>Who it is.</summary>
+    public BodyId Id { get; }
+
+    /// <summary>What it is.</summary>
+    public BodySpec Spec { get; }
+
+    /// <summary>The event that opened this piece of path.</summary>
+    public EventKey Opened { get; }
+
+    /// <summary>How it moves on it.</summary>
+    public MotionLaw Law => Segment.Law;
+
+    /// <summary>The instant at which the state below holds.</summary>
+    public SimTime Epoch => Segment.Epoch;
+
+    /// <summary>The last instant for which the path's formula was made; <see cref="SimTime.MaxValue"/>: none.</summary>
+    public SimTime End => Segment.End;
+
+    /// <summary>The position at the epoch, in metres.</summary>
+    public Vector3D Position => Segment.Position;
+
+    /// <summary>The velocity at the epoch, in m/s.</summary>
+    public Vector3D Velocity => Segment.Velocity;
+
+    /// <summary>The acceleration at the epoch, in m/s^2.</summary>
+    public Vector3D Acceleration => Segment.Acceleration;
+
+    /// <summary>How many planes carry it.</summary>
+    public int SupportCount => Segment.Supports.Count;
+
+    /// <summary>How many impacts in succession came soon after the one before.</summary>
+    public int Crowding => Segment.Crowding;
+
+    /// <summary>Of an integrated step the coefficient of t^3, in m/s^3; else zero.</summary>
+    public Vector3D Cubic => Dense.Cubic;
+
+    /// <summary>Of an integrated step the coefficient of t^4, in m/s^4; else zero.</summary>
+    public Vector3D Quartic => Dense.Quartic;
+
+    /// <summary>Of an integrated step the coefficient of t^5, in m/s^5; else zero.</summary>
+    public Vector3D Quintic => Dense.Quintic;
+
+    internal MotionSegment Segment { get; }
+
+    internal DenseOutput Dense { get; }
+
+    /// <summary>The index in the scene of the n-th plane that carries it.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such one.</exception>
+    public int Support(int n) =>
+        n >= 0 && n < SupportCount ? Segment.Supports[n] : throw new ArgumentOutOfRangeException(nameof(n), n, $"{SupportCount} planes carry body {Id}.");
+}

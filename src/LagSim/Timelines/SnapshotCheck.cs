@@ -1,0 +1,94 @@
+using LagSim.Events;
+using LagSim.Scenes;
+
+namespace LagSim.Timelines;
+
+/// <summary>What a snapshot must satisfy to be of a world of a scene; it may come from anywhere.</summary>
+/// <remarks>It says what can be told of each body alone. Whether bodies overlap, or a path is one that this world would have taken, it does not ask.</remarks>
+internal static class SnapshotCheck
+{
+    /// <summary>Furthest from the origin that an instant may lie: that of a start and the longest run.</summary>
+    private const long MaxTicks = 3L << 61;
+
+    /// <summary>Higher than any count of impacts on the spot, which stop counting at 64.</summary>
+    private const int MaxCrowding = 64;
+
+    internal static void Throw(WorldSnapshot snapshot, Scene scene)
+    {
+        if (snapshot.Start.Ticks < -MaxTicks || snapshot.Time.Ticks > MaxTicks || snapshot.Time <= snapshot.Start)
+        {
+            throw new SceneException($"The snapshot is of {snapshot.Time} in a world that began at {snapshot.Start}; neither may be further than 72 days from the origin, and the first comes after the second.");
+        }
+
+        BodySnapshot[] bodies = snapshot.BodyArray;
+        for (int i = 0; i < bodies.Length; i++)
+        {
+            if (i > 0 && bodies[i].Id <= bodies[i - 1].Id)
+            {
+                throw new SceneException($"In the snapshot body {bodies[i].Id} follows body {bodies[i - 1].Id}; identities must ascend.");
+            }
+
+            CheckBody(bodies[i], snapshot, scene);
+        }
+    }
+
+    private static void CheckBody(in BodySnapshot body, WorldSnapshot snapshot, Scene scene)
+    {
+        string whose = $"body {body.Id} in the snapshot";
+        Limits.CheckSpec(body.Spec, whose, scene.Accelerations.Count);
+        if (body.Spec.Radius < scene.SmallestRadius)
+        {
+            throw new SceneException($"The radius of {whose} is {Limits.Text(body.Spec.Radius)} m; the scene promises none below {Limits.Text(scene.SmallestRadius)} m.");
+        }
+
+        CheckTimes(body, snapshot, whose);
+        Limits.Components(body.Position, double.MaxValue, whose, "position", "m");
+        Limits.Components(body.Velocity, Limits.MaxSpeed(scene.SmallestRadius), whose, "velocity", "m/s");
+        Limits.Components(body.Acceleration, double.MaxValue, whose, "acceleration", "m/s^2");
+        Limits.Components(body.Cubic, double.MaxValue, whose, "cubic coefficient", "m/s^3");
+        Limits.Components(body.Quartic, double.MaxValue, whose, "quartic coefficient", "m/s^4");
+        Limits.Components(body.Quintic, double.MaxValue, whose, "quintic coefficient", "m/s^5");
+        if (body.Law is not (MotionLaw.Ballistic or MotionLaw.RungeKutta4 or MotionLaw.Sliding or MotionLaw.Resting)
+            || (body.Law is MotionLaw.Ballistic or MotionLaw.RungeKutta4 && body.Law != body.Spec.Flight))
+        {
+            throw new SceneException($"The motion of {whose} is {body.Law}; it must be Sliding, Resting, or its law of flight, {body.Spec.Flight}.");
+        }
+
+        bool isCarried = body.Law is MotionLaw.Sliding or MotionLaw.Resting;
+        if (isCarried != body.SupportCount > 0)
+        {
+            throw new SceneException($"{body.SupportCount} planes carry {whose}, which is {body.Law}; what slides or rests is carried, and nothing else.");
+        }
+
+        for (int n = 0; n < body.SupportCount; n++)
+        {
+            int plane = body.Support(n);
+            if (plane < (n == 0 ? 0 : body.Support(n - 1) + 1) || plane >= scene.Planes.Count)
+            {
+                throw new SceneException($"Plane {plane} carries {whose}; planes are numbered 0 to {scene.Planes.Count - 1} and named in ascending order.");
+            }
+        }
+
+        if (body.Crowding is < 0 or > MaxCrowding)
+        {
+            throw new SceneException($"The count of impacts on the spot of {whose} is {body.Crowding}; it lies between 0 and {MaxCrowding}.");
+        }
+    }
+
+    private static void CheckTimes(in BodySnapshot body, WorldSnapshot snapshot, string whose)
+    {
+        EventKey opened = body.Opened;
+        bool isKnown = opened.Kind is EventKind.Start or EventKind.Impact or EventKind.StepEnd
+            or (>= EventKind.Spawn and <= EventKind.Impulse);
+        if (!isKnown || opened.Time < snapshot.Start || opened.Time >= snapshot.Time)
+        {
+            throw new SceneException($"The path of {whose} was opened by {opened}; it must be an event that opens one, from {snapshot.Start} on and before {snapshot.Time}.");
+        }
+
+        if (body.Epoch < snapshot.Start || body.Epoch > opened.Time || body.End < snapshot.Time)
+        {
+            throw new SceneException(
+                $"The path of {whose} counts from {body.Epoch} and ends at {body.End}; it must count from between {snapshot.Start} and {opened.Time}, and last to {snapshot.Time}.");
+        }
+    }
+}

@@ -1,0 +1,44 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Time;
+
+namespace LagSim.Timelines;
+
+/// <summary>All that a world is after everything before an instant has happened: whoever goes on from it has the same world, bit for bit.</summary>
+/// <remarks>Immutable, safe on any thread. Of what comes from outside it holds nothing that is stamped at its time or later.</remarks>
+public sealed class WorldSnapshot
+{
+    private readonly BodySnapshot[] bodies;
+
+    /// <summary>A world of these parts.</summary>
+    /// <param name="start">See <see cref="Start"/>.</param>
+    /// <param name="time">See <see cref="Time"/>.</param>
+    /// <param name="eventHash">See <see cref="EventHash"/>.</param>
+    /// <param name="bodies">Those that are there, by ascending identity; copied.</param>
+    public WorldSnapshot(SimTime start, SimTime time, ulong eventHash, ReadOnlySpan<BodySnapshot> bodies)
+        : this(start, time, eventHash, bodies.ToArray())
+    {
+    }
+
+    internal WorldSnapshot(SimTime start, SimTime time, ulong eventHash, BodySnapshot[] bodies)
+    {
+        Start = start;
+        Time = time;
+        EventHash = eventHash;
+        this.bodies = bodies;
+    }
+
+    /// <summary>The instant at which the scene began.</summary>
+    public SimTime Start { get; }
+
+    /// <summary>The instant before which everything has happened, and at which nothing has yet.</summary>
+    public SimTime Time { get; }
+
+    /// <summary>The hash of every event before <see cref="Time"/>, as <see cref="Simulation.EventHash"/> gives it.</summary>
+    public ulong EventHash { get; }
+
+    /// <summary>The bodies that are there, by ascending identity.</summary>
+    public IReadOnlyList<BodySnapshot> Bodies => bodies;
+
+    internal BodySnapshot[] BodyArray => bodies;
+}

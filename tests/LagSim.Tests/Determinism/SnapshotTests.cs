@@ -1,0 +1,193 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Determinism;
+
+/// <summary>A world that goes on from a snapshot is the world that was there from the start.</summary>
+public sealed class SnapshotTests
+{
+    public static TheoryData<int> Blocks => [.. Enumerable.Range(0, 8)];
+
+    [Theory]
+    [MemberData(nameof(Blocks))]
+    public void World_GoingOnFromASnapshot_IsTheSameToTheBit(int block)
+    {
+        int bodies = 0, inLasting = 0;
+        foreach (int seed in Enumerable.Range(20_000 + (block * 30), 30))
+        {
+            RandomWorld world = new(seed);
+            Simulation expected = world.OnTime();
+            foreach (SimTime time in Instants(expected, seed))
+            {
+                WorldSnapshot snapshot = expected.Snapshot(time);
+                Simulation actual = GoOn(world, snapshot, seed);
+                string? difference = RandomWorld.Difference(expected, actual);
+                Assert.True(difference is null, $"seed {seed}, from {time}: {difference}");
+                bodies += snapshot.Bodies.Count;
+                inLasting += snapshot.Bodies.Count(b => b.Crowding > 0 || b.SupportCount > 0);
+            }
+        }
+
+        Assert.True(bodies > 400 && inLasting > 10, $"{bodies} {inLasting}"); // else nothing was shown
+    }
+
+    [Fact]
+    public void Check_OneBitOfASnapshotPerturbed_IsSeenToFail()
+    {
+        int tried = 0, seen = 0;
+        foreach (int seed in Enumerable.Range(21_000, 60))
+        {
+            RandomWorld world = new(seed);
+            Simulation expected = world.OnTime();
+            WorldSnapshot whole = expected.Snapshot(At(0.3));
+            BodySnapshot[] bodies = whole.Bodies.ToArray();
+            int which = Array.FindIndex(bodies, b => b.Law == MotionLaw.Ballistic);
+            if (which >= 0 && !world.Events.Any(e => e.Body == bodies[which].Id))
+            {
+                BodySnapshot was = bodies[which];
+                bodies[which] = With(was, velocity: was.Velocity + V(0, 0, was.Velocity.Z == 0 ? double.Epsilon : Math.BitIncrement(was.Velocity.Z) - was.Velocity.Z));
+                tried++;
+                Simulation actual = GoOn(world, new WorldSnapshot(whole.Start, whole.Time, whole.EventHash, bodies), seed);
+                seen += actual.StateHash(whole.Time) != expected.StateHash(whole.Time) || RandomWorld.Difference(expected, actual) is not null ? 1 : 0;
+            }
+        }
+
+        Assert.True(tried > 10, $"{tried}");
+        Assert.Equal(tried, seen);
+    }
+
+    [Fact]
+    public void Submit_EarlierThanTheSnapshot_IsTooOld()
+    {
+        Simulation world = Run(Drop(4, 0.8), 1);
+        Simulation joined = new(world.Scene, world.Snapshot(At(0.5)), KeepAll);
+        Assert.Equal(SubmitResult.TooOld, joined.Submit(ExternalEvent.Remove(At(0.5) - SimDuration.OneTick, 1, 1, First)));
+        Assert.NotEqual(SubmitResult.TooOld, joined.Submit(ExternalEvent.Remove(At(0.5), 1, 1, First)));
+    }
+
+    [Fact]
+    public void Snapshot_OutsideTheWindow_IsRefused()
+    {
+        Simulation world = Run(Drop(4, 0.8), 1);
+        Assert.Throws<ArgumentOutOfRangeException>(() => world.Snapshot(At(0)));
+        Assert.Throws<ArgumentOutOfRangeException>(() => world.Snapshot(At(1) + SimDuration.OneTick));
+        world.DropHistoryBefore(At(0.5));
+        Assert.Throws<ArgumentOutOfRangeException>(() => world.Snapshot(At(0.5) - SimDuration.OneTick));
+        Assert.Single(world.Snapshot(At(0.5)).Bodies);
+    }
+
+    public static TheoryData<string, Func<BodySnapshot, BodySnapshot>> Impossible => new()
+    {
+        { "radius", b => With(b, spec: Ball(1e-12)) },
+        { "promises none below", b => With(b, spec: Ball(0.1)) },
+        { "mass", b => With(b, spec: Ball(mass: double.NaN)) },
+        { "supplied acceleration", b => With(b, spec: Ball(flight: MotionLaw.RungeKutta4, force: 1)) },
+        { "position", b => With(b, position: V(double.NaN)) },
+        { "velocity", b => With(b, velocity: V(1e300)) },
+        { "acceleration", b => With(b, acceleration: V(0, double.NegativeInfinity)) },
+        { "must be Sliding", b => With(b, law: MotionLaw.Absent) },
+        { "must be Sliding", b => With(b, law: (MotionLaw)77) },
+        { "must be Sliding", b => With(b, law: MotionLaw.RungeKutta4) },
+        { "is carried", b => With(b, law: MotionLaw.Resting) },
+        { "is carried", b => With(b, supports: [0]) },
+        { "Plane 1", b => With(b, law: MotionLaw.Resting, supports: [1]) },
+        { "Plane -1", b => With(b, law: MotionLaw.Resting, supports: [-1]) },
+        { "Plane 0", b => With(b, law: MotionLaw.Resting, supports: [0, 0]) },
+        { "on the spot", b => With(b, crowding: 65) },
+        { "on the spot", b => With(b, crowding: -1) },
+        { "opened by", b => With(b, opened: new EventKey(At(2), 0, EventKind.Impact, First, First, 0, 0)) },
+        { "opened by", b => With(b, opened: new EventKey(At(-1), 0, EventKind.Impact, First, First, 0, 0)) },
+        { "opened by", b => With(b, opened: new EventKey(At(0.1), 0, EventKind.Remove, First, First, 0, 0)) },
+        { "counts from", b => With(b, epoch: At(0.9)) },
+        { "counts from", b => With(b, epoch: SimTime.MinValue) },
+        { "counts from", b => With(b, end: At(0.4)) },
+    };
+
+    [Theory]
+    [MemberData(nameof(Impossible))]
+    public void Simulation_SnapshotThatIsOfNoWorldOfTheScene_IsRefusedByName(string word, Func<BodySnapshot, BodySnapshot> change)
+    {
+        Simulation world = Run(new SceneBuilder("one").AddPlane("floor", Vector3D.Up, V(0)).AddBody("ball", Ball(), V(0, 3)).Build(), 1);
+        WorldSnapshot good = world.Snapshot(At(0.5));
+        Assert.NotNull(new Simulation(world.Scene, good));
+        WorldSnapshot bad = new(good.Start, good.Time, good.EventHash, [change(good.Bodies[0])]);
+        Assert.Contains(word, Assert.Throws<SceneException>(() => new Simulation(world.Scene, bad)).Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Simulation_SnapshotOutOfOrderOrTime_IsRefusedByName()
+    {
+        Simulation world = Run(Drop(4, 0.8), 1);
+        WorldSnapshot good = world.Snapshot(At(0.5));
+        BodySnapshot one = good.Bodies[0];
+        Refused("must ascend", good.Start, good.Time, one, one);
+        Refused("began at", good.Time, good.Start, one);
+        Refused("began at", good.Start, SimTime.MaxValue, one);
+        Refused("began at", SimTime.MinValue, good.Time, one);
+
+        void Refused(string word, SimTime start, SimTime time, params BodySnapshot[] bodies) => Assert.Contains(
+            word, Assert.Throws<SceneException>(() => new Simulation(world.Scene, new WorldSnapshot(start, time, 0, bodies))).Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Bodies_GoneForGood_AreForgotten()
+    {
+        // Fifty thousand that come and go, and as many of which only somebody speaks: what is kept follows the window.
+        Simulation world = new(Drop(4, 0.8), new SimulationOptions(default, SimDuration.FromSeconds(0.1)));
+        int most = 0;
+        for (uint n = 1; n <= 50_000; n++)
+        {
+            SimTime now = At(n * 0.001);
+            world.Submit(ExternalEvent.Spawn(now, 1, n, Ball(), V(10 + (2 * (n % 20)), 50)));
+            world.Submit(ExternalEvent.Remove(now + SimDuration.FromSeconds(0.01), 2, n, new BodyId(1, n, 0)));
+            world.Submit(ExternalEvent.Impulse(now, 3, n, new BodyId(7, n, 0), V(1)));
+            world.AdvanceTo(now);
+            most = Math.Max(most, world.BodyCount);
+        }
+
+        Assert.InRange(most, 200, 1_000);
+        Assert.True(world.TryRead(First, world.SimulatedTo, out _));
+    }
+
+    private static IEnumerable<SimTime> Instants(Simulation world, int seed)
+    {
+        // Somewhere, and at the very tick of an event and those beside it.
+        Random random = new(seed);
+        yield return At(0.05 + (random.NextDouble() * 1.15));
+        SimTime[] busy = Bodies(world).SelectMany(world.Timeline).Select(e => e.Key.Time).Where(t => t > At(0.01) && t < At(RandomWorld.End)).ToArray();
+        if (busy.Length > 0)
+        {
+            SimTime at = busy[random.Next(busy.Length)];
+            yield return at;
+            yield return at + SimDuration.OneTick;
+        }
+    }
+
+    private static Simulation GoOn(RandomWorld world, WorldSnapshot snapshot, int seed)
+    {
+        Simulation simulation = new(world.Scene, snapshot, KeepAll);
+        Random random = new(seed);
+        foreach (ExternalEvent external in world.Events.Where(e => e.Time >= snapshot.Time).OrderBy(_ => random.Next()))
+        {
+            SimTime heard = SimTime.Min(At(RandomWorld.End), external.Time + SimDuration.FromSeconds(random.NextDouble() * 0.2));
+            simulation.AdvanceTo(SimTime.Max(simulation.SimulatedTo, heard));
+            Assert.NotEqual(SubmitResult.TooOld, simulation.Submit(external));
+        }
+
+        simulation.AdvanceTo(SimTime.Max(simulation.SimulatedTo, At(RandomWorld.End)));
+        return simulation;
+    }
+
+    private static BodySnapshot With(
+        in BodySnapshot b, BodySpec? spec = null, EventKey? opened = null, MotionLaw? law = null, SimTime? epoch = null, SimTime? end = null,
+        Vector3D? position = null, Vector3D? velocity = null, Vector3D? acceleration = null, int[]? supports = null, int? crowding = null) => new(
+        b.Id, spec ?? b.Spec, opened ?? b.Opened, law ?? b.Law, epoch ?? b.Epoch, end ?? b.End, position ?? b.Position, velocity ?? b.Velocity,
+        acceleration ?? b.Acceleration, supports, crowding ?? b.Crowding, b.Cubic, b.Quartic, b.Quintic);
+}
