@@ -23,8 +23,8 @@ public static class EventFormat
 
     private const int HeadBytes = 14; // kind, peer, sequence, time
     private const int BodyBytes = 8;
-    private const int VectorBytes = 24;
-    private const int SpecBytes = 34;
+    internal const int VectorBytes = 24;
+    internal const int SpecBytes = 34;
 
     /// <summary>An event's length in bytes; 0 for a kind that does not travel.</summary>
     public static int EncodedLength(EventKind kind) => kind switch
@@ -117,7 +117,7 @@ public static class EventFormat
         && spec.Step <= MaxStep
         && (spec.Acceleration == 0 || spec.Flight == MotionLaw.RungeKutta4);
 
-    private static void WriteSpec(ref WireWriter writer, in BodySpec spec)
+    internal static void WriteSpec(ref WireWriter writer, in BodySpec spec)
     {
         writer.WriteDouble(spec.Radius);
         writer.WriteDouble(spec.Mass);
@@ -127,7 +127,7 @@ public static class EventFormat
         writer.WriteByte(spec.Acceleration);
     }
 
-    private static BodySpec ReadSpec(ref WireReader reader)
+    internal static BodySpec ReadSpec(ref WireReader reader)
     {
         double radius = reader.ReadDouble();
         double mass = reader.ReadDouble();

@@ -17,14 +17,23 @@ public ref struct WireReader
 
     /// <summary>A reader at the start of <paramref name="source"/>.</summary>
     public WireReader(ReadOnlySpan<byte> source)
+        : this(source, WireFormat.MaxBytes)
+    {
+    }
+
+    /// <summary>A reader of something that may be longer than a datagram, up to <paramref name="limit"/> bytes.</summary>
+    internal WireReader(ReadOnlySpan<byte> source, int limit)
     {
         bytes = source;
         position = 0;
-        Refusal = source.Length > WireFormat.MaxBytes ? WireRefusal.TooLong : WireRefusal.None;
+        Refusal = source.Length > limit ? WireRefusal.TooLong : WireRefusal.None;
     }
 
     /// <summary>The first thing that was wrong, or <see cref="WireRefusal.None"/>.</summary>
     public WireRefusal Refusal { get; private set; }
+
+    /// <summary>How many bytes are not read yet.</summary>
+    internal readonly int Remaining => bytes.Length - position;
 
     /// <summary>A reader after the header of a datagram; it has refused already if the datagram is not of this type and version.</summary>
     public static WireReader Open(ReadOnlySpan<byte> datagram, DatagramType type)
@@ -88,6 +97,9 @@ public ref struct WireReader
         Require(time == SimTime.MinValue || WireFormat.IsInRange(time));
         return time;
     }
+
+    /// <summary>That many bytes, which stay where they are; none when fewer are left.</summary>
+    internal ReadOnlySpan<byte> ReadBytes(int count) => TryTake(count, out ReadOnlySpan<byte> taken) ? taken : default;
 
     /// <summary>Refuses the datagram unless the condition holds; what was refused first stays the reason.</summary>
     public void Require(bool condition, WireRefusal otherwise = WireRefusal.BadValue)

@@ -83,6 +83,9 @@ public ref struct WireWriter
         }
     }
 
+    /// <summary>These bytes as they are.</summary>
+    internal void WriteBytes(ReadOnlySpan<byte> value) => value.CopyTo(Next(value.Length));
+
     /// <summary>Magic, version and type: how every datagram begins.</summary>
     public void WriteHeader(DatagramType type)
     {

@@ -1,0 +1,227 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Scenes;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>Makes a scene of bytes that anyone may have sent, part by part, and tells in a sentence what is wrong with them.</summary>
+/// <remarks>What is read goes through a <see cref="SceneBuilder"/>, so that the wire lets nothing in that a program could not build itself.</remarks>
+internal ref struct SceneDecoder
+{
+    private readonly IReadOnlyList<IAcceleration>? known;
+    private readonly int length;
+    private readonly List<Vector3D> normals;
+    private WireReader reader;
+    private string? error;
+
+    // What is being read, for the sentence.
+    private string part;
+    private int number;
+
+    internal SceneDecoder(ReadOnlySpan<byte> bytes, IReadOnlyList<IAcceleration>? known)
+    {
+        this.known = known;
+        length = bytes.Length;
+        normals = new List<Vector3D>();
+        reader = new WireReader(bytes, SceneFormat.MaxBytes);
+        error = null;
+        part = "head";
+        number = 0;
+    }
+
+    private readonly bool IsSound => reader.Refusal == WireRefusal.None;
+
+    internal Scene? Decode(out string? refusal)
+    {
+        Scene? scene = null;
+        try
+        {
+            scene = Read();
+        }
+        catch (SceneException refused)
+        {
+            error = refused.Message;
+        }
+
+        refusal = scene is null ? error ?? Sentence() : null;
+        return scene;
+    }
+
+    private Scene? Read()
+    {
+        byte version = reader.ReadByte();
+        if (IsSound && version != WireFormat.Version)
+        {
+            Refuse($"The scene is written in version {version} of the wire format; this is version {WireFormat.Version}.");
+        }
+
+        SceneBuilder builder = new(WireText.Read(ref reader));
+        builder.WithGravity(reader.ReadVector());
+        builder.WithResolution(reader.ReadDouble());
+        double smallest = reader.ReadDouble();
+        builder.WithSmallestRadius(smallest);
+        ReadAccelerations(builder);
+        ReadPlanes(builder);
+        ReadSpheres(builder);
+        ReadBodies(builder);
+        if (!reader.Finish(out _))
+        {
+            return null;
+        }
+
+        Scene scene = builder.Build();
+        return IsTheOneForm(scene, smallest) ? scene : null;
+    }
+
+    private void ReadAccelerations(SceneBuilder builder)
+    {
+        int count = Begin("supplied acceleration", byte.MaxValue, SceneFormat.AccelerationBytes);
+        while (IsSound && number < count)
+        {
+            number++;
+            string name = WireText.Read(ref reader);
+            int version = unchecked((int)reader.ReadUInt32());
+            if (IsSound && Known(name, version) is IAcceleration acceleration)
+            {
+                builder.AddAcceleration(acceleration);
+            }
+        }
+    }
+
+    private void ReadPlanes(SceneBuilder builder)
+    {
+        int count = Begin("plane", SceneFormat.MaxStaticParts, SceneFormat.StaticPartBytes);
+        while (IsSound && number < count)
+        {
+            number++;
+            string name = WireText.Read(ref reader);
+            Vector3D normal = reader.ReadVector();
+            double offset = reader.ReadDouble();
+            double restitution = reader.ReadDouble();
+            if (IsSound)
+            {
+                builder.AddPlane(name, normal, offset, restitution);
+                normals.Add(normal);
+            }
+        }
+    }
+
+    private void ReadSpheres(SceneBuilder builder)
+    {
+        int count = Begin("static sphere", SceneFormat.MaxStaticParts, SceneFormat.StaticPartBytes);
+        while (IsSound && number < count)
+        {
+            number++;
+            string name = WireText.Read(ref reader);
+            Vector3D centre = reader.ReadVector();
+            double radius = reader.ReadDouble();
+            double restitution = reader.ReadDouble();
+            if (IsSound)
+            {
+                builder.AddStaticSphere(name, centre, radius, restitution);
+            }
+        }
+    }
+
+    private void ReadBodies(SceneBuilder builder)
+    {
+        int count = Begin("body", SceneFormat.MaxBodies, SceneFormat.BodyBytes);
+        while (IsSound && number < count)
+        {
+            number++;
+            string name = WireText.Read(ref reader);
+            BodySpec spec = EventFormat.ReadSpec(ref reader);
+            Vector3D position = reader.ReadVector();
+            Vector3D velocity = reader.ReadVector();
+            if (IsSound)
+            {
+                builder.AddBody(name, spec, position, velocity);
+            }
+        }
+    }
+
+    /// <summary>Begins the parts of one kind. More than are allowed, or than the bytes that are left can hold, are refused at once.</summary>
+    private int Begin(string what, int most, int leastBytes)
+    {
+        if (!IsSound)
+        {
+            return 0; // what was read when it went wrong stays the one to name
+        }
+
+        part = what;
+        number = 0;
+        int count = most <= byte.MaxValue ? reader.ReadByte() : reader.ReadUInt16();
+        if (count > most)
+        {
+            Refuse($"The scene announces {count} parts of the kind '{what}'; at most {most} are allowed.");
+        }
+        else if (count > reader.Remaining / (1 + leastBytes))
+        {
+            Refuse(
+                $"The scene announces {count} parts of the kind '{what}', of {1 + leastBytes} bytes or more, and has {reader.Remaining} bytes left.");
+        }
+
+        return count;
+    }
+
+    private IAcceleration? Known(string name, int version)
+    {
+        IAcceleration? namesake = null;
+        for (int i = 0; known is not null && i < known.Count; i++)
+        {
+            if (known[i] is IAcceleration candidate && string.Equals(candidate.Name, name, StringComparison.Ordinal))
+            {
+                if (candidate.Version == version)
+                {
+                    return candidate;
+                }
+
+                namesake ??= candidate;
+            }
+        }
+
+        string needed = FormattableString.Invariant($"The scene needs the acceleration '{name}' of version {version}");
+        Refuse(namesake is null
+            ? $"{needed}, which is not here."
+            : FormattableString.Invariant($"{needed}; here it is of version {namesake.Version}."));
+        return null;
+    }
+
+    /// <summary>Refuses what the builder put right: every scene has one form on the wire.</summary>
+    private bool IsTheOneForm(Scene scene, double smallest)
+    {
+        for (int i = 0; i < normals.Count; i++)
+        {
+            if (!scene.Planes[i].Normal.Equals(normals[i]))
+            {
+                Refuse($"The normal of plane '{scene.Planes[i].Name}' is {normals[i]}; on the wire it has unit length.");
+            }
+        }
+
+        if (scene.SmallestRadius != smallest)
+        {
+            Refuse(FormattableString.Invariant(
+                $"The smallest radius is {smallest:R} m, and a body has a radius of {scene.SmallestRadius:R} m; on the wire none is smaller."));
+        }
+
+        return error is null;
+    }
+
+    private void Refuse(string sentence)
+    {
+        error ??= sentence;
+        reader.Require(false);
+    }
+
+    private readonly string Sentence()
+    {
+        string what = number == 0 ? $"the scene's {part}{(part == "head" ? "" : " count")}" : FormattableString.Invariant($"{part} {number} of the scene");
+        return reader.Refusal switch
+        {
+            WireRefusal.TooLong => $"The scene takes {length} bytes; at most {SceneFormat.MaxBytes} are allowed.",
+            WireRefusal.TooShort => $"The {length} bytes of the scene end within {what}.",
+            WireRefusal.TrailingBytes => $"Of the scene's {length} bytes {reader.Remaining} follow its last body.",
+            _ => $"In {what} a number is not finite, a step is zero, or a name is not UTF-8.",
+        };
+    }
+}

@@ -1,0 +1,141 @@
+using System;
+using System.Collections.Generic;
+using System.Diagnostics.CodeAnalysis;
+using LagSim.Scenes;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>How a whole scene travels: all of it but the code of its supplied accelerations, which go by name and author's version.</summary>
+/// <remarks>
+/// <para>The layout stands in <c>docs/RECORDINGS.md</c>. A scene has one form: encoding again what was decoded gives the same bytes, but
+/// for a -0.0, which is accepted, read as 0.0, and never written.</para>
+/// <para>Pure functions, safe on any thread.</para>
+/// </remarks>
+public static class SceneFormat
+{
+    /// <summary>
+    /// The most bodies that travel. To find those that overlap takes, in the worst arrangement, the square of their number; at this
+    /// limit about a second.
+    /// </summary>
+    public const int MaxBodies = 10_000;
+
+    /// <summary>The most planes that travel, and the most static spheres. Every body is checked against each.</summary>
+    public const int MaxStaticParts = 1_000;
+
+    /// <summary>The longest scene, in bytes.</summary>
+    public const int MaxBytes = 1 + MaxTextBytes + HeadBytes
+        + (byte.MaxValue * (MaxTextBytes + AccelerationBytes))
+        + (2 * MaxStaticParts * (MaxTextBytes + StaticPartBytes))
+        + (MaxBodies * (MaxTextBytes + BodyBytes));
+
+    internal const int AccelerationBytes = 4;
+    internal const int StaticPartBytes = EventFormat.VectorBytes + 16; // both kinds: a vector and two numbers
+    internal const int BodyBytes = EventFormat.SpecBytes + (2 * EventFormat.VectorBytes);
+    private const int MaxTextBytes = 1 + WireText.MaxBytes;
+    private const int HeadBytes = EventFormat.VectorBytes + 16 + 1 + (3 * 2); // gravity, resolution, smallest radius, four counts
+
+    /// <summary>A scene as bytes. Cost: O(n) in its parts.</summary>
+    /// <exception cref="ArgumentException">
+    /// It cannot travel: it has more than <see cref="MaxBodies"/> bodies, more than <see cref="MaxStaticParts"/> planes or static spheres, or a
+    /// name of more than 255 bytes in UTF-8 or with half a surrogate pair. The sentence says which.
+    /// </exception>
+    public static byte[] Encode(Scene scene)
+    {
+        byte[] bytes = new byte[EncodedLength(scene ?? throw new ArgumentNullException(nameof(scene)))];
+        WireWriter writer = new(bytes);
+        writer.WriteByte(WireFormat.Version);
+        WireText.Write(ref writer, scene.Name);
+        writer.WriteVector(scene.Gravity);
+        writer.WriteDouble(scene.Resolution);
+        writer.WriteDouble(scene.SmallestRadius);
+        writer.WriteByte((byte)scene.Accelerations.Count);
+        foreach (IAcceleration acceleration in scene.Accelerations)
+        {
+            WireText.Write(ref writer, acceleration.Name);
+            writer.WriteUInt32(unchecked((uint)acceleration.Version));
+        }
+
+        writer.WriteUInt16((ushort)scene.Planes.Count);
+        foreach (StaticPlane plane in scene.Planes)
+        {
+            WireText.Write(ref writer, plane.Name);
+            writer.WriteVector(plane.Normal);
+            writer.WriteDouble(plane.Offset);
+            writer.WriteDouble(plane.Restitution);
+        }
+
+        writer.WriteUInt16((ushort)scene.StaticSpheres.Count);
+        foreach (StaticSphere sphere in scene.StaticSpheres)
+        {
+            WireText.Write(ref writer, sphere.Name);
+            writer.WriteVector(sphere.Centre);
+            writer.WriteDouble(sphere.Radius);
+            writer.WriteDouble(sphere.Restitution);
+        }
+
+        writer.WriteUInt16((ushort)scene.Bodies.Count);
+        foreach (SceneBody body in scene.Bodies)
+        {
+            WireText.Write(ref writer, body.Name);
+            EventFormat.WriteSpec(ref writer, body.Spec);
+            writer.WriteVector(body.Position);
+            writer.WriteVector(body.Velocity);
+        }
+
+        return bytes;
+    }
+
+    /// <summary>Reads a scene; never throws, whatever the bytes are, and allocates no more than a few times their number.</summary>
+    /// <param name="bytes">The whole scene and nothing else.</param>
+    /// <param name="known">The accelerations that are there for a scene to use; null for none. A scene that needs another is refused.</param>
+    /// <param name="scene">The scene, of the same <see cref="Scene.Hash"/> as the one that was encoded; null when refused.</param>
+    /// <param name="error">When refused, a sentence that tells why, the builder's own where the builder refuses; else null.</param>
+    /// <remarks>Cost: that of <see cref="SceneBuilder.Build"/>, see <see cref="MaxBodies"/>.</remarks>
+    public static bool TryDecode(
+        ReadOnlySpan<byte> bytes,
+        IReadOnlyList<IAcceleration>? known,
+        [NotNullWhen(true)] out Scene? scene,
+        [NotNullWhen(false)] out string? error)
+    {
+        SceneDecoder decoder = new(bytes, known);
+        scene = decoder.Decode(out error);
+        return scene is not null;
+    }
+
+    private static int EncodedLength(Scene scene)
+    {
+        Require(scene, scene.Planes.Count, MaxStaticParts, "planes");
+        Require(scene, scene.StaticSpheres.Count, MaxStaticParts, "static spheres");
+        Require(scene, scene.Bodies.Count, MaxBodies, "bodies");
+        int length = 1 + WireText.EncodedLength(scene.Name, "A scene's name") + HeadBytes;
+        foreach (IAcceleration acceleration in scene.Accelerations)
+        {
+            length += WireText.EncodedLength(acceleration.Name, "An acceleration's name") + AccelerationBytes;
+        }
+
+        foreach (StaticPlane plane in scene.Planes)
+        {
+            length += WireText.EncodedLength(plane.Name, "A plane's name") + StaticPartBytes;
+        }
+
+        foreach (StaticSphere sphere in scene.StaticSpheres)
+        {
+            length += WireText.EncodedLength(sphere.Name, "A static sphere's name") + StaticPartBytes;
+        }
+
+        foreach (SceneBody body in scene.Bodies)
+        {
+            length += WireText.EncodedLength(body.Name, "A body's name") + BodyBytes;
+        }
+
+        return length;
+    }
+
+    private static void Require(Scene scene, int count, int most, string what)
+    {
+        if (count > most)
+        {
+            throw new ArgumentException($"Scene '{scene.Name}' cannot travel: it has {count} {what}; at most {most} are allowed.", nameof(scene));
+        }
+    }
+}
