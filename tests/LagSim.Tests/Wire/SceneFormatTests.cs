@@ -253,7 +253,7 @@ public sealed class SceneFormatTests
     }
 
     private static byte[][] Valid() =>
-        [.. Gen.Sample(SceneGen.Any, 8, 60).Where(s => s.Bodies.Count < 12).Select(SceneFormat.Encode), .. Enumerable.Range(1, 10).Select(seed => SceneFormat.Encode(new RandomWorld(seed).Scene))];
+        [.. Gen.Sample(SceneGen.Any, 60, new Rnd(20261121, 1), 8).Select(SceneFormat.Encode), .. Enumerable.Range(1, 10).Select(seed => SceneFormat.Encode(new RandomWorld(seed).Scene))];
 
     private static Scene One() => new SceneBuilder("s").WithSmallestRadius(0.25)
         .AddPlane("p", Vector3D.Up, 0.0, 0.5).AddStaticSphere("q", V(5, 5), 1).AddBody("b", Ball(0.5, 2, 0.75), V(1, 2, 3), V(0.5)).Build();

@@ -1,0 +1,39 @@
+using System;
+using System.Globalization;
+using LagSim.Time;
+
+namespace LagSim.Net.Recordings;
+
+/// <summary>The hashes of a peer's world at a time before which nothing will change any more.</summary>
+/// <remarks>Immutable, safe on any thread.</remarks>
+public readonly struct CommittedState : IEquatable<CommittedState>
+{
+    /// <summary>A state of these.</summary>
+    public CommittedState(SimTime time, ulong stateHash, ulong eventHash)
+    {
+        Time = time;
+        StateHash = stateHash;
+        EventHash = eventHash;
+    }
+
+    /// <summary>The shared time.</summary>
+    public SimTime Time { get; }
+
+    /// <summary><see cref="Simulation.StateHash"/> at that time.</summary>
+    public ulong StateHash { get; }
+
+    /// <summary><see cref="Simulation.EventHash"/> at that time.</summary>
+    public ulong EventHash { get; }
+
+    /// <inheritdoc/>
+    public bool Equals(CommittedState other) => Time == other.Time && StateHash == other.StateHash && EventHash == other.EventHash;
+
+    /// <inheritdoc/>
+    public override bool Equals(object? obj) => obj is CommittedState other && Equals(other);
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => Time.GetHashCode() ^ StateHash.GetHashCode() ^ (EventHash.GetHashCode() * 397);
+
+    /// <summary>Both hashes in 16 hex digits each, without the time.</summary>
+    public override string ToString() => string.Format(CultureInfo.InvariantCulture, "state {0:x16}, events {1:x16}", StateHash, EventHash);
+}

@@ -1,0 +1,23 @@
+namespace LagSim.Net.Recordings;
+
+/// <summary>What a <see cref="RecordingComparison"/> found.</summary>
+public enum ComparisonOutcome
+{
+    /// <summary>Everything that both cover is the same; there is something.</summary>
+    Agrees,
+
+    /// <summary>The scenes differ: the recordings are of different worlds.</summary>
+    SceneDiffers,
+
+    /// <summary>The starts differ: the recordings are of different sessions.</summary>
+    StartDiffers,
+
+    /// <summary>An entry of the log differs, in its event or its verdict.</summary>
+    EventDiffers,
+
+    /// <summary>The log is the same where both cover it, and a committed state differs.</summary>
+    StateDiffers,
+
+    /// <summary>There is no entry and no committed time that both cover, or one of them has no sound header.</summary>
+    NothingInCommon,
+}

@@ -1,0 +1,38 @@
+using System;
+
+namespace LagSim.Net.Recordings;
+
+/// <summary>The CRC-32 of IEEE 802.3, as in zip and PNG: reflected polynomial 0xEDB88320. It finds damage, not intent.</summary>
+internal static class Crc32
+{
+    private static readonly uint[] Table = MakeTable();
+
+    /// <summary>The checksum of what came before, followed by these bytes. That of nothing is 0.</summary>
+    internal static uint Append(uint before, ReadOnlySpan<byte> bytes)
+    {
+        uint crc = ~before;
+        foreach (byte next in bytes)
+        {
+            crc = Table[(byte)(crc ^ next)] ^ (crc >> 8);
+        }
+
+        return ~crc;
+    }
+
+    private static uint[] MakeTable()
+    {
+        uint[] table = new uint[256];
+        for (uint n = 0; n < table.Length; n++)
+        {
+            uint crc = n;
+            for (int bit = 0; bit < 8; bit++)
+            {
+                crc = (crc & 1) == 0 ? crc >> 1 : (crc >> 1) ^ 0xEDB88320;
+            }
+
+            table[n] = crc;
+        }
+
+        return table;
+    }
+}

@@ -1,0 +1,53 @@
+using System;
+using LagSim.Events;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+
+namespace LagSim.Net.Recordings;
+
+/// <summary>An entry of the host's log: an event, and what the host said about it.</summary>
+/// <remarks>Immutable, safe on any thread. <c>default</c> is no entry.</remarks>
+public readonly struct LogEntry : IEquatable<LogEntry>
+{
+    /// <summary>An entry of these.</summary>
+    public LogEntry(uint index, Verdict verdict, in ExternalEvent what)
+    {
+        Index = index;
+        Verdict = verdict;
+        Event = what;
+    }
+
+    /// <summary>Its place in the log, counted from 1.</summary>
+    public uint Index { get; }
+
+    /// <summary>What the host said.</summary>
+    public Verdict Verdict { get; }
+
+    /// <summary>The event.</summary>
+    public ExternalEvent Event { get; }
+
+    /// <inheritdoc/>
+    public bool Equals(LogEntry other) => Index == other.Index && Verdict == other.Verdict && Event.Equals(other.Event);
+
+    /// <inheritdoc/>
+    public override bool Equals(object? obj) => obj is LogEntry other && Equals(other);
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => Event.GetHashCode() ^ ((int)Index * 397);
+
+    /// <summary>The verdict and every value of the event, with all digits: different entries of one index have different texts.</summary>
+    public override string ToString()
+    {
+        BodySpec spec = Event.Spec;
+        string values = Event.Kind switch
+        {
+            EventKind.Spawn => FormattableString.Invariant(
+                $": radius {spec.Radius:R} m, mass {spec.Mass:R} kg, restitution {spec.Restitution:R}, {spec.Flight} with a step of {spec.Step} and acceleration {spec.Acceleration}, at {Event.Position} m with {Event.Velocity} m/s"),
+            EventKind.Teleport => $": to {Event.Position} m with {Event.Velocity} m/s",
+            EventKind.SetVelocity => $": to {Event.Velocity} m/s",
+            EventKind.Impulse => $": of {Event.Velocity} N s",
+            _ => "",
+        };
+        return $"{Verdict}: {Event}{values}";
+    }
+}

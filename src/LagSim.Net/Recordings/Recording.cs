@@ -1,0 +1,88 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using LagSim.Scenes;
+
+namespace LagSim.Net.Recordings;
+
+/// <summary>What a peer wrote down of a session: the scene, the host's log, and the hashes of its committed states.</summary>
+/// <remarks>
+/// <para>A file that was cut or damaged is read up to the damage: what stands before is here, and <see cref="Damage"/> says where it ends and
+/// why. A file without damage and without <see cref="EndReason"/> is of a process that was killed, or still writes.</para>
+/// <para>Immutable, safe on any thread.</para>
+/// </remarks>
+public sealed class Recording
+{
+    internal Recording(
+        RecordingHeader? header,
+        Scene? scene,
+        string? sceneError,
+        JoinedState? joined,
+        LogEntry[] entries,
+        CommittedState[] committed,
+        string? endReason,
+        RecordingDamage? damage)
+    {
+        Header = header;
+        Scene = scene;
+        SceneError = sceneError;
+        Joined = joined;
+        EntryArray = entries;
+        CommittedArray = committed;
+        Entries = Array.AsReadOnly(entries);
+        Committed = Array.AsReadOnly(committed);
+        EndReason = endReason;
+        Damage = damage;
+    }
+
+    /// <summary>Who recorded, which session, and when it started; null when the file is damaged before the header's end.</summary>
+    public RecordingHeader? Header { get; }
+
+    /// <summary>The scene; null when it could not be read: see <see cref="SceneError"/>.</summary>
+    public Scene? Scene { get; }
+
+    /// <summary>
+    /// Why there is no <see cref="Scene"/>, as a sentence; null when there is one. That it needs an acceleration which is not here is no
+    /// damage: the rest of the file is read, and can be compared.
+    /// </summary>
+    public string? SceneError { get; }
+
+    /// <summary>What the peer began with, if it joined late; else null, and the log begins with entry 1.</summary>
+    public JoinedState? Joined { get; }
+
+    /// <summary>The host's log in its order, without a gap.</summary>
+    public IReadOnlyList<LogEntry> Entries { get; }
+
+    /// <summary>The committed states, by ascending time.</summary>
+    public IReadOnlyList<CommittedState> Committed { get; }
+
+    /// <summary>Why the recording ends, as a sentence; null when it does not say.</summary>
+    public string? EndReason { get; }
+
+    /// <summary>Where the file can no longer be read; null when all of it was.</summary>
+    public RecordingDamage? Damage { get; }
+
+    internal LogEntry[] EntryArray { get; }
+
+    internal CommittedState[] CommittedArray { get; }
+
+    /// <summary>Reads a recording to its end or to its first damage. No content of a file makes it throw.</summary>
+    /// <param name="stream">A stream that can be read, from where it stands to its end. It stays open.</param>
+    /// <param name="known">The accelerations that are there for the scene to use; null for none.</param>
+    /// <remarks>Memory: a few times the bytes that are there, whatever they announce. Cost of the scene: see <see cref="Wire.SceneFormat"/>.</remarks>
+    /// <exception cref="ArgumentNullException">There is no stream.</exception>
+    /// <exception cref="IOException">The stream itself cannot be read.</exception>
+    public static Recording Read(Stream stream, IReadOnlyList<IAcceleration>? known = null) =>
+        new RecordingReader(stream ?? throw new ArgumentNullException(nameof(stream)), known).Read();
+
+    /// <summary>Reads a file, as <see cref="Read(Stream, IReadOnlyList{IAcceleration})"/> does; also one that is still being written.</summary>
+    /// <param name="path">The file.</param>
+    /// <param name="known">The accelerations that are there for the scene to use; null for none.</param>
+    /// <exception cref="IOException">The file cannot be opened or read.</exception>
+    /// <exception cref="UnauthorizedAccessException">The file may not be read.</exception>
+    public static Recording Read(string path, IReadOnlyList<IAcceleration>? known = null)
+    {
+        using FileStream file = new(path, FileMode.Open, FileAccess.Read, FileShare.ReadWrite);
+        return Read(file, known);
+    }
+}

@@ -1,0 +1,214 @@
+using System;
+using System.Threading;
+
+namespace LagSim.Net.Recordings;
+
+/// <summary>Two recordings of one session held against each other: the first thing in which they differ, or that they agree.</summary>
+/// <remarks>Immutable, safe on any thread.</remarks>
+public sealed class RecordingComparison
+{
+    private RecordingComparison(ComparisonOutcome outcome, int entriesCompared, int statesCompared, string message)
+    {
+        Outcome = outcome;
+        EntriesCompared = entriesCompared;
+        StatesCompared = statesCompared;
+        Message = message;
+    }
+
+    /// <summary>What was found.</summary>
+    public ComparisonOutcome Outcome { get; }
+
+    /// <summary>How many entries of the log are the same in both.</summary>
+    public int EntriesCompared { get; }
+
+    /// <summary>How many committed states are the same in both.</summary>
+    public int StatesCompared { get; }
+
+    /// <summary>Of <see cref="ComparisonOutcome.EventDiffers"/> the first recording's entry; else null.</summary>
+    public LogEntry? FirstEntry { get; private set; }
+
+    /// <summary>Of <see cref="ComparisonOutcome.EventDiffers"/> the second recording's entry; else null.</summary>
+    public LogEntry? SecondEntry { get; private set; }
+
+    /// <summary>Of <see cref="ComparisonOutcome.StateDiffers"/> the first recording's committed state; else null.</summary>
+    public CommittedState? FirstState { get; private set; }
+
+    /// <summary>Of <see cref="ComparisonOutcome.StateDiffers"/> the second recording's committed state; else null.</summary>
+    public CommittedState? SecondState { get; private set; }
+
+    /// <summary>Of <see cref="ComparisonOutcome.StateDiffers"/> the first recording run again up to that time; else null.</summary>
+    public RecordingReplay? FirstReplay { get; private set; }
+
+    /// <summary>Of <see cref="ComparisonOutcome.StateDiffers"/> the second recording run again up to that time; else null.</summary>
+    public RecordingReplay? SecondReplay { get; private set; }
+
+    /// <summary>The result for people: one or several sentences.</summary>
+    public string Message { get; }
+
+    /// <summary>
+    /// Compares scenes, starts, the entries of the log that both hold, and the committed states of the times that both hold, in this order.
+    /// Where a state differs, both are run again to see which departs from its own scene and events.
+    /// </summary>
+    /// <param name="first">One recording.</param>
+    /// <param name="second">The other; of another peer as a rule.</param>
+    /// <param name="restore">See <see cref="RecordingReplay.Run(Recording, Func{JoinedState, Simulation}, CancellationToken)"/>.</param>
+    /// <param name="cancellation">Ends the replays.</param>
+    /// <remarks>Cost: O(n) in the records; where a state differs, two replays.</remarks>
+    /// <exception cref="ArgumentNullException">A recording is missing.</exception>
+    /// <exception cref="OperationCanceledException">The token asked for an end.</exception>
+    public static RecordingComparison Of(
+        Recording first, Recording second, Func<JoinedState, Simulation>? restore = null, CancellationToken cancellation = default)
+    {
+        _ = first ?? throw new ArgumentNullException(nameof(first));
+        _ = second ?? throw new ArgumentNullException(nameof(second));
+        if (first.Header is not RecordingHeader a || second.Header is not RecordingHeader b)
+        {
+            return new RecordingComparison(
+                ComparisonOutcome.NothingInCommon, 0, 0, "The recordings cannot be compared without both their headers." + Remarks(first, second));
+        }
+
+        if (a.SceneHash != b.SceneHash)
+        {
+            return new RecordingComparison(
+                ComparisonOutcome.SceneDiffers, 0, 0,
+                $"The scenes differ: {Title(first)} in the first, {Title(second)} in the second." + Remarks(first, second));
+        }
+
+        if (a.Start != b.Start)
+        {
+            return new RecordingComparison(
+                ComparisonOutcome.StartDiffers, 0, 0,
+                $"The starts differ: the first session started at {a.Start}, the second at {b.Start}." + Remarks(first, second));
+        }
+
+        int entries = SameEntries(first, second, out LogEntry? firstEntry, out LogEntry? secondEntry);
+        if (firstEntry is LogEntry one && secondEntry is LogEntry other)
+        {
+            return new RecordingComparison(
+                ComparisonOutcome.EventDiffers, entries, 0,
+                FormattableString.Invariant($"Entry {one.Index} of the log differs. In the first it is {one}. In the second it is {other}.")
+                    + Remarks(first, second))
+            {
+                FirstEntry = one,
+                SecondEntry = other,
+            };
+        }
+
+        int states = SameStates(first, second, out CommittedState? firstState, out CommittedState? secondState);
+        if (firstState is CommittedState mine && secondState is CommittedState theirs)
+        {
+            return OfStates(first, second, entries, states, mine, theirs, restore, cancellation);
+        }
+
+        return entries + states == 0
+            ? new RecordingComparison(
+                ComparisonOutcome.NothingInCommon, 0, 0,
+                "The recordings are of one scene and start, and have no log entry and no committed time in common." + Remarks(first, second))
+            : new RecordingComparison(
+                ComparisonOutcome.Agrees, entries, states,
+                $"The recordings agree in all that both hold: {Words.Count(entries, "log entry")} and {Words.Count(states, "committed state")}."
+                    + (states == 0 ? " They have no committed time in common, so of the states nothing is known." : "") + Remarks(first, second));
+    }
+
+    private static RecordingComparison OfStates(
+        Recording first,
+        Recording second,
+        int entries,
+        int states,
+        in CommittedState mine,
+        in CommittedState theirs,
+        Func<JoinedState, Simulation>? restore,
+        CancellationToken cancellation)
+    {
+        RecordingReplay firstReplay = RecordingReplay.Run(first, restore, mine.Time, cancellation);
+        RecordingReplay secondReplay = RecordingReplay.Run(second, restore, mine.Time, cancellation);
+        string log = entries == 0 ? "The recordings have no log entry in common" : $"The log is the same in {Words.Count(entries, "common entry")}";
+        return new RecordingComparison(
+            ComparisonOutcome.StateDiffers, entries, states,
+            $"{log}, and the committed state at {mine.Time} differs: {mine} in the first; {theirs} in the second."
+                + $" The first {Verdict(firstReplay)} The second {Verdict(secondReplay)}" + Remarks(first, second))
+        {
+            FirstState = mine,
+            SecondState = theirs,
+            FirstReplay = firstReplay,
+            SecondReplay = secondReplay,
+        };
+    }
+
+    /// <summary>How many entries of the same index are equal, up to the first pair that is not.</summary>
+    private static int SameEntries(Recording first, Recording second, out LogEntry? one, out LogEntry? other)
+    {
+        one = other = null;
+        LogEntry[] a = first.EntryArray;
+        LogEntry[] b = second.EntryArray;
+        if (a.Length == 0 || b.Length == 0)
+        {
+            return 0;
+        }
+
+        // Both are without a gap, so a difference of places is one for all entries.
+        long begin = Math.Max(a[0].Index, b[0].Index);
+        long end = Math.Min(a[^1].Index, b[^1].Index);
+        for (long index = begin; index <= end; index++)
+        {
+            ref readonly LogEntry mine = ref a[index - a[0].Index];
+            ref readonly LogEntry theirs = ref b[index - b[0].Index];
+            if (!mine.Equals(theirs))
+            {
+                one = mine;
+                other = theirs;
+                return (int)(index - begin);
+            }
+        }
+
+        return (int)Math.Max(0, end - begin + 1);
+    }
+
+    /// <summary>How many committed states of the same time are equal, up to the first pair that is not.</summary>
+    private static int SameStates(Recording first, Recording second, out CommittedState? one, out CommittedState? other)
+    {
+        one = other = null;
+        CommittedState[] a = first.CommittedArray;
+        CommittedState[] b = second.CommittedArray;
+        int same = 0;
+        for (int i = 0, j = 0; i < a.Length && j < b.Length;)
+        {
+            if (a[i].Time != b[j].Time)
+            {
+                bool isFirstEarlier = a[i].Time < b[j].Time;
+                i += isFirstEarlier ? 1 : 0;
+                j += isFirstEarlier ? 0 : 1;
+                continue;
+            }
+
+            if (!a[i].Equals(b[j]))
+            {
+                one = a[i];
+                other = b[j];
+                return same;
+            }
+
+            same++;
+            i++;
+            j++;
+        }
+
+        return same;
+    }
+
+    private static string Verdict(RecordingReplay replay) => replay.Outcome switch
+    {
+        ReplayOutcome.Agrees => "agrees with its own replay.",
+        ReplayOutcome.Differs => $"departs from its own replay at {replay.Expected!.Value.Time}.",
+        _ => $"has no replay to tell: {replay.Message}",
+    };
+
+    private static string Title(Recording recording) =>
+        recording.Scene is null ? $"{recording.Header!.SceneHash:x16}" : $"'{recording.Scene.Name}' ({recording.Header!.SceneHash:x16})";
+
+    private static string Remarks(Recording first, Recording second) => Remark("first", first) + Remark("second", second);
+
+    private static string Remark(string which, Recording recording) => recording.Damage is RecordingDamage damage
+        ? FormattableString.Invariant($" The {which} is damaged at byte {damage.Offset}, and counts up to there: {damage.Reason}")
+        : "";
+}

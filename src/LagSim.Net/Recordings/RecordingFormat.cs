@@ -1,0 +1,57 @@
+using System;
+using System.Reflection;
+using LagSim.Net.Wire;
+
+namespace LagSim.Net.Recordings;
+
+/// <summary>The numbers of a recording's file. The layout stands in <c>docs/RECORDINGS.md</c>; all sizes are in bytes.</summary>
+public static class RecordingFormat
+{
+    /// <summary>How the name of a recording ends.</summary>
+    public const string Extension = ".lagsim";
+
+    /// <summary>The version of the records. Scene and events in them are in that of the wire, <see cref="WireFormat.Version"/>.</summary>
+    public const byte Version = 1;
+
+    /// <summary>The longest state of a late joiner that a recording holds: 64 MiB.</summary>
+    public const int MaxJoinedBytes = 1 << 26;
+
+    /// <summary>The longest reason of an end, in UTF-8.</summary>
+    public const int MaxReasonBytes = 4000;
+
+    internal const int PrefixBytes = 10; // magic, version, version of the wire
+    internal const int HeaderBytes = 17; // peer, start, scene hash; then a text
+    internal const int JoinedHeadBytes = 12; // first index, time; then the state
+    internal const int EntryHeadBytes = 5; // index, verdict; then the event
+    internal const int CommittedBytes = 24;
+    internal const int CrcBytes = 4;
+
+    /// <summary>The version of this library, as a recording names it; without the source revision.</summary>
+    internal static string LibraryVersion { get; } =
+        (typeof(RecordingFormat).Assembly.GetCustomAttribute<AssemblyInformationalVersionAttribute>()?.InformationalVersion ?? "0").Split('+')[0];
+
+    /// <summary>The first eight bytes: <c>LagSim</c> and an end of line that a careless transfer as text would change.</summary>
+    internal static ReadOnlySpan<byte> Magic => new byte[] { 0x4C, 0x61, 0x67, 0x53, 0x69, 0x6D, 0x0D, 0x0A };
+
+    /// <summary>The longest content of a record.</summary>
+    internal static int MaxContentBytes(RecordKind kind) => kind switch
+    {
+        RecordKind.Header => HeaderBytes + 1 + WireText.MaxBytes,
+        RecordKind.Scene => SceneFormat.MaxBytes,
+        RecordKind.Joined => JoinedHeadBytes + MaxJoinedBytes,
+        RecordKind.Entry => EntryHeadBytes + EventFormat.MaxBytes,
+        RecordKind.Committed => CommittedBytes,
+        _ => MaxReasonBytes,
+    };
+
+    /// <summary>What a record is called in sentences, with its article.</summary>
+    internal static string NameOf(RecordKind kind) => kind switch
+    {
+        RecordKind.Header => "a header",
+        RecordKind.Scene => "a scene",
+        RecordKind.Joined => "a joined state",
+        RecordKind.Entry => "a log entry",
+        RecordKind.Committed => "a committed state",
+        _ => "an end",
+    };
+}

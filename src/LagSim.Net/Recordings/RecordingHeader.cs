@@ -1,0 +1,28 @@
+using LagSim.Time;
+
+namespace LagSim.Net.Recordings;
+
+/// <summary>Who recorded, and which session.</summary>
+/// <remarks>Immutable, safe on any thread.</remarks>
+public sealed class RecordingHeader
+{
+    internal RecordingHeader(byte peer, SimTime start, ulong sceneHash, string libraryVersion)
+    {
+        Peer = peer;
+        Start = start;
+        SceneHash = sceneHash;
+        LibraryVersion = libraryVersion;
+    }
+
+    /// <summary>The number of the peer that recorded; 0 is the host.</summary>
+    public byte Peer { get; }
+
+    /// <summary>The shared time at which the session started.</summary>
+    public SimTime Start { get; }
+
+    /// <summary>The hash of the session's scene.</summary>
+    public ulong SceneHash { get; }
+
+    /// <summary>The version of the library that recorded.</summary>
+    public string LibraryVersion { get; }
+}

@@ -1,0 +1,188 @@
+using System;
+using System.Threading;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Net.Recordings;
+
+/// <summary>A recording run again: its scene with the events that were accepted, and every committed state checked against its hashes.</summary>
+/// <remarks>
+/// <para>By the invariant the state is a fold of the scene over the accepted events, so a replay gives the recorded hashes whatever the
+/// network did, or the peer that recorded departed from it.</para>
+/// <para>Immutable, safe on any thread.</para>
+/// </remarks>
+public sealed class RecordingReplay
+{
+    private RecordingReplay(
+        ReplayOutcome outcome, int eventsApplied, int statesChecked, CommittedState? expected, CommittedState? actual, string message)
+    {
+        Outcome = outcome;
+        EventsApplied = eventsApplied;
+        StatesChecked = statesChecked;
+        Expected = expected;
+        Actual = actual;
+        Message = message;
+    }
+
+    /// <summary>What was found.</summary>
+    public ReplayOutcome Outcome { get; }
+
+    /// <summary>How many accepted events were put into the world.</summary>
+    public int EventsApplied { get; }
+
+    /// <summary>How many committed states have the hashes that were recorded.</summary>
+    public int StatesChecked { get; }
+
+    /// <summary>The first committed state that differs, as it was recorded; else the last that was checked, or null for none.</summary>
+    public CommittedState? Expected { get; }
+
+    /// <summary>The same as the replay has it.</summary>
+    public CommittedState? Actual { get; }
+
+    /// <summary>The result as a sentence for people.</summary>
+    public string Message { get; }
+
+    /// <summary>Runs a recording again, up to its last committed state or to the first that differs.</summary>
+    /// <param name="recording">What to run. Of a damaged one that which stands before the damage is run.</param>
+    /// <param name="restore">
+    /// Makes a world of what a late joiner began with, simulated to <see cref="JoinedState.Time"/>. Without it only a recording that has the
+    /// log from its beginning can be run.
+    /// </param>
+    /// <param name="cancellation">Ends the run between two instants of the world.</param>
+    /// <remarks>
+    /// Events enter by time, each just before it happens, and what lies behind is forgotten: the memory is that of the world at one instant.
+    /// Cost: that of the simulation. A scene may ask for more events than anyone can wait for, hence the cancellation.
+    /// </remarks>
+    /// <exception cref="ArgumentNullException">There is no recording.</exception>
+    /// <exception cref="OperationCanceledException">The token asked for an end.</exception>
+    public static RecordingReplay Run(
+        Recording recording, Func<JoinedState, Simulation>? restore = null, CancellationToken cancellation = default) =>
+        Run(recording ?? throw new ArgumentNullException(nameof(recording)), restore, SimTime.MaxValue, cancellation);
+
+    /// <summary>The same, no further than to the committed states of <paramref name="until"/>.</summary>
+    internal static RecordingReplay Run(
+        Recording recording, Func<JoinedState, Simulation>? restore, SimTime until, CancellationToken cancellation)
+    {
+        int applied = 0;
+        int agreed = 0;
+        CommittedState? last = null;
+        try
+        {
+            Simulation simulation = Begin(recording, restore, cancellation);
+            int[] order = AcceptedByTime(recording);
+            foreach (CommittedState expected in recording.CommittedArray)
+            {
+                if (expected.Time > until)
+                {
+                    break;
+                }
+
+                while (applied < order.Length && recording.EntryArray[order[applied]].Event.Time <= expected.Time)
+                {
+                    cancellation.ThrowIfCancellationRequested();
+                    Submit(simulation, recording.EntryArray[order[applied]]);
+                    applied++;
+                }
+
+                cancellation.ThrowIfCancellationRequested();
+                simulation.AdvanceTo(expected.Time);
+                simulation.DropHistoryBefore(expected.Time);
+                CommittedState actual = new(expected.Time, simulation.StateHash(expected.Time), simulation.EventHash(expected.Time));
+                if (!actual.Equals(expected))
+                {
+                    return new RecordingReplay(
+                        ReplayOutcome.Differs, applied, agreed, expected, actual,
+                        $"The replay differs at {expected.Time}: recorded {expected}; replayed {actual}.");
+                }
+
+                last = expected;
+                agreed++;
+            }
+        }
+        catch (Exception failure) when (failure is SceneException or SimulationException)
+        {
+            return new RecordingReplay(
+                ReplayOutcome.CannotRun, applied, agreed, last, last, $"The recording cannot be run again. {failure.Message}");
+        }
+
+        return last is CommittedState end
+            ? new RecordingReplay(
+                ReplayOutcome.Agrees, applied, agreed, end, end,
+                $"The replay agrees: {Words.Count(agreed, "committed state")} up to {end.Time}, with {Words.Count(applied, "accepted event")}; {end}.")
+            : new RecordingReplay(
+                ReplayOutcome.NothingToCheck, applied, agreed, null, null, "The recording holds no committed state that a replay could be checked against.");
+    }
+
+    private static Simulation Begin(Recording recording, Func<JoinedState, Simulation>? restore, CancellationToken cancellation)
+    {
+        if (recording.Header is not RecordingHeader header || recording.Scene is not Scene scene)
+        {
+            throw new SceneException(recording.SceneError ?? "It has no scene.");
+        }
+
+        if (recording.Joined is not JoinedState joined)
+        {
+            // Nothing comes late here, so no history is needed; what lies behind is forgotten at once.
+            return new Simulation(scene, new SimulationOptions(header.Start, SimDuration.OneTick, cancellation: cancellation));
+        }
+
+        if (restore is null)
+        {
+            throw new SceneException($"It is of a peer that joined at {joined.Time} with a state of its own form, and nothing was given that restores it.");
+        }
+
+        Simulation restored = restore(joined);
+        return restored.SimulatedTo <= joined.Time
+            ? restored
+            : throw new SimulationException($"The restored world is simulated to {restored.SimulatedTo}, beyond the joined state's {joined.Time}.");
+    }
+
+    /// <summary>The accepted entries that are not in a joined state, by the time of their events and then by their place in the log.</summary>
+    private static int[] AcceptedByTime(Recording recording)
+    {
+        LogEntry[] entries = recording.EntryArray;
+        SimTime? joined = recording.Joined?.Time;
+        int[] order = new int[entries.Length];
+        int count = 0;
+        for (int i = 0; i < entries.Length; i++)
+        {
+            if (entries[i].Verdict == Verdict.Accepted && !(entries[i].Event.Time <= joined))
+            {
+                order[count++] = i;
+            }
+        }
+
+        Array.Resize(ref order, count);
+        Array.Sort(order, (a, b) =>
+        {
+            int compared = entries[a].Event.Time.CompareTo(entries[b].Event.Time);
+            return compared != 0 ? compared : a.CompareTo(b);
+        });
+        return order;
+    }
+
+    private static void Submit(Simulation simulation, in LogEntry entry)
+    {
+        SimTime before = entry.Event.Time - SimDuration.OneTick;
+        if (before > simulation.SimulatedTo)
+        {
+            simulation.AdvanceTo(before); // so that the world never holds more than the events of one instant
+        }
+
+        SubmitResult result;
+        try
+        {
+            result = simulation.Submit(entry.Event);
+        }
+        catch (SceneException refused)
+        {
+            throw new SceneException($"Entry {entry.Index} of its log is accepted, and may not enter the world: {refused.Message}", refused);
+        }
+
+        if (result == SubmitResult.TooOld)
+        {
+            throw new SceneException($"Entry {entry.Index} of its log is accepted, and lies before the start: {entry.Event}.");
+        }
+    }
+}

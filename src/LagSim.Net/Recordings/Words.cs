@@ -1,0 +1,14 @@
+using System.Globalization;
+
+namespace LagSim.Net.Recordings;
+
+/// <summary>Small help for sentences.</summary>
+internal static class Words
+{
+    /// <summary><c>1 log entry</c>, <c>2 log entries</c>.</summary>
+    internal static string Count(int count, string one)
+    {
+        string many = one.EndsWith('y') ? one.Substring(0, one.Length - 1) + "ies" : one + "s";
+        return string.Format(CultureInfo.InvariantCulture, "{0} {1}", count, count == 1 ? one : many);
+    }
+}

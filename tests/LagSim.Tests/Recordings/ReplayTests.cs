@@ -1,0 +1,173 @@
+using System;
+using System.Linq;
+using System.Threading;
+using LagSim.Events;
+using LagSim.Net.Recordings;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Tests.Determinism;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.Recordings.Recorded;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Recordings;
+
+public sealed class ReplayTests
+{
+    [Fact]
+    public void Run_ARecordedRun_GivesItsHashes()
+    {
+        RecordingReplay replay = Replayed(Read(Small()));
+
+        Assert.Equal(ReplayOutcome.Agrees, replay.Outcome);
+        Assert.Equal((5, 5), (replay.StatesChecked, replay.EventsApplied));
+        Assert.Equal(World(Log).StateHash(Start + Seconds(2)), replay.Actual!.Value.StateHash);
+        Assert.StartsWith("The replay agrees: 5 committed states up to 102.25s, with 5 accepted events; state ", replay.Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Run_AnyWorldWhoseEventsCameInAnyOrder_GivesItsHashes()
+    {
+        for (int seed = 1; seed <= 100; seed++)
+        {
+            RecordingReplay replay = Replayed(Read(Recorded.Random(seed, out RandomWorld world), world.Scene.Accelerations));
+            Assert.True(replay.Outcome == ReplayOutcome.Agrees, $"seed {seed}: {replay.Message}");
+            Assert.Equal((11, world.Events.Count), (replay.StatesChecked, replay.EventsApplied));
+        }
+    }
+
+    [Fact]
+    public void Run_OneBitOfAnEventChanged_DiffersAtTheFirstStateAfterIt()
+    {
+        LogEntry was = Log[3]; // at 0.75 s
+        ExternalEvent changed = ExternalEvent.Impulse(
+            was.Event.Time, 2, 2, Second, V(Math.BitIncrement(was.Event.Velocity.X), was.Event.Velocity.Y));
+        RecordingReplay replay = Replayed(Read(Small(With(4, Verdict.Accepted, changed))));
+
+        Assert.Equal(ReplayOutcome.Differs, replay.Outcome);
+        Assert.Equal(2, replay.StatesChecked);
+        Assert.Equal(Start + Seconds(1), replay.Expected!.Value.Time);
+        Assert.Equal(World(Log).StateHash(Start + Seconds(1)), replay.Expected.Value.StateHash);
+        Assert.Equal(World(With(4, Verdict.Accepted, changed)).StateHash(Start + Seconds(1)), replay.Actual!.Value.StateHash);
+        Assert.StartsWith("The replay differs at 101.25s: recorded state ", replay.Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Run_AnotherVerdict_Differs()
+    {
+        Assert.Equal(ReplayOutcome.Differs, Replayed(Read(Small(With(3, Verdict.Accepted, Log[2].Event)))).Outcome);
+        Assert.Equal(ReplayOutcome.Differs, Replayed(Read(Small(With(1, Verdict.NoRight, Log[0].Event)))).Outcome);
+        Assert.Equal(ReplayOutcome.Agrees, Replayed(Read(Small(With(3, Verdict.Invalid, Log[2].Event)))).Outcome);
+    }
+
+    [Fact]
+    public void Run_OnlyTheEventHashDiffers_IsNoticed()
+    {
+        Simulation world = World([]);
+        SimTime time = Start + Seconds(1);
+        byte[] bytes = Bytes(writer => writer.WriteCommitted(time, world.StateHash(time), world.EventHash(time) ^ 1));
+        Assert.Equal(ReplayOutcome.Differs, Replayed(Read(bytes)).Outcome);
+    }
+
+    [Fact]
+    public void Run_DamagedRecording_AgreesUpToTheDamage()
+    {
+        byte[] whole = Small();
+        RecordingReplay replay = Replayed(Read(whole[..^60]));
+        Assert.Equal(ReplayOutcome.Agrees, replay.Outcome);
+        Assert.InRange(replay.StatesChecked, 2, 4);
+    }
+
+    [Fact]
+    public void Run_NothingToCheck_IsNotAgreement()
+    {
+        Assert.Equal(ReplayOutcome.NothingToCheck, Replayed(Read(Bytes(_ => { }))).Outcome);
+        Assert.Equal(
+            ReplayOutcome.NothingToCheck, Replayed(Read(Bytes(writer => writer.WriteEntry(1, Verdict.Accepted, Log[0].Event)))).Outcome);
+    }
+
+    [Fact]
+    public void Run_WhatCannotBeRun_SaysWhy()
+    {
+        Cannot("The recording cannot be run again. The file is damaged before its scene ends. Damaged at byte 0: The file is empty.", []);
+        Cannot("The recording cannot be run again. The scene needs the acceleration 'test force' of version 1, which is not here.", Recorded.Random(1, out _));
+        Cannot(
+            "The recording cannot be run again. Entry 1 of its log is accepted, and lies before the start: Remove of body 0.0.0 at",
+            Small([new LogEntry(1, Verdict.Accepted, ExternalEvent.Remove(Start - SimDuration.OneTick, 1, 1, First))]));
+        Cannot(
+            "The recording cannot be run again. Entry 1 of its log is accepted, and may not enter the world: There is no such body",
+            Small([new LogEntry(1, Verdict.Accepted, ExternalEvent.Remove(Start + Seconds(0.1), 1, 1, BodyId.OfScene(9)))]));
+
+        // A fall that becomes faster than anything may be.
+        Scene endless = new SceneBuilder("endless").WithGravity(V(0, -1e6)).AddBody("dust", Ball(1e-9), V(0, 1)).Build();
+        byte[] falls = Bytes(writer => writer.WriteCommitted(Start + Seconds(3600), 1, 2), endless);
+        Cannot("The recording cannot be run again. At ", falls);
+    }
+
+    [Fact]
+    public void Run_LateJoiner_NeedsSomeoneWhoRestoresItsState()
+    {
+        JoinedState joined = new(2, Start + Seconds(0.5), [1, 2, 3]);
+        Recording recording = Read(Small(Log[1..], 3, joined: joined));
+
+        Cannot("The recording cannot be run again. It is of a peer that joined at 100.75s", Small(Log[1..], 3, joined: joined));
+
+        // Entry 2 is of a time that the state covers, so it is in it and not submitted again.
+        RecordingReplay replay = Replayed(recording, state =>
+        {
+            Assert.Equal([1, 2, 3], state.State.ToArray());
+            return Restored(0.5);
+        });
+        Assert.Equal((ReplayOutcome.Agrees, 4, 3), (replay.Outcome, replay.StatesChecked, replay.EventsApplied));
+
+        Assert.Equal(ReplayOutcome.Differs, Replayed(recording, _ => Restored(0.5, Log[..1])).Outcome);
+        Assert.Equal(ReplayOutcome.CannotRun, Replayed(recording, _ => Restored(0.6)).Outcome);
+
+        static Simulation Restored(double seconds, LogEntry[]? log = null) =>
+            World((log ?? Log).Where(entry => entry.Event.Time <= Start + Seconds(0.5)), seconds);
+    }
+
+    [Fact]
+    public void Run_Cancelled_Ends()
+    {
+        using CancellationTokenSource source = new();
+        source.Cancel();
+        Assert.Throws<OperationCanceledException>(() => RecordingReplay.Run(Read(Small()), cancellation: source.Token));
+        Assert.Throws<ArgumentNullException>(() => Replayed(null!));
+    }
+
+    [Fact]
+    public void Run_LongWithManyEventsOnOneBody_KeepsOnlyAnInstantOfThem()
+    {
+        // 20,000 events on one ball between two committed states: what a replay allocates is the list it sorts, not the world's history.
+        const int count = 20_000;
+        LogEntry[] log = Enumerable.Range(1, count).Select(n => new LogEntry(
+            (uint)n, Verdict.Accepted, ExternalEvent.SetVelocity(Start + Seconds(n * 1e-3), 1, (uint)n, First, V(n % 3 - 1, 1)))).ToArray();
+        SimTime end = Start + Seconds(21);
+        byte[] Written(ulong state, ulong events) => Bytes(writer =>
+        {
+            foreach (LogEntry entry in log.Reverse().Select((entry, i) => new LogEntry((uint)i + 1, entry.Verdict, entry.Event)))
+            {
+                writer.WriteEntry(entry.Index, entry.Verdict, entry.Event);
+            }
+
+            writer.WriteCommitted(end, state, events);
+        });
+        CommittedState actual = Replayed(Read(Written(0, 0))).Actual!.Value;
+        Recording recording = Read(Written(actual.StateHash, actual.EventHash));
+        long before = GC.GetAllocatedBytesForCurrentThread();
+
+        Assert.Equal(ReplayOutcome.Agrees, Replayed(recording).Outcome);
+
+        Assert.InRange(GC.GetAllocatedBytesForCurrentThread() - before, count * 4, 1_000_000);
+        Assert.Equal(World(log, 21).StateHash(end), actual.StateHash);
+    }
+
+    private static void Cannot(string message, byte[] bytes)
+    {
+        RecordingReplay replay = Replayed(Read(bytes));
+        Assert.Equal(ReplayOutcome.CannotRun, replay.Outcome);
+        Assert.StartsWith(message, replay.Message, StringComparison.Ordinal);
+    }
+}
