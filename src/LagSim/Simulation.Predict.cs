@@ -111,6 +111,12 @@ public sealed partial class Simulation
 
         SimTime opened = timelines.Key(last).Time;
         SimTime from = opened;
+        if (segment.Epoch < opened && TouchSurface(slot, last, surface, isPlane, segment.Epoch, out contact) && contact.Tick > opened)
+        {
+            // A path taken over from an event that came late: looked at from where it began, the root has the bits that it has on other peers.
+            return true;
+        }
+
         while (TouchSurface(slot, last, surface, isPlane, from, out contact))
         {
             round = RoundAt(contact.Tick, slot);

@@ -8,6 +8,9 @@ namespace LagSim.Net.Carriers;
 /// <remarks>Immutable, safe on any thread, never allocates to compare. <c>default</c> is no address.</remarks>
 public readonly struct PeerAddress : IEquatable<PeerAddress>
 {
+    /// <summary>How many bytes <see cref="Write"/> writes.</summary>
+    internal const int Bytes = 20;
+
     private readonly ulong high;
     private readonly ulong low;
     private readonly uint portAndFamily; // port + 1 in the low 17 bits; bit 31: IPv6
@@ -71,6 +74,14 @@ public readonly struct PeerAddress : IEquatable<PeerAddress>
         }
 
         return new IPEndPoint(new IPAddress(bytes.Slice(0, v6 ? 16 : 4)), (int)((portAndFamily & 0x1FFFF) - 1));
+    }
+
+    /// <summary>All of it as bytes, for a hash.</summary>
+    internal void Write(Span<byte> destination)
+    {
+        System.Buffers.Binary.BinaryPrimitives.WriteUInt64LittleEndian(destination, high);
+        System.Buffers.Binary.BinaryPrimitives.WriteUInt64LittleEndian(destination.Slice(8), low);
+        System.Buffers.Binary.BinaryPrimitives.WriteUInt32LittleEndian(destination.Slice(16), portAndFamily);
     }
 
     /// <inheritdoc/>

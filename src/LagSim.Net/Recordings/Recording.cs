@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.IO;
+using LagSim.Net.Sessions;
 using LagSim.Scenes;
 
 namespace LagSim.Net.Recordings;

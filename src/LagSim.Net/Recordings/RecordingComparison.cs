@@ -1,5 +1,6 @@
 using System;
 using System.Threading;
+using LagSim.Net.Sessions;
 
 namespace LagSim.Net.Recordings;
 

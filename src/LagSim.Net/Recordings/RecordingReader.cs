@@ -3,6 +3,7 @@ using System.Buffers.Binary;
 using System.Collections.Generic;
 using System.IO;
 using LagSim.Events;
+using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;

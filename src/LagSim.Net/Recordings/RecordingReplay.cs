@@ -1,5 +1,6 @@
 using System;
 using System.Threading;
+using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;

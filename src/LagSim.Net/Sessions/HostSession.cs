@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using LagSim.Events;
 using LagSim.Net.Carriers;
 using LagSim.Net.Wire;
@@ -9,12 +10,18 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions;
 
 /// <summary>The peer that others join. It alone says yes or no to each event, once, and keeps the log in which all verdicts stand in order.</summary>
-/// <remarks>Its clock is the session's. The watermark, before which it accepts nothing, follows that clock, so a silent joiner stalls nobody.</remarks>
-public sealed class HostSession : Session
+/// <remarks>
+/// Its clock is the session's. The watermark, before which it accepts nothing, follows that clock, so a silent joiner stalls nobody. It plays
+/// itself, by <see cref="Session.Do"/>, or only serves. It keeps nothing of who has not shown, by a cookie, that it is where it says.
+/// </remarks>
+public sealed partial class HostSession : Session
 {
-    private readonly List<LoggedVerdict> log = new();
+    /// <summary>A joiner that has not taken in so many lines of the log is told to go.</summary>
+    private const int MaxUnacknowledged = 1 << 16;
+
+    private readonly VerdictLog log = new();
     private readonly List<Joiner> joiners = new();
-    private readonly bool[] hasActed = new bool[byte.MaxValue + 1]; // by number: an event that bears it was judged
+    private readonly uint[] lastSequences = new uint[SessionOptions.MaxJoiners + 1]; // by number: of the last event that bears it
     private readonly ulong sessionId;
     private ulong joins;
 
@@ -28,9 +35,11 @@ public sealed class HostSession : Session
     /// so what is still on its way from or to a former joiner is not taken for that of one who came later with the same address and number.
     /// </param>
     public HostSession(Scene scene, IDatagramPort port, IClock clock, SessionOptions options, ulong sessionId)
-        : base(scene, port, clock, options)
+        : base(scene ?? throw new ArgumentNullException(nameof(scene)), port, clock, options)
     {
         this.sessionId = sessionId;
+        cookies = new JoinCookies(options.ConnectKey);
+        sceneCopy = WorldCopy.Encode(scene, null);
         SharedTime.Adjust(SimDuration.Zero);
         State = SessionState.Waiting;
     }
@@ -41,30 +50,38 @@ public sealed class HostSession : Session
     /// <summary>The time before which no event is accepted any more.</summary>
     public SimTime Watermark => SharedTime.Now - Options.History;
 
+    /// <inheritdoc/>
+    public override IReadOnlyList<LinkTraffic> Links => joiners.ConvertAll(j => j.Link.Traffic);
+
+    /// <inheritdoc/>
+    public override uint LogLength => log.Count;
+
     private protected override void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from)
     {
         if (State == SessionState.Ended)
         {
             Counters.DatagramsIgnored++;
+            return;
         }
-        else if (type == DatagramType.Join)
+
+        switch (type)
         {
-            if (IsWellFormed(JoinDatagram.TryDecode(datagram, out JoinDatagram join, out _)))
-            {
+            case DatagramType.Knock when IsWellFormed(KnockDatagram.TryDecode(datagram, out KnockDatagram knock, out _)):
+                Challenge(knock.Nonce, from);
+                break;
+            case DatagramType.Join when IsWellFormed(JoinDatagram.TryDecode(datagram, out JoinDatagram join, out _)):
                 OnJoin(join, from);
-            }
-        }
-        else if (type == DatagramType.Leave)
-        {
-            if (IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _))
-                && joiners.RemoveAll(j => j.Link.Other == from && j.Peer == leave.Peer && j.Link.SessionId == leave.SessionId) == 0)
-            {
-                Counters.DatagramsIgnored++;
-            }
-        }
-        else
-        {
-            Counters.DatagramsIgnored++;
+                break;
+            case DatagramType.Fetch when IsWellFormed(FetchDatagram.TryDecode(datagram, out FetchDatagram fetch, out _)):
+                OnFetch(fetch, from);
+                break;
+            case DatagramType.Leave when IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)):
+                Counters.DatagramsIgnored +=
+                    joiners.RemoveAll(j => j.Link.Other == from && j.Peer == leave.Peer && j.Link.SessionId == leave.SessionId) == 0 ? 1 : 0;
+                break;
+            case DatagramType.Welcome or DatagramType.Refusal or DatagramType.Challenge or DatagramType.Chunk:
+                Counters.DatagramsIgnored++; // a host's own words
+                break;
         }
     }
 
@@ -83,9 +100,16 @@ public sealed class HostSession : Session
         }
 
         SimTime now = Clock.Now;
-        joiner.Link.Note(update, now);
+        if (!joiner.Link.Note(update, now))
+        {
+            Counters.DatagramsIgnored++;
+            return;
+        }
+
+        joiner.Link.CountReceived(update.EncodedLength);
         joiner.HasWritten = true;
-        joiner.Ready |= update.Ready;
+        joiner.IsReady |= update.Ready;
+        joiner.HasBegun |= update.Start != SimTime.MinValue;
         if (update.EventsReceived > joiner.Acknowledged && update.EventsReceived <= log.Count)
         {
             joiner.Acknowledged = update.EventsReceived;
@@ -101,9 +125,15 @@ public sealed class HostSession : Session
         {
             if (sequence++ == joiner.EventsReceived + 1)
             {
+                if (!joiner.Budget.TrySpend(now))
+                {
+                    Counters.EventsDeferred++;
+                    break;
+                }
+
                 joiner.EventsReceived++;
-                hasActed[joiner.Peer] = true;
-                Judge(entry.Event, joiner.Peer, joiner.EventsReceived);
+                lastSequences[joiner.Peer] = joiner.EventsReceived;
+                Judge(entry, joiner.Peer, joiner.EventsReceived);
             }
         }
 
@@ -115,14 +145,15 @@ public sealed class HostSession : Session
     {
         for (int i = joiners.Count - 1; i >= 0; i--)
         {
-            if (now - joiners[i].Link.Heard > Options.Timeout)
+            bool isSilent = now - joiners[i].Link.Heard > Options.Timeout;
+            if (isSilent || log.Count - joiners[i].Acknowledged > MaxUnacknowledged)
             {
-                SayGoodbye(joiners[i], LeaveReason.TimedOut);
+                SayGoodbye(joiners[i], isSilent ? LeaveReason.TimedOut : LeaveReason.FellBehind);
                 joiners.RemoveAt(i);
             }
         }
 
-        if (World is null && joiners.FindAll(j => j.Ready).Count >= Options.ExpectedJoiners)
+        if (World is null && joiners.Count(j => j.IsReady) >= Options.ExpectedJoiners)
         {
             Begin(now + Options.StartLead);
             foreach (Joiner joiner in joiners)
@@ -132,6 +163,9 @@ public sealed class HostSession : Session
         }
 
         Commit(Watermark);
+        log.Settle(Watermark);
+        ForgetCopies(now);
+        log.ForgetUpTo(joiners.Aggregate(newestCopy?.LogIndex ?? uint.MaxValue, (least, joiner) => Math.Min(least, joiner.Acknowledged)));
         foreach (Joiner joiner in joiners)
         {
             if (joiner.HasWritten && joiner.Link.Due <= now)
@@ -143,7 +177,7 @@ public sealed class HostSession : Session
 
     private protected override SimTime NextDue(SimTime now)
     {
-        SimTime due = SimTime.MaxValue;
+        SimTime due = NextCommit(Options.History);
         foreach (Joiner joiner in joiners)
         {
             due = SimTime.Min(due, joiner.HasWritten ? joiner.Link.Due : joiner.Link.Heard + Options.Timeout + SimDuration.OneTick);
@@ -165,68 +199,23 @@ public sealed class HostSession : Session
     private void SayGoodbye(Joiner joiner, LeaveReason reason)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];
-        Send(bytes.Slice(0, new LeaveDatagram(joiner.Link.SessionId, 0, reason).Encode(bytes)), joiner.Link.Other);
+        Send(bytes.Slice(0, new LeaveDatagram(joiner.Link.SessionId, 0, reason).Encode(bytes)), joiner.Link);
     }
 
-    private void OnJoin(in JoinDatagram join, PeerAddress from)
+    private void Judge(in UpdateEntry entry, byte sender, uint sequence)
     {
-        Span<byte> bytes = stackalloc byte[WireFormat.WelcomeBytes];
-        ulong nonce = join.Nonce;
-        Joiner? known = joiners.Find(j => j.Link.Other == from && j.Nonce == nonce);
-        if (known is null)
+        ExternalEvent external = entry.Event;
+        if (entry.IsOwn || external.Peer != sender || external.Sequence != sequence)
         {
-            // Somebody may only pretend to be at this address: who is there and was heard of is not put out for it.
-            if (joiners.Exists(j => j.Link.Other == from && j.HasWritten && !IsOverdue(j.Link.Silence(Clock.Now))))
-            {
-                Counters.DatagramsIgnored++;
-                return;
-            }
-
-            int others = joiners.FindAll(j => j.Link.Other != from).Count;
-            byte number = FreeNumber(from);
-            RefusalReason? refusal = join.ConnectKey != Options.ConnectKey ? RefusalReason.WrongKey
-                : join.SceneHash != Scene.Hash ? RefusalReason.SceneDiffers
-                : others >= SessionOptions.MaxJoiners || number == 0 ? RefusalReason.Full
-                : null;
-            if (refusal is RefusalReason reason)
-            {
-                Counters.DatagramsIgnored++;
-                Send(bytes.Slice(0, new RefusalDatagram(nonce, reason).Encode(bytes)), from);
-                return;
-            }
-
-            joiners.RemoveAll(j => j.Link.Other == from); // the same address under a new nonce: it started again
-            known = new Joiner(number, nonce, new UpdateLink(sessionId + joins++, 0, from, Clock.Now));
-            joiners.Add(known);
-        }
-
-        Send(bytes.Slice(0, new WelcomeDatagram(nonce, known.Link.SessionId, known.Peer, Options.History).Encode(bytes)), from);
-    }
-
-    /// <summary>The least number that no other address has and that stands in no event; 0 if there is none.</summary>
-    private byte FreeNumber(PeerAddress from)
-    {
-        for (int number = 1; number <= byte.MaxValue; number++)
-        {
-            if (!hasActed[number] && !joiners.Exists(j => j.Peer == number && j.Link.Other != from))
-            {
-                return (byte)number;
-            }
-        }
-
-        return 0;
-    }
-
-    private void Judge(in ExternalEvent external, byte sender, uint sequence)
-    {
-        if (external.Peer != sender || external.Sequence != sequence)
-        {
-            Counters.EventsRefused++; // in another's name; in the log it would have that other take back what it did itself
+            // In another's name; in the log it would have that other take back what it did itself.
+            Counters.EventsRefused++;
+            Counters.EventsForged++;
             return;
         }
 
         SimTime now = SharedTime.Now;
         Verdict verdict = World is null || !MayEnter(external) ? Verdict.Invalid
+            : !EventRights.Has(external, Scene!) ? Verdict.NoRight
             : external.Time < now - Options.History || external.Time < World.Simulation.Start ? Verdict.TooLate
             : external.Time > now + Options.History ? Verdict.TooEarly
             : Verdict.Accepted;
@@ -242,7 +231,8 @@ public sealed class HostSession : Session
     {
         Counters.EventsAccepted += verdict == Verdict.Accepted ? 1 : 0;
         Counters.EventsRefused += verdict == Verdict.Accepted ? 0 : 1;
-        log.Add(new LoggedVerdict(external, verdict));
+        log.Add(external, verdict);
+        Tell(log[log.Count]);
         SimTime now = Clock.Now;
         foreach (Joiner joiner in joiners)
         {
@@ -256,42 +246,74 @@ public sealed class HostSession : Session
         update.EventsReceived = joiner.EventsReceived;
         update.Start = World?.Simulation.Start ?? SimTime.MinValue;
         update.FirstIndex = joiner.Acknowledged + 1;
-        int next = (int)joiner.Acknowledged;
-        while (next < log.Count && update.TryAdd(log[next].Verdict, log[next].Event))
+        if (Committed is CommittedState committed)
+        {
+            update.HasStateHash = true;
+            update.HashTime = committed.Time;
+            update.StateHash = committed.StateHash;
+        }
+
+        uint next = joiner.Acknowledged;
+        while (joiner.IsReady && next < log.Count && TryAdd(update, joiner, log[next + 1]))
         {
             next++;
         }
 
         // The watermark is a promise about the whole log: with an entry left out it could not yet be relied on.
         update.Watermark = World is null || next < log.Count ? SimTime.MinValue : Watermark;
-        SimDuration wait = WaitAfterUpdate(next > joiner.Acknowledged, joiner.Link.Silence(now));
-        Send(joiner.Link.Seal(now + wait), joiner.Link.Other);
+        bool isPending = next > joiner.Acknowledged || (World is not null && joiner.IsReady && !joiner.HasBegun);
+        Send(joiner.Link.Seal(now + WaitAfterUpdate(isPending, joiner.Link.Silence(now))), joiner.Link);
     }
+
+    /// <summary>Of what a joiner did itself only the number travels back; a former one of its number is another.</summary>
+    private static bool TryAdd(UpdateDatagram update, Joiner joiner, in LogEntry entry) =>
+        entry.Event.Peer == joiner.Peer && entry.Event.Sequence > joiner.FirstSequence
+            ? update.TryAddOwn(entry.Verdict, entry.Event.Sequence)
+            : update.TryAdd(entry.Verdict, entry.Event);
 
     private sealed class Joiner
     {
-        internal Joiner(byte peer, ulong nonce, UpdateLink link)
+        internal Joiner(ulong nonce, UpdateLink link, Copy copy, uint firstSequence, EventBudget budget)
         {
-            Peer = peer;
             Nonce = nonce;
             Link = link;
+            Copy = copy;
+            FirstSequence = firstSequence;
+            EventsReceived = firstSequence;
+            Acknowledged = copy.LogIndex;
+            Budget = budget;
         }
 
-        internal byte Peer { get; }
+        internal byte Peer => Link.Peer;
 
         internal ulong Nonce { get; }
 
         internal UpdateLink Link { get; }
 
-        internal bool Ready { get; set; }
+        /// <summary>What it fetches; null once it has it.</summary>
+        internal Copy? Copy { get; set; }
 
-        /// <summary>Whether an update of it came. Until then it gets none: an address that only a stranger gave must not be flooded.</summary>
+        /// <summary>The last request for pieces of it that was answered.</summary>
+        internal uint Fetches { get; set; }
+
+        /// <summary>The last sequence number of those who had its number before.</summary>
+        internal uint FirstSequence { get; }
+
+        internal EventBudget Budget { get; }
+
+        /// <summary>Whether it has scene, state and clock, and so wants the log.</summary>
+        internal bool IsReady { get; set; }
+
+        /// <summary>Whether it knows when the session starts.</summary>
+        internal bool HasBegun { get; set; }
+
+        /// <summary>Whether an update of it came. Until then it gets none.</summary>
         internal bool HasWritten { get; set; }
 
         /// <summary>How many entries of the log it has.</summary>
         internal uint Acknowledged { get; set; }
 
-        /// <summary>How many of its events are judged.</summary>
+        /// <summary>How many of its events are judged, those of former holders of its number included.</summary>
         internal uint EventsReceived { get; set; }
     }
 }

@@ -6,12 +6,16 @@ using LagSim.Net.Clocks;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>A peer that joins a host's session.</summary>
-/// <remarks>It sets its clock by the host's before its first tick. Its own events show at once; one that the host refuses is taken back.</remarks>
-public sealed class JoinerSession : Session
+/// <summary>A peer that joins a host's session, at its start or at any time later.</summary>
+/// <remarks>
+/// It sets its clock by the host's before its first tick, and fetches scene and committed state from it. Its own events show at once; one
+/// that the host refuses is taken back. After a time-out it joins again as a new one.
+/// </remarks>
+public sealed partial class JoinerSession : Session
 {
     /// <summary>How long between two tries to be let in, and between two exchanges while the clock is set.</summary>
     private static readonly SimDuration Pace = SimDuration.FromMilliseconds(20);
@@ -22,17 +26,19 @@ public sealed class JoinerSession : Session
     private readonly SimTime began;
     private UpdateLink? link;
     private SimTime joinDue;
+    private SimTime from = SimTime.MinValue; // the world goes on from there: earlier events are in it
+    private uint firstSequence; // the last sequence number of those who had this peer's number before
     private uint entriesReceived;
     private uint acknowledged; // how many own events the host has; their verdicts may come later
 
     /// <summary>Asks to be let in, from the first step on.</summary>
-    /// <param name="scene">The scene that the host is expected to have.</param>
+    /// <param name="scene">The scene that the host is expected to have; null takes the host's, whichever it is.</param>
     /// <param name="port">What carries datagrams; not disposed with the session.</param>
     /// <param name="clock">This machine's own clock.</param>
     /// <param name="options">How to take part.</param>
     /// <param name="host">Where the host is.</param>
     /// <param name="nonce">A number chosen at random; an answer must bear it.</param>
-    public JoinerSession(Scene scene, IDatagramPort port, IClock clock, SessionOptions options, PeerAddress host, ulong nonce)
+    public JoinerSession(Scene? scene, IDatagramPort port, IClock clock, SessionOptions options, PeerAddress host, ulong nonce)
         : base(scene, port, clock, options)
     {
         this.host = host;
@@ -48,53 +54,65 @@ public sealed class JoinerSession : Session
     /// <summary>What is known of the distance between the two clocks.</summary>
     public ClockSync ClockSync { get; } = new();
 
-    private protected override void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from)
+    /// <inheritdoc/>
+    public override IReadOnlyList<LinkTraffic> Links => link is null ? Array.Empty<LinkTraffic>() : new[] { link.Traffic };
+
+    /// <inheritdoc/>
+    public override uint LogLength => entriesReceived;
+
+    private bool IsReady => copy is not null && SharedTime.IsSet;
+
+    private protected override void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress sender)
     {
-        if (from != host || State == SessionState.Ended)
+        if (sender != host || State == SessionState.Ended)
         {
             Counters.DatagramsIgnored++;
+            return;
         }
-        else if (type == DatagramType.Welcome)
+
+        switch (type)
         {
-            if (IsWellFormed(WelcomeDatagram.TryDecode(datagram, out WelcomeDatagram welcome, out _)))
-            {
+            case DatagramType.Challenge when IsWellFormed(ChallengeDatagram.TryDecode(datagram, out ChallengeDatagram challenge, out _)):
+                OnChallenge(challenge);
+                break;
+            case DatagramType.Welcome when IsWellFormed(WelcomeDatagram.TryDecode(datagram, out WelcomeDatagram welcome, out _)):
                 OnWelcome(welcome);
-            }
-        }
-        else if (type == DatagramType.Refusal)
-        {
-            if (IsWellFormed(RefusalDatagram.TryDecode(datagram, out RefusalDatagram refusal, out _)))
-            {
-                OnRefusal(refusal);
-            }
-        }
-        else if (type == DatagramType.Leave)
-        {
-            if (IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)))
-            {
+                break;
+            case DatagramType.Refusal when IsWellFormed(RefusalDatagram.TryDecode(datagram, out RefusalDatagram refusal, out _)):
+                OnRefusal(refusal.Nonce, Sentence(refusal.Reason));
+                break;
+            case DatagramType.Chunk when IsWellFormed(ChunkDatagram.TryDecode(datagram, out ChunkDatagram chunk, out _)):
+                OnChunk(chunk, datagram.Length);
+                break;
+            case DatagramType.Leave when IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)):
                 OnLeave(leave);
-            }
-        }
-        else
-        {
-            Counters.DatagramsIgnored++;
+                break;
+            case DatagramType.Knock or DatagramType.Join or DatagramType.Fetch:
+                Counters.DatagramsIgnored++; // a joiner's own words
+                break;
         }
     }
 
-    private protected override void OnUpdate(UpdateDatagram update, PeerAddress from)
+    private protected override void OnUpdate(UpdateDatagram update, PeerAddress sender)
     {
-        if (link is null || from != host || update.SessionId != link.SessionId || update.Peer != 0 || State == SessionState.Ended)
+        if (link is null || sender != host || update.SessionId != link.SessionId || update.Peer != 0 || State == SessionState.Ended)
         {
             Counters.DatagramsIgnored++;
             return;
         }
 
         SimTime now = Clock.Now;
-        if (link.Note(update, now) && update.EchoSent != SimTime.MinValue
+        if (!link.Note(update, now))
+        {
+            Counters.DatagramsIgnored++;
+            return;
+        }
+
+        link.CountReceived(update.EncodedLength);
+        if (update.EchoSent != SimTime.MinValue
             && ClockSync.Add(update.EchoSent, update.EchoReceived, update.Sent, now) && ClockSync.IsReady)
         {
             SharedTime.Adjust(ClockSync.Offset);
-            State = State == SessionState.Synchronising ? SessionState.Waiting : State;
         }
 
         if (IsOverdue(link.Silence(now)))
@@ -103,10 +121,14 @@ public sealed class JoinerSession : Session
         }
 
         // Its clock is set first: events are late or not by it.
-        if (SharedTime.IsSet && update.Start != SimTime.MinValue)
+        TryBegin(update.Start);
+        if (World is not null)
         {
-            Begin(update.Start);
             TakeEntries(update, now);
+            if (update.HasStateHash)
+            {
+                CompareCommitted(update.HashTime, update.StateHash);
+            }
         }
 
         acknowledged = Math.Max(acknowledged, Math.Min(update.EventsReceived, LastSequence));
@@ -127,18 +149,21 @@ public sealed class JoinerSession : Session
         {
             if (joinDue <= now)
             {
-                Span<byte> bytes = stackalloc byte[WireFormat.JoinBytes];
-                Send(bytes.Slice(0, new JoinDatagram(Options.ConnectKey, nonce, Scene.Hash).Encode(bytes)), host);
+                AskToJoin(now);
                 joinDue = now + Pace;
             }
+
+            return;
         }
-        else if (link.Due <= now)
+
+        TendFetch(now);
+        if (link.Due <= now)
         {
             SendUpdate(link, now);
         }
     }
 
-    private protected override SimTime NextDue(SimTime now) => link?.Due ?? joinDue;
+    private protected override SimTime NextDue(SimTime now) => link is null ? joinDue : SimTime.Min(link.Due, fetch?.Due ?? SimTime.MaxValue);
 
     private protected override void Publish(in ExternalEvent external)
     {
@@ -151,43 +176,7 @@ public sealed class JoinerSession : Session
         if (link is not null)
         {
             Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];
-            Send(bytes.Slice(0, new LeaveDatagram(link.SessionId, Peer, LeaveReason.Left).Encode(bytes)), host);
-        }
-    }
-
-    private static string Sentence(RefusalReason reason) => reason switch
-    {
-        RefusalReason.VersionDiffers => "it speaks another version of the protocol.",
-        RefusalReason.SceneDiffers => "its scene is another one.",
-        RefusalReason.WrongKey => "the key is wrong.",
-        RefusalReason.Full => "the session is full.",
-        _ => $"reason {(int)reason}.",
-    };
-
-    private void OnWelcome(in WelcomeDatagram welcome)
-    {
-        if (State == SessionState.Joining && welcome.Nonce == nonce)
-        {
-            Peer = welcome.Peer;
-            History = welcome.History;
-            link = new UpdateLink(welcome.SessionId, welcome.Peer, host, Clock.Now);
-            State = SessionState.Synchronising;
-        }
-        else if (welcome.Nonce != nonce)
-        {
-            Counters.DatagramsIgnored++;
-        }
-    }
-
-    private void OnRefusal(in RefusalDatagram refusal)
-    {
-        if (refusal.Nonce == nonce && State == SessionState.Joining)
-        {
-            End($"The host at {host} refused: {Sentence(refusal.Reason)}");
-        }
-        else
-        {
-            Counters.DatagramsIgnored++;
+            Send(bytes.Slice(0, new LeaveDatagram(link.SessionId, Peer, LeaveReason.Left).Encode(bytes)), link);
         }
     }
 
@@ -195,11 +184,52 @@ public sealed class JoinerSession : Session
     {
         if (link is not null && leave.SessionId == link.SessionId && leave.Peer == 0)
         {
-            End(leave.Reason == LeaveReason.TimedOut ? $"The host at {host} heard nothing from this peer for too long." : $"The host at {host} ended the session.");
+            End(leave.Reason switch
+            {
+                LeaveReason.TimedOut => $"The host at {host} heard nothing from this peer for too long.",
+                LeaveReason.FellBehind => $"The host at {host} let this peer go: it did not take in what happened as fast as it did.",
+                _ => $"The host at {host} ended the session.",
+            });
         }
         else
         {
             Counters.DatagramsIgnored++;
+        }
+    }
+
+    /// <summary>Makes the world once scene, state or start, and the shared time are there.</summary>
+    private void TryBegin(SimTime start)
+    {
+        if (!IsReady)
+        {
+            return;
+        }
+
+        State = State == SessionState.Synchronising ? SessionState.Waiting : State;
+        if (World is not null)
+        {
+            return;
+        }
+
+        if (copy!.Snapshot is not WorldSnapshot snapshot)
+        {
+            if (start != SimTime.MinValue)
+            {
+                Begin(start);
+            }
+
+            return;
+        }
+
+        try
+        {
+            from = snapshot.Time;
+            Begin(snapshot);
+        }
+        catch (SceneException failure)
+        {
+            Farewell();
+            End($"The state that the host at {host} sent is no world of its scene. {failure.Message}");
         }
     }
 
@@ -234,31 +264,43 @@ public sealed class JoinerSession : Session
 
     private void Take(in UpdateEntry entry)
     {
+        bool own = entry.IsOwn;
         ExternalEvent external = entry.Event;
-        bool own = external.Peer == Peer;
-        bool accepted = entry.Verdict == Verdict.Accepted && MayEnter(external);
-        Counters.EventsAccepted += accepted ? 1 : 0;
-        Counters.EventsRefused += accepted ? 0 : 1;
-        while (own && unjudged.Count > 0 && unjudged[0].Sequence <= external.Sequence)
+        bool isAnothers = !own && (external.Peer != Peer || external.Sequence <= firstSequence);
+        bool isNextOwn = own && unjudged.Count > 0 && unjudged[0].Sequence == entry.Sequence;
+        if (!isAnothers && !isNextOwn)
         {
-            unjudged.RemoveAt(0); // a peer's own events stand in the log in their order
+            Counters.EventsForged++; // a host that judges what this peer did not do, or not in order, is none of ours
+            return;
         }
 
+        if (own)
+        {
+            external = unjudged[0];
+            unjudged.RemoveAt(0);
+        }
+
+        bool accepted = entry.Verdict == Verdict.Accepted && (own || MayEnter(external));
+        Counters.EventsAccepted += accepted ? 1 : 0;
+        Counters.EventsRefused += accepted ? 0 : 1;
         if (own && !accepted)
         {
             Counters.EventsLost += World!.Retract(external) ? 0 : 1;
         }
-        else if (!own && accepted)
+        else if (!own && accepted && external.Time >= from)
         {
             Apply(external);
         }
+
+        Tell(new LogEntry(entriesReceived, entry.Verdict, external));
     }
 
     private void SendUpdate(UpdateLink to, SimTime now)
     {
         UpdateDatagram update = to.Compose(now);
         update.EventsReceived = entriesReceived;
-        update.Ready = SharedTime.IsSet;
+        update.Ready = IsReady;
+        update.Start = World?.Simulation.Start ?? SimTime.MinValue;
         update.FirstIndex = acknowledged + 1;
         foreach (ExternalEvent external in unjudged)
         {
@@ -268,7 +310,7 @@ public sealed class JoinerSession : Session
             }
         }
 
-        SimDuration wait = !SharedTime.IsSet || World is null ? Pace : WaitAfterUpdate(acknowledged < LastSequence, to.Silence(now));
-        Send(to.Seal(now + wait), host);
+        SimDuration wait = !IsReady ? Pace : WaitAfterUpdate(acknowledged < LastSequence, to.Silence(now));
+        Send(to.Seal(now + wait), to);
     }
 }

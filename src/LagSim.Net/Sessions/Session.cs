@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Threading;
 using LagSim.Events;
 using LagSim.Hosting;
@@ -8,17 +9,21 @@ using LagSim.Net.Strategies;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Net.Sessions;
 
 /// <summary>One peer's part in a shared world: it talks through a datagram port, keeps the shared time, and keeps a world ahead of it.</summary>
 /// <remarks>
 /// For one thread, in real time (<see cref="PeerThread"/> gives it one) or in virtual time, where the harness steps it. From any thread may
-/// be read: <see cref="Scene"/>, <see cref="SharedTime"/>, <see cref="State"/>, <see cref="EndReason"/>, and which <see cref="World"/> it is;
-/// of the world itself only its pictures, its counts of late steps, and when it started.
+/// be read: <see cref="Scene"/>, <see cref="SharedTime"/>, <see cref="State"/>, <see cref="EndReason"/>, <see cref="Committed"/>, and which
+/// <see cref="World"/> it is; of the world itself only its pictures, its counts of late steps, and when it started.
 /// </remarks>
 public abstract class Session
 {
+    /// <summary>As many datagrams are taken in at a time at most: whoever floods this peer does not keep it from its own work.</summary>
+    private const int MaxDatagramsAStep = 256;
+
     private readonly byte[] buffer = new byte[IDatagramPort.MaxDatagramBytes];
     private readonly ILateEventStrategy strategy;
     private readonly UpdateDatagram received = new();
@@ -27,10 +32,13 @@ public abstract class Session
     private volatile SessionState state;
     private volatile string? endReason;
     private volatile LiveWorld? world;
+    private volatile Scene? scene;
+    private volatile object? committed; // a boxed state: other threads read it whole
+    private CommitSchedule? schedule;
 
-    private protected Session(Scene scene, IDatagramPort port, IClock clock, SessionOptions options)
+    private protected Session(Scene? scene, IDatagramPort port, IClock clock, SessionOptions options)
     {
-        Scene = scene ?? throw new ArgumentNullException(nameof(scene));
+        this.scene = scene;
         Port = port ?? throw new ArgumentNullException(nameof(port));
         Clock = clock ?? throw new ArgumentNullException(nameof(clock));
         Options = options ?? throw new ArgumentNullException(nameof(options));
@@ -39,8 +47,21 @@ public abstract class Session
         SharedTime = new SharedClock(clock);
     }
 
-    /// <summary>The scene that all peers share.</summary>
-    public Scene Scene { get; }
+    /// <summary>Raised on the session's thread for every line of the log, in order, once it has taken effect here. Handlers must not throw.</summary>
+    public event Action<LogEntry>? Logged;
+
+    /// <summary>Raised on the session's thread for every committed state, in order; see <see cref="SessionOptions.CommitInterval"/>. Handlers must not throw.</summary>
+    public event Action<CommittedState>? StateCommitted;
+
+    /// <summary>The scene that all peers share; null for a joiner that has not heard of it. From any thread.</summary>
+    public Scene? Scene
+    {
+        get => scene;
+        private protected set => scene = value;
+    }
+
+    /// <summary>The newest committed state; null before there is one. From any thread.</summary>
+    public CommittedState? Committed => (CommittedState?)committed;
 
     /// <summary>The session's time; readable once <see cref="SharedClock.IsSet"/>, from any thread.</summary>
     public SharedClock SharedTime { get; }
@@ -61,6 +82,12 @@ public abstract class Session
     /// <summary>The world, from the moment its start is known; the same from then on. From any thread, but see the remarks for what is in it.</summary>
     public LiveWorld? World => world;
 
+    /// <summary>What went over each link so far; of a host in the order in which its joiners came. On the session's thread; see <see cref="PeerThread.Ask"/>.</summary>
+    public abstract IReadOnlyList<LinkTraffic> Links { get; }
+
+    /// <summary>How many lines of the host's log this peer has, those included that were in the state it began from. On the session's thread.</summary>
+    public abstract uint LogLength { get; }
+
     /// <summary>What was counted.</summary>
     public SessionCounters Counters { get; } = new();
 
@@ -74,7 +101,7 @@ public abstract class Session
     private protected SessionOptions Options { get; }
 
     /// <summary>The number of this peer's newest event.</summary>
-    private protected uint LastSequence { get; private set; }
+    private protected uint LastSequence { get; set; }
 
     /// <summary>Does what is due: takes in datagrams, brings the world ahead, sends.</summary>
     /// <returns>How long until something is due again, unless a datagram or an action comes first.</returns>
@@ -95,7 +122,7 @@ public abstract class Session
     /// <summary>Does something to the shared world, now: seen here at once, by the others as soon as they hear of it.</summary>
     /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
     /// <exception cref="InvalidOperationException">The session is not running.</exception>
-    /// <exception cref="SceneException">A value may not enter the world; nothing happened.</exception>
+    /// <exception cref="SceneException">A value may not enter the world, or this peer may not do that; nothing happened.</exception>
     /// <exception cref="SimulationException">The world cannot be simulated with it; the session has ended.</exception>
     public ExternalEvent Do(in PlayerAction action)
     {
@@ -110,6 +137,7 @@ public abstract class Session
         }
 
         ExternalEvent external = action.Stamp(SharedTime.Now, Peer, LastSequence + 1);
+        EventRights.Throw(external, Scene!);
         try
         {
             World.Submit(external);
@@ -141,6 +169,9 @@ public abstract class Session
 
     private protected abstract void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from);
 
+    /// <summary>Something of another version of the protocol; of it only what is the same in all may be read.</summary>
+    private protected abstract void OnOtherVersion(ReadOnlySpan<byte> datagram, PeerAddress from);
+
     private protected abstract void OnUpdate(UpdateDatagram update, PeerAddress from);
 
     /// <summary>Whatever is due by the own clock, sending included.</summary>
@@ -162,9 +193,37 @@ public abstract class Session
     /// <summary>Makes the world, once its start is known.</summary>
     private protected void Begin(SimTime start)
     {
-        // The session itself decides what is forgotten, by the watermark; the simulation's own limit would go by its look-ahead.
-        world ??= new LiveWorld(
-            Scene, new SimulationOptions(start, SimDuration.MaxValue, cancellation: interruption.Token), Options.LookAhead, Options.PicturePast);
+        if (world is null)
+        {
+            world = new LiveWorld(Scene!, WorldOptions(start), Options.LookAhead, Options.PicturePast);
+            schedule = new CommitSchedule(start, start, Options.CommitInterval);
+        }
+    }
+
+    /// <summary>Makes the world from what it was committed to be.</summary>
+    /// <exception cref="SceneException">It is no world of the scene.</exception>
+    private protected void Begin(WorldSnapshot snapshot)
+    {
+        world = new LiveWorld(Scene!, snapshot, WorldOptions(snapshot.Start), Options.LookAhead, Options.PicturePast);
+        schedule = new CommitSchedule(snapshot.Start, snapshot.Time, Options.CommitInterval);
+    }
+
+    // The session itself decides what is forgotten, by the watermark; the simulation's own limit would go by its look-ahead.
+    private SimulationOptions WorldOptions(SimTime start) => new(start, SimDuration.MaxValue, cancellation: interruption.Token);
+
+    /// <summary>When the next state can be committed, if the watermark follows the clock by that much.</summary>
+    private protected SimTime NextCommit(SimDuration behind) =>
+        schedule is null ? SimTime.MaxValue : schedule.Next + behind + SimDuration.OneTick;
+
+    private protected void Tell(in LogEntry entry) => Logged?.Invoke(entry);
+
+    /// <summary>Notes the state that the host says it has committed.</summary>
+    private protected void CompareCommitted(SimTime time, ulong stateHash)
+    {
+        if (schedule is not null && schedule.TryCompare(time, stateHash, out bool agrees))
+        {
+            Counters.Count(agrees, time);
+        }
     }
 
     /// <summary>Brings another peer's accepted event into the world.</summary>
@@ -195,7 +254,7 @@ public abstract class Session
     {
         try
         {
-            ExternalEventCheck.Throw(external, Scene);
+            ExternalEventCheck.Throw(external, Scene!);
             return true;
         }
         catch (SceneException)
@@ -204,8 +263,29 @@ public abstract class Session
         }
     }
 
-    /// <summary>Nothing before the watermark will change any more; forget it, but for what the options want kept.</summary>
-    private protected void Commit(SimTime watermark) => World?.Simulation.DropHistoryBefore(watermark - Options.ExtraHistory);
+    /// <summary>Nothing before the watermark will change any more; hash what is due, and forget it, but for what the options want kept.</summary>
+    private protected void Commit(SimTime watermark)
+    {
+        if (World is null || schedule is null)
+        {
+            return;
+        }
+
+        while (schedule.Next < watermark && schedule.Next <= World.Simulation.Horizon)
+        {
+            CommittedState state = schedule.Take(World.Simulation);
+            committed = state;
+            if (schedule.TryCompare(state, out bool agrees))
+            {
+                Counters.Count(agrees, state.Time);
+            }
+
+            StateCommitted?.Invoke(state);
+        }
+
+        // What is still to be hashed is kept.
+        World.Simulation.DropHistoryBefore(SimTime.Min(watermark - Options.ExtraHistory, schedule.Next));
+    }
 
     /// <summary>
     /// Whether one end of a link has not heard of the other when it should have. They then write as if something were unacknowledged: else a
@@ -230,10 +310,18 @@ public abstract class Session
         Counters.DatagramsSent++;
     }
 
+    private protected void Send(ReadOnlySpan<byte> datagram, UpdateLink link)
+    {
+        Send(datagram, link.Other);
+        link.CountSent(datagram.Length);
+    }
+
     private SimDuration StepOnce()
     {
-        while (Port.TryReceive(buffer, out int length, out PeerAddress from))
+        int taken = 0;
+        while (taken < MaxDatagramsAStep && Port.TryReceive(buffer, out int length, out PeerAddress from))
         {
+            taken++;
             Counters.DatagramsReceived++;
             Receive(buffer.AsSpan(0, length), from);
         }
@@ -269,6 +357,11 @@ public abstract class Session
             }
         }
 
+        if (taken == MaxDatagramsAStep)
+        {
+            return SimDuration.Zero; // there may be more
+        }
+
         return due == SimTime.MaxValue ? SimDuration.MaxValue : due - Clock.Now; // what the step itself took is not waited again
     }
 
@@ -293,6 +386,10 @@ public abstract class Session
         if (!WireFormat.TryReadType(datagram, out DatagramType type, out refusal))
         {
             Counters.DatagramsMalformed++;
+            if (refusal == WireRefusal.VersionDiffers)
+            {
+                OnOtherVersion(datagram, from);
+            }
         }
         else if (type != DatagramType.Update)
         {

@@ -41,8 +41,30 @@ public sealed class SessionCounters
     /// <summary>The shared time at which a picture first showed the newest event, one's own or another's; the earliest instant before any.</summary>
     public SimTime LastShown { get; internal set; } = SimTime.MinValue;
 
+    /// <summary>Of the refused ones those that came in another's name; they stand in no log.</summary>
+    public long EventsForged { get; internal set; }
+
+    /// <summary>Events of joiners that were left for later because a joiner did more than <see cref="SessionOptions.MaxEventsPerSecond"/>.</summary>
+    public long EventsDeferred { get; internal set; }
+
+    /// <summary>How many of this joiner's committed states were like the host's.</summary>
+    public long StatesAgreed { get; internal set; }
+
+    /// <summary>How many were not.</summary>
+    public long StatesDiffered { get; internal set; }
+
+    /// <summary>The time of the first committed state that was not; the earliest instant if none was.</summary>
+    public SimTime FirstDifference { get; internal set; } = SimTime.MinValue;
+
     /// <summary>By how much the events of other peers came after their own time; negative for those that came before.</summary>
     public IReadOnlyList<SimDuration> Lateness => lateness;
+
+    internal void Count(bool agrees, SimTime time)
+    {
+        StatesAgreed += agrees ? 1 : 0;
+        StatesDiffered += agrees ? 0 : 1;
+        FirstDifference = agrees || FirstDifference != SimTime.MinValue ? FirstDifference : time;
+    }
 
     internal void AddLateness(SimDuration span)
     {

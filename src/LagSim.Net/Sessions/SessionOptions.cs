@@ -1,6 +1,8 @@
 using System;
+using System.Collections.Generic;
 using LagSim.Hosting;
 using LagSim.Net.Strategies;
+using LagSim.Scenes;
 using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
@@ -20,8 +22,23 @@ public sealed class SessionOptions
     /// <summary>The most joiners a host can have.</summary>
     public const int MaxJoiners = 8;
 
-    /// <summary>What only those may know who shall join; the host refuses any other. Default 0. It keeps strangers out, it does not encrypt.</summary>
-    public ulong ConnectKey { get; set; }
+    /// <summary>The longest <see cref="ConnectKey"/>, in characters.</summary>
+    public const int MaxKeyLength = 256;
+
+    /// <summary>
+    /// What only those may know who shall join; the host refuses any other. Up to <see cref="MaxKeyLength"/> characters, default none. It
+    /// does not travel, and it keeps strangers out; it does not encrypt.
+    /// </summary>
+    public string ConnectKey { get; set; } = "";
+
+    /// <summary>Joiner only: the accelerations that this program can supply to a scene that it gets from the host; default none.</summary>
+    public IReadOnlyList<IAcceleration>? Accelerations { get; set; }
+
+    /// <summary>Host only: how many events a second it takes from each joiner, 1 to 100,000; default 500. What is more is taken later.</summary>
+    public int MaxEventsPerSecond { get; set; } = 500;
+
+    /// <summary>How much time lies between two committed states that are hashed, 100 ms to 60 s; default 1 s. The same on all peers, to be compared.</summary>
+    public SimDuration CommitInterval { get; set; } = SimDuration.FromSeconds(1);
 
     /// <summary>Host only: how far behind its time it accepts an event, 50 ms to 5 s; default 1 s. At least two hops plus clock error.</summary>
     public SimDuration History { get; set; } = DefaultHistory;
@@ -65,6 +82,17 @@ public sealed class SessionOptions
         if (LookAhead <= SimDuration.Zero || LookAhead > SimDuration.FromSeconds(1))
         {
             throw new ArgumentOutOfRangeException(nameof(LookAhead), LookAhead, "The look-ahead must be above zero and at most 1 s.");
+        }
+
+        Range(CommitInterval, 0.1, 60, nameof(CommitInterval));
+        if (ConnectKey is null || ConnectKey.Length > MaxKeyLength)
+        {
+            throw new ArgumentOutOfRangeException(nameof(ConnectKey), $"{ConnectKey?.Length} characters", $"A connect key has 0 to {MaxKeyLength} characters.");
+        }
+
+        if (MaxEventsPerSecond is < 1 or > 100_000)
+        {
+            throw new ArgumentOutOfRangeException(nameof(MaxEventsPerSecond), MaxEventsPerSecond, "A host takes 1 to 100,000 events a second from a joiner.");
         }
 
         if (ExpectedJoiners is < 0 or > MaxJoiners)

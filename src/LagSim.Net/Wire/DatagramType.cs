@@ -6,13 +6,13 @@ public enum DatagramType : byte
     /// <summary>No datagram.</summary>
     None = 0,
 
-    /// <summary>A <see cref="JoinDatagram"/>: let me in.</summary>
-    Join = 1,
+    /// <summary>A <see cref="KnockDatagram"/>: are you there? In every version.</summary>
+    Knock = 1,
 
     /// <summary>A <see cref="WelcomeDatagram"/>: you are in.</summary>
     Welcome = 2,
 
-    /// <summary>A <see cref="RefusalDatagram"/>: you are not, because.</summary>
+    /// <summary>A <see cref="RefusalDatagram"/>: you are not, because. In every version.</summary>
     Refusal = 3,
 
     /// <summary>An <see cref="UpdateDatagram"/>: clock, acknowledgements, events.</summary>
@@ -20,4 +20,16 @@ public enum DatagramType : byte
 
     /// <summary>A <see cref="LeaveDatagram"/>: this is over.</summary>
     Leave = 5,
+
+    /// <summary>A <see cref="ChallengeDatagram"/>: bring this back.</summary>
+    Challenge = 6,
+
+    /// <summary>A <see cref="JoinDatagram"/>: let me in.</summary>
+    Join = 7,
+
+    /// <summary>A <see cref="FetchDatagram"/>: send me these pieces.</summary>
+    Fetch = 8,
+
+    /// <summary>A <see cref="ChunkDatagram"/>: a piece of scene and world.</summary>
+    Chunk = 9,
 }

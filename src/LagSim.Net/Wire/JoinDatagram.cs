@@ -2,25 +2,29 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>A joiner asks a host to be let in. Repeated, unchanged, until it is answered.</summary>
+/// <summary>A joiner that was challenged asks to be let in. Repeated, unchanged, until it is answered.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public readonly struct JoinDatagram
 {
     /// <summary>A request of these fields.</summary>
-    public JoinDatagram(ulong connectKey, ulong nonce, ulong sceneHash)
+    public JoinDatagram(ulong nonce, Token128 cookie, Token128 proof, ulong sceneHash)
     {
-        ConnectKey = connectKey;
         Nonce = nonce;
+        Cookie = cookie;
+        Proof = proof;
         SceneHash = sceneHash;
     }
 
-    /// <summary>What the players agreed on beforehand. It keeps strays out, not attackers: it travels in the clear.</summary>
-    public ulong ConnectKey { get; }
-
-    /// <summary>A number the joiner drew; the answer carries it, so that an answer to another attempt is not taken for this one's.</summary>
+    /// <summary>The <see cref="KnockDatagram.Nonce"/> of this attempt.</summary>
     public ulong Nonce { get; }
 
-    /// <summary>The hash of the joiner's scene.</summary>
+    /// <summary>The cookie that the host gave.</summary>
+    public Token128 Cookie { get; }
+
+    /// <summary>Shows that the joiner knows the connect key, without telling it: a keyed hash of nonce and cookie.</summary>
+    public Token128 Proof { get; }
+
+    /// <summary>The hash of the scene that the joiner expects; 0: whichever the host has.</summary>
     public ulong SceneHash { get; }
 
     /// <summary>Writes the datagram.</summary>
@@ -30,8 +34,9 @@ public readonly struct JoinDatagram
     {
         WireWriter writer = new(destination);
         writer.WriteHeader(DatagramType.Join);
-        writer.WriteUInt64(ConnectKey);
         writer.WriteUInt64(Nonce);
+        Cookie.Write(ref writer);
+        Proof.Write(ref writer);
         writer.WriteUInt64(SceneHash);
         return writer.Position;
     }
@@ -43,7 +48,7 @@ public readonly struct JoinDatagram
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out JoinDatagram join, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Join);
-        join = new JoinDatagram(reader.ReadUInt64(), reader.ReadUInt64(), reader.ReadUInt64());
+        join = new JoinDatagram(reader.ReadUInt64(), Token128.Read(ref reader), Token128.Read(ref reader), reader.ReadUInt64());
         return reader.Finish(out refusal);
     }
 }

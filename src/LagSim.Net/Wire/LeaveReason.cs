@@ -11,4 +11,7 @@ public enum LeaveReason : byte
 
     /// <summary>The host ended the session, for everyone.</summary>
     HostEnded = 3,
+
+    /// <summary>It did not take in what happened as fast as it did.</summary>
+    FellBehind = 4,
 }

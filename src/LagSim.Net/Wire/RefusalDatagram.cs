@@ -3,7 +3,7 @@ using System;
 namespace LagSim.Net.Wire;
 
 /// <summary>The host does not let a joiner in, and says why.</summary>
-/// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
+/// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>. Its layout is the same in every version.</remarks>
 public readonly struct RefusalDatagram
 {
     /// <summary>An answer of these fields.</summary>
@@ -13,13 +13,13 @@ public readonly struct RefusalDatagram
         Reason = reason;
     }
 
-    /// <summary>The <see cref="JoinDatagram.Nonce"/> that this answers.</summary>
+    /// <summary>The <see cref="KnockDatagram.Nonce"/> that this answers.</summary>
     public ulong Nonce { get; }
 
     /// <summary>Why not.</summary>
     public RefusalReason Reason { get; }
 
-    private bool IsWellFormed => Reason is >= RefusalReason.VersionDiffers and <= RefusalReason.Full;
+    private bool IsWellFormed => Reason is >= RefusalReason.VersionDiffers and <= RefusalReason.TooLarge;
 
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.RefusalBytes"/>.</returns>
@@ -49,5 +49,21 @@ public readonly struct RefusalDatagram
         answer = new RefusalDatagram(reader.ReadUInt64(), (RefusalReason)reader.ReadByte());
         reader.Require(answer.IsWellFormed);
         return reader.Finish(out refusal);
+    }
+
+    /// <summary>A refusal of any version, and that version; false if the datagram cannot be one.</summary>
+    internal static bool TryReadAnyVersion(ReadOnlySpan<byte> datagram, out ulong nonce, out byte version)
+    {
+        nonce = 0;
+        version = 0;
+        if (datagram.Length != WireFormat.RefusalBytes || datagram[WireFormat.HeaderBytes - 1] != (byte)DatagramType.Refusal)
+        {
+            return false;
+        }
+
+        version = datagram[sizeof(ushort)];
+        WireReader reader = new(datagram.Slice(WireFormat.HeaderBytes, sizeof(ulong)));
+        nonce = reader.ReadUInt64();
+        return true;
     }
 }

@@ -14,4 +14,7 @@ public enum RefusalReason : byte
 
     /// <summary>The session takes no more peers.</summary>
     Full = 4,
+
+    /// <summary>The world has grown too large to be copied.</summary>
+    TooLarge = 5,
 }

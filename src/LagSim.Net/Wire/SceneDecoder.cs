@@ -60,6 +60,7 @@ internal ref struct SceneDecoder
         builder.WithResolution(reader.ReadDouble());
         double smallest = reader.ReadDouble();
         builder.WithSmallestRadius(smallest);
+        builder.WithSpawners(PeerSet.FromMask(reader.ReadUInt16()));
         ReadAccelerations(builder);
         ReadPlanes(builder);
         ReadSpheres(builder);
@@ -133,9 +134,10 @@ internal ref struct SceneDecoder
             BodySpec spec = EventFormat.ReadSpec(ref reader);
             Vector3D position = reader.ReadVector();
             Vector3D velocity = reader.ReadVector();
+            PeerSet players = PeerSet.FromMask(reader.ReadUInt16());
             if (IsSound)
             {
-                builder.AddBody(name, spec, position, velocity);
+                builder.AddBody(name, spec, position, velocity, players);
             }
         }
     }

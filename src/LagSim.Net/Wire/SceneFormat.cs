@@ -30,9 +30,9 @@ public static class SceneFormat
 
     internal const int AccelerationBytes = 4;
     internal const int StaticPartBytes = EventFormat.VectorBytes + 16; // both kinds: a vector and two numbers
-    internal const int BodyBytes = EventFormat.SpecBytes + (2 * EventFormat.VectorBytes);
+    internal const int BodyBytes = EventFormat.SpecBytes + (2 * EventFormat.VectorBytes) + 2;
     private const int MaxTextBytes = 1 + WireText.MaxBytes;
-    private const int HeadBytes = EventFormat.VectorBytes + 16 + 1 + (3 * 2); // gravity, resolution, smallest radius, four counts
+    private const int HeadBytes = EventFormat.VectorBytes + 16 + 2 + 1 + (3 * 2); // gravity, resolution, smallest radius, spawners, four counts
 
     /// <summary>A scene as bytes. Cost: O(n) in its parts.</summary>
     /// <exception cref="ArgumentException">
@@ -48,6 +48,7 @@ public static class SceneFormat
         writer.WriteVector(scene.Gravity);
         writer.WriteDouble(scene.Resolution);
         writer.WriteDouble(scene.SmallestRadius);
+        writer.WriteUInt16(scene.Spawners.Mask);
         writer.WriteByte((byte)scene.Accelerations.Count);
         foreach (IAcceleration acceleration in scene.Accelerations)
         {
@@ -80,6 +81,7 @@ public static class SceneFormat
             EventFormat.WriteSpec(ref writer, body.Spec);
             writer.WriteVector(body.Position);
             writer.WriteVector(body.Velocity);
+            writer.WriteUInt16(body.Players.Mask);
         }
 
         return bytes;

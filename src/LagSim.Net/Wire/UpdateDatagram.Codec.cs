@@ -1,5 +1,4 @@
 using System;
-using LagSim.Events;
 using LagSim.Time;
 
 namespace LagSim.Net.Wire;
@@ -40,8 +39,15 @@ public sealed partial class UpdateDatagram
         writer.WriteByte((byte)count);
         foreach (ref readonly UpdateEntry entry in Entries)
         {
-            writer.WriteByte((byte)entry.Verdict);
-            EventFormat.Write(ref writer, entry.Event);
+            writer.WriteByte((byte)((byte)entry.Verdict | (entry.IsOwn ? OwnFlag : 0)));
+            if (entry.IsOwn)
+            {
+                writer.WriteUInt32(entry.Sequence);
+            }
+            else
+            {
+                EventFormat.Write(ref writer, entry.Event);
+            }
         }
 
         return writer.Position;
@@ -59,11 +65,9 @@ public sealed partial class UpdateDatagram
         reader.Require(announced <= MaxEntries);
         while (count < announced && reader.Refusal == WireRefusal.None)
         {
-            Verdict verdict = (Verdict)reader.ReadByte();
-            reader.Require(verdict <= Verdict.Invalid);
-            ExternalEvent what = EventFormat.Read(ref reader);
-            entries[count++] = new UpdateEntry(verdict, what);
-            entryBytes += VerdictBytes + EventFormat.EncodedLength(what.Kind);
+            UpdateEntry entry = ReadEntry(ref reader);
+            entries[count++] = entry;
+            entryBytes += LengthOf(entry);
         }
 
         reader.Require(AreIndicesInRange);
@@ -74,6 +78,21 @@ public sealed partial class UpdateDatagram
         }
 
         return accepted;
+    }
+
+    private static UpdateEntry ReadEntry(ref WireReader reader)
+    {
+        byte first = reader.ReadByte();
+        Verdict verdict = (Verdict)(first & ~OwnFlag);
+        reader.Require(verdict <= Verdict.Invalid);
+        if ((first & OwnFlag) == 0)
+        {
+            return new UpdateEntry(verdict, EventFormat.Read(ref reader));
+        }
+
+        uint sequence = reader.ReadUInt32();
+        reader.Require(sequence > 0);
+        return new UpdateEntry(verdict, sequence);
     }
 
     private bool AreIndicesInRange => count == 0 || FirstIndex <= uint.MaxValue - (uint)(count - 1);

@@ -12,10 +12,12 @@ namespace LagSim.Net.Wire;
 /// </remarks>
 public sealed partial class UpdateDatagram
 {
-    /// <summary>The most entries that a datagram can hold: that many removals.</summary>
-    public const int MaxEntries = (WireFormat.MaxBytes - WireFormat.EmptyUpdateBytes) / (VerdictBytes + EventFormat.MinBytes);
+    /// <summary>The most entries that a datagram can hold: that many numbers of the addressee's own events.</summary>
+    public const int MaxEntries = (WireFormat.MaxBytes - WireFormat.EmptyUpdateBytes) / OwnEntryBytes;
 
     private const int VerdictBytes = 1;
+    private const int OwnEntryBytes = VerdictBytes + sizeof(uint);
+    private const byte OwnFlag = 0x80;
     private const byte HashFlag = 1;
     private const byte ReadyFlag = 2;
 
@@ -105,15 +107,36 @@ public sealed partial class UpdateDatagram
             throw new ArgumentException($"'{what}' cannot travel: its kind, sequence, time or a number in it is out of range.", nameof(what));
         }
 
-        int length = VerdictBytes + EventFormat.EncodedLength(what.Kind);
+        return TryAdd(new UpdateEntry(verdict, what));
+    }
+
+    /// <summary>Puts the addressee's own event of that number at the end, if it fits.</summary>
+    /// <returns>False when the datagram is full.</returns>
+    /// <exception cref="ArgumentException">The number is 0, or the verdict none of the enum's.</exception>
+    public bool TryAddOwn(Verdict verdict, uint sequence)
+    {
+        if (sequence == 0 || verdict > Verdict.Invalid)
+        {
+            throw new ArgumentException($"Verdict {(byte)verdict} on event {sequence} cannot travel: events count from 1, verdicts go to {(byte)Verdict.Invalid}.", nameof(sequence));
+        }
+
+        return TryAdd(new UpdateEntry(verdict, sequence));
+    }
+
+    private bool TryAdd(in UpdateEntry entry)
+    {
+        int length = LengthOf(entry);
         bool fits = count < MaxEntries
             && WireFormat.EmptyUpdateBytes + WireFormat.StateHashBytes + entryBytes + length <= WireFormat.MaxBytes;
         if (fits)
         {
-            entries[count++] = new UpdateEntry(verdict, what);
+            entries[count++] = entry;
             entryBytes += length;
         }
 
         return fits;
     }
+
+    private static int LengthOf(in UpdateEntry entry) =>
+        entry.IsOwn ? OwnEntryBytes : VerdictBytes + EventFormat.EncodedLength(entry.Event.Kind);
 }

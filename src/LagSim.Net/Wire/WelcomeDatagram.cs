@@ -3,20 +3,25 @@ using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>The host lets a joiner in, and tells it who it is.</summary>
+/// <summary>The host lets a joiner in, tells it who it is, and what to fetch: a copy of scene and world, and the log from where that ends.</summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
 public readonly struct WelcomeDatagram
 {
     /// <summary>An answer of these fields.</summary>
-    public WelcomeDatagram(ulong nonce, ulong sessionId, byte peer, SimDuration history)
+    public WelcomeDatagram(
+        ulong nonce, ulong sessionId, byte peer, uint lastSequence, SimDuration history, int copyLength, ulong copyHash, uint logIndex)
     {
         Nonce = nonce;
         SessionId = sessionId;
         Peer = peer;
+        LastSequence = lastSequence;
         History = history;
+        CopyLength = copyLength;
+        CopyHash = copyHash;
+        LogIndex = logIndex;
     }
 
-    /// <summary>The <see cref="JoinDatagram.Nonce"/> that this answers.</summary>
+    /// <summary>The <see cref="KnockDatagram.Nonce"/> that this answers.</summary>
     public ulong Nonce { get; }
 
     /// <summary>The session's number; every later datagram carries it.</summary>
@@ -25,10 +30,23 @@ public readonly struct WelcomeDatagram
     /// <summary>The joiner's peer number, 1 to 255.</summary>
     public byte Peer { get; }
 
+    /// <summary>The last sequence number that stands in an event of that peer number, of whoever had it before; the joiner's first event is the next.</summary>
+    public uint LastSequence { get; }
+
     /// <summary>How far back the host's window reaches; above zero, at most <see cref="WireFormat.MaxTimeTicks"/>.</summary>
     public SimDuration History { get; }
 
-    private bool IsWellFormed => Peer != 0 && History.Ticks is > 0 and <= WireFormat.MaxTimeTicks;
+    /// <summary>The length of the copy in bytes, 1 to <see cref="WorldCopy.MaxBytes"/>.</summary>
+    public int CopyLength { get; }
+
+    /// <summary>The hash of the copy's bytes.</summary>
+    public ulong CopyHash { get; }
+
+    /// <summary>How many entries of the log are in the copy, or before everything that is not.</summary>
+    public uint LogIndex { get; }
+
+    private bool IsWellFormed =>
+        Peer != 0 && History.Ticks is > 0 and <= WireFormat.MaxTimeTicks && CopyLength is > 0 and <= WorldCopy.MaxBytes;
 
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.WelcomeBytes"/>.</returns>
@@ -38,7 +56,8 @@ public readonly struct WelcomeDatagram
     {
         if (!IsWellFormed)
         {
-            throw new InvalidOperationException($"No welcome: peer {Peer} must be 1 to 255, history {History} above zero and below 48 days.");
+            throw new InvalidOperationException(
+                $"No welcome: peer {Peer} must be 1 to 255, history {History} above zero and below 48 days, a copy of {CopyLength} bytes 1 to {WorldCopy.MaxBytes}.");
         }
 
         WireWriter writer = new(destination);
@@ -46,7 +65,11 @@ public readonly struct WelcomeDatagram
         writer.WriteUInt64(Nonce);
         writer.WriteUInt64(SessionId);
         writer.WriteByte(Peer);
+        writer.WriteUInt32(LastSequence);
         writer.WriteInt64(History.Ticks);
+        writer.WriteUInt32((uint)CopyLength);
+        writer.WriteUInt64(CopyHash);
+        writer.WriteUInt32(LogIndex);
         return writer.Position;
     }
 
@@ -57,8 +80,15 @@ public readonly struct WelcomeDatagram
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out WelcomeDatagram welcome, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Welcome);
+        ulong nonce = reader.ReadUInt64();
+        ulong session = reader.ReadUInt64();
+        byte peer = reader.ReadByte();
+        uint sequence = reader.ReadUInt32();
+        SimDuration history = SimDuration.FromTicks(reader.ReadInt64());
+        uint length = reader.ReadUInt32();
+        reader.Require(length <= WorldCopy.MaxBytes);
         welcome = new WelcomeDatagram(
-            reader.ReadUInt64(), reader.ReadUInt64(), reader.ReadByte(), SimDuration.FromTicks(reader.ReadInt64()));
+            nonce, session, peer, sequence, history, (int)Math.Min(length, WorldCopy.MaxBytes), reader.ReadUInt64(), reader.ReadUInt32());
         reader.Require(welcome.IsWellFormed);
         return reader.Finish(out refusal);
     }

@@ -11,22 +11,34 @@ public static class WireFormat
     public const ushort Magic = 0x4C53;
 
     /// <summary>The version of the layouts. Any change to a layout, a range or an enum's numbers needs another version.</summary>
-    public const byte Version = 1;
+    public const byte Version = 2;
 
     /// <summary>Magic, version and type.</summary>
     public const int HeaderBytes = 4;
 
+    /// <summary>The length of a <see cref="KnockDatagram"/>.</summary>
+    public const int KnockBytes = 28;
+
+    /// <summary>The length of a <see cref="ChallengeDatagram"/>: not above that of what it answers.</summary>
+    public const int ChallengeBytes = 28;
+
     /// <summary>The length of a <see cref="JoinDatagram"/>.</summary>
-    public const int JoinBytes = 28;
+    public const int JoinBytes = 52;
 
     /// <summary>The length of a <see cref="WelcomeDatagram"/>.</summary>
-    public const int WelcomeBytes = 29;
+    public const int WelcomeBytes = 49;
 
     /// <summary>The length of a <see cref="RefusalDatagram"/>.</summary>
     public const int RefusalBytes = 13;
 
     /// <summary>The length of a <see cref="LeaveDatagram"/>.</summary>
     public const int LeaveBytes = 14;
+
+    /// <summary>The length of a <see cref="FetchDatagram"/>.</summary>
+    public const int FetchBytes = 29;
+
+    /// <summary>The length of a <see cref="ChunkDatagram"/> without its data.</summary>
+    public const int EmptyChunkBytes = 16;
 
     /// <summary>The length of an <see cref="UpdateDatagram"/> without state hash and entries.</summary>
     public const int EmptyUpdateBytes = 67;

@@ -3,6 +3,7 @@ using System.Threading;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Hosting;
 
@@ -32,30 +33,28 @@ public sealed class LiveWorld
     /// <param name="picturePast">How much of the past pictures show, at least zero; default 250 ms.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     public LiveWorld(Scene scene, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? picturePast = null)
+        : this(new Simulation(scene, Checked(options, lookAhead, picturePast)), lookAhead, picturePast)
     {
-        if (options is null)
-        {
-            throw new ArgumentNullException(nameof(options));
-        }
+    }
 
+    /// <summary>Keeps a simulation that goes on from a snapshot ahead.</summary>
+    /// <param name="scene">What is simulated.</param>
+    /// <param name="snapshot">From where it goes on.</param>
+    /// <param name="options">The history, which must exceed the look-ahead.</param>
+    /// <param name="lookAhead">How far ahead of the clock, above zero and at most 1 s; default two frames.</param>
+    /// <param name="picturePast">How much of the past pictures show, at least zero; default 250 ms.</param>
+    /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
+    /// <exception cref="SceneException">The snapshot is of no world of the scene.</exception>
+    public LiveWorld(Scene scene, WorldSnapshot snapshot, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? picturePast = null)
+        : this(new Simulation(scene, snapshot, Checked(options, lookAhead, picturePast)), lookAhead, picturePast)
+    {
+    }
+
+    private LiveWorld(Simulation simulation, SimDuration? lookAhead, SimDuration? picturePast)
+    {
+        Simulation = simulation;
         LookAhead = lookAhead ?? DefaultLookAhead;
         this.picturePast = picturePast ?? DefaultPicturePast;
-        if (LookAhead <= SimDuration.Zero || LookAhead > SimDuration.FromSeconds(1))
-        {
-            throw new ArgumentOutOfRangeException(nameof(lookAhead), LookAhead, "The look-ahead must be above zero and at most 1 s.");
-        }
-
-        if (this.picturePast < SimDuration.Zero)
-        {
-            throw new ArgumentOutOfRangeException(nameof(picturePast), this.picturePast, "A picture cannot show less than no past.");
-        }
-
-        if (options.History <= LookAhead)
-        {
-            throw new ArgumentOutOfRangeException(nameof(options), options.History, $"The history must exceed the look-ahead, {LookAhead}.");
-        }
-
-        Simulation = new Simulation(scene, options);
     }
 
     /// <summary>The world. For reading; submit to this type, not to it.</summary>
@@ -128,5 +127,29 @@ public sealed class LiveWorld
         }
 
         return Simulation.Horizon == SimTime.MaxValue ? SimTime.MaxValue : Simulation.Horizon - (LookAhead / 2);
+    }
+
+    /// <summary>The options, if they and the spans go together.</summary>
+    private static SimulationOptions Checked(SimulationOptions options, SimDuration? lookAhead, SimDuration? picturePast)
+    {
+        if (options is null)
+        {
+            throw new ArgumentNullException(nameof(options));
+        }
+
+        SimDuration ahead = lookAhead ?? DefaultLookAhead;
+        if (ahead <= SimDuration.Zero || ahead > SimDuration.FromSeconds(1))
+        {
+            throw new ArgumentOutOfRangeException(nameof(lookAhead), ahead, "The look-ahead must be above zero and at most 1 s.");
+        }
+
+        if (picturePast < SimDuration.Zero)
+        {
+            throw new ArgumentOutOfRangeException(nameof(picturePast), picturePast, "A picture cannot show less than no past.");
+        }
+
+        return options.History > ahead
+            ? options
+            : throw new ArgumentOutOfRangeException(nameof(options), options.History, $"The history must exceed the look-ahead, {ahead}.");
     }
 }

@@ -15,7 +15,8 @@ public sealed class Scene
         StaticSphere[] spheres,
         SceneBody[] bodies,
         IAcceleration[] accelerations,
-        double smallestRadius)
+        double smallestRadius,
+        PeerSet spawners)
     {
         Name = name;
         Gravity = gravity;
@@ -25,6 +26,7 @@ public sealed class Scene
         BodyArray = bodies;
         AccelerationArray = accelerations;
         SmallestRadius = smallestRadius;
+        Spawners = spawners;
         Hash = ComputeHash();
     }
 
@@ -51,6 +53,9 @@ public sealed class Scene
 
     /// <summary>The least radius of a body in metres, of those at the start and those that may be spawned; it bounds the permitted speed.</summary>
     public double SmallestRadius { get; }
+
+    /// <summary>Which peers may spawn bodies, in a session.</summary>
+    public PeerSet Spawners { get; }
 
     /// <summary>A hash of everything above but the name: equal on two peers exactly if they mean the same world (to 64 bits).</summary>
     public ulong Hash { get; }
@@ -80,7 +85,7 @@ public sealed class Scene
 
     /// <summary>The same world with its static geometry only.</summary>
     internal Scene WithoutBodies() =>
-        new(Name, Gravity, Resolution, PlaneArray, SphereArray, Array.Empty<SceneBody>(), AccelerationArray, SmallestRadius);
+        new(Name, Gravity, Resolution, PlaneArray, SphereArray, Array.Empty<SceneBody>(), AccelerationArray, SmallestRadius, Spawners);
 
     private ulong ComputeHash()
     {
@@ -119,6 +124,24 @@ public sealed class Scene
             hash.Add(body.Velocity);
         }
 
+        AddRights(ref hash);
         return hash.Value;
+    }
+
+    // Only where somebody is kept from something, so that a scene in which all may do all has the hash it always had.
+    private void AddRights(ref StableHash hash)
+    {
+        if (Spawners != PeerSet.Everyone)
+        {
+            hash.Add((ulong)Spawners.Others | (1UL << 63));
+        }
+
+        for (int i = 0; i < BodyArray.Length; i++)
+        {
+            if (BodyArray[i].Players != PeerSet.Everyone)
+            {
+                hash.Add(BodyArray[i].Players.Others | ((ulong)(uint)i << 16) | (1UL << 62));
+            }
+        }
     }
 }

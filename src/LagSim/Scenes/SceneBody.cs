@@ -4,12 +4,13 @@ namespace LagSim.Scenes;
 /// <remarks>Immutable, safe on any thread.</remarks>
 public readonly struct SceneBody
 {
-    internal SceneBody(string name, BodySpec spec, Vector3D position, Vector3D velocity)
+    internal SceneBody(string name, BodySpec spec, Vector3D position, Vector3D velocity, PeerSet players)
     {
         Name = name;
         Spec = spec;
         Position = position;
         Velocity = velocity;
+        Players = players;
     }
 
     /// <summary>What it is called in the scene.</summary>
@@ -23,4 +24,7 @@ public readonly struct SceneBody
 
     /// <summary>Its velocity at the start, in metres per second.</summary>
     public Vector3D Velocity { get; }
+
+    /// <summary>Which peers may do something to it, in a session.</summary>
+    public PeerSet Players { get; }
 }

@@ -22,6 +22,7 @@ public sealed class SceneBuilder
     private readonly List<SceneBody> bodies = new();
     private readonly List<IAcceleration> accelerations = new();
     private Vector3D gravity = DefaultGravity;
+    private PeerSet spawners;
     private double resolution = DefaultResolution;
     private double? smallestSpawn;
 
@@ -76,9 +77,21 @@ public sealed class SceneBuilder
     }
 
     /// <summary>Adds a body; the n-th added, counted from 0, has the identity (0, 0, n).</summary>
-    public SceneBuilder AddBody(string bodyName, BodySpec spec, Vector3D position, Vector3D velocity = default)
+    /// <param name="bodyName">1 to 64 characters, and no other part's.</param>
+    /// <param name="spec">Size, mass, material and flight.</param>
+    /// <param name="position">Where its centre starts, in metres.</param>
+    /// <param name="velocity">In m/s; default none.</param>
+    /// <param name="players">Which peers may do something to it, in a session; default everyone.</param>
+    public SceneBuilder AddBody(string bodyName, BodySpec spec, Vector3D position, Vector3D velocity = default, PeerSet players = default)
     {
-        bodies.Add(new SceneBody(bodyName, spec, position.WithoutNegativeZero(), velocity.WithoutNegativeZero()));
+        bodies.Add(new SceneBody(bodyName, spec, position.WithoutNegativeZero(), velocity.WithoutNegativeZero(), players));
+        return this;
+    }
+
+    /// <summary>Which peers may spawn bodies, in a session; default everyone. What was spawned everyone may touch.</summary>
+    public SceneBuilder WithSpawners(PeerSet peers)
+    {
+        spawners = peers;
         return this;
     }
 
@@ -111,7 +124,7 @@ public sealed class SceneBuilder
         CheckNames();
         StartOverlap.Check(bodies, planes, spheres, resolution);
         return new Scene(
-            name, gravity.WithoutNegativeZero(), resolution, planes.ToArray(), spheres.ToArray(), bodies.ToArray(), accelerations.ToArray(), smallest);
+            name, gravity.WithoutNegativeZero(), resolution, planes.ToArray(), spheres.ToArray(), bodies.ToArray(), accelerations.ToArray(), smallest, spawners);
     }
 
     internal static string Whose(in SceneBody body) => $"body '{body.Name}'";

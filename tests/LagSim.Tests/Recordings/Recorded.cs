@@ -4,6 +4,7 @@ using System.IO;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Net.Recordings;
+using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Tests.Determinism;

@@ -5,6 +5,7 @@ using System.Text;
 using FsCheck;
 using FsCheck.Fluent;
 using LagSim.Net.Recordings;
+using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Tests.Determinism;

@@ -8,6 +8,7 @@ using FsCheck;
 using FsCheck.Fluent;
 using LagSim.Events;
 using LagSim.Net.Recordings;
+using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Tests.Api;

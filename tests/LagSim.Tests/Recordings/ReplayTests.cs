@@ -3,6 +3,7 @@ using System.Linq;
 using System.Threading;
 using LagSim.Events;
 using LagSim.Net.Recordings;
+using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Tests.Determinism;

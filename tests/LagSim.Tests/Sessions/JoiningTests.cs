@@ -63,7 +63,7 @@ public sealed class JoiningTests
     [Fact]
     public void Join_WrongKey_EndsWithASentence()
     {
-        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.Lan, options: peer => new SessionOptions { ConnectKey = (ulong)peer });
+        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.Lan, options: peer => new SessionOptions { ConnectKey = $"key {peer}" });
         Assert.True(group.RunUntil(() => group.Sessions[1].State == SessionState.Ended, 5));
         Assert.Equal("The host at virtual:0 refused: the key is wrong.", group.Sessions[1].EndReason);
         Assert.Equal(0, group.Host.JoinerCount);
@@ -95,9 +95,10 @@ public sealed class JoiningTests
         group.Run(0.1);
         byte[] bytes = new byte[WireFormat.RefusalBytes];
         new RefusalDatagram(1 + 1, RefusalReason.VersionDiffers).Encode(bytes); // the group's nonces are seed + peer
+        bytes[2] = 77; // as a host of version 77 sends it
         group.Ports[0].Send(bytes, PeerAddress.Virtual(1));
         group.Run(0.1);
-        Assert.Equal("The host at virtual:0 refused: it speaks another version of the protocol.", group.Sessions[1].EndReason);
+        Assert.Equal("The host at virtual:0 refused: it speaks version 77 of the protocol, this peer 2.", group.Sessions[1].EndReason);
     }
 
     [Fact]
@@ -128,7 +129,7 @@ public sealed class JoiningTests
     {
         SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.Lan).Connect();
         byte[] bytes = new byte[WireFormat.JoinBytes];
-        new JoinDatagram(12345, 777, group.Scene.Hash).Encode(bytes);
+        new JoinDatagram(777, default, JoinCookies.Prove("wrong", 777, default), group.Scene.Hash).Encode(bytes);
         group.Ports[1].Send(bytes, PeerAddress.Virtual(0));
         group.Run(0.2);
         Assert.Equal(1, group.Host.JoinerCount);

@@ -1,3 +1,4 @@
+using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Net.Sessions;
@@ -7,7 +8,7 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Sessions;
 
-/// <summary>There are 255 numbers for joiners. One that stands in an event is never given again; any other is.</summary>
+/// <summary>There are as many numbers as joiners. Who gets one that others had goes on where their events ended, so no two are ever the same.</summary>
 public sealed class PeerNumberTests
 {
     private readonly SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
@@ -39,31 +40,30 @@ public sealed class PeerNumberTests
     }
 
     [Fact]
-    public void Join_AfterEveryNumberStandsInAnEvent_IsRefused()
+    public void Join_NumberThatStandsInEvents_GoesOnWithTheNextSequence()
     {
-        byte last = group.Sessions[1].Peer;
         RawJoiner joiner = new(group);
-        for (ulong nonce = 1; last < byte.MaxValue; nonce++)
+        for (uint n = 1; n <= 300; n++)
         {
-            joiner.Join(nonce);
-            Assert.Equal(last + 1, joiner.Peer);
-            last = joiner.Peer;
-            joiner.Claim(1, ExternalEvent.SetVelocity(group.Host.SharedTime.Now, joiner.Peer, 1, First, V(0, 1)));
+            Assert.Equal((2, n - 1), (joiner.Peer, joiner.LastSequence));
+            joiner.Claim(n, ExternalEvent.SetVelocity(group.Host.SharedTime.Now, joiner.Peer, n, First, V(0, 1)));
             joiner.Leave();
+            joiner.Join(n);
         }
 
-        Assert.Equal(byte.MaxValue - 1, group.Host.Counters.EventsAccepted);
-        Assert.Equal(DatagramType.Refusal, joiner.Ask(999));
+        Assert.Equal(300, group.Host.Counters.EventsAccepted);
+        Assert.Equal(300, group.Accepted.Select(e => (e.Peer, e.Sequence)).Distinct().Count());
         Assert.Equal(SessionState.Running, group.Sessions[1].State);
     }
 
     [Fact]
-    public void Join_NumberOfOneWhoseEventWasRefused_IsNotGivenAgain()
+    public void Join_NumberOfOneWhoseEventWasRefused_GoesOnToo()
     {
         RawJoiner liar = new(group);
         liar.Claim(1, ExternalEvent.SetVelocity(group.Host.SharedTime.Now, liar.Peer, 1, First, V(1e300)));
         Assert.Equal(Verdict.Invalid, group.Log[1].Verdict);
         liar.Leave();
-        Assert.NotEqual(liar.Peer, new RawJoiner(group, 100).Peer);
+        RawJoiner next = new(group, 100);
+        Assert.Equal((liar.Peer, 1u), (next.Peer, next.LastSequence));
     }
 }

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Time;
 using Xunit;
@@ -15,6 +16,7 @@ internal sealed class RawJoiner
     private readonly SessionGroup group;
     private readonly IDatagramPort port;
     private readonly byte[] buffer = new byte[WireFormat.MaxBytes];
+    private Token128 cookie;
     private uint number;
 
     internal RawJoiner(SessionGroup group, int address = 50)
@@ -29,6 +31,9 @@ internal sealed class RawJoiner
 
     internal ulong SessionId { get; private set; }
 
+    /// <summary>The last sequence number of those who had its number before.</summary>
+    internal uint LastSequence { get; private set; }
+
     /// <summary>Asks to be let in, under a nonce, and is.</summary>
     internal void Join(ulong nonce)
     {
@@ -37,6 +42,7 @@ internal sealed class RawJoiner
         Assert.Equal(nonce, welcome.Nonce);
         Peer = welcome.Peer;
         SessionId = welcome.SessionId;
+        LastSequence = welcome.LastSequence;
     }
 
     /// <summary>Asks to be let in and tells what the answer was; null for none.</summary>
@@ -44,11 +50,26 @@ internal sealed class RawJoiner
     {
         Received();
         byte[] bytes = new byte[WireFormat.JoinBytes];
-        new JoinDatagram(0, nonce, group.Scene.Hash).Encode(bytes);
+        new JoinDatagram(nonce, Cookie(nonce), Prove(nonce), group.Scene.Hash).Encode(bytes);
         Send(bytes);
         group.Run(0.01);
         return port.TryReceive(buffer, out _, out _) ? (DatagramType)buffer[3] : null;
     }
+
+    /// <summary>Knocks, and takes the cookie that comes.</summary>
+    internal Token128 Cookie(ulong nonce)
+    {
+        byte[] bytes = new byte[WireFormat.KnockBytes];
+        new KnockDatagram(nonce).Encode(bytes);
+        Send(bytes);
+        group.Run(0.01);
+        Assert.True(port.TryReceive(buffer, out int length, out _));
+        Assert.True(ChallengeDatagram.TryDecode(buffer.AsSpan(0, length), out ChallengeDatagram challenge, out _));
+        cookie = challenge.Cookie;
+        return cookie;
+    }
+
+    internal Token128 Prove(ulong nonce, string key = "") => JoinCookies.Prove(key, nonce, cookie);
 
     /// <summary>The type and length of each datagram that came since the last look.</summary>
     internal List<(DatagramType Type, int Length)> Received()

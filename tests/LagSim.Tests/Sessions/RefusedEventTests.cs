@@ -147,9 +147,9 @@ public sealed class RefusedEventTests
     }
 
     [Theory]
-    [InlineData(0.05, 0)]
-    [InlineData(2, 1)]
-    public void Retract_OfWhatWasAcceptedAndForgotten_IsCountedAsLost(double secondsBetween, int lost)
+    [InlineData(true)]
+    [InlineData(false)]
+    public void Retract_OfWhatWasAccepted_IsCountedAndNotDone(bool byNumber)
     {
         // No host of ours takes back its word.
         SessionGroup group = Group(1, 0);
@@ -161,17 +161,17 @@ public sealed class RefusedEventTests
         });
         ExternalEvent own = group.Do(1, PlayerAction.SetVelocity(First, V(2, 6)));
         Assert.True(group.Settle(1, 1));
-        group.Run(secondsBetween);
         group.IsTapped = false;
         last.Number++;
         last.FirstIndex = 2;
         last.ClearEntries();
-        last.TryAdd(Verdict.TooLate, own);
+        _ = byNumber ? last.TryAddOwn(Verdict.TooLate, own.Sequence) : last.TryAdd(Verdict.TooLate, own);
         byte[] bytes = new byte[last.EncodedLength];
         last.Encode(bytes);
         group.Ports[0].Send(bytes, PeerAddress.Virtual(1));
         group.Run(0.02);
-        Assert.Equal((1, lost), (group.Sessions[1].Counters.EventsRefused, group.Sessions[1].Counters.EventsLost));
+        Assert.Equal((1L, 0L), (group.Sessions[1].Counters.EventsForged, group.Sessions[1].Counters.EventsLost));
+        Assert.Null(group.Difference());
     }
 
     [Fact]

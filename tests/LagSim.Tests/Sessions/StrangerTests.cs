@@ -34,20 +34,68 @@ public sealed class StrangerTests
     }
 
     [Fact]
-    public void Join_AnotherNonceFromOneWhoIsHeardOf_PutsNobodyOut()
+    public void Join_WithoutTheCookie_GetsNoAnswerAndPutsNobodyOut()
     {
+        // Somebody who only gives that address cannot have what was sent there.
         stranger.Claim(1);
+        stranger.Received();
         long ignored = group.Host.Counters.DatagramsIgnored;
-        Assert.NotEqual(DatagramType.Welcome, stranger.Ask(1));
+        byte[] bytes = new byte[WireFormat.JoinBytes];
+        new JoinDatagram(1, default, stranger.Prove(1), group.Scene.Hash).Encode(bytes);
+        stranger.Send(bytes);
+        group.Run(0.05);
+        Assert.DoesNotContain(stranger.Received(), d => d.Type is DatagramType.Welcome or DatagramType.Refusal);
         Assert.Equal(ignored + 1, group.Host.Counters.DatagramsIgnored);
         stranger.Claim(1, ExternalEvent.SetVelocity(group.Host.SharedTime.Now, stranger.Peer, 1, First, V(0, 5)));
         Assert.Equal((1, 2), (group.Host.Counters.EventsAccepted, group.Host.JoinerCount));
     }
 
+    [Fact]
+    public void Join_CookieOfAnotherAddressOrTooOld_GetsNoAnswer()
+    {
+        RawJoiner another = new(group, 70);
+        Token128 cookie = another.Cookie(5);
+        Assert.Null(Answer(stranger, 5, cookie)); // another address
+        Assert.Null(Answer(another, 6, cookie)); // another nonce
+        Assert.Equal(DatagramType.Welcome, Answer(another, 5, cookie));
+        cookie = another.Cookie(7);
+        group.Run(70);
+        Assert.Null(Answer(another, 7, cookie));
+
+        DatagramType? Answer(RawJoiner joiner, ulong nonce, Token128 given)
+        {
+            joiner.Received();
+            byte[] bytes = new byte[WireFormat.JoinBytes];
+            new JoinDatagram(nonce, given, JoinCookies.Prove("", nonce, given), group.Scene.Hash).Encode(bytes);
+            joiner.Send(bytes);
+            group.Run(0.01);
+            return joiner.Received() is [var first, ..] ? first.Type : null;
+        }
+    }
+
+    [Fact]
+    public void Join_PlayedAgainAfterItsJoinerLeft_LetsNobodyIn()
+    {
+        stranger.Leave();
+        Assert.Equal(1, group.Host.JoinerCount);
+        stranger.Received();
+        Assert.Null(stranger.Ask(4711)); // the cookie is still good, but it was used
+        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.Equal(DatagramType.Welcome, stranger.Ask(4712));
+    }
+
+    [Fact]
+    public void Knock_OfWhoever_IsAnsweredWithNoMoreBytesThanItHasAndLeavesNoTrace()
+    {
+        _ = stranger.Cookie(1);
+        Assert.True(WireFormat.ChallengeBytes <= WireFormat.KnockBytes && WireFormat.RefusalBytes <= WireFormat.KnockBytes);
+        Assert.Equal(2, group.Host.JoinerCount);
+    }
+
     [Theory]
     [InlineData(false)]
     [InlineData(true)]
-    public void Join_AnotherNonceFromOneWhoIsNotHeardOf_TakesItsPlace(bool hadWritten)
+    public void Join_AnotherNonceFromTheSameAddress_TakesItsPlace(bool hadWritten)
     {
         if (hadWritten)
         {
@@ -83,7 +131,7 @@ public sealed class StrangerTests
         group.Run(30);
         Assert.Equal([(DatagramType.Leave, WireFormat.LeaveBytes)], stranger.Received());
         Assert.Equal(1, group.Host.JoinerCount);
-        Assert.True(WireFormat.WelcomeBytes <= WireFormat.JoinBytes + 1 && WireFormat.RefusalBytes < WireFormat.JoinBytes);
+        Assert.True(WireFormat.WelcomeBytes <= WireFormat.JoinBytes && WireFormat.RefusalBytes < WireFormat.JoinBytes);
     }
 
     [Fact]

@@ -14,6 +14,12 @@ internal static class AnyDatagram
         return buffer.Slice(0, encode(buffer)).ToArray();
     }
 
+    internal static byte[] ChunkBytes(ulong session, uint index, ReadOnlySpan<byte> data)
+    {
+        Span<byte> buffer = stackalloc byte[WireFormat.MaxBytes];
+        return buffer.Slice(0, new ChunkDatagram(session, index, data).Encode(buffer)).ToArray();
+    }
+
     /// <summary>What decoding and encoding again makes of the bytes; null when they are refused.</summary>
     internal static byte[]? Again(ReadOnlySpan<byte> bytes, UpdateDatagram scratch, out WireRefusal refusal)
     {
@@ -24,6 +30,14 @@ internal static class AnyDatagram
 
         switch (type)
         {
+            case DatagramType.Knock:
+                return KnockDatagram.TryDecode(bytes, out KnockDatagram knock, out refusal) ? Bytes(knock.Encode) : null;
+            case DatagramType.Challenge:
+                return ChallengeDatagram.TryDecode(bytes, out ChallengeDatagram challenge, out refusal) ? Bytes(challenge.Encode) : null;
+            case DatagramType.Fetch:
+                return FetchDatagram.TryDecode(bytes, out FetchDatagram fetch, out refusal) ? Bytes(fetch.Encode) : null;
+            case DatagramType.Chunk:
+                return ChunkDatagram.TryDecode(bytes, out ChunkDatagram chunk, out refusal) ? ChunkBytes(chunk.SessionId, chunk.Index, chunk.Data) : null;
             case DatagramType.Join:
                 return JoinDatagram.TryDecode(bytes, out JoinDatagram join, out refusal) ? Bytes(join.Encode) : null;
             case DatagramType.Welcome:

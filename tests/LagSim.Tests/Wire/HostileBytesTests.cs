@@ -54,7 +54,7 @@ public class HostileBytesTests
             random.NextBytes(bytes);
             if (i % 4 != 0 && bytes.Length >= WireFormat.HeaderBytes)
             {
-                new byte[] { 0x53, 0x4C, 1, (byte)random.Next(1, 6) }.CopyTo(bytes); // past the header, or it tests nothing else
+                new byte[] { 0x53, 0x4C, WireFormat.Version, (byte)random.Next(1, 10) }.CopyTo(bytes); // past the header, or it tests nothing else
             }
 
             accepted += Canonical(bytes) ? 1 : 0;
@@ -116,6 +116,21 @@ public class HostileBytesTests
 
     private static IEnumerable<byte[]> Valid(int each)
     {
+        foreach (KnockDatagram knock in Gen.Sample(WireGen.Knock, 30, each))
+        {
+            yield return AnyDatagram.Bytes(knock.Encode);
+        }
+
+        foreach (ChallengeDatagram challenge in Gen.Sample(WireGen.Challenge, 30, each))
+        {
+            yield return AnyDatagram.Bytes(challenge.Encode);
+        }
+
+        foreach (FetchDatagram fetch in Gen.Sample(WireGen.Fetch, 30, each))
+        {
+            yield return AnyDatagram.Bytes(fetch.Encode);
+        }
+
         foreach (JoinDatagram join in Gen.Sample(WireGen.Join, 30, each))
         {
             yield return AnyDatagram.Bytes(join.Encode);

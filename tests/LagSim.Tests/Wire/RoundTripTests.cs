@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 using FsCheck;
 using FsCheck.Fluent;
 using LagSim.Events;
@@ -15,6 +16,23 @@ public class RoundTripTests
     public void Encode_AnyJoin_DecodesToTheSame() => Holds(WireGen.Join, join =>
         JoinDatagram.TryDecode(AnyDatagram.Bytes(join.Encode), out JoinDatagram again, out WireRefusal refusal)
         && refusal == WireRefusal.None && again.Equals(join));
+
+    [Fact]
+    public void Encode_AnyKnock_DecodesToTheSame() => Holds(WireGen.Knock, knock =>
+        KnockDatagram.TryDecode(AnyDatagram.Bytes(knock.Encode), out KnockDatagram again, out _) && again.Equals(knock));
+
+    [Fact]
+    public void Encode_AnyChallenge_DecodesToTheSame() => Holds(WireGen.Challenge, challenge =>
+        ChallengeDatagram.TryDecode(AnyDatagram.Bytes(challenge.Encode), out ChallengeDatagram again, out _) && again.Equals(challenge));
+
+    [Fact]
+    public void Encode_AnyFetch_DecodesToTheSame() => Holds(WireGen.Fetch, fetch =>
+        FetchDatagram.TryDecode(AnyDatagram.Bytes(fetch.Encode), out FetchDatagram again, out _) && again.Equals(fetch));
+
+    [Fact]
+    public void Encode_AnyChunk_DecodesToTheSame() => Holds(WireGen.Chunk, bytes =>
+        ChunkDatagram.TryDecode(bytes, out ChunkDatagram again, out _)
+        && bytes.AsSpan().SequenceEqual(AnyDatagram.ChunkBytes(again.SessionId, again.Index, again.Data)));
 
     [Fact]
     public void Encode_AnyWelcome_DecodesToTheSame() => Holds(WireGen.Welcome, welcome =>
@@ -53,9 +71,14 @@ public class RoundTripTests
     [Fact]
     public void Encode_Join_GivesTheDocumentedBytes()
     {
-        byte[] bytes = AnyDatagram.Bytes(new JoinDatagram(0x0102030405060708, 0x11, 0x2200000000000000).Encode);
+        byte[] bytes = AnyDatagram.Bytes(
+            new JoinDatagram(0x0102030405060708, new Token128(Counting(1)), new Token128(Counting(0x41)), 0x2200000000000000).Encode);
 
-        Assert.Equal("534C0101" + "0807060504030201" + "1100000000000000" + "0000000000000022", Convert.ToHexString(bytes));
+        Assert.Equal(
+            "534C0207" + "0807060504030201" + "0102030405060708090A0B0C0D0E0F10" + "4142434445464748494A4B4C4D4E4F50" + "0000000000000022",
+            Convert.ToHexString(bytes));
+
+        static byte[] Counting(int from) => Enumerable.Range(from, Token128.Bytes).Select(value => (byte)value).ToArray();
     }
 
     [Fact]
@@ -70,7 +93,7 @@ public class RoundTripTests
 
         const string None = "0000000000000080";
         Assert.Equal(
-            "534C0104" + "0100000000000000" + "02" + "03000000" + "0400000000000000" + None + None + None + None + "05000000" + "03"
+            "534C0204" + "0100000000000000" + "02" + "03000000" + "0400000000000000" + None + None + None + None + "05000000" + "03"
             + "0700000000000000" + "0800000000000000" + "06000000" + "01"
             + "01" + "0A" + "02" + "0A000000" + "0900000000000000" + "0B00000000000000"
             + "000000000000F03F" + "0000000000000000" + "0000000000000000",
@@ -81,7 +104,11 @@ public class RoundTripTests
     public void EncodedLengths_OfTheFixedDatagrams_AreTheDocumentedOnes()
     {
         Assert.Equal(WireFormat.JoinBytes, AnyDatagram.Bytes(default(JoinDatagram).Encode).Length);
-        Assert.Equal(WireFormat.WelcomeBytes, AnyDatagram.Bytes(new WelcomeDatagram(1, 2, 3, SimDuration.OneTick).Encode).Length);
+        Assert.Equal(WireFormat.KnockBytes, AnyDatagram.Bytes(default(KnockDatagram).Encode).Length);
+        Assert.Equal(WireFormat.ChallengeBytes, AnyDatagram.Bytes(default(ChallengeDatagram).Encode).Length);
+        Assert.Equal(WireFormat.FetchBytes, AnyDatagram.Bytes(default(FetchDatagram).Encode).Length);
+        Assert.Equal(WireFormat.EmptyChunkBytes + 1, AnyDatagram.ChunkBytes(1, 2, [3]).Length);
+        Assert.Equal(WireFormat.WelcomeBytes, AnyDatagram.Bytes(new WelcomeDatagram(1, 2, 3, 4, SimDuration.OneTick, 5, 6, 7).Encode).Length);
         Assert.Equal(WireFormat.RefusalBytes, AnyDatagram.Bytes(new RefusalDatagram(1, RefusalReason.Full).Encode).Length);
         Assert.Equal(WireFormat.LeaveBytes, AnyDatagram.Bytes(new LeaveDatagram(1, 2, LeaveReason.Left).Encode).Length);
         Assert.Equal(WireFormat.EmptyUpdateBytes, AnyDatagram.Bytes(new UpdateDatagram().Encode).Length);
@@ -99,7 +126,8 @@ public class RoundTripTests
             && a.Entries.Length == b.Entries.Length;
         for (int i = 0; same && i < a.Entries.Length; i++)
         {
-            same = a.Entries[i].Verdict == b.Entries[i].Verdict && a.Entries[i].Event.Equals(b.Entries[i].Event);
+            same = a.Entries[i].Verdict == b.Entries[i].Verdict && a.Entries[i].IsOwn == b.Entries[i].IsOwn
+                && a.Entries[i].Sequence == b.Entries[i].Sequence && a.Entries[i].Event.Equals(b.Entries[i].Event);
         }
 
         return same;

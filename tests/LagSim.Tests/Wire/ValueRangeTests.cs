@@ -144,12 +144,12 @@ public class ValueRangeTests
     [Fact]
     public void TryReadType_ForeignBytes_SaysWhatIsWrong()
     {
-        AssertHeader(WireRefusal.TooShort, 0x53, 0x4C, 1);
-        AssertHeader(WireRefusal.NotLagSim, 0x4C, 0x53, 1, 1);
-        AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, 2, 1);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 1, 0);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 1, 6);
-        AssertHeader(WireRefusal.None, 0x53, 0x4C, 1, 5);
+        AssertHeader(WireRefusal.TooShort, 0x53, 0x4C, 2);
+        AssertHeader(WireRefusal.NotLagSim, 0x4C, 0x53, 2, 1);
+        AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, 1, 1);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 2, 0);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 2, 10);
+        AssertHeader(WireRefusal.None, 0x53, 0x4C, 2, 9);
     }
 
     [Fact]
@@ -162,13 +162,19 @@ public class ValueRangeTests
     [Fact]
     public void TryDecode_FixedDatagramsOutOfRange_AreRefused()
     {
-        byte[] welcome = AnyDatagram.Bytes(new WelcomeDatagram(1, 2, 3, SimDuration.OneTick).Encode);
-        welcome[20] = 0;
-        AssertRefused(welcome);
-        welcome[20] = 3;
-        welcome[21] = 0;
-        AssertRefused(welcome);
-        foreach (byte reason in new byte[] { 0, 5, 255 })
+        byte[] welcome = AnyDatagram.Bytes(new WelcomeDatagram(1, 2, 3, 4, SimDuration.OneTick, 5, 6, 7).Encode);
+        foreach ((int at, byte value) in new (int, byte)[] { (20, 0), (25, 0), (33, 0), (36, 0x7F), (36, 0xFF) })
+        {
+            byte was = welcome[at];
+            welcome[at] = value;
+            AssertRefused(welcome);
+            welcome[at] = was;
+        }
+
+        byte[] knock = AnyDatagram.Bytes(new KnockDatagram(1).Encode);
+        knock[^1] = 1;
+        AssertRefused(knock);
+        foreach (byte reason in new byte[] { 0, 6, 255 })
         {
             byte[] answer = AnyDatagram.Bytes(new RefusalDatagram(1, RefusalReason.Full).Encode);
             answer[^1] = reason;
@@ -200,6 +206,8 @@ public class ValueRangeTests
         Assert.Throws<ArgumentException>(
             () => update.TryAdd(Verdict.Pending, ExternalEvent.Impulse(default, 1, 1, default, new Vector3D(0, double.NaN, 0))));
         Assert.Throws<ArgumentException>(() => update.TryAdd(Verdict.Pending, ExternalEvent.Spawn(default, 1, 1, default, default)));
+        Assert.Throws<ArgumentException>(() => update.TryAddOwn(Verdict.Accepted, 0));
+        Assert.Throws<ArgumentException>(() => update.TryAddOwn((Verdict)6, 1));
         Assert.Throws<ArgumentException>(() => update.TryAdd((Verdict)6, ExternalEvent.Remove(default, 1, 1, default)));
         Assert.Equal(0, update.Entries.Length);
     }

@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 using FsCheck;
 using FsCheck.Fluent;
 using LagSim.Events;
@@ -64,21 +65,47 @@ internal static class WireGen
             _ => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
         };
 
+    internal static readonly Gen<Token128> Token = Gen.ArrayOf(Byte, Token128.Bytes).Select(bytes => new Token128(bytes));
+
+    internal static readonly Gen<KnockDatagram> Knock = Bits64.Select(nonce => new KnockDatagram(nonce));
+
+    internal static readonly Gen<ChallengeDatagram> Challenge = from nonce in Bits64 from cookie in Token select new ChallengeDatagram(nonce, cookie);
+
+    internal static readonly Gen<FetchDatagram> Fetch =
+        from session in Bits64
+        from peer in Byte
+        from number in Bits32
+        from first in Bits32
+        from wanted in Bits64
+        select new FetchDatagram(session, peer, number, first, wanted);
+
+    /// <summary>A piece as bytes: it cannot leave the stack itself.</summary>
+    internal static readonly Gen<byte[]> Chunk =
+        from session in Bits64
+        from index in Bits32
+        from length in Gen.OneOf(Gen.Elements(1, ChunkDatagram.MaxData), Gen.Choose(1, ChunkDatagram.MaxData))
+        from fill in Byte
+        select AnyDatagram.ChunkBytes(session, index, Enumerable.Repeat(fill, length).ToArray());
+
     internal static readonly Gen<JoinDatagram> Join =
-        from key in Bits64 from nonce in Bits64 from scene in Bits64 select new JoinDatagram(key, nonce, scene);
+        from nonce in Bits64 from cookie in Token from proof in Token from scene in Bits64 select new JoinDatagram(nonce, cookie, proof, scene);
 
     internal static readonly Gen<WelcomeDatagram> Welcome =
         from nonce in Bits64
         from session in Bits64
         from peer in Gen.Choose(1, 255)
+        from sequence in Bits32
         from history in Gen.OneOf(Gen.Elements(1L, WireFormat.MaxTimeTicks), Bits64.Select(bits => (long)(bits >> 2)).Where(t => t > 0))
-        select new WelcomeDatagram(nonce, session, (byte)peer, SimDuration.FromTicks(history));
+        from length in Gen.OneOf(Gen.Elements(1, WorldCopy.MaxBytes), Gen.Choose(1, WorldCopy.MaxBytes))
+        from hash in Bits64
+        from index in Bits32
+        select new WelcomeDatagram(nonce, session, (byte)peer, sequence, SimDuration.FromTicks(history), length, hash, index);
 
     internal static readonly Gen<RefusalDatagram> Refusal =
-        from nonce in Bits64 from reason in Gen.Choose(1, 4) select new RefusalDatagram(nonce, (RefusalReason)reason);
+        from nonce in Bits64 from reason in Gen.Choose(1, 5) select new RefusalDatagram(nonce, (RefusalReason)reason);
 
     internal static readonly Gen<LeaveDatagram> Leave =
-        from session in Bits64 from peer in Byte from reason in Gen.Choose(1, 3) select new LeaveDatagram(session, peer, (LeaveReason)reason);
+        from session in Bits64 from peer in Byte from reason in Gen.Choose(1, 4) select new LeaveDatagram(session, peer, (LeaveReason)reason);
 
     internal static readonly Gen<UpdateDatagram> Update =
         from session in Bits64
@@ -97,6 +124,7 @@ internal static class WireGen
         from count in Gen.Choose(0, 60)
         from events in Gen.ArrayOf(Event, count)
         from verdict in Gen.Choose(0, 5)
+        from own in Gen.Choose(0, 100)
         select Fill(
             new UpdateDatagram
             {
@@ -116,13 +144,14 @@ internal static class WireGen
                 FirstIndex = first,
             },
             events,
-            (Verdict)verdict);
+            (Verdict)verdict,
+            own);
 
-    private static UpdateDatagram Fill(UpdateDatagram update, ExternalEvent[] events, Verdict verdict)
+    private static UpdateDatagram Fill(UpdateDatagram update, ExternalEvent[] events, Verdict verdict, int own)
     {
         foreach (ExternalEvent what in events)
         {
-            if (!update.TryAdd(verdict, what))
+            if (!(what.Sequence % 101 < own ? update.TryAddOwn(verdict, what.Sequence) : update.TryAdd(verdict, what)))
             {
                 break;
             }

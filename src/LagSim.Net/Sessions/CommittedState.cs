@@ -2,9 +2,9 @@ using System;
 using System.Globalization;
 using LagSim.Time;
 
-namespace LagSim.Net.Recordings;
+namespace LagSim.Net.Sessions;
 
-/// <summary>The hashes of a peer's world at a time before which nothing will change any more.</summary>
+/// <summary>The hashes of a peer's world at a time that no news can change any more: the same on every peer, or they differ for good.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public readonly struct CommittedState : IEquatable<CommittedState>
 {
@@ -16,7 +16,7 @@ public readonly struct CommittedState : IEquatable<CommittedState>
         EventHash = eventHash;
     }
 
-    /// <summary>The shared time.</summary>
+    /// <summary>The shared time; in a session the start and a whole number of <see cref="SessionOptions.CommitInterval"/>.</summary>
     public SimTime Time { get; }
 
     /// <summary><see cref="Simulation.StateHash"/> at that time.</summary>

@@ -3,7 +3,7 @@ using LagSim.Events;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 
-namespace LagSim.Net.Recordings;
+namespace LagSim.Net.Sessions;
 
 /// <summary>An entry of the host's log: an event, and what the host said about it.</summary>
 /// <remarks>Immutable, safe on any thread. <c>default</c> is no entry.</remarks>

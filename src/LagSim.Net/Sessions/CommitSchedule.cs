@@ -1,0 +1,70 @@
+using System;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions;
+
+/// <summary>The instants whose committed state is hashed, the same on every peer, and the newest of those states.</summary>
+internal sealed class CommitSchedule
+{
+    private const int Kept = 64;
+
+    private readonly CommittedState?[] own = new CommittedState?[Kept];
+    private readonly (SimTime Time, ulong StateHash)[] heard = new (SimTime, ulong)[Kept];
+    private readonly SimTime start;
+    private readonly SimDuration interval;
+
+    /// <param name="start">The session's start.</param>
+    /// <param name="from">The first instant that this peer can read: its own beginning.</param>
+    /// <param name="interval">The time from one instant to the next.</param>
+    internal CommitSchedule(SimTime start, SimTime from, SimDuration interval)
+    {
+        this.start = start;
+        this.interval = interval;
+        long passed = (from - start).Ticks / interval.Ticks;
+        Next = start + (interval * (passed + 1));
+        Array.Fill(heard, (SimTime.MinValue, 0UL));
+    }
+
+    /// <summary>The next instant to hash.</summary>
+    internal SimTime Next { get; private set; }
+
+    /// <summary>Hashes the next instant and moves on.</summary>
+    internal CommittedState Take(Simulation world)
+    {
+        CommittedState state = new(Next, world.StateHash(Next), world.EventHash(Next));
+        own[Place(Next)] = state;
+        Next += interval;
+        return state;
+    }
+
+    /// <summary>Notes what the host says; true if it can be compared now, and whether it agrees.</summary>
+    internal bool TryCompare(SimTime time, ulong stateHash, out bool agrees)
+    {
+        agrees = false;
+        if (time <= start || (time - start).Ticks % interval.Ticks != 0)
+        {
+            return false;
+        }
+
+        ref (SimTime Time, ulong StateHash) last = ref heard[Place(time)];
+        if (last.Time == time)
+        {
+            return false; // heard before, and compared or waiting
+        }
+
+        last = (time, stateHash);
+        CommittedState? mine = own[Place(time)];
+        agrees = mine?.StateHash == stateHash;
+        return mine?.Time == time;
+    }
+
+    /// <summary>Compares a state just taken with what the host said of it before, if it did.</summary>
+    internal bool TryCompare(in CommittedState mine, out bool agrees)
+    {
+        (SimTime time, ulong stateHash) = heard[Place(mine.Time)];
+        agrees = stateHash == mine.StateHash;
+        return time == mine.Time;
+    }
+
+    private int Place(SimTime time) => (int)((time - start).Ticks / interval.Ticks % Kept);
+}

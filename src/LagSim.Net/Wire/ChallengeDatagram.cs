@@ -1,0 +1,44 @@
+using System;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>The host's answer to a <see cref="KnockDatagram"/>: bring this cookie back, then I know that you are where you say you are.</summary>
+/// <remarks>Immutable, safe on any thread.</remarks>
+public readonly struct ChallengeDatagram
+{
+    /// <summary>An answer of these fields.</summary>
+    public ChallengeDatagram(ulong nonce, Token128 cookie)
+    {
+        Nonce = nonce;
+        Cookie = cookie;
+    }
+
+    /// <summary>The <see cref="KnockDatagram.Nonce"/> that this answers.</summary>
+    public ulong Nonce { get; }
+
+    /// <summary>What only the host can make, and only for this address and nonce.</summary>
+    public Token128 Cookie { get; }
+
+    /// <summary>Writes the datagram.</summary>
+    /// <returns>Its length, <see cref="WireFormat.ChallengeBytes"/>.</returns>
+    /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
+    public int Encode(Span<byte> destination)
+    {
+        WireWriter writer = new(destination);
+        writer.WriteHeader(DatagramType.Challenge);
+        writer.WriteUInt64(Nonce);
+        Cookie.Write(ref writer);
+        return writer.Position;
+    }
+
+    /// <summary>Reads a datagram; never throws.</summary>
+    /// <param name="datagram">The whole datagram.</param>
+    /// <param name="challenge">What it says; meaningless on refusal.</param>
+    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    public static bool TryDecode(ReadOnlySpan<byte> datagram, out ChallengeDatagram challenge, out WireRefusal refusal)
+    {
+        WireReader reader = WireReader.Open(datagram, DatagramType.Challenge);
+        challenge = new ChallengeDatagram(reader.ReadUInt64(), Token128.Read(ref reader));
+        return reader.Finish(out refusal);
+    }
+}

@@ -1,0 +1,158 @@
+using System;
+using System.Diagnostics.CodeAnalysis;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>How a <see cref="WorldSnapshot"/> travels and is kept: every bit of it, and nothing that was not asked for.</summary>
+/// <remarks>
+/// Pure functions, safe on any thread. What is read is well formed; whether it is a world of a scene
+/// <see cref="Simulation(Scene, WorldSnapshot, SimulationOptions)"/> tells. The layout stands in <c>docs/WIRE.md</c>.
+/// </remarks>
+public static class SnapshotFormat
+{
+    private const int HeadBytes = 28; // start, time, event hash, count
+    private const int MinBodyBytes = 167; // without supports and dense output
+    private const int DenseBytes = 72;
+
+    /// <summary>The bytes of a snapshot.</summary>
+    /// <exception cref="ArgumentException">A body's <see cref="BodySpec"/> has a number that is not finite, which none of a world has.</exception>
+    public static byte[] Encode(WorldSnapshot snapshot)
+    {
+        if (snapshot is null)
+        {
+            throw new ArgumentNullException(nameof(snapshot));
+        }
+
+        int length = HeadBytes;
+        foreach (BodySnapshot body in snapshot.Bodies)
+        {
+            length += MinBodyBytes + (body.SupportCount * sizeof(uint)) + (body.Law == MotionLaw.RungeKutta4 ? DenseBytes : 0);
+        }
+
+        byte[] bytes = new byte[length];
+        WireWriter writer = new(bytes);
+        writer.WriteInt64(snapshot.Start.Ticks);
+        writer.WriteInt64(snapshot.Time.Ticks);
+        writer.WriteUInt64(snapshot.EventHash);
+        writer.WriteUInt32((uint)snapshot.Bodies.Count);
+        foreach (BodySnapshot body in snapshot.Bodies)
+        {
+            Write(ref writer, body);
+        }
+
+        return bytes;
+    }
+
+    /// <summary>Reads a snapshot; never throws, and takes memory only for bodies whose bytes are there.</summary>
+    /// <param name="bytes">All of it.</param>
+    /// <param name="snapshot">The snapshot, if that is what the bytes are.</param>
+    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    public static bool TryDecode(ReadOnlySpan<byte> bytes, [NotNullWhen(true)] out WorldSnapshot? snapshot, out WireRefusal refusal)
+    {
+        WireReader reader = new(bytes, int.MaxValue);
+        SimTime start = SimTime.FromTicks(reader.ReadInt64());
+        SimTime time = SimTime.FromTicks(reader.ReadInt64());
+        ulong hash = reader.ReadUInt64();
+        uint count = reader.ReadUInt32();
+        reader.Require(count <= bytes.Length / MinBodyBytes, WireRefusal.TooShort);
+        BodySnapshot[] bodies = reader.Refusal == WireRefusal.None ? new BodySnapshot[count] : Array.Empty<BodySnapshot>();
+        for (int i = 0; i < bodies.Length && reader.Refusal == WireRefusal.None; i++)
+        {
+            bodies[i] = Read(ref reader);
+        }
+
+        bool accepted = reader.Finish(out refusal);
+        snapshot = accepted ? new WorldSnapshot(start, time, hash, bodies) : null;
+        return accepted;
+    }
+
+    private static void Write(ref WireWriter writer, in BodySnapshot body)
+    {
+        writer.WriteUInt64(body.Id.Packed);
+        EventFormat.WriteSpec(ref writer, body.Spec);
+        writer.WriteInt64(body.Opened.Time.Ticks);
+        writer.WriteUInt32(body.Opened.Round);
+        writer.WriteByte((byte)body.Opened.Kind);
+        writer.WriteUInt64(body.Opened.Body.Packed);
+        writer.WriteUInt64(body.Opened.Other.Packed);
+        writer.WriteByte(body.Opened.Peer);
+        writer.WriteUInt32(body.Opened.Sequence);
+        writer.WriteByte((byte)body.Law);
+        writer.WriteInt64(body.Epoch.Ticks);
+        writer.WriteInt64(body.End.Ticks);
+        WriteExactly(ref writer, body.Position);
+        WriteExactly(ref writer, body.Velocity);
+        WriteExactly(ref writer, body.Acceleration);
+        writer.WriteByte((byte)body.Crowding);
+        writer.WriteByte((byte)body.SupportCount);
+        for (int n = 0; n < body.SupportCount; n++)
+        {
+            writer.WriteUInt32((uint)body.Support(n));
+        }
+
+        if (body.Law == MotionLaw.RungeKutta4)
+        {
+            WriteExactly(ref writer, body.Cubic);
+            WriteExactly(ref writer, body.Quartic);
+            WriteExactly(ref writer, body.Quintic);
+        }
+    }
+
+    private static BodySnapshot Read(ref WireReader reader)
+    {
+        BodyId id = BodyId.FromPacked(reader.ReadUInt64());
+        BodySpec spec = EventFormat.ReadSpec(ref reader);
+        SimTime openedAt = SimTime.FromTicks(reader.ReadInt64());
+        uint round = reader.ReadUInt32();
+        EventKind kind = (EventKind)reader.ReadByte();
+        BodyId body = BodyId.FromPacked(reader.ReadUInt64());
+        BodyId other = BodyId.FromPacked(reader.ReadUInt64());
+        EventKey opened = new(openedAt, round, kind, body, other, reader.ReadByte(), reader.ReadUInt32());
+        MotionLaw law = (MotionLaw)reader.ReadByte();
+        SimTime epoch = SimTime.FromTicks(reader.ReadInt64());
+        SimTime end = SimTime.FromTicks(reader.ReadInt64());
+        Vector3D position = ReadExactly(ref reader);
+        Vector3D velocity = ReadExactly(ref reader);
+        Vector3D acceleration = ReadExactly(ref reader);
+        byte crowding = reader.ReadByte();
+        int supports = reader.ReadByte();
+        reader.Require(supports <= BodySnapshot.MaxSupports);
+        supports = Math.Min(supports, BodySnapshot.MaxSupports);
+        Span<int> planes = stackalloc int[BodySnapshot.MaxSupports];
+        for (int n = 0; n < supports; n++)
+        {
+            uint plane = reader.ReadUInt32();
+            reader.Require(plane <= int.MaxValue);
+            planes[n] = (int)plane;
+        }
+
+        bool dense = law == MotionLaw.RungeKutta4;
+        Vector3D cubic = dense ? ReadExactly(ref reader) : default;
+        Vector3D quartic = dense ? ReadExactly(ref reader) : default;
+        Vector3D quintic = dense ? ReadExactly(ref reader) : default;
+        return new BodySnapshot(
+            id, spec, opened, law, epoch, end, position, velocity, acceleration, planes.Slice(0, supports), crowding, cubic, quartic, quintic);
+    }
+
+    // Also of zeros the sign: what goes on from here goes on from the very bits.
+    private static void WriteExactly(ref WireWriter writer, in Vector3D value)
+    {
+        writer.WriteInt64(BitConverter.DoubleToInt64Bits(value.X));
+        writer.WriteInt64(BitConverter.DoubleToInt64Bits(value.Y));
+        writer.WriteInt64(BitConverter.DoubleToInt64Bits(value.Z));
+    }
+
+    private static Vector3D ReadExactly(ref WireReader reader)
+    {
+        Vector3D value = new(
+            BitConverter.Int64BitsToDouble(reader.ReadInt64()),
+            BitConverter.Int64BitsToDouble(reader.ReadInt64()),
+            BitConverter.Int64BitsToDouble(reader.ReadInt64()));
+        reader.Require(value.IsFinite);
+        return value;
+    }
+}

@@ -1,0 +1,87 @@
+using System;
+using System.Collections.Generic;
+using System.Diagnostics.CodeAnalysis;
+using LagSim.Scenes;
+using LagSim.Timelines;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>What a joiner needs to have the world: its scene, and if it has begun long enough ago the committed state.</summary>
+/// <remarks>Immutable, safe on any thread.</remarks>
+public sealed class WorldCopy
+{
+    /// <summary>The longest copy: 64 MiB, some 300,000 bodies.</summary>
+    public const int MaxBytes = 1 << 26;
+
+    private WorldCopy(Scene scene, WorldSnapshot? snapshot)
+    {
+        Scene = scene;
+        Snapshot = snapshot;
+    }
+
+    /// <summary>The scene.</summary>
+    public Scene Scene { get; }
+
+    /// <summary>The committed state; null where the world is to be simulated from its start.</summary>
+    public WorldSnapshot? Snapshot { get; }
+
+    /// <summary>The bytes of a copy.</summary>
+    /// <exception cref="SceneException">They would be more than <see cref="MaxBytes"/>, or the scene cannot travel.</exception>
+    public static byte[] Encode(Scene scene, WorldSnapshot? snapshot)
+    {
+        byte[] first = SceneFormat.Encode(scene);
+        byte[] second = snapshot is null ? Array.Empty<byte>() : SnapshotFormat.Encode(snapshot);
+        long length = sizeof(uint) + (long)first.Length + second.Length;
+        if (length > MaxBytes)
+        {
+            throw new SceneException($"A copy of scene '{scene.Name}' and its world has {length} bytes; at most {MaxBytes} can travel.");
+        }
+
+        byte[] bytes = new byte[length];
+        WireWriter writer = new(bytes);
+        writer.WriteUInt32((uint)first.Length);
+        writer.WriteBytes(first);
+        writer.WriteBytes(second);
+        return bytes;
+    }
+
+    /// <summary>Reads a copy; never throws.</summary>
+    /// <param name="bytes">All of it.</param>
+    /// <param name="known">The accelerations that this peer can supply, for a scene that names some.</param>
+    /// <param name="own">A scene this peer has; taken instead of a new one if the copy is of the same.</param>
+    /// <param name="copy">The copy, if that is what the bytes are.</param>
+    /// <param name="error">Else a sentence.</param>
+    public static bool TryDecode(
+        ReadOnlySpan<byte> bytes,
+        IReadOnlyList<IAcceleration>? known,
+        Scene? own,
+        [NotNullWhen(true)] out WorldCopy? copy,
+        [NotNullWhen(false)] out string? error)
+    {
+        copy = null;
+        WireReader reader = new(bytes, MaxBytes);
+        uint length = reader.ReadUInt32();
+        reader.Require(length <= reader.Remaining, WireRefusal.TooShort);
+        if (reader.Refusal != WireRefusal.None)
+        {
+            error = $"The copy of the world is damaged: {reader.Refusal}.";
+            return false;
+        }
+
+        if (!SceneFormat.TryDecode(reader.ReadBytes((int)length), known ?? own?.Accelerations, out Scene? scene, out error))
+        {
+            return false;
+        }
+
+        WorldSnapshot? snapshot = null;
+        if (reader.Remaining > 0 && !SnapshotFormat.TryDecode(reader.ReadBytes(reader.Remaining), out snapshot, out WireRefusal refusal))
+        {
+            error = $"The copy of the world's state is damaged: {refusal}.";
+            return false;
+        }
+
+        copy = new WorldCopy(own is not null && own.Hash == scene.Hash ? own : scene, snapshot);
+        error = null;
+        return true;
+    }
+}
