@@ -28,7 +28,11 @@ internal static class DropCommand
             HelpName = "NUMBER",
             CustomParser = result => CommonOptions.ParseNumber(result, "--delay-ms", 0, 2000),
         };
-        Option<string?> profile = new("--profile") { Description = $"A link profile: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}.", HelpName = "NAME" };
+        Option<string?> profile = new("--profile")
+        {
+            Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, or {LinkProfiles.AnyDelay}.",
+            HelpName = "NAME",
+        };
         Option<int> peers = CommonOptions.Whole("--peers", "How many peers, the host included", 2, 2, 9);
         Option<string> time = CommonOptions.Word("--time", "Real time over real sockets, or the same in virtual time, seeded, without waiting.", "real", "real", "virtual");
         Option<string> transport = CommonOptions.Word("--transport", "What carries datagrams in real time; in virtual time nothing does but the simulated link.", "udp", "udp", "litenetlib");

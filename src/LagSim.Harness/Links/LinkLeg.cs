@@ -7,6 +7,9 @@ namespace LagSim.Harness.Links;
 /// <remarks>Immutable, safe on any thread. Says what happens on average; <see cref="LinkModel"/> draws from it.</remarks>
 public sealed class LinkLeg
 {
+    private readonly LongTail? tail;
+    private readonly DelayStep? step;
+
     /// <summary>The longest delay, jitter or hold a leg can have, in milliseconds: ten minutes.</summary>
     public const double MaxMilliseconds = 600_000;
 
@@ -51,7 +54,7 @@ public sealed class LinkLeg
         }
     }
 
-    /// <summary>Mean one-way delay in milliseconds, 0 to <see cref="MaxMilliseconds"/>.</summary>
+    /// <summary>Mean one-way delay in milliseconds, 0 to <see cref="MaxMilliseconds"/>; with a <see cref="Tail"/> the median.</summary>
     public double DelayMilliseconds { get; }
 
     /// <summary>Standard deviation of the delay in milliseconds, 0 to <see cref="MaxMilliseconds"/>.</summary>
@@ -71,6 +74,39 @@ public sealed class LinkLeg
 
     /// <summary>How many of a hundred datagrams that arrive do so twice, 0 to 100.</summary>
     public double DuplicatePercent { get; }
+
+    /// <summary>How the delay varies where a standard deviation does not say it; null, the default: by <see cref="JitterMilliseconds"/>.</summary>
+    /// <exception cref="ArgumentException">The leg has jitter too, or the tail does not begin above a delay that is above 0.</exception>
+    public LongTail? Tail
+    {
+        get => tail;
+        init
+        {
+            if (value is not null && (JitterMilliseconds > 0 || DelayMilliseconds == 0 || value.AboveMilliseconds <= DelayMilliseconds))
+            {
+                throw new ArgumentException(
+                    $"A leg of {Text(DelayMilliseconds)} ms with a jitter of {Text(JitterMilliseconds)} ms cannot have {value}: "
+                    + "a tail takes the place of jitter and begins above a delay that is above 0 ms.",
+                    nameof(value));
+            }
+
+            tail = value;
+        }
+    }
+
+    /// <summary>How the mean delay steps up and down; null, the default: not at all.</summary>
+    /// <exception cref="ArgumentException">The step is more than twice the delay, so that it would be below 0 half of the time.</exception>
+    public DelayStep? Step
+    {
+        get => step;
+        init => step = value is null || value.Milliseconds <= 2 * DelayMilliseconds
+            ? value
+            : throw new ArgumentException(
+                $"A delay of {Text(DelayMilliseconds)} ms cannot step by {Text(value.Milliseconds)} ms; at most twice the delay is allowed.", nameof(value));
+    }
+
+    /// <summary>When it loses more than at other times; null, the default: never.</summary>
+    public PeriodicOutage? Outage { get; init; }
 
     private static double InRange(double value, double low, double high, string parameter) =>
         value >= low && value <= high // false for NaN

@@ -5,8 +5,10 @@ namespace LagSim.Harness.Links;
 
 /// <summary>One direction of one link at work: decides for each datagram whether and when it arrives.</summary>
 /// <remarks>
-/// <para>Delay: normal about the leg's mean, never below 0, so never before it was sent. Loss: Gilbert and Elliott's two states, one that
+/// <para>Delay: normal about the leg's mean, never below 0, so never before it was sent; or with a <see cref="LongTail"/>. Loss: Gilbert and Elliott's two states, one that
 /// loses everything and one that loses nothing, stepped once per datagram; bursts are geometric with the leg's mean.</para>
+/// <para>What comes in periods, a <see cref="DelayStep"/> or a <see cref="PeriodicOutage"/>, goes by the send time alone, whatever is sent. Where
+/// a period begins, and which of them have an outage, is luck of the path, which both directions share; periods of one length begin together.</para>
 /// <para>Order: jitter alone never reorders, since a path that is one queue does not; a datagram that would overtake another arrives with
 /// it. So where datagrams are sent closer together than the jitter, the mean delay is above the leg's and its spread below.
 /// Only the share that the leg says is held back, by half to one and a half of its hold, and later ones pass it (if any are sent that soon).</para>
@@ -22,6 +24,11 @@ public sealed class LinkModel
     private readonly SeededRandom holdLuck;
     private readonly SeededRandom duplicateLuck;
     private readonly SeededRandom copyLuck;
+    private readonly SeededRandom outageLuck;
+    private readonly SeededRandom periodLuck;
+    private readonly Cadence steps;
+    private readonly Cadence outages;
+    private readonly double logDeviation;
     private readonly double lossShare;
     private readonly double enterLoss;
     private readonly double leaveLoss;
@@ -29,11 +36,14 @@ public sealed class LinkModel
     private SimTime lastInOrder = SimTime.MinValue;
     private bool started;
     private bool losing;
+    private long periodAsked = long.MinValue;
+    private bool periodHasOutage;
 
     /// <summary>A link direction in its long-run state.</summary>
     /// <param name="leg">What it does.</param>
     /// <param name="random">Its luck; only <see cref="SeededRandom.Fork"/> is called on it.</param>
-    public LinkModel(LinkLeg leg, SeededRandom random)
+    /// <param name="path">The luck of both directions together, equal for the two; likewise. Default: this direction's own.</param>
+    public LinkModel(LinkLeg leg, SeededRandom random, SeededRandom? path = null)
     {
         ArgumentNullException.ThrowIfNull(leg);
         ArgumentNullException.ThrowIfNull(random);
@@ -44,6 +54,13 @@ public sealed class LinkModel
         holdLuck = random.Fork(4);
         duplicateLuck = random.Fork(5);
         copyLuck = random.Fork(6);
+        outageLuck = random.Fork(7);
+        path ??= random;
+        periodLuck = path.Fork(8);
+        double phase = path.Fork(9).NextDouble();
+        steps = leg.Step is DelayStep step ? new Cadence(step.Period, phase) : default;
+        outages = leg.Outage is PeriodicOutage outage ? new Cadence(outage.Period, phase) : default;
+        logDeviation = leg.Tail?.LogDeviation(leg.DelayMilliseconds) ?? 0;
 
         // In the long run enter / (enter + leave) of the datagrams are lost, in bursts of 1 / leave.
         bool always = leg.LossPercent >= 100;
@@ -68,12 +85,13 @@ public sealed class LinkModel
         lastSent = at;
 
         // Every draw is made for every datagram, whatever becomes of it: see the remarks.
-        bool lost = NextIsLost();
-        SimTime arrival = at + NextDelay(delayLuck);
+        bool lost = NextIsLost() | NextIsInOutage(at);
+        double usual = UsualDelay(at);
+        SimTime arrival = at + NextDelay(usual, delayLuck);
         bool heldBack = reorderLuck.NextDouble() * 100 < Leg.ReorderPercent;
         SimDuration hold = SimDuration.FromMilliseconds(holdLuck.NextDouble(0.5, 1.5) * Leg.ReorderHoldMilliseconds);
         bool twice = duplicateLuck.NextDouble() * 100 < Leg.DuplicatePercent;
-        SimTime copy = at + NextDelay(copyLuck);
+        SimTime copy = at + NextDelay(usual, copyLuck);
         if (lost)
         {
             return default;
@@ -100,6 +118,47 @@ public sealed class LinkModel
         return losing;
     }
 
-    private SimDuration NextDelay(SeededRandom luck) =>
-        SimDuration.FromMilliseconds(Math.Max(0, Leg.DelayMilliseconds + (Leg.JitterMilliseconds * luck.NextGaussian())));
+    private bool NextIsInOutage(SimTime at)
+    {
+        double luck = outageLuck.NextDouble() * 100;
+        if (Leg.Outage is not PeriodicOutage outage)
+        {
+            return false;
+        }
+
+        long period = outages.At(at, out SimDuration into);
+        return into < outage.Length && luck < outage.LossPercent && HasOutage(outage, period);
+    }
+
+    /// <summary>Of each period by itself, so that silence, or another start, changes nothing for those that follow.</summary>
+    private bool HasOutage(PeriodicOutage outage, long period)
+    {
+        if (period != periodAsked)
+        {
+            periodAsked = period;
+            periodHasOutage = periodLuck.Fork((ulong)period).NextDouble() * 100 < outage.PeriodPercent;
+        }
+
+        return periodHasOutage;
+    }
+
+    private double UsualDelay(SimTime at)
+    {
+        if (Leg.Step is not DelayStep step)
+        {
+            return Leg.DelayMilliseconds;
+        }
+
+        bool isUp = (steps.At(at, out _) & 1) != 0;
+        return Leg.DelayMilliseconds + (isUp ? step.Milliseconds / 2 : -step.Milliseconds / 2);
+    }
+
+    private SimDuration NextDelay(double usual, SeededRandom luck)
+    {
+        double deviations = luck.NextGaussian();
+        double milliseconds = Leg.Tail is null
+            ? Math.Max(0, usual + (Leg.JitterMilliseconds * deviations))
+            : Math.Min(LinkLeg.MaxMilliseconds, usual * SeededRandom.Exp(logDeviation * deviations));
+        return SimDuration.FromMilliseconds(milliseconds);
+    }
 }

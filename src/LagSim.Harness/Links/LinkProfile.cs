@@ -43,11 +43,11 @@ public sealed class LinkProfile
     /// <summary>The way down, from the host to a player.</summary>
     public LinkLeg FromHost { get; }
 
-    /// <summary>How far the receiver's clock is ahead of the sender's. The link does nothing with it: who sets up the machines gives one a
-    /// <see cref="SkewedClock"/> that far off.</summary>
+    /// <summary>How far a player's clock is ahead of the host's, on top of whatever else sets them apart. The link does nothing with it: who
+    /// sets up the machines gives the player's a clock that far off.</summary>
     public SimDuration ReceiverClockOffset { get; }
 
-    /// <summary>The mean round trip in milliseconds, without jitter.</summary>
+    /// <summary>The usual round trip in milliseconds: the sum of the two delays, without what varies.</summary>
     public double RoundTripMilliseconds => ToHost.DelayMilliseconds + FromHost.DelayMilliseconds;
 
     /// <summary>The name.</summary>

@@ -7,12 +7,14 @@ namespace LagSim.Harness.Links;
 /// <remarks>
 /// <para>xoshiro256** (Blackman and Vigna), its state filled by SplitMix64. <see cref="Random"/> promises no sequence between versions, and
 /// a result that cannot be run again cannot be looked into.</para>
-/// <para>Only integers, <c>+ - * /</c> and <see cref="Math.Sqrt"/> are used; the logarithm is our own, since that of the platform
-/// may differ in its last bit. Not thread-safe: one generator belongs to one thread or one lock.</para>
+/// <para>Only integers, <c>+ - * /</c> and <see cref="Math.Sqrt"/> are used; logarithm and exponential are our own, since those of the
+/// platform may differ in their last bits. Not thread-safe: one generator belongs to one thread or one lock.</para>
 /// </remarks>
 public sealed class SeededRandom
 {
     private const double Ln2 = 0.693147180559945309417232121458;
+    private const double Ln2High = 0.693147180369123816490; // its first 32 bits, so that a whole multiple of it is exact
+    private const double Ln2Low = 1.90821492927058770002e-10;
 
     private readonly ulong seed;
     private ulong s0, s1, s2, s3;
@@ -105,6 +107,25 @@ public sealed class SeededRandom
         }
 
         return (exponent * Ln2) + (2.0 * f * sum);
+    }
+
+    /// <summary>e to that power: 2^k e^r, r within half of ln 2 either way. Zero below -708, infinite above 709, in between to the last bits.</summary>
+    internal static double Exp(double x)
+    {
+        if (!(x is >= -708 and <= 709))
+        {
+            return x < 0 ? 0 : x > 0 ? double.PositiveInfinity : x;
+        }
+
+        double k = Math.Round(x / Ln2);
+        double r = (x - (k * Ln2High)) - (k * Ln2Low);
+        double sum = 1.0;
+        for (int n = 14; n >= 1; n--)
+        {
+            sum = 1.0 + (sum * r / n); // r^15 / 15! is below 1e-19
+        }
+
+        return sum * BitConverter.Int64BitsToDouble(((long)k + 1022) << 52) * 2; // in two factors, since 2^1024 has no bits of its own
     }
 
     private static ulong SplitMix(ref ulong state)

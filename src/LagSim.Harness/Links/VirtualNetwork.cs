@@ -13,6 +13,8 @@ namespace LagSim.Harness.Links;
 /// </remarks>
 public sealed class VirtualNetwork
 {
+    private const ulong SharedByBothWays = ulong.MaxValue; // no generation gets there
+
     private readonly SeededRandom random;
     private readonly LinkProfile profile;
     private readonly Dictionary<PeerAddress, VirtualPort> ports = [];
@@ -72,7 +74,7 @@ public sealed class VirtualNetwork
     {
         // A link made anew in the middle of a run must not repeat the luck of the one that it follows.
         ulong generation = links.ContainsKey((from, to)) ? ++linksMade : 0;
-        links[(from, to)] = new LinkModel(leg, random.Fork(((ulong)(uint)from << 32) | (uint)to).Fork(generation));
+        links[(from, to)] = new LinkModel(leg, Luck(from, to).Fork(generation), Luck(Math.Min(from, to), Math.Max(from, to)).Fork(SharedByBothWays));
     }
 
     /// <summary>Loses for good each datagram of which the rule says so; all rules given count.</summary>
@@ -139,6 +141,8 @@ public sealed class VirtualNetwork
             inFlight.Enqueue(new Flight(datagram, from.LocalAddress, to), (deliveries[i], sequence++));
         }
     }
+
+    private SeededRandom Luck(int from, int to) => random.Fork(((ulong)(uint)from << 32) | (uint)to);
 
     private LinkModel Link(int from, int to)
     {

@@ -1,6 +1,7 @@
 using System;
 using System.IO;
 using System.Linq;
+using LagSim.Harness.Links;
 using Xunit;
 
 namespace LagSim.Tests.Cli;
@@ -56,6 +57,14 @@ public sealed class UsageTests
     }
 
     [Fact]
+    public void Drop_Help_NamesEveryLinkProfileAndAnyDelay()
+    {
+        string help = string.Join(' ', Tool.Run("drop", "--help").Done().Output.Split((char[]?)null, StringSplitOptions.RemoveEmptyEntries));
+        Assert.All(LinkProfiles.All, profile => Assert.Contains($" {profile.Name},", help, StringComparison.Ordinal));
+        Assert.Contains("or delay-Nms for any N from 0 to 2000.", help, StringComparison.Ordinal);
+    }
+
+    [Fact]
     public void Scenes_OutWithoutAScene_IsRefused() => Tool.Refuses(Usage, ["scenes", "--out", "never-made"], "'never-made'", "NAME");
 
     [Theory]
@@ -71,7 +80,7 @@ public sealed class UsageTests
 
     [Fact]
     public void Drop_UnknownProfile_IsRefusedWithTheProfilesThereAre() =>
-        Tool.Refuses(Usage, ["drop", "--time", "virtual", "--profile", "5g-moon"], "'5g-moon'", "loopback, lan, awful", "delay-Nms");
+        Tool.Refuses(Usage, ["drop", "--time", "virtual", "--profile", "5g-moon"], "'5g-moon'", "loopback, lan, skewed-clock", "delay-Nms");
 
     [Fact]
     public void Drop_DelayAndProfile_AreRefusedTogether() =>

@@ -19,12 +19,14 @@ public sealed class LinkModelTests
     [Theory]
     [InlineData("loopback")]
     [InlineData("lan")]
+    [InlineData("4g")]
+    [InlineData("3g")]
+    [InlineData("satellite")]
     [InlineData("awful")]
     public void Send_DatagramsFarApart_DelayIsNormalWithTheProfilesMeanAndDeviation(string name)
     {
         LinkLeg leg = WithoutReordering(Profile(name).ToHost);
-        double[] delays = Run(leg, 1, FarApart).Where(sent => sent.Arrives.Count > 0)
-            .Select(sent => (sent.Arrives[0] - sent.At).ToMilliseconds()).ToArray();
+        double[] delays = LinkRun.Delays(Run(leg, 1, FarApart));
 
         double n = delays.Length, sd = leg.JitterMilliseconds;
         Bounds.Near(leg.DelayMilliseconds, delays.Mean(), Bounds.Z * sd / Math.Sqrt(n));
@@ -142,11 +144,16 @@ public sealed class LinkModelTests
         Assert.Equal(Fingerprint(LinkProfiles.Awful.ToHost, 11), Fingerprint(LinkProfiles.Awful.ToHost, 11));
     }
 
-    [Fact]
-    public void Send_AwfulProfile_GivesThePinnedBits()
+    [Theory]
+    [InlineData("awful", 4486086426672808035UL)]
+    [InlineData("wifi-good", 7353369673687186914UL)]
+    [InlineData("wifi-busy", 7904036080352004899UL)]
+    [InlineData("starlink", 13039229625915431900UL)]
+    [InlineData("blackout", 2629555760763346737UL)]
+    public void Send_ProfileOfEveryKind_GivesThePinnedBits(string name, ulong fingerprint)
     {
         // The same in Debug and Release and on every machine; changes only when what is drawn changes on purpose.
-        Assert.Equal(4486086426672808035UL, Fingerprint(LinkProfiles.Awful.ToHost, 2026));
+        Assert.Equal(fingerprint, Fingerprint(Profile(name).ToHost, 2026));
     }
 
     [Fact]
@@ -181,18 +188,7 @@ public sealed class LinkModelTests
     private static LinkLeg WithoutReordering(LinkLeg leg) =>
         new(leg.DelayMilliseconds, leg.JitterMilliseconds, leg.LossPercent, leg.MeanBurstLength, 0, leg.DuplicatePercent);
 
-    private static (SimTime At, LinkDeliveries Arrives)[] Run(LinkLeg leg, ulong seed, SimDuration apart)
-    {
-        LinkModel link = new(leg, new SeededRandom(seed));
-        var run = new (SimTime, LinkDeliveries)[Datagrams];
-        SimTime at = SimTime.Zero;
-        for (int i = 0; i < run.Length; i++, at += apart)
-        {
-            run[i] = (at, link.Send(at));
-        }
-
-        return run;
-    }
+    private static (SimTime At, LinkDeliveries Arrives)[] Run(LinkLeg leg, ulong seed, SimDuration apart) => LinkRun.Of(leg, seed, apart, Datagrams);
 
     /// <summary>The share of datagrams that arrive after one that was sent later (RFC 4737); copies do not count.</summary>
     private static double Late((SimTime At, LinkDeliveries Arrives)[] run)
@@ -230,18 +226,5 @@ public sealed class LinkModelTests
         return bursts;
     }
 
-    private static ulong Fingerprint(LinkLeg leg, ulong seed)
-    {
-        ulong hash = 14695981039346656037;
-        foreach ((SimTime _, LinkDeliveries arrives) in Run(leg, seed, SimDuration.FromMilliseconds(16)))
-        {
-            hash = (hash ^ (ulong)arrives.Count) * 1099511628211;
-            for (int i = 0; i < arrives.Count; i++)
-            {
-                hash = (hash ^ (ulong)arrives[i].Ticks) * 1099511628211;
-            }
-        }
-
-        return hash;
-    }
+    private static ulong Fingerprint(LinkLeg leg, ulong seed) => LinkRun.Fingerprint(Run(leg, seed, SimDuration.FromMilliseconds(16)));
 }

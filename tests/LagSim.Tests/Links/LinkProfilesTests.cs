@@ -9,25 +9,59 @@ namespace LagSim.Tests.Links;
 public sealed class LinkProfilesTests
 {
     [Theory]
-    [InlineData("loopback", 0.05, 0.01, 0, 1, 0, 0)]
-    [InlineData("lan", 0.3, 0.05, 0, 1, 0, 0)]
+    [InlineData("loopback", 0.05, 0.01, 0, 1)]
+    [InlineData("lan", 0.3, 0.05, 0, 1)]
+    [InlineData("skewed-clock", 0.3, 0.05, 0, 1)]
+    [InlineData("wifi-good", 1.5, 0, 0.1, 2)]
+    [InlineData("wifi-busy", 10, 0, 1, 3)]
+    [InlineData("3g", 125, 50, 0.5, 2)]
+    [InlineData("starlink", 25, 7, 0.3, 1 / 0.997)]
+    [InlineData("transatlantic", 39, 1, 0.1, 1.5)]
+    [InlineData("eu-australia", 174, 3, 0.2, 2)]
+    [InlineData("satellite", 325, 10, 0.5, 2)]
     [InlineData("awful", 200, 60, 10, 5, 5, 2)]
-    [InlineData("delay-0ms", 0, 0, 0, 1, 0, 0)]
-    [InlineData("delay-25ms", 25, 0, 0, 1, 0, 0)]
-    [InlineData("delay-0.5ms", 0.5, 0, 0, 1, 0, 0)]
+    [InlineData("blackout", 40, 2, 0, 1)]
+    [InlineData("delay-0ms", 0, 0, 0, 1)]
+    [InlineData("delay-25ms", 25, 0, 0, 1)]
+    [InlineData("delay-0.5ms", 0.5, 0, 0, 1)]
     public void TryGet_KnownName_IsTheProfileOfTheDesign(
-        string name, double delay, double jitter, double loss, double burst, double reorder, double duplicate)
+        string name, double delay, double jitter, double loss, double burst, double reorder = 0, double duplicate = 0)
     {
-        Assert.True(LinkProfiles.TryGet(name, out LinkProfile? profile, out string? error));
-        Assert.Null(error);
+        LinkProfile profile = Profile(name);
         Assert.Equal(name, profile.Name);
-        Assert.Equal(SimDuration.Zero, profile.ReceiverClockOffset);
-        foreach (LinkLeg leg in new[] { profile.ToHost, profile.FromHost })
-        {
-            Assert.Equal(
-                (delay, jitter, loss, burst, reorder, duplicate),
-                (leg.DelayMilliseconds, leg.JitterMilliseconds, leg.LossPercent, leg.MeanBurstLength, leg.ReorderPercent, leg.DuplicatePercent));
-        }
+        Assert.Same(profile.ToHost, profile.FromHost);
+        Assert.Equal((delay, jitter, loss, burst, reorder, duplicate), Values(profile.ToHost));
+    }
+
+    [Theory]
+    [InlineData("4g", 45, 15, 45, 5, 0.2)]
+    [InlineData("5g", 18, 4, 7, 2, 0.1)]
+    public void TryGet_UnevenProfile_HasTheValuesOfEachDirection(
+        string name, double delayUp, double jitterUp, double delayDown, double jitterDown, double loss)
+    {
+        LinkProfile profile = Profile(name);
+        Assert.Equal((delayUp, jitterUp, loss, 1.5, 0, 0), Values(profile.ToHost));
+        Assert.Equal((delayDown, jitterDown, loss, 1.5, 0, 0), Values(profile.FromHost));
+    }
+
+    [Fact]
+    public void All_ByWhatTheyDoBesides_AreThoseOfTheDesign()
+    {
+        string[] table =
+        [
+            "loopback", "lan", "skewed-clock", "wifi-good", "wifi-busy", "4g", "3g", "5g", "starlink", "transatlantic", "eu-australia", "satellite",
+            "awful", "blackout",
+        ];
+        Assert.Equal(table, LinkProfiles.All.Select(profile => profile.Name).Take(table.Length));
+        Assert.Equal(LinkProfiles.Ladder, LinkProfiles.All.Skip(table.Length));
+
+        Assert.Equal(["skewed-clock"], Names(profile => profile.ReceiverClockOffset != SimDuration.Zero));
+        Assert.Equal(SimDuration.FromSeconds(1.24), LinkProfiles.SkewedClock.ReceiverClockOffset);
+        Assert.Equal(["wifi-good", "wifi-busy"], Names(profile => profile.ToHost.Tail is not null));
+        Assert.Equal("1 % above 125 ms", LinkProfiles.WifiGood.ToHost.Tail!.ToString());
+        Assert.Equal("10 % above 50 ms", LinkProfiles.WifiBusy.ToHost.Tail!.ToString());
+        Assert.Equal(["starlink"], Names(profile => profile.ToHost.Step is not null));
+        Assert.Equal(["starlink", "blackout"], Names(profile => profile.ToHost.Outage is not null));
     }
 
     [Theory]
@@ -46,6 +80,7 @@ public sealed class LinkProfilesTests
         Assert.Null(profile);
         Assert.Contains($"'{name}'", error, StringComparison.Ordinal);
         Assert.All(LinkProfiles.All, known => Assert.Contains(known.Name, error, StringComparison.Ordinal));
+        Assert.Contains("delay-Nms for any N from 0 to 2000", error, StringComparison.Ordinal);
     }
 
     [Fact]
@@ -103,4 +138,15 @@ public sealed class LinkProfilesTests
         Assert.Equal(210, asymmetric.RoundTripMilliseconds);
         Assert.Equal(SimDuration.FromSeconds(1.24), asymmetric.ReceiverClockOffset);
     }
+
+    private static LinkProfile Profile(string name)
+    {
+        Assert.True(LinkProfiles.TryGet(name, out LinkProfile? profile, out string? error), error);
+        return profile;
+    }
+
+    private static (double, double, double, double, double, double) Values(LinkLeg leg) =>
+        (leg.DelayMilliseconds, leg.JitterMilliseconds, leg.LossPercent, leg.MeanBurstLength, leg.ReorderPercent, leg.DuplicatePercent);
+
+    private static string[] Names(Func<LinkProfile, bool> condition) => LinkProfiles.All.Where(condition).Select(profile => profile.Name).ToArray();
 }

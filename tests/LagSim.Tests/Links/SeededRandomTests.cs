@@ -45,6 +45,23 @@ public sealed class SeededRandomTests
     }
 
     [Fact]
+    public void Exp_AnyPower_IsThatOfThePlatformToTheLastBits()
+    {
+        SeededRandom random = new(4);
+        for (int i = 0; i < 10_000; i++)
+        {
+            double x = random.NextDouble(-1, 1) * (i % 3 == 0 ? 700 : i % 3 == 1 ? 10 : 1e-9);
+            Bounds.Near(1, SeededRandom.Exp(x) / Math.Exp(x), 6e-16);
+        }
+
+        Assert.Equal(
+            [1, 0, double.PositiveInfinity, double.PositiveInfinity, 0, double.NaN],
+            new[] { 0, -1e9, 1e9, double.PositiveInfinity, double.NegativeInfinity, double.NaN }.Select(SeededRandom.Exp));
+        Bounds.Near(1, SeededRandom.Exp(709) / Math.Exp(709), 6e-16);
+        Bounds.Near(1, SeededRandom.Exp(-708) / Math.Exp(-708), 6e-16);
+    }
+
+    [Fact]
     public void NextGaussian_HundredThousandDraws_FollowTheNormalDistribution()
     {
         SeededRandom random = new(1);
