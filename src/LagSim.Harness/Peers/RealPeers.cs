@@ -28,6 +28,7 @@ public sealed class RealPeers : PeerGroup
     private static readonly SimDuration Patience = SimDuration.FromMilliseconds(4);
 
     private readonly PeerGroupOptions options;
+    private readonly StopwatchClock trueTime = new();
     private readonly CountingPort[] ports;
     private readonly DelayedPort[] delayed;
     private readonly PeerThread[] threads;
@@ -45,11 +46,12 @@ public sealed class RealPeers : PeerGroup
         for (int peer = 0; peer < PeerCount; peer++)
         {
             // Clocks of machines that were not started at the same time: they agree on nothing but the length of a second.
-            StopwatchClock own = new(SimDuration.FromSeconds(random.NextDouble() * 3600));
-            LinkLeg incoming = peer == 0 ? options.Link.ToHost : options.Link.FromHost;
+            SimDuration apart = SimDuration.FromSeconds(random.NextDouble() * 3600);
+            SkewedClock own = new(trueTime, 0, peer == 0 ? apart : apart + options.Link.ReceiverClockOffset);
             CountingPort counting = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0)));
             ports[peer] = counting;
-            DelayedPort port = delayed[peer] = new DelayedPort(counting, own, incoming, options.Seed + (ulong)peer);
+            int receiver = peer;
+            DelayedPort port = delayed[peer] = new DelayedPort(counting, trueTime, from => LinkTo(receiver, from));
             SessionOptions session = options.ToSessionOptions();
             ulong number = (ulong)Stopwatch.GetTimestamp();
             threads[peer] = new PeerThread(
@@ -150,6 +152,16 @@ public sealed class RealPeers : PeerGroup
         {
             port.Dispose();
         }
+    }
+
+    /// <summary>The link by which a peer hears of another. Both ways have one clock and one path, so that what befalls a link does so both ways at once.</summary>
+    private LinkModel LinkTo(int receiver, PeerAddress from)
+    {
+        int joiner = receiver == 0 ? Array.FindIndex(ports, port => port?.LocalAddress == from) : receiver;
+        SeededRandom luck = new SeededRandom(options.Seed).Fork((ulong)joiner);
+        return receiver == 0
+            ? new LinkModel(options.Link.ToHost, luck.Fork(0), luck.Fork(2))
+            : new LinkModel(options.Link.FromHost, luck.Fork(1), luck.Fork(2));
     }
 
     private void Run(SimTime end, Session[] clocks, Action<SimDuration>? progress)

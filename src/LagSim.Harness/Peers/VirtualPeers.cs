@@ -41,7 +41,7 @@ public sealed class VirtualPeers : PeerGroup
             IDatagramPort port = network.CreatePort(peer);
             double drift = ((2 * random.NextDouble()) - 1) * ClockDriftPartsPerMillion;
             SimDuration apart = SimDuration.FromSeconds(((2 * random.NextDouble()) - 1) * ClockSpreadSeconds);
-            SkewedClock own = new(clock, drift, apart);
+            SkewedClock own = new(clock, drift, peer == 0 ? apart : apart + options.Link.ReceiverClockOffset);
             sessions[peer] = peer == 0
                 ? new HostSession(scene, port, own, options.ToSessionOptions(), options.Seed)
                 : new JoinerSession(scene, port, own, options.ToSessionOptions(), PeerAddress.Virtual(0), options.Seed + (ulong)peer);

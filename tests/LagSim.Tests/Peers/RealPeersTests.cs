@@ -10,7 +10,7 @@ using Xunit;
 
 namespace LagSim.Tests.Peers;
 
-/// <summary>The one test over real sockets and threads: that it works, not how fast.</summary>
+/// <summary>Over real sockets and threads: that it works, not how fast.</summary>
 public sealed class RealPeersTests
 {
     [Fact(Timeout = 60_000)]
@@ -41,5 +41,24 @@ public sealed class RealPeersTests
                 Assert.True(peers.Traffic(2).BytesSent > 0);
             },
             TestContext.Current.CancellationToken);
+    }
+
+    [Fact(Timeout = 60_000)]
+    public async System.Threading.Tasks.Task Connect_ProfileWithAClockOffset_SetsTheJoinersClockThatMuchFurtherAhead()
+    {
+        await System.Threading.Tasks.Task.Run(
+            () =>
+            {
+                // Clock exchanges over loopback are right to half a round trip, on a busy machine some milliseconds.
+                TestWorlds.Near(-1.24, Offset(LinkProfiles.SkewedClock) - Offset(LinkProfiles.Lan), 0.5);
+            },
+            TestContext.Current.CancellationToken);
+
+        static double Offset(LinkProfile link)
+        {
+            using RealPeers peers = new(BuiltInScenes.Drop(2, 0.8), new PeerGroupOptions(2, link));
+            peers.Connect();
+            return peers.Session(1).SharedTime.Offset.ToSeconds();
+        }
     }
 }

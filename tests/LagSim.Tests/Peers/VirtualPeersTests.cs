@@ -78,4 +78,21 @@ public sealed class VirtualPeersTests
         Assert.True(differs);
         Assert.Equal(SessionState.Running, peers.Session(0).State);
     }
+
+    [Fact]
+    public void Connect_ProfileWithAClockOffset_SetsJoinersClocksThatMuchFurtherAhead()
+    {
+        double[] plain = Offsets(LinkProfiles.Lan), skewed = Offsets(LinkProfiles.SkewedClock);
+        Assert.Equal(plain[0], skewed[0]);
+        Assert.All(new[] { 1, 2 }, peer => TestWorlds.Near(-1.24, skewed[peer] - plain[peer], 1e-3));
+        Assert.All(new[] { 1, 2 }, peer => Assert.True(System.Math.Abs(plain[peer]) > 10)); // on top of what sets them apart anyway
+
+        // How far the shared time is ahead of each peer's own clock, in seconds.
+        static double[] Offsets(LinkProfile link)
+        {
+            using VirtualPeers peers = new(BuiltInScenes.Pair(), new PeerGroupOptions(3, link));
+            peers.Connect();
+            return Enumerable.Range(0, 3).Select(p => peers.Session(p).SharedTime.Offset.ToSeconds()).ToArray();
+        }
+    }
 }
