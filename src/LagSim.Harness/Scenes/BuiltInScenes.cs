@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics.CodeAnalysis;
 using System.Globalization;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -9,16 +10,33 @@ namespace LagSim.Harness.Scenes;
 /// <summary>The scenes that come with the program.</summary>
 public static class BuiltInScenes
 {
-    private static readonly string[] AllNames = ["drop", "pair"];
+    /// <summary>How many balls the crowd has where nothing is said: 200.</summary>
+    public const int DefaultCrowd = CrowdScene.DefaultBodies;
 
-    /// <summary>The names of all of them.</summary>
+    /// <summary>The most balls a crowd can have: 100,000.</summary>
+    public const int MaxCrowd = CrowdScene.MaxBodies;
+
+    private static readonly string[] AllNames = ["drop", "pair", CradleScene.Name, BilliardsScene.Name, CrowdScene.Name];
+
+    /// <summary>The names of all of them, but for <c>crowd-N</c>, a crowd of any number.</summary>
     public static IReadOnlyList<string> Names => AllNames;
 
+    /// <summary>What may be asked for, in words: for errors.</summary>
+    internal static string KnownNames => $"{string.Join(", ", AllNames)}, crowd-N for N from 1 to {MaxCrowd}";
+
     /// <summary>The built-in scene of that name, as it is unless told otherwise.</summary>
-    public static bool TryGet(string name, out Scene scene)
+    public static bool TryGet(string name, [NotNullWhen(true)] out Scene? scene)
     {
-        scene = name == "drop" ? Drop() : Pair();
-        return Array.IndexOf(AllNames, name) >= 0;
+        ArgumentNullException.ThrowIfNull(name);
+        scene = name switch
+        {
+            "drop" => Drop(),
+            "pair" => Pair(),
+            CradleScene.Name => Cradle(),
+            BilliardsScene.Name => Billiards(),
+            _ => CrowdScene.TryParse(name, out int bodies) ? CrowdScene.Build(name, bodies) : null,
+        };
+        return scene is not null;
     }
 
     /// <summary>What a built-in scene is, in a line.</summary>
@@ -27,7 +45,12 @@ public static class BuiltInScenes
     {
         "drop" => "the thesis's drop test: a ball of 1 kg falls from 10 m onto a floor, bounces and comes to rest",
         "pair" => "two balls of unequal mass meet off-centre in flight, then bounce on a floor",
-        _ => throw new ArgumentException($"There is no built-in scene '{name}'; there are {string.Join(", ", AllNames)}.", nameof(name)),
+        CradleScene.Name => "Newton's cradle without strings: a ball runs into four that touch, for ever, between two walls",
+        BilliardsScene.Name => "the break at pool: a cue ball runs into a rack of fifteen, on a table with four cushions and without friction",
+        CrowdScene.Name => $"{DefaultCrowd} elastic balls of all sizes fly about in a box; crowd-N has N, 1 to {MaxCrowd}",
+        _ => CrowdScene.TryParse(name, out int bodies)
+            ? $"elastic balls of all sizes fly about in a box, {bodies} of them"
+            : throw new ArgumentException($"There is no built-in scene '{name}'; there are {KnownNames}.", nameof(name)),
     };
 
     /// <summary>The drop test: a ball of radius 0.5 m and 1 kg, at rest at first, above the floor y = 0.</summary>
@@ -62,6 +85,29 @@ public static class BuiltInScenes
             .AddBody("light", new BodySpec(0.5, 1, 0.9, law), new Vector3D(-3, 4, 0), new Vector3D(3, 2, 0))
             .AddBody("heavy", new BodySpec(0.4, 3, 0.8, law), new Vector3D(3, 4.3, 0.2), new Vector3D(-3, 2, 0))
             .Build();
+
+    /// <summary>Newton's cradle without strings: a ball of radius 0.5 m and 1 kg runs at 2 m/s into four that stand on a frictionless floor and touch;
+    /// a wall beyond either end sends the one that leaves back, so that after 4 s all is as it was.</summary>
+    /// <param name="restitution">That of the balls, 0 to 1; default 1, and it goes on for ever.</param>
+    /// <exception cref="SceneException"><paramref name="restitution"/> is out of range.</exception>
+    public static Scene Cradle(double restitution = 1) => CradleScene.Build(restitution);
+
+    /// <summary>The break at pool: a cue ball at 8 m/s, a rack of fifteen that touch, a table of 2.54 m by 1.27 m with four cushions.</summary>
+    /// <remarks>Balls slide without friction and do not spin, so they never stop; restitution alone slows them down.</remarks>
+    /// <param name="ballRestitution">That of ball on ball, 0 to 1.</param>
+    /// <param name="cushionRestitution">That of the cushions, 0 to 1; the lesser of the two counts.</param>
+    /// <exception cref="SceneException">A value is out of range.</exception>
+    public static Scene Billiards(double ballRestitution = 0.95, double cushionRestitution = 0.8) =>
+        BilliardsScene.Build(ballRestitution, cushionRestitution);
+
+    /// <summary>Elastic balls of 0.15 m to 0.3 m in a cubic box without gravity, at most one to a cubic metre, at some 1.7 m/s.</summary>
+    /// <remarks>The same for the same number, always. Cost: O(n log n).</remarks>
+    /// <param name="bodies">How many, 1 to <see cref="MaxCrowd"/>.</param>
+    /// <exception cref="ArgumentOutOfRangeException"><paramref name="bodies"/> is out of range.</exception>
+    public static Scene Crowd(int bodies = DefaultCrowd) =>
+        bodies is >= 1 and <= MaxCrowd
+            ? CrowdScene.Build(CrowdScene.NameOf(bodies), bodies)
+            : throw new ArgumentOutOfRangeException(nameof(bodies), bodies, $"A crowd has 1 to {MaxCrowd} balls.");
 
     /// <summary>The same scene with every body on another law of flight; of places, sizes and materials no bit changes.</summary>
     /// <param name="scene">The scene.</param>

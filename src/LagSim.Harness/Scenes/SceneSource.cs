@@ -13,7 +13,7 @@ public static class SceneSource
     public static Scene Load(string nameOrPath)
     {
         ArgumentNullException.ThrowIfNull(nameOrPath);
-        if (BuiltInScenes.TryGet(nameOrPath, out Scene scene))
+        if (BuiltInScenes.TryGet(nameOrPath, out Scene? scene))
         {
             return scene;
         }
@@ -24,7 +24,7 @@ public static class SceneSource
                 nameOrPath.Length == 0 ? "''" : JsonFault.Clip(nameOrPath, 300),
                 "",
                 0,
-                $"this is neither a built-in scene ({string.Join(", ", BuiltInScenes.Names)}) nor a file that exists");
+                $"this is neither a built-in scene ({BuiltInScenes.KnownNames}) nor a file that exists");
         }
 
         return SceneFile.Read(nameOrPath);
