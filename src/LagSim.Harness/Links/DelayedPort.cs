@@ -1,6 +1,6 @@
 using System;
 using System.Collections.Generic;
-using System.Threading;
+using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Time;
 
@@ -17,15 +17,12 @@ namespace LagSim.Harness.Links;
 /// </remarks>
 public sealed class DelayedPort : IDatagramPort
 {
-    private static readonly SimDuration LongestWait = SimDuration.FromSeconds(60);
-
     private readonly IDatagramPort inner;
     private readonly IClock clock;
     private readonly object gate = new(); // guards the inner port's calls and all fields below
     private readonly HeldDatagrams held;
     private readonly Queue<(byte[] Datagram, PeerAddress From)> due = new(); // was held, and Arrived raised for it
-    private readonly AutoResetEvent wake = new(false); // set without the gate: a port may raise Arrived under a lock of its own
-    private readonly Thread? waiter;
+    private readonly WorldThread? waiter; // woken without the gate: a port may raise Arrived under a lock of its own
     private volatile bool disposed;
 
     /// <summary>Holds what comes in by <paramref name="inner"/>, from every sender by a link of that leg.</summary>
@@ -56,10 +53,10 @@ public sealed class DelayedPort : IDatagramPort
         this.inner = inner;
         this.clock = clock;
         held = new HeldDatagrams(linkFrom);
-        inner.Arrived += Wake;
         if (waits)
         {
-            waiter = new Thread(WaitAndAnnounce) { IsBackground = true, Name = "LagSim delayed port" };
+            waiter = new WorldThread("LagSim delayed port", Announce);
+            inner.Arrived += waiter.Wake;
             waiter.Start();
         }
     }
@@ -95,7 +92,7 @@ public sealed class DelayedPort : IDatagramPort
             SimTime now = clock.Now;
             if (held.TakeFrom(inner, now))
             {
-                wake.Set(); // the waiter may not know of it, and how long it must wait has changed
+                waiter?.Wake(); // it may not know of what was taken, and how long it must wait has changed
             }
 
             // What is in the queue was due before anything that is still held.
@@ -124,14 +121,13 @@ public sealed class DelayedPort : IDatagramPort
             disposed = true;
         }
 
-        inner.Arrived -= Wake;
-        wake.Set();
-        if (waiter is not null && waiter != Thread.CurrentThread) // a handler of Arrived may dispose
+        if (waiter is not null)
         {
-            waiter.Join();
+            inner.Arrived -= waiter.Wake;
+            waiter.Dispose(); // from a handler of Arrived too
         }
 
-        inner.Dispose(); // the event stays undisposed: an inner port on its way out may still set it
+        inner.Dispose();
     }
 
     /// <summary>Takes in what the inner port has and raises <see cref="Arrived"/> if something fell due.</summary>
@@ -166,21 +162,5 @@ public sealed class DelayedPort : IDatagramPort
         return next;
     }
 
-    private void Wake() => wake.Set();
-
-    private void WaitAndAnnounce()
-    {
-        while (!disposed)
-        {
-            SimTime? next = Poll();
-            wake.WaitOne(next is SimTime time ? MillisecondsUntil(time) : Timeout.Infinite);
-        }
-    }
-
-    /// <summary>Rounded up: to wake too early would be to wake twice.</summary>
-    private int MillisecondsUntil(SimTime time)
-    {
-        SimDuration left = time - clock.Now;
-        return left <= SimDuration.Zero ? 0 : (int)Math.Ceiling((left < LongestWait ? left : LongestWait).ToMilliseconds());
-    }
+    private SimDuration Announce() => Poll() is SimTime next ? next - clock.Now : SimDuration.MaxValue;
 }

@@ -6,15 +6,27 @@ using LagSim.Time;
 namespace LagSim.Harness.Links;
 
 /// <summary>Datagrams on the last part of their way: taken from a port, not yet due. Each sender has its own link. Not thread-safe.</summary>
+/// <remarks>At most <see cref="MaxHeld"/> are held; what comes beyond that is lost, as in any queue that is full.</remarks>
 internal sealed class HeldDatagrams
 {
-    private readonly Func<PeerAddress, LinkModel> linkFrom;
+    /// <summary>The most that are held at a time: some 80 MB if all are as long as they may be.</summary>
+    internal const int MaxHeld = 1 << 16;
+
+    private readonly Func<PeerAddress, LinkModel?> linkFrom;
     private readonly Dictionary<PeerAddress, LinkModel> links = [];
     private readonly PriorityQueue<(byte[] Datagram, PeerAddress From), (SimTime Due, long Sequence)> held = new();
     private readonly byte[] buffer = new byte[IDatagramPort.MaxDatagramBytes];
     private long sequence;
 
-    internal HeldDatagrams(Func<PeerAddress, LinkModel> linkFrom) => this.linkFrom = linkFrom;
+    /// <summary>Nothing held yet.</summary>
+    /// <param name="linkFrom">Called once for each sender; null refuses a datagram, and the sender is asked about again.</param>
+    internal HeldDatagrams(Func<PeerAddress, LinkModel?> linkFrom) => this.linkFrom = linkFrom;
+
+    /// <summary>How many were lost on the way.</summary>
+    internal long Lost { get; private set; }
+
+    /// <summary>How many came from a sender that has no link.</summary>
+    internal long Refused { get; private set; }
 
     internal SimTime? NextDue => held.TryPeek(out _, out (SimTime Due, long Sequence) first) ? first.Due : null;
 
@@ -34,13 +46,20 @@ internal sealed class HeldDatagrams
         while (port.TryReceive(buffer, out int length, out PeerAddress from))
         {
             any = true;
-            if (!links.TryGetValue(from, out LinkModel? link))
+            if (LinkFrom(from) is not LinkModel link)
             {
-                links[from] = link = linkFrom(from);
+                Refused++;
+                continue;
             }
 
             LinkDeliveries deliveries = link.Send(now);
-            byte[] datagram = deliveries.Count == 0 ? [] : buffer.AsSpan(0, length).ToArray();
+            if (deliveries.Count == 0 || held.Count + deliveries.Count > MaxHeld)
+            {
+                Lost++;
+                continue;
+            }
+
+            byte[] datagram = buffer.AsSpan(0, length).ToArray();
             for (int i = 0; i < deliveries.Count; i++)
             {
                 held.Enqueue((datagram, from), (deliveries[i], sequence++));
@@ -61,5 +80,19 @@ internal sealed class HeldDatagrams
 
         datagram = default;
         return false;
+    }
+
+    private LinkModel? LinkFrom(PeerAddress sender)
+    {
+        if (!links.TryGetValue(sender, out LinkModel? link))
+        {
+            link = linkFrom(sender);
+            if (link is not null)
+            {
+                links[sender] = link;
+            }
+        }
+
+        return link;
     }
 }
