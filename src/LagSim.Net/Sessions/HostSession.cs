@@ -56,6 +56,9 @@ public sealed partial class HostSession : Session
     /// <inheritdoc/>
     public override uint LogLength => log.Count;
 
+    /// <summary>How much of the log is kept: what is not settled, and what some joiner has not acknowledged.</summary>
+    internal int KeptLogEntries => log.Kept;
+
     private protected override void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from)
     {
         if (State == SessionState.Ended)
@@ -262,7 +265,7 @@ public sealed partial class HostSession : Session
         // The watermark is a promise about the whole log: with an entry left out it could not yet be relied on.
         update.Watermark = World is null || next < log.Count ? SimTime.MinValue : Watermark;
         bool isPending = next > joiner.Acknowledged || (World is not null && joiner.IsReady && !joiner.HasBegun);
-        Send(joiner.Link.Seal(now + WaitAfterUpdate(isPending, joiner.Link.Silence(now))), joiner.Link);
+        Send(joiner.Link.Seal(now + WaitAfterUpdate(isPending, joiner.Link.Silence(now), Overdue)), joiner.Link);
     }
 
     /// <summary>Of what a joiner did itself only the number travels back; a former one of its number is another.</summary>

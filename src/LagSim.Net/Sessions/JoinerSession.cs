@@ -310,7 +310,7 @@ public sealed partial class JoinerSession : Session
             }
         }
 
-        SimDuration wait = !IsReady ? Pace : WaitAfterUpdate(acknowledged < LastSequence, to.Silence(now));
+        SimDuration wait = !IsReady ? Pace : WaitAfterUpdate(acknowledged < LastSequence, to.Silence(now), Options.KeepAlive);
         Send(to.Seal(now + wait), to);
     }
 }

@@ -291,11 +291,14 @@ public abstract class Session
     /// Whether one end of a link has not heard of the other when it should have. They then write as if something were unacknowledged: else a
     /// burst of losses, which is counted in datagrams, would last as long as the timeout.
     /// </summary>
-    private protected bool IsOverdue(SimDuration silence) => silence > Options.KeepAlive + (Options.KeepAlive / 4);
+    private protected bool IsOverdue(SimDuration silence) => silence > Overdue;
 
-    /// <summary>How long to wait before the next update.</summary>
-    private protected SimDuration WaitAfterUpdate(bool hasUnacknowledged, SimDuration silence) =>
-        hasUnacknowledged || IsOverdue(silence) ? Options.ResendInterval : Options.KeepAlive;
+    /// <summary>How long a silence is overdue. A host waits as long before it writes of itself: a joiner's keep-alives, which it answers, do for both.</summary>
+    private protected SimDuration Overdue => Options.KeepAlive + (Options.KeepAlive / 4);
+
+    /// <summary>How long to wait before the next update, and how long where nothing is the matter.</summary>
+    private protected SimDuration WaitAfterUpdate(bool hasUnacknowledged, SimDuration silence, SimDuration atRest) =>
+        hasUnacknowledged || IsOverdue(silence) ? Options.ResendInterval : atRest;
 
     /// <summary>Counts a datagram that could not be decoded.</summary>
     private protected bool IsWellFormed(bool decoded)

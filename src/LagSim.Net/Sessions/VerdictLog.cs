@@ -19,6 +19,9 @@ internal sealed class VerdictLog
     /// <summary>How many entries, from the first on, are stamped before the watermark: whoever has the committed state needs none of them.</summary>
     internal uint Settled => settled;
 
+    /// <summary>How many of them are kept.</summary>
+    internal int Kept => entries.Count;
+
     internal LogEntry this[uint number] => entries[(int)(number - forgotten - 1)];
 
     internal void Add(in ExternalEvent external, Verdict verdict) => entries.Add(new LogEntry(Count + 1, verdict, external));

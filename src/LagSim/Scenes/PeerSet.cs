@@ -49,7 +49,7 @@ public readonly struct PeerSet : IEquatable<PeerSet>
     public ushort Mask => (ushort)(All & ~Others);
 
     /// <summary>Whether that peer is among them; above <see cref="MaxPeer"/> only <see cref="Everyone"/> has any.</summary>
-    public bool Contains(int peer) => peer is >= 0 and <= MaxPeer ? (Others >> peer & 1) == 0 : Others == 0;
+    public bool Contains(int peer) => peer >= 0 && (peer <= MaxPeer ? (Others >> peer & 1) == 0 : Others == 0);
 
     /// <inheritdoc/>
     public bool Equals(PeerSet other) => Others == other.Others;

@@ -8,10 +8,11 @@ using static LagSim.Tests.TestWorlds;
 namespace LagSim.Tests.Sessions;
 
 /// <summary>What players do, drawn by a seed: everything that can be done, by everybody, to what anybody brought into the world.</summary>
-internal sealed class Deeds(int seed)
+internal sealed class Deeds(int seed, int mostSpawns = int.MaxValue)
 {
     private readonly Random random = new(seed);
     private readonly List<BodyId> bodies = [];
+    private int spawns;
 
     /// <summary>A box without a lid, in it balls on either law, near enough to meet.</summary>
     internal static Scene Box(double e = 0.8)
@@ -35,7 +36,7 @@ internal sealed class Deeds(int seed)
         List<ExternalEvent> done = [];
         while (done.Count < count)
         {
-            ExternalEvent external = group.Do(random.Next(group.Sessions.Length), Draw());
+            ExternalEvent external = group.Do(random.Next(group.Sessions.Count), Draw());
             done.Add(external);
             if (external.Kind == EventKind.Spawn)
             {
@@ -56,7 +57,7 @@ internal sealed class Deeds(int seed)
         BodyId body = bodies[random.Next(bodies.Count)];
         return random.Next(12) switch
         {
-            0 or 1 => PlayerAction.Spawn(Ball(0.25 + (0.1 * random.NextDouble()), 1, 0.7, random.Next(3) == 0 ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic), Place(), Speed(3)),
+            0 or 1 when spawns++ < mostSpawns => PlayerAction.Spawn(Ball(0.25 + (0.1 * random.NextDouble()), 1, 0.7, random.Next(3) == 0 ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic), Place(), Speed(3)),
             2 => PlayerAction.Remove(body),
             3 or 4 or 5 => PlayerAction.Teleport(body, Place(), Speed(2)),
             6 or 7 or 8 => PlayerAction.SetVelocity(body, Speed(5)),

@@ -19,7 +19,10 @@ internal sealed class SessionGroup
 
     private static readonly SimDuration Hour = SimDuration.FromSeconds(3600);
 
-    private readonly SimTime[] due;
+    private readonly List<SimTime> due = [];
+    private readonly List<IDatagramPort> ports = [];
+    private readonly List<Session> sessions = [];
+    private readonly Random luck;
     private readonly UpdateDatagram tapped = new();
 
     /// <summary>Peers that are not connected yet: the host has number 0 in the network, the joiners 1 and up.</summary>
@@ -32,20 +35,12 @@ internal sealed class SessionGroup
             Tap(from, datagram.Span);
             return false;
         });
-        Random luck = new((int)seed);
-        due = new SimTime[peers];
-        Ports = Enumerable.Range(0, peers).Select(Network.CreatePort).ToArray();
-        Sessions = new Session[peers];
+        luck = new Random((int)seed);
         for (int peer = 0; peer < peers; peer++)
         {
-            SkewedClock own = new(Clock, (luck.NextDouble() * 40) - 20, SimDuration.FromSeconds(luck.NextDouble() * 3600));
             SessionOptions chosen = options?.Invoke(peer) ?? new SessionOptions { ExtraHistory = SimDuration.FromSeconds(60) };
             chosen.ExpectedJoiners = expected ?? peers - 1;
-            Scene mine = scenes?.Invoke(peer) ?? scene;
-            Sessions[peer] = peer == 0
-                ? new HostSession(mine, Ports[0], own, chosen, SessionId)
-                : new JoinerSession(mine, Ports[peer], own, chosen, PeerAddress.Virtual(0), seed + (ulong)peer);
-            due[peer] = Clock.Now;
+            Add(peer, scenes?.Invoke(peer) ?? scene, chosen, seed + (ulong)peer);
         }
 
         Host.Logged += entry => Log.Add(entry.Index, new UpdateEntry(entry.Verdict, entry.Event));
@@ -57,9 +52,9 @@ internal sealed class SessionGroup
 
     internal VirtualNetwork Network { get; }
 
-    internal IDatagramPort[] Ports { get; }
+    internal IReadOnlyList<IDatagramPort> Ports => ports;
 
-    internal Session[] Sessions { get; }
+    internal IReadOnlyList<Session> Sessions => sessions;
 
     internal HostSession Host => (HostSession)Sessions[0];
 
@@ -75,6 +70,19 @@ internal sealed class SessionGroup
     internal Action<int>? BeforeStep { get; set; }
 
     internal JoinerSession Joiner(int peer) => (JoinerSession)Sessions[peer];
+
+    /// <summary>One more joiner, which knows nothing of the scene, at an address of its own.</summary>
+    internal JoinerSession Join(int address, ulong nonce, SessionOptions? options = null) =>
+        (JoinerSession)Add(address, null, options ?? new SessionOptions { ExtraHistory = SimDuration.FromSeconds(60) }, nonce);
+
+    /// <summary>Takes the peer that came last out of the group, gone or not.</summary>
+    internal void DropLast()
+    {
+        ports[^1].Dispose();
+        ports.RemoveAt(ports.Count - 1);
+        sessions.RemoveAt(sessions.Count - 1);
+        due.RemoveAt(due.Count - 1);
+    }
 
     /// <summary>Lets that much true time pass.</summary>
     internal void Run(double seconds)
@@ -151,7 +159,7 @@ internal sealed class SessionGroup
         for (int i = 0; i <= instants; i++)
         {
             SimTime time = first + ((last - first) / instants * i);
-            for (int peer = 0; peer < Sessions.Length; peer++)
+            for (int peer = 0; peer < sessions.Count; peer++)
             {
                 Simulation actual = Sessions[peer].World!.Simulation;
                 if (actual.StateHash(time) != expected.StateHash(time))
@@ -169,14 +177,28 @@ internal sealed class SessionGroup
         return null;
     }
 
+    private Session Add(int address, Scene? scene, SessionOptions options, ulong nonce)
+    {
+        IDatagramPort port = Network.CreatePort(address);
+        SkewedClock own = new(Clock, (luck.NextDouble() * 40) - 20, SimDuration.FromSeconds(luck.NextDouble() * 3600));
+        int place = ports.Count;
+        port.Arrived += () => due[place] = Clock.Now;
+        ports.Add(port);
+        sessions.Add(sessions.Count == 0
+            ? new HostSession(scene!, port, own, options, SessionId)
+            : new JoinerSession(scene, port, own, options, PeerAddress.Virtual(0), nonce));
+        due.Add(Clock.Now);
+        return sessions[^1];
+    }
+
     private void Advance(SimTime limit)
     {
         SimTime next = SimTime.Min(limit, due.Min());
         next = Network.NextDelivery is SimTime delivery ? SimTime.Min(next, delivery) : next;
-        bool delivered = Network.DeliverUntil(SimTime.Max(next, Clock.Now)) > 0;
-        for (int peer = 0; peer < Sessions.Length; peer++)
+        Network.DeliverUntil(SimTime.Max(next, Clock.Now));
+        for (int peer = 0; peer < sessions.Count; peer++)
         {
-            if (delivered || due[peer] <= Clock.Now)
+            if (due[peer] <= Clock.Now)
             {
                 BeforeStep?.Invoke(peer);
                 SimDuration wait = Sessions[peer].Step();

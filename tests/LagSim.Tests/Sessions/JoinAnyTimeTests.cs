@@ -1,0 +1,136 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Harness.Scenes;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>Who joins a running session has the world that it would have, had it been there from the start.</summary>
+public sealed class JoinAnyTimeTests
+{
+    [Fact]
+    public void Join_AtHundredMomentsOfRunningBilliards_IsTheSameEachTime()
+    {
+        SessionGroup group = new SessionGroup(BuiltInScenes.Billiards(), 2, LinkProfiles.PureDelay(20), 5).Connect();
+        Random random = new(1);
+        int moving = 0;
+        long loggedBefore = 0;
+        for (int i = 0; i < 100; i++)
+        {
+            for (int kicks = 0; kicks < 3; kicks++)
+            {
+                Kick(group, random);
+                group.Run(random.NextDouble() * 0.3);
+            }
+
+            JoinerSession joiner = group.Join(100, (ulong)(1000 + i));
+            Assert.True(group.RunUntil(() => joiner.State == SessionState.Running, 5), joiner.EndReason);
+            Kick(group, random);
+            group.Do(2, PlayerAction.SetVelocity(BodyId.OfScene(random.Next(16)), V(random.NextDouble() - 0.5, 0, random.NextDouble() - 0.5)));
+            Kick(group, random);
+            group.Run(0.5);
+            loggedBefore = Math.Max(loggedBefore, joiner.World!.Simulation.HistoryEdge > group.Host.World!.Simulation.Start ? 1 : 0);
+            string? difference = group.Difference();
+            Assert.True(difference is null, $"join {i}: {difference}");
+            Assert.Equal(0, joiner.Counters.EventsLost + joiner.Counters.StatesDiffered);
+            moving += Enumerable.Range(0, 16).Count(n => Read(joiner.World.Simulation, BodyId.OfScene(n), joiner.World.Simulation.SimulatedTo).Velocity != Vector3D.Zero);
+            joiner.Leave();
+            group.Run(0.05);
+            Assert.Equal(1, group.Host.JoinerCount);
+            group.DropLast();
+        }
+
+        Assert.Equal(1, loggedBefore); // it did not begin from the start
+        Assert.True(moving > 500, $"{moving}"); // nor were all at rest
+    }
+
+    [Theory]
+    [InlineData("loopback")]
+    [InlineData("awful")]
+    [InlineData("delay-1000ms")]
+    public void Join_BigRunningWorldWhateverTheLink_FetchesItWhole(string link)
+    {
+        // 400 bodies are some 80 KB: seventy pieces, more than a window.
+        Assert.True(LinkProfiles.TryGet(link, out LinkProfile? profile, out _));
+        SessionGroup group = new SessionGroup(
+            BuiltInScenes.Crowd(400), 2, profile, 3, _ => new SessionOptions { History = SimDuration.FromSeconds(5) }).Connect();
+        group.Run(6);
+        JoinerSession joiner = group.Join(100, 77);
+        Assert.True(group.RunUntil(() => joiner.State == SessionState.Running), joiner.EndReason);
+        group.Do(1, PlayerAction.SetVelocity(First, V(3, 1)));
+        group.Do(2, PlayerAction.SetVelocity(Second, V(-3, 1)));
+        Assert.True(group.Settle(2));
+        group.Run(0.2);
+        Assert.True(joiner.World!.Simulation.HistoryEdge > group.Host.World!.Simulation.Start);
+        Simulation host = group.Host.World.Simulation, late = joiner.World.Simulation;
+        SimTime time = SimTime.Min(host.SimulatedTo, late.SimulatedTo);
+        Assert.Equal(host.StateHash(time), late.StateHash(time));
+        Assert.Equal(host.EventHash(time), late.EventHash(time));
+    }
+
+    [Fact]
+    public void Join_CopyWithAByteChangedOnItsWay_EndsWithASentence()
+    {
+        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5), 3).Connect();
+        group.Run(3);
+        JoinerSession joiner = group.Join(100, 77);
+        List<byte[]> chunks = [];
+        bool isLosing = true;
+        group.Network.Lose((from, to, datagram) =>
+        {
+            bool isChunk = isLosing && from == 0 && to == 100 && datagram.Span[3] == (byte)DatagramType.Chunk;
+            if (isChunk)
+            {
+                chunks.Add(datagram.ToArray());
+            }
+
+            return isChunk;
+        });
+        group.Run(0.1);
+        byte[] changed = chunks[0];
+        changed[300] ^= 1;
+        isLosing = false;
+        group.Ports[0].Send(changed, PeerAddress.Virtual(100));
+        group.Run(0.1);
+        Assert.Equal(SessionState.Ended, joiner.State);
+        Assert.Contains("its hash is another one than was announced", joiner.EndReason, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Joiner_FellSilentAndCameBack_JoinsAgainAndHasTheSameWorld()
+    {
+        SessionGroup group = new SessionGroup(
+            Deeds.Box(), 2, LinkProfiles.PureDelay(10), 3,
+            _ => new SessionOptions { Timeout = SimDuration.FromSeconds(2), KeepAlive = SimDuration.FromSeconds(0.5), ExtraHistory = SimDuration.FromSeconds(60) }).Connect();
+        new Deeds(1).DoIn(group, 5);
+        group.Cut(0, 1);
+        group.Cut(1, 0);
+        group.Run(3);
+        Assert.Equal(SessionState.Ended, group.Sessions[1].State);
+        Assert.Equal(0, group.Host.JoinerCount);
+        group.Do(0, PlayerAction.SetVelocity(Second, V(1, 4)));
+        uint before = group.Log.Values.Where(e => e.Event.Peer == 1).Max(e => e.Sequence);
+        group.Restore(0, 1);
+        group.Restore(1, 0);
+        group.DropLast();
+        JoinerSession again = group.Join(1, 4242);
+        Assert.True(group.RunUntil(() => again.State == SessionState.Running), again.EndReason);
+        ExternalEvent external = group.Do(1, PlayerAction.SetVelocity(First, V(-1, 4)));
+        Assert.Equal((1, before + 1), (external.Peer, external.Sequence));
+        group.Run(1);
+        Assert.Equal(group.Host.LogLength, again.LogLength);
+        Assert.Null(group.Difference());
+    }
+
+    private static void Kick(SessionGroup group, Random random) => group.Do(
+        random.Next(2), PlayerAction.SetVelocity(BodyId.OfScene(random.Next(16)), V((random.NextDouble() - 0.5) * 4, 0, (random.NextDouble() - 0.5) * 4)));
+}

@@ -1,0 +1,95 @@
+using System.Linq;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>What a session sends, to whom, and what it keeps.</summary>
+public sealed class TrafficTests
+{
+    [Fact]
+    public void Idle_HostWithEightJoiners_SendsLessThanFiftyBytesASecondOnALink()
+    {
+        SessionGroup group = new SessionGroup(Deeds.Box(), 9, LinkProfiles.Lan, 1).Connect();
+        group.Run(20); // the balls come to rest, the clocks are set
+        LinkTraffic[] before = All();
+        group.Run(100);
+        LinkTraffic[] after = All();
+        Assert.Equal(16, after.Length);
+        for (int i = 0; i < after.Length; i++)
+        {
+            Assert.Equal(before[i].Address, after[i].Address);
+            Assert.InRange((after[i].BytesSent - before[i].BytesSent) / 100.0, 1, 50);
+            Assert.InRange((after[i].BytesReceived - before[i].BytesReceived) / 100.0, 1, 50);
+        }
+
+        LinkTraffic[] All() => group.Sessions.SelectMany(s => s.Links).ToArray();
+    }
+
+    [Fact]
+    public void Links_CountWhatWentOverThem()
+    {
+        SessionGroup group = new SessionGroup(Deeds.Box(), 3, LinkProfiles.PureDelay(30), 1).Connect();
+        new Deeds(1).DoIn(group, 20);
+        group.Settle(20);
+        LinkTraffic toHost = Assert.Single(group.Sessions[1].Links);
+        LinkTraffic fromHost = group.Host.Links.Single(l => l.Peer == group.Sessions[1].Peer);
+        Assert.Equal(0, toHost.Peer);
+        Assert.InRange(fromHost.BytesReceived, toHost.BytesSent * 0.98, toHost.BytesSent); // what was under way, and the first words
+        Assert.InRange(toHost.BytesReceived, fromHost.BytesSent * 0.9, fromHost.BytesSent);
+        Near(0.06, toHost.RoundTrip.ToSeconds(), 0.001);
+        Near(0.06, fromHost.RoundTrip.ToSeconds(), 0.001);
+    }
+
+    [Fact]
+    public void Do_MoreThanTheHostTakes_IsTakenLaterAndAllOfIt()
+    {
+        SessionGroup group = new SessionGroup(
+            Deeds.Box(), 3, LinkProfiles.PureDelay(5), 1,
+            _ => new SessionOptions { MaxEventsPerSecond = 50, History = SimDuration.FromSeconds(5), ExtraHistory = SimDuration.FromSeconds(60) }).Connect();
+        for (int i = 0; i < 200; i++)
+        {
+            group.Do(1, PlayerAction.Impulse(First, V(0.01, 0.05)));
+            group.Run(0.001);
+        }
+
+        group.Run(1);
+        Assert.InRange(group.Host.Counters.EventsAccepted, 95, 130); // fifty at once and fifty a second
+        Assert.True(group.Host.Counters.EventsDeferred > 0);
+        Assert.True(group.Settle(200));
+        Assert.Equal(0, group.Host.Counters.EventsRefused);
+        Assert.Null(group.Difference());
+    }
+
+    [Fact]
+    public void Joiner_ThatAcknowledgesNothing_IsToldToGoAndTheLogIsForgotten()
+    {
+        SessionGroup group = new SessionGroup(
+            Floating(), 2, LinkProfiles.PureDelay(1), 1, _ => new SessionOptions { History = SimDuration.FromSeconds(0.1), MaxEventsPerSecond = 100_000 }).Connect();
+        RawJoiner deaf = new(group);
+        for (int i = 0; i < 70_000; i++)
+        {
+            group.Do(0, PlayerAction.SetVelocity(First, V(0.001 * (i % 7))));
+            if (i % 50 == 0)
+            {
+                deaf.Claim(1);
+            }
+        }
+
+        group.Run(1);
+        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.Equal(DatagramType.Leave, deaf.Received().Last(d => d.Type == DatagramType.Leave).Type);
+        Assert.True(group.RunUntil(() => group.Sessions[1].LogLength == 70_000, 60));
+        group.Run(1);
+        Assert.InRange(group.Host.KeptLogEntries, 0, 1000);
+        Assert.Equal(SessionState.Running, group.Sessions[1].State);
+    }
+
+    private static Scene Floating() => new SceneBuilder("floating").WithGravity(V(0)).AddBody("one", Ball(0.3), V(0, 4)).Build();
+}
