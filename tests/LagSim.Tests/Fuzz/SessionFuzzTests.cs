@@ -1,0 +1,31 @@
+using System.Threading;
+using LagSim.Harness.Fuzz;
+using Xunit;
+
+namespace LagSim.Tests.Fuzz;
+
+/// <summary>Whatever strangers send, and whatever of a session is played again, it goes on; and nothing at all makes it throw.</summary>
+public sealed class SessionFuzzTests
+{
+    [Fact]
+    public void Sessions_UnderHundredsOfThousandsOfHostileDatagrams_NeverThrowAndGoOn()
+    {
+        FuzzReport report = SessionFuzz.Run(300_000, 1, null, CancellationToken.None);
+        Assert.True(report.Failure is null, report.Failure);
+        Assert.Equal((300_000, 273), (report.Packets, report.Sessions));
+        Assert.InRange(report.Malformed, 60_000, 280_000);
+        Assert.InRange(report.Ignored, 60_000, 280_000);
+        Assert.InRange(report.SessionsBroken, 1, 136); // who has a peer's address can break its session: the attack reaches something
+        Assert.InRange(report.RetainedBytes, -50_000_000, 2_000_000);
+        Assert.True(report.StrangerBytesReceived > 0);
+    }
+
+    [Fact]
+    public void Run_SameSeedTwice_IsTheSame()
+    {
+        FuzzReport once = SessionFuzz.Run(5_000, 7, null, CancellationToken.None);
+        FuzzReport twice = SessionFuzz.Run(5_000, 7, null, CancellationToken.None);
+        Assert.Equal(once with { RetainedBytes = 0 }, twice with { RetainedBytes = 0 });
+        Assert.NotEqual(once.Malformed, SessionFuzz.Run(5_000, 8, null, CancellationToken.None).Malformed);
+    }
+}
