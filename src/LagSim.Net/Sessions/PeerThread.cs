@@ -1,9 +1,14 @@
 using System;
 using System.Collections.Concurrent;
+using System.Net;
+using System.Net.Sockets;
+using System.Security.Cryptography;
+using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
+using LagSim.Scenes;
 using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
@@ -15,16 +20,53 @@ public sealed class PeerThread : IDisposable
     private readonly ConcurrentQueue<Action> requests = new();
     private readonly IDatagramPort port;
     private readonly WorldThread thread;
+    private readonly ManualResetEventSlim decided = new(); // running or ended
+    private readonly bool ownsPort;
     private volatile bool disposed;
 
     /// <summary>Gives the session a thread; it is not started yet. The port is not disposed with it.</summary>
     public PeerThread(Session session, IDatagramPort port, string name)
+        : this(session, port, name, ownsPort: false)
     {
+    }
+
+    private PeerThread(Session session, IDatagramPort port, string name, bool ownsPort)
+    {
+        this.ownsPort = ownsPort;
         Session = session ?? throw new ArgumentNullException(nameof(session));
         this.port = port ?? throw new ArgumentNullException(nameof(port));
         thread = new WorldThread(name, Step, session.Interrupt);
         port.Arrived += thread.Wake;
     }
+
+    /// <summary>Opens a session over UDP on a thread that is started already. Disposing it leaves the session and closes the port.</summary>
+    /// <param name="scene">The scene that all share.</param>
+    /// <param name="udpPort">Where others reach it, 0 to 65,535; 0 takes any free port, which <see cref="LocalAddress"/> tells.</param>
+    /// <param name="options">How to take part; default waits for one joiner.</param>
+    /// <param name="bind">The address to listen at; default every one this machine has.</param>
+    /// <exception cref="System.IO.IOException">The system does not give the port, for instance because it is in use.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The port or an option is out of its range.</exception>
+    public static PeerThread Host(Scene scene, int udpPort = 0, SessionOptions? options = null, IPAddress? bind = null)
+    {
+        UdpPort port = new(new IPEndPoint(bind ?? IPAddress.Any, udpPort));
+        return Begin(port, () => new HostSession(scene, port, new StopwatchClock(), options ?? new SessionOptions(), Draw()), "LagSim host");
+    }
+
+    /// <summary>Joins a session over UDP on a thread that is started already. Disposing it leaves the session and closes the port.</summary>
+    /// <param name="host">Where the host is.</param>
+    /// <param name="options">How to take part.</param>
+    /// <param name="scene">The scene that the host is expected to have; null takes the host's, whichever it is.</param>
+    /// <exception cref="System.IO.IOException">The system gives no port.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">An option is out of its range.</exception>
+    public static PeerThread Join(IPEndPoint host, SessionOptions? options = null, Scene? scene = null)
+    {
+        PeerAddress address = PeerAddress.From(host);
+        UdpPort port = new(new IPEndPoint(host.AddressFamily == AddressFamily.InterNetwork ? IPAddress.Any : IPAddress.IPv6Any, 0));
+        return Begin(port, () => new JoinerSession(scene, port, new StopwatchClock(), options ?? new SessionOptions(), address, Draw()), "LagSim joiner");
+    }
+
+    /// <summary>Where this peer's port is reached.</summary>
+    public PeerAddress LocalAddress => port.LocalAddress;
 
     /// <summary>The session. While the thread runs, read of it only what it says may be read from any thread.</summary>
     public Session Session { get; }
@@ -38,6 +80,16 @@ public sealed class PeerThread : IDisposable
             thread.ThrowIfFaulted();
             return Session.State;
         }
+    }
+
+    /// <summary>Waits until there is a running world, or the session has ended.</summary>
+    /// <param name="timeout">How long at most.</param>
+    /// <returns>Whether it runs; if not, <see cref="Session.EndReason"/> tells why if it has ended.</returns>
+    /// <exception cref="InvalidOperationException">The thread ended by an exception, the inner one.</exception>
+    public bool WaitUntilRunning(TimeSpan timeout)
+    {
+        decided.Wait(timeout);
+        return State == SessionState.Running;
     }
 
     /// <summary>How many steps the thread has done.</summary>
@@ -97,13 +149,43 @@ public sealed class PeerThread : IDisposable
         return answer.Task;
     }
 
-    /// <summary>Stops the thread, in the middle of its work if it is at some, and waits for it. It does not say goodbye; <see cref="Session.Leave"/> does.</summary>
+    /// <summary>Stops the thread, in the middle of its work if it is at some, and waits for it. One that <see cref="Host"/> or <see cref="Join"/> made
+    /// leaves its session and closes its port; any other does not say goodbye, <see cref="Session.Leave"/> does.</summary>
     public void Dispose()
     {
         port.Arrived -= thread.Wake;
         thread.Dispose();
         disposed = true;
+        decided.Set();
         AnswerAll();
+        if (ownsPort)
+        {
+            Session.Leave(); // its thread has stopped, so this one may
+            port.Dispose();
+        }
+    }
+
+    private static PeerThread Begin(UdpPort port, Func<Session> make, string name)
+    {
+        try
+        {
+            PeerThread peer = new(make(), port, name, ownsPort: true);
+            peer.Start();
+            return peer;
+        }
+        catch
+        {
+            port.Dispose();
+            throw;
+        }
+    }
+
+    /// <summary>A number nobody else has.</summary>
+    private static ulong Draw()
+    {
+        Span<byte> bytes = stackalloc byte[sizeof(ulong)];
+        RandomNumberGenerator.Fill(bytes);
+        return BitConverter.ToUInt64(bytes);
     }
 
     private void AnswerAll()
@@ -119,10 +201,17 @@ public sealed class PeerThread : IDisposable
         try
         {
             AnswerAll();
-            return Session.Step();
+            SimDuration wait = Session.Step();
+            if (Session.State is SessionState.Running or SessionState.Ended)
+            {
+                decided.Set();
+            }
+
+            return wait;
         }
         catch
         {
+            decided.Set();
             disposed = true; // the thread ends with the exception: who still waits for an answer gets none
             AnswerAll();
             throw;
