@@ -1,0 +1,13 @@
+using LiteNetLib;
+
+namespace LagSim.Net.Carriers;
+
+/// <summary>Keeps LiteNetLib from writing to the console, which it does for every malformed packet a stranger sends.</summary>
+internal sealed class QuietLogger : INetLogger
+{
+    /// <inheritdoc/>
+    public void WriteNet(NetLogLevel level, string str, params object[] args)
+    {
+        // What concerns a user is counted by the port.
+    }
+}
