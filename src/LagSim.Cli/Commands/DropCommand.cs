@@ -4,6 +4,7 @@ using System.Linq;
 using LagSim.Cli.Output;
 using LagSim.Harness.Drop;
 using LagSim.Harness.Links;
+using LagSim.Harness.Peers;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
 
@@ -35,7 +36,7 @@ internal static class DropCommand
         };
         Option<int> peers = CommonOptions.Whole("--peers", "How many peers, the host included", 2, 2, 9);
         Option<string> time = CommonOptions.Word("--time", "Real time over real sockets, or the same in virtual time, seeded, without waiting.", "real", "real", "virtual");
-        Option<string> transport = CommonOptions.Word("--transport", "What carries datagrams in real time; in virtual time nothing does but the simulated link.", "udp", "udp", "litenetlib");
+        Option<string> transport = CommonOptions.Word("--transport", "What carries datagrams in real time; in virtual time nothing does but the simulated link.", Carrier.Udp.Name, BuiltCarriers.Names);
         Option<double> height = CommonOptions.Number("--height-m", "Where the ball's centre falls from", 10, 0.5, 1e6);
         Option<double> second = CommonOptions.Number("--second-height-m", "Where it is lifted to", 15, 0.5, 1e6);
         Option<double> restitution = CommonOptions.Number("--restitution", "Restitution of ball and floor", 0.8, 0, 1);
@@ -47,11 +48,6 @@ internal static class DropCommand
         common.AddTo(command);
         command.SetAction(parsed =>
         {
-            if (parsed.GetValue(transport) == "litenetlib")
-            {
-                throw new UsageException("--transport litenetlib is not in this build: -p:WithLiteNetLib=true is to build its carrier, LagSim.Net.LiteNetLib, which does not exist yet.");
-            }
-
             LinkProfile link = Link(parsed.GetValue(delay), parsed.GetValue(profile), out double? delayed);
             string chosen = parsed.GetValue(strategy)!;
             DropOptions options = new()
@@ -64,6 +60,7 @@ internal static class DropCommand
                 DelayMilliseconds = delayed,
                 Peers = parsed.GetValue(peers),
                 IsVirtual = parsed.GetValue(time) == "virtual",
+                Carrier = BuiltCarriers.Of(parsed.GetValue(transport)!),
                 HeightMetres = parsed.GetValue(height),
                 SecondHeightMetres = parsed.GetValue(second),
                 Restitution = parsed.GetValue(restitution),
@@ -81,7 +78,7 @@ internal static class DropCommand
             OutputFolder.ThrowIfNotWritable(folder); // to be said before half a minute has gone by
         }
 
-        string title = options.IsVirtual ? "drop, virtual time" : $"drop, {options.Length.ToSeconds():0} s in real time over UDP";
+        string title = options.IsVirtual ? "drop, virtual time" : $"drop, {options.Length.ToSeconds():0} s in real time over {options.Carrier.Name}";
         IReadOnlyList<DropRun> runs = console.WithProgress(
             title, options.Length.ToSeconds(), progress => DropTest.Run(options, done => progress(done.ToSeconds())));
         DropOptions[] compared = LateEventStrategies.Names.Select(name => Teleport(options, name)).ToArray();

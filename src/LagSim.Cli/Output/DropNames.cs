@@ -10,5 +10,5 @@ internal static class DropNames
     internal static string Time(DropOptions options) => options.IsVirtual ? "virtual" : "real";
 
     /// <summary>What carried the datagrams: no socket has a part in virtual time.</summary>
-    internal static string Transport(DropOptions options) => options.IsVirtual ? "virtual" : "udp";
+    internal static string Transport(DropOptions options) => options.IsVirtual ? "virtual" : options.Carrier.Name;
 }

@@ -1,5 +1,6 @@
 using System.Collections.Generic;
 using LagSim.Harness.Links;
+using LagSim.Harness.Peers;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -41,6 +42,9 @@ public sealed record DropOptions
 
     /// <summary>Whether it runs in virtual time.</summary>
     public bool IsVirtual { get; init; }
+
+    /// <summary>What carries datagrams in real time.</summary>
+    public Carrier Carrier { get; init; } = Carrier.Udp;
 
     /// <summary>From where the ball's centre falls at first, in metres.</summary>
     public double HeightMetres { get; init; } = 10;

@@ -16,7 +16,7 @@ namespace LagSim.Harness.Drop;
 /// <param name="ClockErrorMilliseconds">The largest error of a shared clock.</param>
 /// <param name="Events">How many events the host's world went through in this case.</param>
 /// <param name="Heals">How often peers rewrote their timelines back to another's event that came late; 0 with a strategy that rewrites no past.</param>
-/// <param name="BytesSentPerSecond">Each peer's, UDP and IP headers included.</param>
+/// <param name="BytesSentPerSecond">Each peer's datagrams, UDP and IP headers included; what a carrier adds of its own is not.</param>
 /// <param name="Lateness">By how many milliseconds other peers' events came after their stamp.</param>
 /// <param name="CpuCoresAtRest">Processor use of the whole process while all rests; null where not measured.</param>
 /// <param name="BallRested">Whether the ball was at rest when it was lifted; true of a case without a lift.</param>

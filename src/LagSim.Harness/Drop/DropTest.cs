@@ -26,7 +26,7 @@ public static class DropTest
     {
         ArgumentNullException.ThrowIfNull(options);
         Scene scene = options.BuildScene();
-        PeerGroupOptions group = new(options.Peers, options.Link, options.Strategy, options.Seed, options.Length);
+        PeerGroupOptions group = new(options.Peers, options.Link, options.Strategy, options.Seed, options.Length) { Carrier = options.Carrier };
         using PeerGroup peers = options.IsVirtual ? new VirtualPeers(scene, group) : new RealPeers(scene, group);
         peers.Connect();
 

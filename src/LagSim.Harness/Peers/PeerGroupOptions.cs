@@ -16,6 +16,9 @@ public sealed record PeerGroupOptions(
     /// <summary>How far apart samples are: 5 ms, the thesis's step.</summary>
     public static readonly SimDuration SampleInterval = SimDuration.FromMilliseconds(5);
 
+    /// <summary>What carries datagrams in real time.</summary>
+    public Carrier Carrier { get; init; } = Carrier.Udp;
+
     /// <summary>The session options that all peers of a test use: history enough for every link, timelines kept for the whole run.</summary>
     internal Net.Sessions.SessionOptions ToSessionOptions() => new()
     {

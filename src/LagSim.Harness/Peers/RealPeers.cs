@@ -13,7 +13,7 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Peers;
 
-/// <summary>Peers in real time over real UDP sockets on this machine: each with its own thread, socket and clock, watched by the calling thread.</summary>
+/// <summary>Peers in real time over real sockets on this machine: each with its own thread, port and clock, watched by the calling thread.</summary>
 public sealed class RealPeers : PeerGroup
 {
     private const int PollMilliseconds = 1;
@@ -34,7 +34,7 @@ public sealed class RealPeers : PeerGroup
     private readonly PeerThread[] threads;
     private bool finished;
 
-    /// <summary>Makes the peers and binds their sockets to free ports of the loopback interface; nobody is connected yet.</summary>
+    /// <summary>Makes the peers and binds their carriers to free ports of the loopback interface; nobody is connected yet.</summary>
     public RealPeers(Scene scene, PeerGroupOptions options)
         : base(scene, options.Peers)
     {
@@ -48,7 +48,7 @@ public sealed class RealPeers : PeerGroup
             // Clocks of machines that were not started at the same time: they agree on nothing but the length of a second.
             SimDuration apart = SimDuration.FromSeconds(random.NextDouble() * 3600);
             SkewedClock own = new(trueTime, 0, peer == 0 ? apart : apart + options.Link.ReceiverClockOffset);
-            CountingPort counting = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0)));
+            CountingPort counting = new(options.Carrier.Open(new IPEndPoint(IPAddress.Loopback, 0)));
             ports[peer] = counting;
             int receiver = peer;
             DelayedPort port = delayed[peer] = new DelayedPort(counting, trueTime, from => LinkTo(receiver, from));

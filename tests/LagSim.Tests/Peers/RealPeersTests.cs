@@ -1,4 +1,5 @@
 using System.Linq;
+using LagSim.Cli.Commands;
 using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Harness.Peers;
@@ -13,14 +14,18 @@ namespace LagSim.Tests.Peers;
 /// <summary>Over real sockets and threads: that it works, not how fast.</summary>
 public sealed class RealPeersTests
 {
-    [Fact(Timeout = 60_000)]
-    public async System.Threading.Tasks.Task Run_ThreePeersOverLoopback_AgreeToTheBit()
+    [Theory(Timeout = 60_000)]
+    [InlineData("udp")]
+#if WITH_LITENETLIB
+    [InlineData("litenetlib")]
+#endif
+    public async System.Threading.Tasks.Task Run_ThreePeersOverLoopback_AgreeToTheBit(string carrier)
     {
         await System.Threading.Tasks.Task.Run(
             () =>
             {
                 SimDuration length = SimDuration.FromSeconds(1.2);
-                PeerGroupOptions options = new(3, LinkProfiles.PureDelay(5), Length: length);
+                PeerGroupOptions options = new(3, LinkProfiles.PureDelay(5), Length: length) { Carrier = BuiltCarriers.Of(carrier) };
                 using RealPeers peers = new(BuiltInScenes.Drop(2, 0.8), options);
                 peers.Connect();
                 peers.RunUntil(SimDuration.FromSeconds(0.1), null);
