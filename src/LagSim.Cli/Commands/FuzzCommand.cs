@@ -11,14 +11,22 @@ internal static class FuzzCommand
     internal static Command Create(ToolConsole console)
     {
         CommonOptions common = new();
-        Option<int> packets = CommonOptions.Whole("--packets", "How many hostile datagrams to send", 1_000_000, 1, 2_000_000_000);
-        Command command = new("fuzz", "Sends hostile datagrams at sessions in virtual time; nothing may throw, and no stranger may end a session.") { packets };
+        Option<int> packets = CommonOptions.Whole("--packets", "How many hostile datagrams to send at most; in real time as many as fit", 1_000_000, 1, 2_000_000_000);
+        Option<string> time = CommonOptions.Word("--time", "Sessions in virtual time, or one over real UDP, flooded at full speed.", "virtual", "virtual", "real");
+        Option<double> length = CommonOptions.Number("--for-s", "How long to flood in real time", 10, 0.1, 86_400);
+        Command command = new("fuzz", "Sends hostile datagrams at sessions; nothing may throw, and no stranger may end a session.") { packets, time, length };
         command.Options.Add(common.Seed);
         command.Options.Add(common.Json);
         command.SetAction(parsed =>
         {
             int count = parsed.GetValue(packets);
             ulong seed = parsed.GetValue(common.Seed);
+            if (parsed.GetValue(time) == "real")
+            {
+                long most = parsed.GetResult(packets)?.Implicit == false ? count : long.MaxValue;
+                return Flood(console, parsed.GetValue(length), most, seed, parsed.GetValue(common.Json));
+            }
+
             FuzzReport report = console.WithProgress("fuzz", count, progress => SessionFuzz.Run(count, seed, done => progress(done), console.Stop));
             if (parsed.GetValue(common.Json))
             {
@@ -32,6 +40,38 @@ internal static class FuzzCommand
             return report.Failure is null ? ExitCode.Done : ExitCode.CheckFailed;
         });
         return command;
+    }
+
+    private static int Flood(ToolConsole console, double seconds, long packets, ulong seed, bool asJson)
+    {
+        FloodReport report = console.WithProgress("flood", seconds, progress => RealFlood.Run(seconds, packets, seed, progress, console.Stop));
+        CultureInfo culture = CultureInfo.InvariantCulture;
+        if (asJson)
+        {
+            JsonDocumentWriter.Write(console.Output, "fuzz", seed, null, null, null, json =>
+            {
+                json.WriteNumber("flood_s", report.Seconds);
+                json.WriteNumber("garbage_sent", report.GarbageSent);
+                json.WriteNumber("replays_sent", report.ReplaysSent);
+                json.WriteNumber("received", report.Received);
+                json.WriteNumber("malformed", report.Malformed);
+                json.WriteNumber("ignored", report.Ignored);
+                json.WriteNumber("events_done", report.EventsDone);
+                json.WriteNumber("events_agreed", report.EventsAgreed);
+                json.WriteNumber("retained_bytes", report.RetainedBytes);
+                json.WriteNumber("max_lateness_ms", report.MaxLatenessMilliseconds);
+                json.WriteString("failure", report.Failure);
+            });
+        }
+        else
+        {
+            console.Output.WriteLine(string.Create(culture, $"{report.GarbageSent:N0} datagrams of garbage and {report.ReplaysSent:N0} replayed ones in {report.Seconds:0.0} s at a host and a joiner"));
+            console.Output.WriteLine(string.Create(culture, $"taken in {report.Received:N0}, refused by a decoder {report.Malformed:N0}, ignored {report.Ignored:N0}"));
+            console.Output.WriteLine(string.Create(culture, $"{report.EventsAgreed} of {report.EventsDone} events that the two did meanwhile are on both; memory grew by {report.RetainedBytes:N0} bytes; a world was at most {report.MaxLatenessMilliseconds:0.0} ms behind"));
+            console.Output.WriteLine(report.Failure ?? "The session went on, and both have the same world.");
+        }
+
+        return report.Failure is null ? ExitCode.Done : ExitCode.CheckFailed;
     }
 
     private static void WriteText(ToolConsole console, FuzzReport report)

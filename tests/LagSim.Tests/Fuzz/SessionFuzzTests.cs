@@ -4,7 +4,13 @@ using Xunit;
 
 namespace LagSim.Tests.Fuzz;
 
+/// <summary>Tests that run when no other does.</summary>
+[CollectionDefinition("alone", DisableParallelization = true)]
+public sealed class Alone;
+
 /// <summary>Whatever strangers send, and whatever of a session is played again, it goes on; and nothing at all makes it throw.</summary>
+/// <remarks>Beside other tests the memory in use would say nothing.</remarks>
+[Collection("alone")]
 public sealed class SessionFuzzTests
 {
     [Fact]
@@ -18,6 +24,16 @@ public sealed class SessionFuzzTests
         Assert.InRange(report.SessionsBroken, 1, 136); // who has a peer's address can break its session: the attack reaches something
         Assert.InRange(report.RetainedBytes, -50_000_000, 2_000_000);
         Assert.True(report.StrangerBytesReceived > 0);
+    }
+
+    [Fact]
+    public void Flood_OfTwentyThousandOverRealSockets_IsSurvived()
+    {
+        FloodReport report = RealFlood.Run(30, 20_000, 1, null, CancellationToken.None);
+        Assert.True(report.Failure is null, report.Failure);
+        Assert.True(report.GarbageSent + report.ReplaysSent >= 20_000 && report.ReplaysSent > 5_000, $"{report}");
+        Assert.True(report.Malformed > 100 && report.Ignored > 1_000, $"{report}");
+        Assert.Equal(report.EventsDone, report.EventsAgreed);
     }
 
     [Fact]
