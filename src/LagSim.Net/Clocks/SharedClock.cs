@@ -5,7 +5,8 @@ namespace LagSim.Net.Clocks;
 
 /// <summary>The session's time, made from one's own clock: set once, from then on bent gently towards each newer estimate.</summary>
 /// <remarks>
-/// <para>It never steps and never goes back. It runs at most 0.5 % fast or slow, or 5 % while it is more than <see cref="FastAbove"/> off.</para>
+/// <para>It never steps and never goes back, as long as one's own clock does not. It runs with the drift of the newest estimate, so that it stays right
+/// between two of them; on top of that at most 0.5 % fast or slow, or 5 % while it is more than <see cref="FastAbove"/> off.</para>
 /// <para>How it runs does not depend on how often it is read, but for one tick a reading. Integers only; may be used from any thread.</para>
 /// </remarks>
 public sealed class SharedClock : IClock
@@ -19,9 +20,9 @@ public sealed class SharedClock : IClock
 
     private readonly object gate = new();
     private readonly IClock own;
-    private SimTime read; // own clock, when the offset was last brought up to date
-    private SimDuration offset;
-    private SimDuration target;
+    private ClockEstimate target;
+    private SimTime read; // own clock, when the remainder was last brought up to date
+    private SimDuration remaining; // target minus offset
     private bool set;
 
     /// <summary>A clock that is not set yet.</summary>
@@ -55,7 +56,7 @@ public sealed class SharedClock : IClock
                 }
 
                 Advance();
-                return read + offset;
+                return read + CurrentOffset;
             }
         }
     }
@@ -67,7 +68,7 @@ public sealed class SharedClock : IClock
         {
             lock (gate)
             {
-                return offset;
+                return set ? CurrentOffset : SimDuration.Zero;
             }
         }
     }
@@ -79,39 +80,49 @@ public sealed class SharedClock : IClock
         {
             lock (gate)
             {
-                return target - offset;
+                return remaining;
             }
         }
     }
 
-    /// <summary>Gives the clock the newest estimate: the first sets it at once, any later one is approached.</summary>
-    /// <param name="estimate">Shared time minus own time, within 48 days of zero.</param>
-    /// <exception cref="ArgumentOutOfRangeException"><paramref name="estimate"/> is further from zero.</exception>
-    public void Adjust(SimDuration estimate)
-    {
-        if (estimate.Ticks is < -MaxOffset or >= MaxOffset)
-        {
-            throw new ArgumentOutOfRangeException(nameof(estimate), estimate, "Two clocks of a session are at most 48 days apart.");
-        }
+    private SimDuration CurrentOffset => target.OffsetAt(read) - remaining;
 
+    /// <summary>Gives the clock the newest estimate: the first sets it at once, any later one is approached.</summary>
+    /// <param name="estimate">Shared time minus own time, within 48 days of zero, with its drift.</param>
+    /// <exception cref="ArgumentOutOfRangeException"><paramref name="estimate"/> is further from zero by now.</exception>
+    public void Adjust(in ClockEstimate estimate)
+    {
         lock (gate)
         {
-            if (!set)
+            SimTime now = set ? SimTime.Max(own.Now, read) : own.Now; // a clock that broke its promise and went back only stands still here
+            SimDuration offset = estimate.OffsetAt(now);
+            if (offset.Ticks is < -MaxOffset or >= MaxOffset)
             {
-                set = true;
-                read = own.Now;
-                offset = estimate;
+                throw new ArgumentOutOfRangeException(nameof(estimate), offset, "Two clocks of a session are at most 48 days apart.");
             }
 
-            Advance(); // the time until now belongs to the estimate before this one
+            if (set)
+            {
+                AdvanceTo(now); // the time until now belongs to the estimate before this one
+                remaining = offset - CurrentOffset;
+            }
+
+            set = true;
+            read = now;
             target = estimate;
         }
     }
 
-    private void Advance()
+    /// <summary>Gives the clock an estimate without drift.</summary>
+    /// <param name="offset">Shared time minus own time, within 48 days of zero.</param>
+    /// <exception cref="ArgumentOutOfRangeException"><paramref name="offset"/> is further from zero.</exception>
+    public void Adjust(SimDuration offset) => Adjust(new ClockEstimate(SimTime.Zero, offset));
+
+    private void Advance() => AdvanceTo(SimTime.Max(own.Now, read));
+
+    private void AdvanceTo(SimTime now)
     {
-        SimTime now = SimTime.Max(own.Now, read); // a clock that broke its promise and went back only stands still here
-        offset += Slew(target - offset, now - read);
+        remaining -= Slew(remaining, now - read);
         read = now;
     }
 

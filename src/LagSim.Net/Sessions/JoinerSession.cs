@@ -112,7 +112,7 @@ public sealed partial class JoinerSession : Session
         if (update.EchoSent != SimTime.MinValue
             && ClockSync.Add(update.EchoSent, update.EchoReceived, update.Sent, now) && ClockSync.IsReady)
         {
-            SharedTime.Adjust(ClockSync.Offset);
+            SharedTime.Adjust(ClockSync.Estimate);
         }
 
         if (IsOverdue(link.Silence(now)))

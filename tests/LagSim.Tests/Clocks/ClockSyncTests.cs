@@ -1,4 +1,5 @@
 using System;
+using LagSim.Harness.Links;
 using LagSim.Net.Clocks;
 using LagSim.Time;
 using Xunit;
@@ -16,9 +17,9 @@ public class ClockSyncTests
 
         Assert.True(Exchange(sync, 0, 105, 105));
 
-        Assert.Equal(Ahead, sync.Offset);
-        Assert.Equal(Milliseconds(210), sync.RoundTrip);
-        Assert.Equal(Milliseconds(105), sync.ErrorBound);
+        Near(Ahead, sync.Estimate.Offset);
+        Near(Milliseconds(210), sync.RoundTrip);
+        AssertBound(105, 0.210 + 0.003, sync);
     }
 
     [Fact]
@@ -28,9 +29,9 @@ public class ClockSyncTests
 
         Exchange(sync, 0, 10, 200);
 
-        Assert.Equal(Ahead - Milliseconds(95), sync.Offset);
-        Assert.Equal(Milliseconds(210), sync.RoundTrip);
-        Assert.True(Ahead - sync.Offset <= sync.ErrorBound);
+        Near(Ahead - Milliseconds(95), sync.Estimate.Offset);
+        Near(Milliseconds(210), sync.RoundTrip);
+        Assert.True(Ahead - sync.Estimate.Offset <= sync.Estimate.ErrorBound);
     }
 
     [Fact]
@@ -40,8 +41,30 @@ public class ClockSyncTests
 
         Exchange(sync, 0, 20, 20, heldMs: 5000);
 
-        Assert.Equal(Ahead, sync.Offset);
-        Assert.Equal(Milliseconds(40), sync.RoundTrip);
+        Near(Ahead, sync.Estimate.Offset);
+        Near(Milliseconds(40), sync.RoundTrip);
+        AssertBound(20, 5.040, sync);
+    }
+
+    [Theory]
+    [InlineData(100)]
+    [InlineData(-100)]
+    public void Add_OtherPeerHoldsTheEchoWhileClocksDrift_IsNotRefusedAsNegative(double partsPerMillion)
+    {
+        // Of a round trip of 100 microseconds, 2 s of waiting by another clock leave -100 or 300.
+        ClockSync sync = new();
+        SkewedClock other = new(new VirtualClock(), partsPerMillion, Ahead);
+        for (int i = 0; i < 30; i++)
+        {
+            SimTime sent = SimTime.FromSeconds(i * 2.1), there = sent + (Milliseconds(1) / 20), answered = there + SimDuration.FromSeconds(2);
+            SimTime back = answered + (Milliseconds(1) / 20);
+            Assert.True(sync.Add(sent, other.ReadingAt(there), other.ReadingAt(answered), back));
+            AssertNear(other.ReadingAt(back) - back, sync.Estimate.Offset, i < 3 ? 0.11 : 0.005);
+        }
+
+        Assert.Equal(0, sync.RestartCount);
+        AssertNear(Milliseconds(1) / 10, sync.RoundTrip, 0.005);
+        Assert.Equal(partsPerMillion, sync.Estimate.DriftPartsPerMillion, 0.5);
     }
 
     [Fact]
@@ -51,14 +74,14 @@ public class ClockSyncTests
         Random random = new(5);
         for (int i = 0; i < 40; i++)
         {
-            Exchange(sync, i * 50, 30 + random.Next(1, 200), 30 + random.Next(1, 200));
+            Exchange(sync, i * 50, 60 + random.Next(1, 200), 60 + random.Next(1, 200));
         }
 
         Exchange(sync, 2000, 30, 30);
         Exchange(sync, 2050, 30, 230);
 
-        Assert.Equal(Milliseconds(60), sync.RoundTrip);
-        Assert.Equal(Ahead, sync.Offset);
+        Near(Milliseconds(60), sync.RoundTrip);
+        Near(Ahead, sync.Estimate.Offset);
     }
 
     [Fact]
@@ -66,25 +89,98 @@ public class ClockSyncTests
     {
         ClockSync sync = new();
         Exchange(sync, 0, 1, 1);
-        for (int i = 1; i < ClockSync.WindowSamples; i++)
+        for (int i = 1; i < 60; i++)
         {
-            Exchange(sync, i * 50, 40, 40);
+            Exchange(sync, i * 1000, 40, 40);
         }
 
-        Assert.Equal(Milliseconds(2), sync.RoundTrip);
-        Exchange(sync, 10_000, 40, 40);
-        Assert.Equal(Milliseconds(80), sync.RoundTrip);
+        Near(Milliseconds(2), sync.RoundTrip);
+        Exchange(sync, 60_000, 40, 40);
+        Near(Milliseconds(80), sync.RoundTrip);
     }
 
     [Fact]
-    public void Add_EqualRoundTrips_PrefersTheNewest()
+    public void Add_ManyInASecond_CrowdOutNothing()
+    {
+        // A window by number would have lost the best long before.
+        ClockSync sync = new();
+        Exchange(sync, 0, 1, 1);
+        for (int i = 1; i < 10_000; i++)
+        {
+            Exchange(sync, i * 5, 40, 40);
+        }
+
+        Near(Milliseconds(2), sync.RoundTrip);
+        Assert.Equal(10_000, sync.SampleCount);
+    }
+
+    [Fact]
+    public void Add_AfterALongSilence_TheNewestCountsAlone()
+    {
+        ClockSync sync = new();
+        Exchange(sync, 0, 1, 1);
+        Exchange(sync, 1_000_000, 40, 40);
+
+        Near(Milliseconds(80), sync.RoundTrip);
+        Near(Ahead, sync.Estimate.Offset);
+    }
+
+    [Fact]
+    public void Add_OwnClockWentBack_ForgetsWhatWasBefore()
+    {
+        // By less than a round trip, so that nothing else contradicts.
+        ClockSync sync = new();
+        Exchange(sync, 5000, 50, 50);
+        Exchange(sync, 4900, 60, 60);
+
+        Assert.Equal(1, sync.RestartCount);
+        Near(Milliseconds(120), sync.RoundTrip);
+    }
+
+    [Fact]
+    public void Add_EqualRoundTripsInASecond_PrefersTheNewest()
     {
         ClockSync sync = new();
         Exchange(sync, 0, 10, 30);
 
         Exchange(sync, 50, 20, 20);
 
-        Assert.Equal(Ahead, sync.Offset);
+        Near(Ahead, sync.Estimate.Offset);
+    }
+
+    [Fact]
+    public void Add_ALateAnswerAndALateRequest_BothLimitsCount()
+    {
+        // Neither round trip is short, but one says precisely how little the offset is, the other how much.
+        ClockSync sync = new();
+        Exchange(sync, 0, 1, 400);
+        Exchange(sync, 1000, 400, 1);
+
+        AssertNear(Ahead, sync.Estimate.Offset, 0.2);
+        Assert.InRange(sync.Estimate.ErrorBound.ToMilliseconds(), 1, 2);
+    }
+
+    [Fact]
+    public void Add_TenThousandAfterWarmUp_AllocatesNothing()
+    {
+        Assert.Equal(0, Measure(0));
+        Assert.True(Measure(24) > 10_000 * 24); // negative control: what does allocate is seen
+
+        static long Measure(int extra)
+        {
+            ClockSync sync = new();
+            SharedClock shared = new(new ManualClock());
+            long before = 0;
+            for (int i = 0; i < 12_000; i++)
+            {
+                before = i == 2000 ? GC.GetAllocatedBytesForCurrentThread() : before; // until then code is compiled
+                Exchange(sync, i * 50, 20 + (i % 7), 20 + (i % 5));
+                shared.Adjust(sync.Estimate);
+                GC.KeepAlive(extra > 0 ? new byte[extra] : null);
+            }
+
+            return GC.GetAllocatedBytesForCurrentThread() - before;
+        }
     }
 
     [Fact]
@@ -98,8 +194,8 @@ public class ClockSyncTests
             SimDuration back = SimDuration.FromTicks(random.NextInt64(1L << 39));
             SimTime sent = SimTime.FromTicks(random.NextInt64(1L << 50));
             sync.Add(sent, sent + away + Ahead, sent + away + Ahead, sent + away + back);
-            SimDuration error = sync.Offset - Ahead;
-            Assert.True(error <= sync.ErrorBound && -error <= sync.ErrorBound, $"{error} is beyond {sync.ErrorBound}");
+            SimDuration error = sync.Estimate.Offset - Ahead;
+            Assert.True(error <= sync.Estimate.ErrorBound && -error <= sync.Estimate.ErrorBound, $"{error} is beyond {sync.Estimate.ErrorBound}");
         }
     }
 
@@ -119,7 +215,8 @@ public class ClockSyncTests
 
         Assert.Equal(1, sync.SampleCount);
         Assert.Equal(6, sync.RefusedCount);
-        Assert.Equal(Ahead, sync.Offset);
+        Assert.Equal(0, sync.RestartCount);
+        Near(Ahead, sync.Estimate.Offset);
     }
 
     [Fact]
@@ -138,6 +235,15 @@ public class ClockSyncTests
 
     // A whole number of the rounded millisecond, so that sums are exact.
     private static SimDuration Milliseconds(long count) => SimDuration.FromMilliseconds(1) * count;
+
+    private static void Near(SimDuration expected, SimDuration actual) => AssertNear(expected, actual, 1e-6);
+
+    private static void AssertNear(SimDuration expected, SimDuration actual, double milliseconds) =>
+        Assert.InRange((actual - expected).ToMilliseconds(), -milliseconds, milliseconds);
+
+    /// <summary>Half the round trip, a microsecond of reading, and what the most drift can have done since the request left, nothing of it known to be on either side.</summary>
+    private static void AssertBound(double halfRoundTripMs, double seconds, ClockSync sync) =>
+        Assert.Equal(halfRoundTripMs + 0.001 + (seconds * ClockEstimate.MaxDrift * 1e-3), sync.Estimate.ErrorBound.ToMilliseconds(), 1e-6);
 
     private static bool Exchange(ClockSync sync, long atMs, long outMs, long backMs, long heldMs = 3)
     {

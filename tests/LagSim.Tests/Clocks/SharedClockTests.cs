@@ -1,4 +1,6 @@
 using System;
+using System.Collections.Generic;
+using LagSim.Harness.Links;
 using LagSim.Net.Clocks;
 using LagSim.Time;
 using Xunit;
@@ -7,6 +9,8 @@ namespace LagSim.Tests.Clocks;
 
 public class SharedClockTests
 {
+    private const double DriftRounding = 1e-4; // ms: a quarter of a part in 10^9 over minutes
+
     [Fact]
     public void Now_BeforeTheFirstAdjust_Throws()
     {
@@ -71,7 +75,7 @@ public class SharedClockTests
         foreach (SharedClock clock in new[] { often, seldom })
         {
             clock.Adjust(SimDuration.Zero);
-            clock.Adjust(SimDuration.FromMilliseconds(-30));
+            clock.Adjust(new ClockEstimate(SimTime.FromSeconds(-3), SimDuration.FromMilliseconds(-30), 123));
         }
 
         for (int i = 1; i <= 1000; i++)
@@ -89,17 +93,22 @@ public class SharedClockTests
         Random random = new(11);
         ManualClock own = new();
         SharedClock shared = new(own);
-        shared.Adjust(SimDuration.FromSeconds(1.24));
+        ClockEstimate estimate = new(SimTime.Zero, SimDuration.FromSeconds(1.24));
+        shared.Adjust(estimate);
         for (int i = 0; i < 100_000; i++)
         {
             SimTime ownBefore = own.Now, before = shared.Now;
             bool near = Math.Abs(shared.Remaining.Ticks) <= SharedClock.FastAbove.Ticks;
             own.Now += SimDuration.FromTicks(random.NextInt64(1L << random.Next(1, 38)));
-            Assert.True(KeepsLimit(own.Now - ownBefore, shared.Now - before, near ? 200 : 20), $"step {i}");
+            SimDuration drifted = estimate.OffsetAt(own.Now) - estimate.OffsetAt(ownBefore); // what is bent is bent on top of it
+            Assert.True(KeepsLimit(own.Now - ownBefore, shared.Now - before - drifted, near ? 200 : 20), $"step {i}");
+            Assert.True(shared.Now >= before, $"step {i}");
             if (random.Next(20) == 0)
             {
                 SimTime unmoved = shared.Now;
-                shared.Adjust(SimDuration.FromMilliseconds(1240 + (random.NextDouble() * random.Next(1, 100))));
+                SimDuration offset = SimDuration.FromMilliseconds(1240 + (random.NextDouble() * random.Next(1, 100)));
+                estimate = new ClockEstimate(own.Now - SimDuration.FromSeconds(random.NextDouble()), offset, (random.NextDouble() * 1000) - 500);
+                shared.Adjust(estimate);
                 Assert.Equal(unmoved, shared.Now); // an adjustment alone moves nothing
             }
         }
@@ -127,6 +136,72 @@ public class SharedClockTests
         Assert.Equal(SimTime.FromSeconds(5), shared.Now);
     }
 
+    [Theory]
+    [InlineData(100)]
+    [InlineData(-500)]
+    public void Now_EstimateWithDrift_FollowsItWithoutFurtherAdjustment(double partsPerMillion)
+    {
+        ManualClock own = new() { Now = SimTime.FromSeconds(7) };
+        SharedClock shared = new(own);
+        shared.Adjust(new ClockEstimate(SimTime.FromSeconds(5), SimDuration.FromSeconds(1.24), partsPerMillion));
+
+        AssertNear(1240 + (partsPerMillion * 2e-3), shared.Now - own.Now); // it held two seconds ago
+        own.Now = SimTime.FromSeconds(605);
+        AssertNear(1240 + (partsPerMillion * 0.6), shared.Now - own.Now, DriftRounding);
+        AssertNear(1240 + (partsPerMillion * 0.6), shared.Offset, DriftRounding);
+        Assert.Equal(SimDuration.Zero, shared.Remaining);
+    }
+
+    [Fact]
+    public void Now_ErrorAndDrift_SlewsOnTopOfTheDrift()
+    {
+        ManualClock own = new();
+        SharedClock shared = new(own);
+        shared.Adjust(new ClockEstimate(SimTime.Zero, SimDuration.Zero, 100));
+        shared.Adjust(new ClockEstimate(SimTime.Zero, SimDuration.FromMilliseconds(5), 200));
+
+        own.Now = SimTime.FromSeconds(0.5);
+        AssertNear(2.5 + 0.1, shared.Now - own.Now);
+        AssertNear(2.5, shared.Remaining);
+        own.Now = SimTime.FromSeconds(10);
+        AssertNear(5 + 2, shared.Now - own.Now, DriftRounding);
+    }
+
+    [Fact]
+    public void Now_ByEstimatesOnAnIdleLan_StaysNearTheTruthAndNeverGoesBack()
+    {
+        (double with, double without) = (FollowLan(estimate => estimate), FollowLan(e => new ClockEstimate(e.At, e.Offset)));
+        Assert.InRange(with, 0, 0.08);
+        Assert.InRange(without, 0.15, 0.3); // negative control: 100 millionths of the 2 s between exchanges
+
+        static double FollowLan(Func<ClockEstimate, ClockEstimate> use)
+        {
+            ClockPair pair = new(LinkProfiles.Lan, 100, false, 12);
+            ManualClock own = new();
+            SharedClock shared = new(own);
+            SimTime adjusted = SimTime.MinValue, before = SimTime.MinValue;
+            List<double> errors = [];
+            foreach (ClockPair.Sample sample in pair.Follow(new ClockSync()))
+            {
+                own.Now = sample.OwnTime;
+                if (sample.Estimate.At != adjusted)
+                {
+                    shared.Adjust(use(sample.Estimate));
+                    adjusted = sample.Estimate.At;
+                }
+
+                Assert.True(shared.Now > before);
+                before = shared.Now;
+                if (sample.TrueTime > SimTime.FromSeconds(30))
+                {
+                    errors.Add(Math.Abs((shared.Now - own.Now - sample.Truth).ToMilliseconds()));
+                }
+            }
+
+            return Harness.Metrics.Percentiles.Of(errors).Max;
+        }
+    }
+
     [Fact]
     public void Adjust_AfterTimeUnread_SlewsThatTimeTowardsTheEarlierEstimate()
     {
@@ -146,6 +221,7 @@ public class SharedClockTests
         SharedClock shared = new(new ManualClock());
 
         Assert.Throws<ArgumentOutOfRangeException>(() => shared.Adjust(SimDuration.MaxValue));
+        Assert.Throws<ArgumentOutOfRangeException>(() => shared.Adjust(new ClockEstimate(SimTime.Zero, SimDuration.FromTicks(-(1L << 62) - 1))));
         Assert.False(shared.IsSet);
     }
 
@@ -167,6 +243,6 @@ public class SharedClockTests
         return shared >= SimDuration.Zero && bent <= own / share && -bent <= own / share;
     }
 
-    private static void AssertNear(double milliseconds, SimDuration actual) =>
-        Assert.Equal(milliseconds, actual.ToMilliseconds(), 1e-6);
+    private static void AssertNear(double milliseconds, SimDuration actual, double tolerance = 1e-6) =>
+        Assert.Equal(milliseconds, actual.ToMilliseconds(), tolerance);
 }
