@@ -32,7 +32,7 @@ public sealed class ClockSync
     /// <summary>An exchange that took longer than this, waiting at the other peer included, says nothing worth having.</summary>
     public static readonly SimDuration MaxExchange = SimDuration.FromSeconds(60);
 
-    /// <summary>By how much the drift may change over two windows, in parts per million: 5. Crystals do that when their temperature changes by tens of degrees.</summary>
+    /// <summary>By how much the drift may change over two windows, in parts per million: 5. An assumption: the bound rests on it, nothing checks it.</summary>
     public const double Wander = 5;
 
     private const int WindowSeconds = 60;
