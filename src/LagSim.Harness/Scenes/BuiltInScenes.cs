@@ -120,7 +120,8 @@ public static class BuiltInScenes
         SceneBuilder builder = new SceneBuilder(scene.Name)
             .WithGravity(scene.Gravity)
             .WithResolution(scene.Resolution)
-            .WithSmallestRadius(scene.SmallestRadius);
+            .WithSmallestRadius(scene.SmallestRadius)
+            .WithSpawners(scene.Spawners);
         foreach (StaticPlane plane in scene.Planes)
         {
             builder.AddPlane(plane.Name, plane.Normal, plane.Offset, plane.Restitution);
@@ -140,7 +141,7 @@ public static class BuiltInScenes
         {
             BodySpec was = body.Spec;
             builder.AddBody(
-                body.Name, new BodySpec(was.Radius, was.Mass, was.Restitution, law, step, was.Acceleration), body.Position, body.Velocity);
+                body.Name, new BodySpec(was.Radius, was.Mass, was.Restitution, law, step, was.Acceleration), body.Position, body.Velocity, body.Players);
         }
 
         return builder.Build();

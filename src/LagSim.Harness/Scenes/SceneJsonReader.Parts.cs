@@ -86,6 +86,7 @@ internal ref partial struct SceneJsonReader
         Vector3D velocity = default;
         MotionLaw motion = MotionLaw.Ballistic;
         SimDuration step = BodySpec.DefaultStep;
+        PeerSet players = PeerSet.Everyone;
         uint seen = 0;
         cursor.EnterObject();
         while (cursor.NextKey(BodyKeys, ref seen) is string key)
@@ -113,6 +114,9 @@ internal ref partial struct SceneJsonReader
                 case "motion":
                     motion = Motion();
                     break;
+                case "players":
+                    players = Peers();
+                    break;
                 default:
                     step = Step();
                     break;
@@ -120,6 +124,6 @@ internal ref partial struct SceneJsonReader
         }
 
         BodySpec spec = new(radius, mass, restitution, motion, step);
-        Add(b => b.AddBody(name, spec, position, velocity));
+        Add(b => b.AddBody(name, spec, position, velocity, players));
     }
 }

@@ -9,14 +9,14 @@ namespace LagSim.Harness.Scenes;
 internal ref partial struct SceneJsonReader
 {
     private static readonly JsonKeys SceneKeys =
-        new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "smallest_radius_m", "planes", "static_spheres", "bodies"]);
+        new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "smallest_radius_m", "spawners", "planes", "static_spheres", "bodies"]);
 
     private static readonly JsonKeys PlaneKeys = new(["name", "normal"], ["point_m", "offset_m", "restitution"]);
 
     private static readonly JsonKeys SphereKeys = new(["name", "centre_m", "radius_m"], ["restitution"]);
 
     private static readonly JsonKeys BodyKeys =
-        new(["name", "radius_m", "mass_kg", "restitution", "position_m"], ["velocity_m_per_s", "motion", "step_s"]);
+        new(["name", "radius_m", "mass_kg", "restitution", "position_m"], ["velocity_m_per_s", "motion", "step_s", "players"]);
 
     private readonly bool locate;
     private readonly List<Action<SceneBuilder>> parts = new(); // what to build, once the name is known
@@ -64,6 +64,10 @@ internal ref partial struct SceneJsonReader
                 case "smallest_radius_m":
                     double smallest = cursor.Number();
                     Add(b => b.WithSmallestRadius(smallest));
+                    break;
+                case "spawners":
+                    PeerSet spawners = Peers();
+                    Add(b => b.WithSpawners(spawners));
                     break;
                 default:
                     ReadList(key);
@@ -138,6 +142,29 @@ internal ref partial struct SceneJsonReader
         return MotionNames.TryParseFlight(name, out MotionLaw law)
             ? law
             : throw cursor.Fail($"the motion {JsonFault.Quote(name)} is unknown; allowed are {MotionNames.Quoted}");
+    }
+
+    private PeerSet Peers()
+    {
+        List<int> peers = new();
+        cursor.EnterArray("an array of the numbers of peers");
+        while (cursor.NextElement())
+        {
+            double number = cursor.Number();
+            if (!(number >= 0 && number <= PeerSet.MaxPeer && number == Math.Floor(number)))
+            {
+                throw cursor.Fail($"the peer {number:R} cannot be granted a right; it must be a whole number between 0 and {PeerSet.MaxPeer}");
+            }
+
+            if (peers.Contains((int)number))
+            {
+                throw cursor.Fail($"the peer {number:R} stands here twice; each may stand once");
+            }
+
+            peers.Add((int)number);
+        }
+
+        return PeerSet.Of(peers.ToArray());
     }
 
     // Zero would mean the default to a BodySpec, and what is far out of range is no duration at all: both are refused here.

@@ -2,6 +2,7 @@ using System;
 using System.Buffers;
 using System.Collections.Generic;
 using System.Globalization;
+using System.Linq;
 using System.Text.Encodings.Web;
 using System.Text.Json;
 using LagSim.Harness.Reports;
@@ -35,6 +36,7 @@ internal static class SceneJsonWriter
             json.WriteNumber("smallest_radius_m", scene.SmallestRadius);
         }
 
+        Peers(json, "spawners", scene.Spawners);
         List(json, "planes", scene.Planes, plane =>
         {
             json.WriteString("name", plane.Name);
@@ -108,6 +110,18 @@ internal static class SceneJsonWriter
         if (body.Spec.Flight != MotionLaw.Ballistic || body.Spec.Step != BodySpec.DefaultStep)
         {
             json.WriteNumber("step_s", Seconds(body.Spec.Step));
+        }
+
+        Peers(json, "players", body.Players);
+    }
+
+    /// <summary>The numbers of those who have a right, where not everyone has it.</summary>
+    private static void Peers(Utf8JsonWriter json, string key, PeerSet peers)
+    {
+        if (peers != PeerSet.Everyone)
+        {
+            json.WritePropertyName(key);
+            json.WriteRawValue($"[{string.Join(", ", Enumerable.Range(0, PeerSet.MaxPeer + 1).Where(peers.Contains))}]");
         }
     }
 

@@ -1,6 +1,7 @@
 using System;
 using LagSim.Net.Wire;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Net.Recordings;
 
@@ -8,43 +9,49 @@ namespace LagSim.Net.Recordings;
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class JoinedState
 {
-    private readonly byte[] state;
-
-    /// <summary>A state, of which a copy is kept.</summary>
-    /// <param name="firstIndex">The first entry of the log that comes after it, counted from 1.</param>
-    /// <param name="time">The shared time of the state. Every accepted event up to and including it is in the state.</param>
-    /// <param name="state">The state in the form of whoever restores it, at most <see cref="RecordingFormat.MaxJoinedBytes"/>.</param>
+    /// <summary>A state of these.</summary>
+    /// <param name="firstIndex">See <see cref="FirstIndex"/>.</param>
+    /// <param name="snapshot">See <see cref="Snapshot"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">The index is 0.</exception>
-    /// <exception cref="ArgumentException">The state is too long, or its time further than 48 days from the origin.</exception>
-    public JoinedState(uint firstIndex, SimTime time, ReadOnlySpan<byte> state)
+    /// <exception cref="ArgumentException">
+    /// The snapshot is further than 48 days from the origin, of its start or before, or longer than <see cref="RecordingFormat.MaxSnapshotBytes"/>.
+    /// </exception>
+    public JoinedState(uint firstIndex, WorldSnapshot? snapshot)
     {
         if (firstIndex == 0)
         {
             throw new ArgumentOutOfRangeException(nameof(firstIndex), firstIndex, "The entries of a log are counted from 1.");
         }
 
-        if (!WireFormat.IsInRange(time))
-        {
-            throw new ArgumentException($"The time of the state is {time}; it must lie within 48 days of the origin.", nameof(time));
-        }
-
-        if (state.Length > RecordingFormat.MaxJoinedBytes)
+        if (snapshot is not null && !IsInRange(snapshot))
         {
             throw new ArgumentException(
-                $"The state takes {state.Length} bytes; at most {RecordingFormat.MaxJoinedBytes} are allowed.", nameof(state));
+                $"The snapshot is of {snapshot.Time} in a world that began at {snapshot.Start}; it must come after that, and both lie within 48 days of the origin.",
+                nameof(snapshot));
+        }
+
+        long length = snapshot is null ? 0 : SnapshotFormat.EncodedLength(snapshot);
+        if (length > RecordingFormat.MaxSnapshotBytes)
+        {
+            throw new ArgumentException($"The snapshot takes {length} bytes; at most {RecordingFormat.MaxSnapshotBytes} are allowed.", nameof(snapshot));
         }
 
         FirstIndex = firstIndex;
-        Time = time;
-        this.state = state.ToArray();
+        Snapshot = snapshot;
     }
 
-    /// <summary>The first entry of the log that comes after it, counted from 1.</summary>
+    /// <summary>The first entry of the log that this peer got, counted from 1. Every accepted one before it is in the snapshot.</summary>
     public uint FirstIndex { get; }
 
-    /// <summary>The shared time of the state. Every accepted event up to and including it is in the state.</summary>
-    public SimTime Time { get; }
+    /// <summary>
+    /// The world it went on from; every accepted event before <see cref="Time"/> is in it, wherever it stands in the log. Null: it began from the
+    /// scene, and nothing before <see cref="FirstIndex"/> was accepted.
+    /// </summary>
+    public WorldSnapshot? Snapshot { get; }
 
-    /// <summary>The state, in the form of whoever restores it.</summary>
-    public ReadOnlyMemory<byte> State => state;
+    /// <summary>The shared time of the snapshot; null without one.</summary>
+    public SimTime? Time => Snapshot?.Time;
+
+    internal static bool IsInRange(WorldSnapshot snapshot) =>
+        WireFormat.IsInRange(snapshot.Start) && WireFormat.IsInRange(snapshot.Time) && snapshot.Time > snapshot.Start;
 }

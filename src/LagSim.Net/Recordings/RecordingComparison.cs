@@ -52,13 +52,11 @@ public sealed class RecordingComparison
     /// </summary>
     /// <param name="first">One recording.</param>
     /// <param name="second">The other; of another peer as a rule.</param>
-    /// <param name="restore">See <see cref="RecordingReplay.Run(Recording, Func{JoinedState, Simulation}, CancellationToken)"/>.</param>
     /// <param name="cancellation">Ends the replays.</param>
     /// <remarks>Cost: O(n) in the records; where a state differs, two replays.</remarks>
     /// <exception cref="ArgumentNullException">A recording is missing.</exception>
     /// <exception cref="OperationCanceledException">The token asked for an end.</exception>
-    public static RecordingComparison Of(
-        Recording first, Recording second, Func<JoinedState, Simulation>? restore = null, CancellationToken cancellation = default)
+    public static RecordingComparison Of(Recording first, Recording second, CancellationToken cancellation = default)
     {
         _ = first ?? throw new ArgumentNullException(nameof(first));
         _ = second ?? throw new ArgumentNullException(nameof(second));
@@ -98,7 +96,7 @@ public sealed class RecordingComparison
         int states = SameStates(first, second, out CommittedState? firstState, out CommittedState? secondState);
         if (firstState is CommittedState mine && secondState is CommittedState theirs)
         {
-            return OfStates(first, second, entries, states, mine, theirs, restore, cancellation);
+            return OfStates(first, second, entries, states, mine, theirs, cancellation);
         }
 
         return entries + states == 0
@@ -118,11 +116,10 @@ public sealed class RecordingComparison
         int states,
         in CommittedState mine,
         in CommittedState theirs,
-        Func<JoinedState, Simulation>? restore,
         CancellationToken cancellation)
     {
-        RecordingReplay firstReplay = RecordingReplay.Run(first, restore, mine.Time, cancellation);
-        RecordingReplay secondReplay = RecordingReplay.Run(second, restore, mine.Time, cancellation);
+        RecordingReplay firstReplay = RecordingReplay.Run(first, mine.Time, cancellation);
+        RecordingReplay secondReplay = RecordingReplay.Run(second, mine.Time, cancellation);
         string log = entries == 0 ? "The recordings have no log entry in common" : $"The log is the same in {Words.Count(entries, "common entry")}";
         return new RecordingComparison(
             ComparisonOutcome.StateDiffers, entries, states,

@@ -11,17 +11,17 @@ public static class RecordingFormat
     public const string Extension = ".lagsim";
 
     /// <summary>The version of the records. Scene and events in them are in that of the wire, <see cref="WireFormat.Version"/>.</summary>
-    public const byte Version = 1;
+    public const byte Version = 2;
 
-    /// <summary>The longest state of a late joiner that a recording holds: 64 MiB.</summary>
-    public const int MaxJoinedBytes = 1 << 26;
+    /// <summary>The longest snapshot that a recording holds, that of a late joiner: 64 MiB.</summary>
+    public const int MaxSnapshotBytes = 1 << 26;
 
     /// <summary>The longest reason of an end, in UTF-8.</summary>
     public const int MaxReasonBytes = 4000;
 
     internal const int PrefixBytes = 10; // magic, version, version of the wire
     internal const int HeaderBytes = 17; // peer, start, scene hash; then a text
-    internal const int JoinedHeadBytes = 12; // first index, time; then the state
+    internal const int JoinedHeadBytes = 4; // first index; then the snapshot
     internal const int EntryHeadBytes = 5; // index, verdict; then the event
     internal const int CommittedBytes = 24;
     internal const int CrcBytes = 4;
@@ -38,7 +38,7 @@ public static class RecordingFormat
     {
         RecordKind.Header => HeaderBytes + 1 + WireText.MaxBytes,
         RecordKind.Scene => SceneFormat.MaxBytes,
-        RecordKind.Joined => JoinedHeadBytes + MaxJoinedBytes,
+        RecordKind.Joined => JoinedHeadBytes + MaxSnapshotBytes,
         RecordKind.Entry => EntryHeadBytes + EventFormat.MaxBytes,
         RecordKind.Committed => CommittedBytes,
         _ => MaxReasonBytes,

@@ -7,6 +7,7 @@ using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Net.Recordings;
 
@@ -239,12 +240,18 @@ internal sealed class RecordingReader
     {
         uint first = reader.ReadUInt32();
         reader.Require(first > 0);
-        SimTime time = reader.ReadTime();
-        ReadOnlySpan<byte> state = reader.ReadBytes(reader.Remaining);
-        reader.Require(time >= header!.Start);
+        ReadOnlySpan<byte> bytes = reader.ReadBytes(reader.Remaining);
+        WorldSnapshot? snapshot = null;
+        if (bytes.Length > 0)
+        {
+            SnapshotFormat.TryDecode(bytes, out snapshot, out WireRefusal refusal);
+            reader.Require(snapshot is not null, refusal);
+            reader.Require(snapshot is null || (snapshot.Start == header!.Start && JoinedState.IsInRange(snapshot)));
+        }
+
         if (IsSound(ref reader, "The joined state"))
         {
-            joined = new JoinedState(first, time, state);
+            joined = new JoinedState(first, snapshot);
             nextIndex = first;
         }
     }

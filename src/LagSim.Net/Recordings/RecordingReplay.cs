@@ -4,13 +4,14 @@ using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Net.Recordings;
 
 /// <summary>A recording run again: its scene with the events that were accepted, and every committed state checked against its hashes.</summary>
 /// <remarks>
 /// <para>By the invariant the state is a fold of the scene over the accepted events, so a replay gives the recorded hashes whatever the
-/// network did, or the peer that recorded departed from it.</para>
+/// network did, or the peer that recorded departed from it. Of a peer that joined late it goes on from the snapshot that the peer went on from.</para>
 /// <para>Immutable, safe on any thread.</para>
 /// </remarks>
 public sealed class RecordingReplay
@@ -46,10 +47,6 @@ public sealed class RecordingReplay
 
     /// <summary>Runs a recording again, up to its last committed state or to the first that differs.</summary>
     /// <param name="recording">What to run. Of a damaged one that which stands before the damage is run.</param>
-    /// <param name="restore">
-    /// Makes a world of what a late joiner began with, simulated to <see cref="JoinedState.Time"/>. Without it only a recording that has the
-    /// log from its beginning can be run.
-    /// </param>
     /// <param name="cancellation">Ends the run between two instants of the world.</param>
     /// <remarks>
     /// Events enter by time, each just before it happens, and what lies behind is forgotten: the memory is that of the world at one instant.
@@ -57,20 +54,18 @@ public sealed class RecordingReplay
     /// </remarks>
     /// <exception cref="ArgumentNullException">There is no recording.</exception>
     /// <exception cref="OperationCanceledException">The token asked for an end.</exception>
-    public static RecordingReplay Run(
-        Recording recording, Func<JoinedState, Simulation>? restore = null, CancellationToken cancellation = default) =>
-        Run(recording ?? throw new ArgumentNullException(nameof(recording)), restore, SimTime.MaxValue, cancellation);
+    public static RecordingReplay Run(Recording recording, CancellationToken cancellation = default) =>
+        Run(recording ?? throw new ArgumentNullException(nameof(recording)), SimTime.MaxValue, cancellation);
 
     /// <summary>The same, no further than to the committed states of <paramref name="until"/>.</summary>
-    internal static RecordingReplay Run(
-        Recording recording, Func<JoinedState, Simulation>? restore, SimTime until, CancellationToken cancellation)
+    internal static RecordingReplay Run(Recording recording, SimTime until, CancellationToken cancellation)
     {
         int applied = 0;
         int agreed = 0;
         CommittedState? last = null;
         try
         {
-            Simulation simulation = Begin(recording, restore, cancellation);
+            Simulation simulation = Begin(recording, cancellation);
             int[] order = AcceptedByTime(recording);
             foreach (CommittedState expected in recording.CommittedArray)
             {
@@ -115,31 +110,19 @@ public sealed class RecordingReplay
                 ReplayOutcome.NothingToCheck, applied, agreed, null, null, "The recording holds no committed state that a replay could be checked against.");
     }
 
-    private static Simulation Begin(Recording recording, Func<JoinedState, Simulation>? restore, CancellationToken cancellation)
+    private static Simulation Begin(Recording recording, CancellationToken cancellation)
     {
         if (recording.Header is not RecordingHeader header || recording.Scene is not Scene scene)
         {
             throw new SceneException(recording.SceneError ?? "It has no scene.");
         }
 
-        if (recording.Joined is not JoinedState joined)
-        {
-            // Nothing comes late here, so no history is needed; what lies behind is forgotten at once.
-            return new Simulation(scene, new SimulationOptions(header.Start, SimDuration.OneTick, cancellation: cancellation));
-        }
-
-        if (restore is null)
-        {
-            throw new SceneException($"It is of a peer that joined at {joined.Time} with a state of its own form, and nothing was given that restores it.");
-        }
-
-        Simulation restored = restore(joined);
-        return restored.SimulatedTo <= joined.Time
-            ? restored
-            : throw new SimulationException($"The restored world is simulated to {restored.SimulatedTo}, beyond the joined state's {joined.Time}.");
+        // Nothing comes late here, so no history is needed; what lies behind is forgotten at once.
+        SimulationOptions options = new(header.Start, SimDuration.OneTick, cancellation: cancellation);
+        return recording.Joined?.Snapshot is WorldSnapshot snapshot ? new Simulation(scene, snapshot, options) : new Simulation(scene, options);
     }
 
-    /// <summary>The accepted entries that are not in a joined state, by the time of their events and then by their place in the log.</summary>
+    /// <summary>The accepted entries that are not in a snapshot, by the time of their events and then by their place in the log.</summary>
     private static int[] AcceptedByTime(Recording recording)
     {
         LogEntry[] entries = recording.EntryArray;
@@ -148,7 +131,7 @@ public sealed class RecordingReplay
         int count = 0;
         for (int i = 0; i < entries.Length; i++)
         {
-            if (entries[i].Verdict == Verdict.Accepted && !(entries[i].Event.Time <= joined))
+            if (entries[i].Verdict == Verdict.Accepted && !(entries[i].Event.Time < joined))
             {
                 order[count++] = i;
             }

@@ -5,6 +5,7 @@ using LagSim.Events;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Net.Recordings;
 
@@ -34,19 +35,20 @@ public sealed class RecordingWriter : IDisposable
     /// <param name="start">The shared time at which the session started, within 48 days of the origin.</param>
     /// <param name="joined">What a peer that joined late began with; null for one that has the log from entry 1 on.</param>
     /// <param name="leaveOpen">Whether the stream stays open when the writer is disposed.</param>
-    /// <exception cref="ArgumentException">The scene or the start cannot travel, or the joined state is of before the start.</exception>
+    /// <exception cref="ArgumentException">The scene or the start cannot travel, or the joined state is of a world with another start.</exception>
     /// <exception cref="IOException">The stream cannot be written.</exception>
     public RecordingWriter(Stream stream, byte peer, Scene scene, SimTime start, JoinedState? joined = null, bool leaveOpen = false)
     {
         this.stream = stream ?? throw new ArgumentNullException(nameof(stream));
         this.leaveOpen = leaveOpen;
-        if (joined is not null && joined.Time < start)
+        if (joined?.Snapshot is WorldSnapshot snapshot && snapshot.Start != start)
         {
-            throw new ArgumentException($"The joined state is of {joined.Time}, before the start at {start}.", nameof(joined));
+            throw new ArgumentException($"The joined state is of a world that began at {snapshot.Start}; this one began at {start}.", nameof(joined));
         }
 
         byte[] sceneBytes = SceneFormat.Encode(scene);
         byte[] header = Header(peer, scene, start);
+        byte[] joinedBytes = joined is null ? Array.Empty<byte>() : Joined(joined);
         nextIndex = joined?.FirstIndex ?? 1;
         lastCommitted = joined?.Time ?? start;
         byte[] prefix = new byte[RecordingFormat.PrefixBytes];
@@ -58,12 +60,7 @@ public sealed class RecordingWriter : IDisposable
         Write(RecordKind.Scene, sceneBytes);
         if (joined is not null)
         {
-            byte[] bytes = new byte[RecordingFormat.JoinedHeadBytes + joined.State.Length];
-            WireWriter writer = new(bytes);
-            writer.WriteUInt32(joined.FirstIndex);
-            writer.WriteTime(joined.Time);
-            writer.WriteBytes(joined.State.Span);
-            Write(RecordKind.Joined, bytes);
+            Write(RecordKind.Joined, joinedBytes);
         }
 
         stream.Flush();
@@ -75,7 +72,7 @@ public sealed class RecordingWriter : IDisposable
     /// <param name="scene">The session's scene.</param>
     /// <param name="start">The shared time at which the session started, within 48 days of the origin.</param>
     /// <param name="joined">What a peer that joined late began with; null for one that has the log from entry 1 on.</param>
-    /// <exception cref="ArgumentException">The scene or the start cannot travel, or the joined state is of before the start.</exception>
+    /// <exception cref="ArgumentException">The scene or the start cannot travel, or the joined state is of a world with another start.</exception>
     /// <exception cref="IOException">The file cannot be made or written.</exception>
     /// <exception cref="UnauthorizedAccessException">The file may not be written.</exception>
     public static RecordingWriter Create(string path, byte peer, Scene scene, SimTime start, JoinedState? joined = null)
@@ -196,6 +193,16 @@ public sealed class RecordingWriter : IDisposable
         writer.WriteTime(start);
         writer.WriteUInt64(scene.Hash);
         WireText.Write(ref writer, version);
+        return bytes;
+    }
+
+    private static byte[] Joined(JoinedState joined)
+    {
+        byte[] snapshot = joined.Snapshot is null ? Array.Empty<byte>() : SnapshotFormat.Encode(joined.Snapshot);
+        byte[] bytes = new byte[RecordingFormat.JoinedHeadBytes + snapshot.Length];
+        WireWriter writer = new(bytes);
+        writer.WriteUInt32(joined.FirstIndex);
+        writer.WriteBytes(snapshot);
         return bytes;
     }
 

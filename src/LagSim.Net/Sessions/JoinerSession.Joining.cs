@@ -77,7 +77,7 @@ public sealed partial class JoinerSession
             Peer = welcome.Peer;
             LastSequence = acknowledged = firstSequence = welcome.LastSequence;
             History = welcome.History;
-            entriesReceived = welcome.LogIndex;
+            LogStart = entriesReceived = welcome.LogIndex;
             copyHash = welcome.CopyHash;
             fetch = new CopyFetch(welcome.CopyLength, now);
             link = new UpdateLink(welcome.SessionId, welcome.Peer, 0, host, now);
@@ -89,7 +89,7 @@ public sealed partial class JoinerSession
     {
         if (itsNonce == nonce && State == SessionState.Joining)
         {
-            End($"The host at {host} refused: {why}");
+            End(SessionEnd.Refused, $"The host at {host} refused: {why}");
         }
         else
         {
@@ -128,7 +128,7 @@ public sealed partial class JoinerSession
         if (error is not null)
         {
             Farewell();
-            End($"The copy of the world that the host at {host} sent cannot be used: {error}");
+            End(SessionEnd.Failed, $"The copy of the world that the host at {host} sent cannot be used: {error}");
         }
     }
 

@@ -139,7 +139,7 @@ public sealed partial class JoinerSession : Session
         SimTime heard = link?.Heard ?? began;
         if (now - heard > Options.Timeout)
         {
-            End(link is null
+            End(SessionEnd.HostSilent, link is null
                 ? FormattableString.Invariant($"No answer from {host} within {Options.Timeout.ToSeconds():0.###} s.")
                 : FormattableString.Invariant($"The host at {host} fell silent for {Options.Timeout.ToSeconds():0.###} s."));
             return;
@@ -184,7 +184,7 @@ public sealed partial class JoinerSession : Session
     {
         if (link is not null && leave.SessionId == link.SessionId && leave.Peer == 0)
         {
-            End(leave.Reason switch
+            End(leave.Reason == LeaveReason.HostEnded ? SessionEnd.HostEnded : SessionEnd.LetGo, leave.Reason switch
             {
                 LeaveReason.TimedOut => $"The host at {host} heard nothing from this peer for too long.",
                 LeaveReason.FellBehind => $"The host at {host} let this peer go: it did not take in what happened as fast as it did.",
@@ -229,7 +229,7 @@ public sealed partial class JoinerSession : Session
         catch (SceneException failure)
         {
             Farewell();
-            End($"The state that the host at {host} sent is no world of its scene. {failure.Message}");
+            End(SessionEnd.Failed, $"The state that the host at {host} sent is no world of its scene. {failure.Message}");
         }
     }
 

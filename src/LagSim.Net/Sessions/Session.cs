@@ -31,6 +31,7 @@ public abstract class Session
     private bool hasUnshown;
     private volatile SessionState state;
     private volatile string? endReason;
+    private volatile SessionEnd endedBy;
     private volatile LiveWorld? world;
     private volatile Scene? scene;
     private volatile object? committed; // a boxed state: other threads read it whole
@@ -46,6 +47,12 @@ public abstract class Session
         strategy = LateEventStrategies.Create(options.Strategy);
         SharedTime = new SharedClock(clock);
     }
+
+    /// <summary>Raised on the session's thread, once, when there is a <see cref="World"/> and nothing has happened in it yet. Handlers must not throw.</summary>
+    public event Action? Begun;
+
+    /// <summary>Raised on the thread that ended the session, once; <see cref="EndReason"/> tells why. Handlers must not throw.</summary>
+    public event Action? Ended;
 
     /// <summary>Raised on the session's thread for every line of the log, in order, once it has taken effect here. Handlers must not throw.</summary>
     public event Action<LogEntry>? Logged;
@@ -76,11 +83,23 @@ public abstract class Session
     /// <summary>Why the session ended, as a sentence; null while it goes on. From any thread: it is there once <see cref="State"/> says so.</summary>
     public string? EndReason => endReason;
 
+    /// <summary>What ended the session. From any thread, as <see cref="EndReason"/>.</summary>
+    public SessionEnd EndedBy => endedBy;
+
     /// <summary>This peer's number; 0 is the host. Meaningful once joined.</summary>
     public byte Peer { get; private protected set; }
 
     /// <summary>The world, from the moment its start is known; the same from then on. From any thread, but see the remarks for what is in it.</summary>
     public LiveWorld? World => world;
+
+    /// <summary>What the world went on from, for a joiner that came late enough; null where it began with the scene. On the session's thread.</summary>
+    public WorldSnapshot? BegunFrom { get; private set; }
+
+    /// <summary>
+    /// How many lines of the host's log this peer was not told, because every accepted event in them is in <see cref="BegunFrom"/>; the next is the
+    /// first that <see cref="Logged"/> tells. On the session's thread.
+    /// </summary>
+    public uint LogStart { get; private protected set; }
 
     /// <summary>What went over each link so far; of a host in the order in which its joiners came. On the session's thread; see <see cref="PeerThread.Ask"/>.</summary>
     public abstract IReadOnlyList<LinkTraffic> Links { get; }
@@ -163,7 +182,7 @@ public abstract class Session
         if (State != SessionState.Ended)
         {
             Farewell();
-            End("This peer left.");
+            End(SessionEnd.Left, "This peer left.");
         }
     }
 
@@ -184,10 +203,17 @@ public abstract class Session
 
     private protected abstract void Farewell();
 
-    private protected void End(string reason)
+    private protected void End(SessionEnd by, string reason)
     {
-        endReason ??= reason; // first: who reads that it ended reads why
+        if (State == SessionState.Ended)
+        {
+            return;
+        }
+
+        endedBy = by;
+        endReason = reason; // first: who reads that it ended reads why
         State = SessionState.Ended;
+        Ended?.Invoke();
     }
 
     /// <summary>Makes the world, once its start is known.</summary>
@@ -197,6 +223,7 @@ public abstract class Session
         {
             world = new LiveWorld(Scene!, WorldOptions(start), Options.LookAhead, Options.PicturePast);
             schedule = new CommitSchedule(start, start, Options.CommitInterval);
+            Begun?.Invoke();
         }
     }
 
@@ -206,6 +233,8 @@ public abstract class Session
     {
         world = new LiveWorld(Scene!, snapshot, WorldOptions(snapshot.Start), Options.LookAhead, Options.PicturePast);
         schedule = new CommitSchedule(snapshot.Start, snapshot.Time, Options.CommitInterval);
+        BegunFrom = snapshot;
+        Begun?.Invoke();
     }
 
     // The session itself decides what is forgotten, by the watermark; the simulation's own limit would go by its look-ahead.
@@ -372,7 +401,7 @@ public abstract class Session
     private void EndWorld(SimulationException failure)
     {
         Farewell();
-        End($"The world cannot be simulated any further. {failure.Message}");
+        End(SessionEnd.Failed, $"The world cannot be simulated any further. {failure.Message}");
     }
 
     private void BeginRunning(SimTime shared)

@@ -19,18 +19,16 @@ public static class SnapshotFormat
     private const int DenseBytes = 72;
 
     /// <summary>The bytes of a snapshot.</summary>
-    /// <exception cref="ArgumentException">A body's <see cref="BodySpec"/> has a number that is not finite, which none of a world has.</exception>
+    /// <exception cref="ArgumentException">
+    /// A body has a number that is not finite, a negative support or a count of impacts outside 0 to 255, which none of a world has; or all of them
+    /// take 2 GiB or more.
+    /// </exception>
     public static byte[] Encode(WorldSnapshot snapshot)
     {
-        if (snapshot is null)
+        long length = EncodedLength(snapshot ?? throw new ArgumentNullException(nameof(snapshot)));
+        if (length > int.MaxValue)
         {
-            throw new ArgumentNullException(nameof(snapshot));
-        }
-
-        int length = HeadBytes;
-        foreach (BodySnapshot body in snapshot.Bodies)
-        {
-            length += MinBodyBytes + (body.SupportCount * sizeof(uint)) + (body.Law == MotionLaw.RungeKutta4 ? DenseBytes : 0);
+            throw new ArgumentException($"The snapshot takes {length} bytes; at most {int.MaxValue} can be written.", nameof(snapshot));
         }
 
         byte[] bytes = new byte[length];
@@ -70,8 +68,25 @@ public static class SnapshotFormat
         return accepted;
     }
 
+    /// <summary>How many bytes a snapshot takes.</summary>
+    internal static long EncodedLength(WorldSnapshot snapshot)
+    {
+        long length = HeadBytes;
+        foreach (BodySnapshot body in snapshot.Bodies)
+        {
+            length += MinBodyBytes + (body.SupportCount * sizeof(uint)) + (body.Law == MotionLaw.RungeKutta4 ? DenseBytes : 0);
+        }
+
+        return length;
+    }
+
     private static void Write(ref WireWriter writer, in BodySnapshot body)
     {
+        if (body.Crowding is < 0 or > byte.MaxValue)
+        {
+            throw new ArgumentException($"Body {body.Id} cannot travel: its count of impacts is {body.Crowding}, and 0 to 255 has room.");
+        }
+
         writer.WriteUInt64(body.Id.Packed);
         EventFormat.WriteSpec(ref writer, body.Spec);
         writer.WriteInt64(body.Opened.Time.Ticks);
@@ -91,7 +106,8 @@ public static class SnapshotFormat
         writer.WriteByte((byte)body.SupportCount);
         for (int n = 0; n < body.SupportCount; n++)
         {
-            writer.WriteUInt32((uint)body.Support(n));
+            int plane = body.Support(n);
+            writer.WriteUInt32(plane >= 0 ? (uint)plane : throw new ArgumentException($"Body {body.Id} cannot travel: plane {plane} carries it."));
         }
 
         if (body.Law == MotionLaw.RungeKutta4)
@@ -141,6 +157,11 @@ public static class SnapshotFormat
     // Also of zeros the sign: what goes on from here goes on from the very bits.
     private static void WriteExactly(ref WireWriter writer, in Vector3D value)
     {
+        if (!value.IsFinite)
+        {
+            throw new ArgumentException($"{value} cannot travel: only finite numbers can.");
+        }
+
         writer.WriteInt64(BitConverter.DoubleToInt64Bits(value.X));
         writer.WriteInt64(BitConverter.DoubleToInt64Bits(value.Y));
         writer.WriteInt64(BitConverter.DoubleToInt64Bits(value.Z));

@@ -30,8 +30,7 @@ public sealed class WorldCopy
     public static byte[] Encode(Scene scene, WorldSnapshot? snapshot)
     {
         byte[] first = SceneFormat.Encode(scene);
-        byte[] second = snapshot is null ? Array.Empty<byte>() : SnapshotFormat.Encode(snapshot);
-        long length = sizeof(uint) + (long)first.Length + second.Length;
+        long length = sizeof(uint) + first.Length + (snapshot is null ? 0 : SnapshotFormat.EncodedLength(snapshot));
         if (length > MaxBytes)
         {
             throw new SceneException($"A copy of scene '{scene.Name}' and its world has {length} bytes; at most {MaxBytes} can travel.");
@@ -41,7 +40,11 @@ public sealed class WorldCopy
         WireWriter writer = new(bytes);
         writer.WriteUInt32((uint)first.Length);
         writer.WriteBytes(first);
-        writer.WriteBytes(second);
+        if (snapshot is not null)
+        {
+            writer.WriteBytes(SnapshotFormat.Encode(snapshot));
+        }
+
         return bytes;
     }
 

@@ -107,7 +107,7 @@ public sealed class ComparisonTests
                 writer.WriteEntry(2, Verdict.Accepted, Log[1].Event);
                 writer.WriteCommitted(Start + Seconds(1), 1, 2);
             },
-            joined: new JoinedState(2, Start + Seconds(0.5), default));
+            joined: Joined(2, 0.6));
 
         RecordingComparison compared = Compare(first, second);
         Assert.Equal(ComparisonOutcome.NothingInCommon, compared.Outcome);
@@ -124,7 +124,7 @@ public sealed class ComparisonTests
     [Fact]
     public void Of_LateJoiner_IsComparedWhereBothCover()
     {
-        JoinedState joined = new(3, Start + Seconds(1), default);
+        JoinedState joined = Joined(3, 1);
         RecordingComparison compared = Compare(Small(), Small(Log[2..], joined: joined));
         Assert.Equal((ComparisonOutcome.Agrees, 4, 3), (compared.Outcome, compared.EntriesCompared, compared.StatesCompared));
 

@@ -66,7 +66,7 @@ internal static class Recorded
                         next++;
                     }
 
-                    if (joined is null || time >= joined.Time)
+                    if (time >= (joined?.Time ?? Start))
                     {
                         writer.WriteCommitted(time, world.StateHash(time), world.EventHash(time));
                     }
@@ -79,6 +79,9 @@ internal static class Recorded
             },
             peer: peer, joined: joined);
     }
+
+    /// <summary>What one began with who joined so long after the start, into a world that had all of <see cref="Log"/>.</summary>
+    internal static JoinedState Joined(uint first, double seconds) => new(first, World(Log).Snapshot(Start + Seconds(seconds)));
 
     /// <summary>The world of one who had all accepted events at once, up to two seconds, and keeps everything.</summary>
     internal static Simulation World(IEnumerable<LogEntry> log, double seconds = 2)
@@ -128,11 +131,10 @@ internal static class Recorded
 
     internal static Recording Read(byte[] bytes, IReadOnlyList<IAcceleration>? known = null) => Recording.Read(new MemoryStream(bytes, false), known);
 
-    internal static RecordingReplay Replayed(Recording recording, Func<JoinedState, Simulation>? restore = null) =>
-        RecordingReplay.Run(recording, restore, TestContext.Current.CancellationToken);
+    internal static RecordingReplay Replayed(Recording recording) => RecordingReplay.Run(recording, TestContext.Current.CancellationToken);
 
     internal static RecordingComparison Compared(Recording first, Recording second) =>
-        RecordingComparison.Of(first, second, cancellation: TestContext.Current.CancellationToken);
+        RecordingComparison.Of(first, second, TestContext.Current.CancellationToken);
 
     /// <summary>Where the records begin, and where the last ends: by the layout of the page, without the library.</summary>
     internal static List<int> Boundaries(byte[] bytes)

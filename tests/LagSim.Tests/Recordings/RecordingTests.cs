@@ -11,6 +11,7 @@ using LagSim.Scenes;
 using LagSim.Tests.Determinism;
 using LagSim.Tests.Wire;
 using LagSim.Time;
+using LagSim.Timelines;
 using Xunit;
 using static LagSim.Tests.Recordings.Recorded;
 using static LagSim.Tests.TestWorlds;
@@ -73,13 +74,12 @@ public sealed class RecordingTests
     [Fact]
     public void Read_LateJoiner_HasItsStateAndTheLogFromThere()
     {
-        byte[] state = Enumerable.Range(0, 100_000).Select(i => (byte)(i * 7)).ToArray();
-        JoinedState joined = new(4, Start + Seconds(1), state);
+        JoinedState joined = Joined(4, 1);
         Recording recording = Read(Small(Log[3..], 3, joined: joined));
 
         Assert.Null(recording.Damage);
-        Assert.Equal((4u, Start + Seconds(1)), (recording.Joined!.FirstIndex, recording.Joined.Time));
-        Assert.Equal(state, recording.Joined.State.ToArray());
+        Assert.Equal((4u, Start + Seconds(1)), (recording.Joined!.FirstIndex, recording.Joined.Time!.Value));
+        Assert.Equal(SnapshotFormat.Encode(joined.Snapshot!), SnapshotFormat.Encode(recording.Joined.Snapshot!));
         Assert.Equal(Log[3..], recording.Entries);
         Assert.Equal(3, recording.Committed.Count);
     }
@@ -209,10 +209,13 @@ public sealed class RecordingTests
         Assert.Throws<ArgumentNullException>(() => new RecordingWriter(Stream.Null, 0, null!, Start));
         Assert.Throws<ArgumentException>(() => new RecordingWriter(Stream.Null, 0, Recorded.Scene, SimTime.MinValue));
         Assert.Throws<ArgumentException>(() => new RecordingWriter(Stream.Null, 0, new SceneBuilder(new string('x', 300)).Build(), Start));
-        Assert.Throws<ArgumentException>(() => new RecordingWriter(Stream.Null, 0, Recorded.Scene, Start, new JoinedState(1, Start - SimDuration.OneTick, default)));
-        Assert.Throws<ArgumentOutOfRangeException>(() => new JoinedState(0, Start, default));
-        Assert.Throws<ArgumentException>(() => new JoinedState(1, SimTime.MaxValue, default));
-        Assert.Throws<ArgumentException>(() => new JoinedState(1, Start, new byte[RecordingFormat.MaxJoinedBytes + 1]));
+        Assert.Throws<ArgumentException>(() => new RecordingWriter(Stream.Null, 0, Recorded.Scene, Start + SimDuration.OneTick, Joined(1, 1)));
+        Assert.Throws<ArgumentOutOfRangeException>(() => new JoinedState(0, null));
+        Assert.Throws<ArgumentException>(() => new JoinedState(1, new WorldSnapshot(Start, Start, 0, [])));
+        Assert.Throws<ArgumentException>(() => new JoinedState(1, new WorldSnapshot(Start, SimTime.MaxValue, 0, [])));
+        BodySnapshot body = World(Log).Snapshot(Start + Seconds(1)).Bodies[0];
+        WorldSnapshot large = new(Start, Start + Seconds(1), 0, Enumerable.Repeat(body, (RecordingFormat.MaxSnapshotBytes / 167) + 1).ToArray());
+        Assert.Contains("at most 67108864 are allowed", Assert.Throws<ArgumentException>(() => new JoinedState(1, large)).Message, StringComparison.Ordinal);
         Assert.Throws<ArgumentNullException>(() => Recording.Read((Stream)null!));
         Assert.Throws<FileNotFoundException>(() => Recording.Read(Path.Combine(Path.GetTempPath(), Path.GetRandomFileName())));
     }

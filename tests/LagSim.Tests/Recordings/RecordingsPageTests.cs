@@ -6,14 +6,13 @@ using System.Linq;
 using System.Text;
 using FsCheck;
 using FsCheck.Fluent;
-using LagSim.Events;
 using LagSim.Net.Recordings;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
-using LagSim.Tests.Api;
 using LagSim.Tests.Determinism;
 using LagSim.Tests.Scenes;
+using LagSim.Tests.Wire;
 using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.Recordings.Recorded;
@@ -24,15 +23,14 @@ namespace LagSim.Tests.Recordings;
 /// <summary>docs/RECORDINGS.md says what is true: files written from its tables, field by field in their order and types, are those of the library.</summary>
 public sealed class RecordingsPageTests
 {
-    private static readonly string[] Page = File.ReadAllLines(Path.Combine(RepositoryRoot.Path, "docs", "RECORDINGS.md"));
+    private static readonly string[] Page = LayoutPage.Read("RECORDINGS.md");
 
     [Fact]
     public void Tables_WrittenFieldByField_AreTheFile()
     {
         Assert.Equal(Convert.ToHexString(Small(peer: 5)), Convert.ToHexString(FromPage(Page, Read(Small(peer: 5)))));
 
-        JoinedState joined = new(4, Start + Seconds(1), Encoding.ASCII.GetBytes(new string('j', 20_000)));
-        byte[] late = Small(Log[3..], 3, joined: joined);
+        byte[] late = Small(Log[3..], 3, joined: Joined(4, 1));
         Assert.Equal(Convert.ToHexString(late), Convert.ToHexString(FromPage(Page, Read(late))));
     }
 
@@ -54,20 +52,20 @@ public sealed class RecordingsPageTests
         int rows = 0;
         for (int i = 0; i < Page.Length; i++)
         {
-            if (IsField(Page[i]))
+            if (LayoutPage.IsField(Page, i))
             {
                 Assert.NotEqual(whole, Written([.. Page[..i], .. Page[(i + 1)..]], recording));
                 rows++;
             }
 
             bool isSameEitherWay = Page[i].StartsWith("| u8 | version ", StringComparison.Ordinal) && RecordingFormat.Version == WireFormat.Version;
-            if (IsField(Page[i]) && IsField(Page[i + 1]) && !isSameEitherWay)
+            if (LayoutPage.IsField(Page, i) && LayoutPage.IsField(Page, i + 1) && !isSameEitherWay)
             {
                 Assert.NotEqual(whole, Written([.. Page[..i], Page[i + 1], Page[i], .. Page[(i + 2)..]], recording));
             }
         }
 
-        Assert.Equal(3 + 4 + 4 + 23 + 3 + 3 + 3, rows); // of each table
+        Assert.Equal(3 + 4 + 4 + 25 + 2 + 3 + 3, rows); // of each table
     }
 
     [Fact]
@@ -76,7 +74,7 @@ public sealed class RecordingsPageTests
         string page = string.Join("\n", Page);
         foreach (int limit in new[]
         {
-            SceneFormat.MaxBytes, SceneFormat.MaxBodies, SceneFormat.MaxStaticParts, RecordingFormat.MaxJoinedBytes, RecordingFormat.MaxReasonBytes,
+            SceneFormat.MaxBytes, SceneFormat.MaxBodies, SceneFormat.MaxStaticParts, RecordingFormat.MaxSnapshotBytes, RecordingFormat.MaxReasonBytes,
         })
         {
             Assert.Contains($" {limit.ToString("N0", CultureInfo.InvariantCulture)} ", page.Replace(';', ' '), StringComparison.Ordinal);
@@ -93,15 +91,14 @@ public sealed class RecordingsPageTests
         }
     }
 
-    /// <summary>A row of a table of fields: type, field, value.</summary>
-    private static bool IsField(string line) => line.StartsWith("| ", StringComparison.Ordinal) && !line.StartsWith("| type ", StringComparison.Ordinal);
-
     /// <summary>A recording with every kind of record and part, all of whose neighbouring values differ.</summary>
     private static (byte[] Bytes, Recording Recording) Everything()
     {
         IAcceleration force = new Force((_, _, v) => -v);
         Scene scene = new SceneBuilder("all").WithSmallestRadius(0.125).AddAcceleration(force).AddPlane("floor", Vector3D.Up, -3.0, 0.5)
-            .AddStaticSphere("rock", V(5, 6, 7), 2, 0.25).AddBody("ball", Ball(0.5, 3, 0.75), V(1, 2, 3), V(4)).Build();
+            .AddStaticSphere("rock", V(5, 6, 7), 2, 0.25).AddBody("ball", Ball(0.5, 3, 0.75), V(1, 2, 3), V(4), PeerSet.Of(1, 4)).WithSpawners(PeerSet.Of(0, 9)).Build();
+        Simulation world = new(scene, new SimulationOptions(Start, SimDuration.MaxValue));
+        world.AdvanceTo(Start + Seconds(1));
         byte[] bytes = Recorded.Bytes(
             writer =>
             {
@@ -109,7 +106,7 @@ public sealed class RecordingsPageTests
                 writer.WriteCommitted(Start + Seconds(1), 1, 2);
                 writer.WriteEnd("End.");
             },
-            scene, peer: 3, joined: new JoinedState(9, Start + Seconds(0.5), [1, 2, 3]));
+            scene, peer: 3, joined: new JoinedState(9, world.Snapshot(Start + Seconds(0.5))));
         return (bytes, Read(bytes, [force]));
     }
 
@@ -125,17 +122,15 @@ public sealed class RecordingsPageTests
         }
     }
 
-    private static (string Type, string Field, string Value)[] Table(string[] page, string heading) => page
-        .SkipWhile(line => line != "## " + heading).Skip(1).TakeWhile(line => !line.StartsWith("## ", StringComparison.Ordinal))
-        .Where(IsField).Select(line => line.Split('|', 5)).Select(cells => (cells[1].Trim(), cells[2].Trim(), cells[3].Trim())).ToArray();
+    private static LayoutRow[] Table(string[] page, string heading) => LayoutPage.Table(page, "## " + heading);
 
     private static byte[] FromPage(string[] page, Recording recording)
     {
         MemoryStream file = new();
-        Fields(file, Table(page, "The file"), new()
+        LayoutPage.Write(file, Table(page, "The file"), new()
         {
             ["magic"] = (byte[])[0x4C, 0x61, 0x67, 0x53, 0x69, 0x6D, 0x0D, 0x0A],
-            ["version"] = 1,
+            ["version"] = (int)RecordingFormat.Version,
             ["wire version"] = (int)WireFormat.Version,
         });
         RecordingHeader header = recording.Header!;
@@ -143,7 +138,7 @@ public sealed class RecordingsPageTests
         PutBytes(2, SceneFromPage(page, recording.Scene!));
         if (recording.Joined is JoinedState joined)
         {
-            Put(3, "3 Joined state", new() { ["first index"] = joined.FirstIndex, ["time"] = joined.Time, ["state"] = joined.State.ToArray() });
+            Put(3, "3 Joined state", new() { ["first index"] = joined.FirstIndex, ["snapshot"] = SnapshotFormat.Encode(joined.Snapshot!) });
         }
 
         // Entries and states in the order in which Small writes them.
@@ -165,16 +160,16 @@ public sealed class RecordingsPageTests
         void Put(int kind, string heading, Dictionary<string, object> values)
         {
             MemoryStream content = new();
-            Fields(content, Table(page, heading), values);
+            LayoutPage.Write(content, Table(page, heading), values);
             PutBytes(kind, content.ToArray());
         }
 
         void PutBytes(int kind, byte[] content)
         {
             MemoryStream record = new();
-            foreach ((string Type, string Field, string Value) row in Table(page, "A record"))
+            foreach (LayoutRow row in Table(page, "A record"))
             {
-                Fields(record, [row], new() { ["kind"] = kind, ["length"] = content.Length, ["content"] = content, ["checksum"] = Crc(record.ToArray()) });
+                LayoutPage.Write(record, [row], new() { ["kind"] = kind, ["length"] = content.Length, ["content"] = content, ["checksum"] = Crc(record.ToArray()) });
             }
 
             file.Write(record.ToArray());
@@ -184,7 +179,6 @@ public sealed class RecordingsPageTests
     private static byte[] SceneFromPage(string[] page, Scene scene)
     {
         MemoryStream bytes = new();
-        (string Type, string Field, string Value)[] rows = Table(page, "2 Scene");
         Dictionary<string, object> head = new()
         {
             ["wire version"] = (int)WireFormat.Version,
@@ -192,6 +186,7 @@ public sealed class RecordingsPageTests
             ["gravity"] = scene.Gravity,
             ["resolution"] = scene.Resolution,
             ["smallest radius"] = scene.SmallestRadius,
+            ["spawners"] = scene.Spawners.Mask,
             ["accelerations"] = scene.Accelerations.Count,
             ["planes"] = scene.Planes.Count,
             ["static spheres"] = scene.StaticSpheres.Count,
@@ -199,87 +194,15 @@ public sealed class RecordingsPageTests
         };
         Dictionary<string, (string Prefix, IEnumerable<Dictionary<string, object>> Items)> lists = new()
         {
-            ["accelerations"] = ("acceleration ", scene.Accelerations.Select(a => Values(("acceleration name", a.Name), ("acceleration version", a.Version)))),
-            ["planes"] = ("plane ", scene.Planes.Select(p => Values(
+            ["accelerations"] = ("acceleration ", scene.Accelerations.Select(a => LayoutPage.Values(("acceleration name", a.Name), ("acceleration version", a.Version)))),
+            ["planes"] = ("plane ", scene.Planes.Select(p => LayoutPage.Values(
                 ("plane name", p.Name), ("plane normal", p.Normal), ("plane offset", p.Offset), ("plane restitution", p.Restitution)))),
-            ["static spheres"] = ("sphere ", scene.StaticSpheres.Select(s => Values(
+            ["static spheres"] = ("sphere ", scene.StaticSpheres.Select(s => LayoutPage.Values(
                 ("sphere name", s.Name), ("sphere centre", s.Centre), ("sphere radius", s.Radius), ("sphere restitution", s.Restitution)))),
-            ["bodies"] = ("body ", scene.Bodies.Select(b => Values(
-                ("body name", b.Name), ("body spec", b.Spec), ("body position", b.Position), ("body velocity", b.Velocity)))),
+            ["bodies"] = ("body ", scene.Bodies.Select(b => LayoutPage.Values(
+                ("body name", b.Name), ("body spec", b.Spec), ("body position", b.Position), ("body velocity", b.Velocity), ("body players", b.Players.Mask)))),
         };
-        for (int i = 0; i < rows.Length; i++)
-        {
-            Fields(bytes, [rows[i]], head);
-            if (rows[i].Value.EndsWith("then for each:", StringComparison.Ordinal))
-            {
-                (string prefix, IEnumerable<Dictionary<string, object>> items) = lists[rows[i].Field];
-                (string Type, string Field, string Value)[] each = rows.Skip(i + 1).TakeWhile(row => row.Field.StartsWith(prefix, StringComparison.Ordinal)).ToArray();
-                foreach (Dictionary<string, object> item in items)
-                {
-                    Fields(bytes, each, item);
-                }
-
-                i += each.Length;
-            }
-        }
-
+        LayoutPage.Write(bytes, Table(page, "2 Scene"), head, lists);
         return bytes.ToArray();
-
-        static Dictionary<string, object> Values(params (string Field, object Value)[] values) => values.ToDictionary(v => v.Field, v => v.Value);
-    }
-
-    private static void Fields(Stream to, IEnumerable<(string Type, string Field, string Value)> rows, Dictionary<string, object> values)
-    {
-        foreach ((string type, string field, _) in rows)
-        {
-            to.Write(Bytes(type, values[field]));
-        }
-    }
-
-    private static byte[] Bytes(string type, object value)
-    {
-        switch (type)
-        {
-            case "u8":
-                return [Convert.ToByte(value, CultureInfo.InvariantCulture)];
-            case "u16":
-                return BitConverter.GetBytes(Convert.ToUInt16(value, CultureInfo.InvariantCulture));
-            case "u32":
-                return BitConverter.GetBytes(Convert.ToUInt32(value, CultureInfo.InvariantCulture));
-            case "u64":
-                return BitConverter.GetBytes((ulong)value);
-            case "i32":
-                return BitConverter.GetBytes((int)value);
-            case "f64":
-                return BitConverter.GetBytes((double)value + 0.0);
-            case "vector":
-                Vector3D v = (Vector3D)value;
-                return [.. Bytes("f64", v.X), .. Bytes("f64", v.Y), .. Bytes("f64", v.Z)];
-            case "time":
-                return BitConverter.GetBytes(((SimTime)value).Ticks);
-            case "text":
-                byte[] utf8 = Encoding.UTF8.GetBytes((string)value);
-                return [(byte)utf8.Length, .. utf8];
-            case "length":
-                int length = (int)value;
-                return length < 128 ? [(byte)length] : [(byte)(128 + (length % 128)), .. Bytes("length", length / 128)];
-            case "bytes" or "8 bytes":
-                return (byte[])value;
-            case "spec":
-                BodySpec spec = (BodySpec)value;
-                return
-                [
-                    .. Bytes("f64", spec.Radius), .. Bytes("f64", spec.Mass), .. Bytes("f64", spec.Restitution),
-                    (byte)spec.Flight, .. BitConverter.GetBytes(spec.Step.Ticks), spec.Acceleration,
-                ];
-            case "event":
-                ExternalEvent what = (ExternalEvent)value;
-                byte[] bytes = new byte[EventFormat.EncodedLength(what.Kind)];
-                WireWriter writer = new(bytes);
-                EventFormat.Write(ref writer, what);
-                return bytes;
-            default:
-                throw new NotSupportedException($"The page has a type '{type}' that no list of it explains.");
-        }
     }
 }

@@ -8,6 +8,7 @@ using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Tests.Determinism;
 using LagSim.Time;
+using LagSim.Timelines;
 using Xunit;
 using static LagSim.Tests.Recordings.Recorded;
 using static LagSim.Tests.TestWorlds;
@@ -107,26 +108,69 @@ public sealed class ReplayTests
     }
 
     [Fact]
-    public void Run_LateJoiner_NeedsSomeoneWhoRestoresItsState()
+    public void Run_LateJoiner_GoesOnFromItsSnapshot()
     {
-        JoinedState joined = new(2, Start + Seconds(0.5), [1, 2, 3]);
-        Recording recording = Read(Small(Log[1..], 3, joined: joined));
+        // Entry 2 is of a time that the snapshot covers, so it is in it and not submitted again.
+        RecordingReplay replay = Replayed(Read(Small(Log[1..], 3, joined: Joined(2, 0.6))));
+        Assert.Equal((ReplayOutcome.Agrees, 3, 3), (replay.Outcome, replay.StatesChecked, replay.EventsApplied));
 
-        Cannot("The recording cannot be run again. It is of a peer that joined at 100.75s", Small(Log[1..], 3, joined: joined));
+        // One at its very time is not in it.
+        replay = Replayed(Read(Small(Log, 3, joined: Joined(1, 0.5))));
+        Assert.Equal((ReplayOutcome.Agrees, 4, 4), (replay.Outcome, replay.StatesChecked, replay.EventsApplied));
 
-        // Entry 2 is of a time that the state covers, so it is in it and not submitted again.
-        RecordingReplay replay = Replayed(recording, state =>
+        // The control: a snapshot in which an event is missing, and the log from behind an event that is in no snapshot.
+        WorldSnapshot without = World(Log[..1]).Snapshot(Start + Seconds(0.6));
+        Assert.Equal(ReplayOutcome.Differs, Replayed(Read(Small(Log[2..], 3, joined: new JoinedState(3, without)))).Outcome);
+        Assert.Equal(ReplayOutcome.Differs, Replayed(Read(Small(Log[1..], 3, joined: Joined(2, 0.5)))).Outcome);
+        Assert.Equal(ReplayOutcome.Differs, Replayed(Read(Small(Log[4..], 3, joined: Joined(5, 0.6)))).Outcome);
+    }
+
+    [Fact]
+    public void Run_LateJoinerBeforeTheFirstStep_BeginsFromTheScene()
+    {
+        LogEntry refused = new(1, Verdict.Invalid, ExternalEvent.Remove(Start - Seconds(1), 2, 1, First));
+        LogEntry[] log = [refused, .. Log.Select(entry => new LogEntry(entry.Index + 1, entry.Verdict, entry.Event))];
+        RecordingReplay replay = Replayed(Read(Small(log[1..], 3, truth: log, joined: new JoinedState(2, null))));
+        Assert.Equal((ReplayOutcome.Agrees, 5, 5), (replay.Outcome, replay.StatesChecked, replay.EventsApplied));
+    }
+
+    [Fact]
+    public void Run_AnyWorldFromAnySnapshot_GivesItsHashes()
+    {
+        for (int seed = 1; seed <= 60; seed++)
         {
-            Assert.Equal([1, 2, 3], state.State.ToArray());
-            return Restored(0.5);
-        });
-        Assert.Equal((ReplayOutcome.Agrees, 4, 3), (replay.Outcome, replay.StatesChecked, replay.EventsApplied));
+            RandomWorld world = new(seed);
+            Simulation simulation = world.OnTime();
+            SimTime[] times = RandomWorld.Times.ToArray();
+            WorldSnapshot snapshot = simulation.Snapshot(times[1 + (seed % 9)]);
+            ExternalEvent[] later = [.. world.Events.Where(e => e.Time >= snapshot.Time)];
+            byte[] bytes = Bytes(
+                writer =>
+                {
+                    uint index = 100;
+                    foreach (ExternalEvent what in later)
+                    {
+                        writer.WriteEntry(index++, Verdict.Accepted, what);
+                    }
 
-        Assert.Equal(ReplayOutcome.Differs, Replayed(recording, _ => Restored(0.5, Log[..1])).Outcome);
-        Assert.Equal(ReplayOutcome.CannotRun, Replayed(recording, _ => Restored(0.6)).Outcome);
+                    foreach (SimTime time in times.Where(t => t >= snapshot.Time))
+                    {
+                        writer.WriteCommitted(time, simulation.StateHash(time), simulation.EventHash(time));
+                    }
+                },
+                world.Scene, SimTime.Zero, 1, new JoinedState(100, snapshot));
+            RecordingReplay replay = Replayed(Read(bytes, world.Scene.Accelerations));
+            Assert.True(replay.Outcome == ReplayOutcome.Agrees, $"seed {seed}: {replay.Message}");
+            Assert.Equal(later.Length, replay.EventsApplied);
+        }
+    }
 
-        static Simulation Restored(double seconds, LogEntry[]? log = null) =>
-            World((log ?? Log).Where(entry => entry.Event.Time <= Start + Seconds(0.5)), seconds);
+    [Fact]
+    public void Run_SnapshotOfAnotherWorld_SaysWhy()
+    {
+        WorldSnapshot snapshot = World(Log).Snapshot(Start + Seconds(0.6));
+        JoinedState twice = new(3, new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [snapshot.Bodies[0], snapshot.Bodies[0]]));
+        Cannot("The recording cannot be run again. In the snapshot body 0.0.0 follows body 0.0.0; identities must ascend.", Small(Log[2..], 3, joined: twice));
     }
 
     [Fact]
@@ -134,7 +178,7 @@ public sealed class ReplayTests
     {
         using CancellationTokenSource source = new();
         source.Cancel();
-        Assert.Throws<OperationCanceledException>(() => RecordingReplay.Run(Read(Small()), cancellation: source.Token));
+        Assert.Throws<OperationCanceledException>(() => RecordingReplay.Run(Read(Small()), source.Token));
         Assert.Throws<ArgumentNullException>(() => Replayed(null!));
     }
 

@@ -72,6 +72,16 @@ public sealed class SceneFileRoundTripTests
         SceneFile.ToJson(BuiltInScenes.Drop()));
 
     [Fact]
+    public void ToJson_Rights_AreWrittenWhereNotEveryoneHasThemAndReadBack()
+    {
+        Scene scene = SceneText.Parse(SceneText.With("\"spawners\": [], \"bodies\": [" + SceneText.Ball.Replace("0.8", "0.8, \"players\": [2, 0]") + "]"));
+        Assert.Equal((PeerSet.Nobody, PeerSet.Of(0, 2)), (scene.Spawners, scene.Bodies[0].Players));
+        string json = SceneFile.ToJson(scene);
+        Assert.Contains("\"spawners\": []", json, StringComparison.Ordinal);
+        Assert.Contains("\"players\": [0, 2]", json, StringComparison.Ordinal);
+    }
+
+    [Fact]
     public void Parse_OnlyWhatIsRequired_TakesTheDocumentedDefaults()
     {
         Scene scene = SceneText.Parse(SceneText.With(

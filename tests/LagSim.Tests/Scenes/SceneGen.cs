@@ -32,6 +32,9 @@ internal static class SceneGen
     internal static readonly Gen<(Vector3D Normal, Vector3D Point)> Plane =
         from normal in Direction from point in Within(1e11) select (normal, point);
 
+    private static readonly Gen<PeerSet> Peers = Gen.OneOf(
+        Gen.Elements(PeerSet.Everyone, PeerSet.Nobody), Gen.Choose(0, ushort.MaxValue).Select(mask => PeerSet.FromMask((ushort)mask)));
+
     /// <summary>Any scene without supplied accelerations. Its planes lie far below, so that nothing overlaps at the start.</summary>
     internal static readonly Gen<Scene> Any =
         from name in Prefix
@@ -41,17 +44,19 @@ internal static class SceneGen
         from planes in Gen.Choose(0, 3)
         from planeSeeds in Gen.ArrayOf(Plane, planes)
         from spheres in Gen.ArrayOf(Log(-8, 8))
+        from spawners in Peers
         from bodies in Gen.ArrayOf(Body)
-        select Build(name, gravity, resolution, smallest, planeSeeds, spheres, bodies);
+        select Build(name, gravity, resolution, smallest, planeSeeds, spheres, spawners, bodies);
 
-    private static Gen<(BodySpec Spec, Vector3D Velocity)> Body =>
+    private static Gen<(BodySpec Spec, Vector3D Velocity, PeerSet Players)> Body =>
         from radius in Log(-8, 8)
         from mass in Log(-29, 29)
         from restitution in Gen.OneOf(Unit, Gen.Elements(0.0, -0.0, 1.0))
         from rk4 in Gen.Elements(true, false)
         from step in Step
         from velocity in Within(100)
-        select (new BodySpec(radius, mass, restitution, rk4 ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic, step), velocity);
+        from players in Peers
+        select (new BodySpec(radius, mass, restitution, rk4 ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic, step), velocity, players);
 
     private static Gen<double> Log(int least, int most) =>
         from u in Unit from e in Gen.Choose(least, most - 1) select (1 + (9 * u)) * Math.Pow(10, e);
@@ -68,9 +73,10 @@ internal static class SceneGen
         double smallest,
         (Vector3D Normal, Vector3D Point)[] planes,
         double[] spheres,
-        (BodySpec Spec, Vector3D Velocity)[] bodies)
+        PeerSet spawners,
+        (BodySpec Spec, Vector3D Velocity, PeerSet Players)[] bodies)
     {
-        SceneBuilder builder = new SceneBuilder(name).WithGravity(gravity).WithResolution(resolution);
+        SceneBuilder builder = new SceneBuilder(name).WithGravity(gravity).WithResolution(resolution).WithSpawners(spawners);
         double least = bodies.Select(b => b.Spec.Radius).Append(smallest > 0 ? smallest : 1e9).Min();
         if (smallest > 0)
         {
@@ -87,8 +93,8 @@ internal static class SceneGen
 
         for (int i = 0; i < bodies.Length; i++)
         {
-            (BodySpec spec, Vector3D velocity) = bodies[i];
-            builder.AddBody($"{name}b{i}", spec, new Vector3D(x + spec.Radius, 0.1, 1e-17), velocity * (1e8 * least));
+            (BodySpec spec, Vector3D velocity, PeerSet players) = bodies[i];
+            builder.AddBody($"{name}b{i}", spec, new Vector3D(x + spec.Radius, 0.1, 1e-17), velocity * (1e8 * least), players);
             x += (2.01 * spec.Radius) + 0.3;
         }
 

@@ -21,20 +21,22 @@ public sealed class SceneFormatTests
     private const int GravityAt = 3;
     private const int ResolutionAt = 27;
     private const int SmallestAt = 35;
-    private const int AccelerationsAt = 43;
-    private const int PlanesAt = 44;
-    private const int PlaneNameAt = 46;
-    private const int NormalAt = 48;
-    private const int SpheresAt = 88;
-    private const int BodiesAt = 132;
-    private const int BodyNameAt = 135;
-    private const int RestitutionAt = 152;
-    private const int FlightAt = 160;
-    private const int StepAt = 161;
-    private const int SpecAccelerationAt = 169;
-    private const int PositionAt = 170;
-    private const int VelocityAt = 194;
-    private const int Length = 218;
+    private const int SpawnersAt = 43;
+    private const int AccelerationsAt = 45;
+    private const int PlanesAt = 46;
+    private const int PlaneNameAt = 48;
+    private const int NormalAt = 50;
+    private const int SpheresAt = 90;
+    private const int BodiesAt = 134;
+    private const int BodyNameAt = 137;
+    private const int RestitutionAt = 154;
+    private const int FlightAt = 162;
+    private const int StepAt = 163;
+    private const int SpecAccelerationAt = 171;
+    private const int PositionAt = 172;
+    private const int VelocityAt = 196;
+    private const int PlayersAt = 220;
+    private const int Length = 222;
 
     [Fact]
     public void Encode_AnyScene_DecodesToTheSameWorldInTheSameBytes() => Prop.ForAll(
@@ -58,7 +60,7 @@ public sealed class SceneFormatTests
     {
         // The control of the tests above: they would see it.
         byte[] bytes = SceneFormat.Encode(One());
-        foreach (int at in new[] { GravityAt, ResolutionAt, RestitutionAt, StepAt, PositionAt, VelocityAt })
+        foreach (int at in new[] { GravityAt, ResolutionAt, SpawnersAt, SpawnersAt + 1, RestitutionAt, StepAt, PositionAt, VelocityAt, PlayersAt, PlayersAt + 1 })
         {
             byte[] other = (byte[])bytes.Clone();
             other[at] ^= 1;
@@ -81,6 +83,21 @@ public sealed class SceneFormatTests
     }
 
     [Fact]
+    public void Encode_Rights_AreTheBitsOfThePeersThatHaveThem()
+    {
+        Assert.Equal([0xFF, 0xFF], SceneFormat.Encode(One())[PlayersAt..]);
+        Scene scene = new SceneBuilder("s").WithSpawners(PeerSet.Of(1, 9)).AddBody("b", Ball(), V(0), players: PeerSet.Nobody)
+            .AddBody("c", Ball(), V(3), players: PeerSet.Of(0, 15)).Build();
+        byte[] bytes = SceneFormat.Encode(scene);
+        Scene again = Decoded(bytes);
+
+        Assert.Equal([0x02, 0x02], bytes[SpawnersAt..AccelerationsAt]);
+        Assert.Equal([0x01, 0x80], bytes[^2..]);
+        Assert.Equal(PeerSet.Of(1, 9), again.Spawners);
+        Assert.Equal([PeerSet.Nobody, PeerSet.Of(0, 15)], again.Bodies.Select(b => b.Players));
+    }
+
+    [Fact]
     public void TryDecode_EveryTruncationAndEveryTrailingByte_IsRefusedWithASentence()
     {
         byte[] whole = SceneFormat.Encode(One());
@@ -91,12 +108,12 @@ public sealed class SceneFormatTests
         }
 
         Refused(whole.AsSpan(0, 0), "The 0 bytes of the scene end within the scene's head.");
-        Refused(whole.AsSpan(0, PlanesAt), "The 44 bytes of the scene end within the scene's plane count.");
-        Refused(whole.AsSpan(0, Length - 1), "The 217 bytes of the scene end within body 1 of the scene.");
-        Refused(whole.AsSpan(0, Length - 2), "announces 1 parts of the kind 'body', of 83 bytes or more, and has 82 bytes left");
+        Refused(whole.AsSpan(0, PlanesAt), "The 46 bytes of the scene end within the scene's plane count.");
+        Refused(whole.AsSpan(0, Length - 1), "The 221 bytes of the scene end within body 1 of the scene.");
+        Refused(whole.AsSpan(0, Length - 2), "announces 1 parts of the kind 'body', of 85 bytes or more, and has 84 bytes left");
         for (int value = 0; value <= 255; value++)
         {
-            Refused([.. whole, (byte)value], "Of the scene's 219 bytes 1 follow its last body.");
+            Refused([.. whole, (byte)value], "Of the scene's 223 bytes 1 follow its last body.");
         }
     }
 

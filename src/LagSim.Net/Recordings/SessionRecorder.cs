@@ -1,0 +1,156 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using LagSim.Net.Sessions;
+using LagSim.Time;
+
+namespace LagSim.Net.Recordings;
+
+/// <summary>Records a session as one peer has it: its log, and the hashes of its committed states.</summary>
+/// <remarks>
+/// <para>It listens to the session and writes on the session's thread, to a file that is made once there is a world. A disk that fails
+/// does not end the session: the recording ends where it did, and <see cref="Failure"/> and <see cref="Failed"/> tell.</para>
+/// <para>To be made before the session's first step, and disposed of on its thread or once that has stopped.</para>
+/// </remarks>
+public sealed class SessionRecorder : IDisposable
+{
+    /// <summary>So many lines of a host's log can come before the world's start, all refused; from a peer that does nothing else.</summary>
+    internal const int MaxWaiting = 1 << 16;
+
+    private readonly Session session;
+    private readonly Func<Stream> open;
+    private readonly List<LogEntry> waiting = new();
+    private RecordingWriter? writer;
+    private volatile string? failure;
+    private bool isDisposed;
+
+    /// <summary>Records a session that has no world yet.</summary>
+    /// <param name="session">The session.</param>
+    /// <param name="path">
+    /// The file, which is made or replaced once there is a world; its name should end with <see cref="RecordingFormat.Extension"/>. That it cannot be
+    /// made is a <see cref="Failure"/> like any other.
+    /// </param>
+    /// <exception cref="InvalidOperationException">The session has a world already: what happened before would be missing.</exception>
+    public SessionRecorder(Session session, string path)
+        : this(session, () => new FileStream(path, FileMode.Create, FileAccess.Write, FileShare.Read))
+    {
+        _ = path ?? throw new ArgumentNullException(nameof(path));
+    }
+
+    internal SessionRecorder(Session session, Func<Stream> open)
+    {
+        this.session = session ?? throw new ArgumentNullException(nameof(session));
+        this.open = open;
+        if (session.World is not null)
+        {
+            throw new InvalidOperationException("A session is recorded from its beginning on; this one has a world already.");
+        }
+
+        session.Begun += OnBegun;
+        session.Logged += OnLogged;
+        session.StateCommitted += OnCommitted;
+    }
+
+    /// <summary>Raised once, on the session's thread, when nothing more can be recorded; with the same sentence as <see cref="Failure"/>. Handlers must not throw.</summary>
+    public event Action<string>? Failed;
+
+    /// <summary>Why nothing more is recorded, as a sentence; null while all is well. From any thread.</summary>
+    public string? Failure => failure;
+
+    /// <summary>Ends the recording with the session's reason to end, and closes the file.</summary>
+    public void Dispose()
+    {
+        if (isDisposed)
+        {
+            return;
+        }
+
+        isDisposed = true;
+        session.Begun -= OnBegun;
+        session.Logged -= OnLogged;
+        session.StateCommitted -= OnCommitted;
+        Try(() => writer?.WriteEnd(session.EndReason ?? "The recording ended before the session."));
+        Close();
+    }
+
+    private void OnBegun() => Try(() =>
+    {
+        SimTime start = session.World!.Simulation.Start;
+        JoinedState? joined = session.LogStart > 0 || session.BegunFrom is not null ? new JoinedState(session.LogStart + 1, session.BegunFrom) : null;
+        Stream stream = open();
+        try
+        {
+            writer = new RecordingWriter(stream, session.Peer, session.Scene!, start, joined);
+        }
+        catch
+        {
+            stream.Dispose();
+            throw;
+        }
+
+        waiting.ForEach(entry => writer.WriteEntry(entry.Index, entry.Verdict, entry.Event));
+        waiting.Clear();
+    });
+
+    private void OnLogged(LogEntry entry)
+    {
+        if (writer is not null)
+        {
+            Try(() => writer.WriteEntry(entry.Index, entry.Verdict, entry.Event));
+        }
+        else if (failure is null && waiting.Count < MaxWaiting)
+        {
+            waiting.Add(entry);
+        }
+        else
+        {
+            Fail($"More than {MaxWaiting} events came before the start.");
+        }
+    }
+
+    private void OnCommitted(CommittedState state) => Try(() => writer?.WriteCommitted(state.Time, state.StateHash, state.EventHash));
+
+    private void Try(Action write)
+    {
+        if (failure is not null)
+        {
+            return;
+        }
+
+        try
+        {
+            write();
+        }
+        catch (Exception cause) when (cause is IOException or UnauthorizedAccessException or ArgumentException or InvalidOperationException or NotSupportedException)
+        {
+            Fail(cause.Message);
+        }
+    }
+
+    private void Fail(string why)
+    {
+        if (failure is not null)
+        {
+            return;
+        }
+
+        failure = $"The recording ends here: {why}";
+        waiting.Clear();
+        Close();
+        Failed?.Invoke(failure);
+    }
+
+    private void Close()
+    {
+        RecordingWriter? closed = writer;
+        writer = null;
+        try
+        {
+            closed?.Dispose();
+        }
+        catch (Exception cause) when (cause is IOException or UnauthorizedAccessException)
+        {
+            Fail(cause.Message); // what was still to be written is not
+        }
+    }
+}

@@ -1,0 +1,26 @@
+namespace LagSim.Net.Sessions;
+
+/// <summary>What ended a session, for programs; <see cref="Session.EndReason"/> is for people.</summary>
+public enum SessionEnd
+{
+    /// <summary>It goes on.</summary>
+    None,
+
+    /// <summary>This peer left, or as the host ended it.</summary>
+    Left,
+
+    /// <summary>The host ended it, in order, for everyone.</summary>
+    HostEnded,
+
+    /// <summary>The host did not let this joiner in: another version, key or scene, or no place.</summary>
+    Refused,
+
+    /// <summary>Nothing came from the host for the timeout.</summary>
+    HostSilent,
+
+    /// <summary>The host gave this joiner up: it heard nothing of it, or it did not keep up.</summary>
+    LetGo,
+
+    /// <summary>What the host sent makes no world, or the world cannot be simulated any further.</summary>
+    Failed,
+}

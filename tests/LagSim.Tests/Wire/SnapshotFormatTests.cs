@@ -1,0 +1,329 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using FsCheck;
+using FsCheck.Fluent;
+using LagSim.Events;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Tests.Determinism;
+using LagSim.Time;
+using LagSim.Timelines;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Wire;
+
+/// <summary>A snapshot comes back to the last bit, and bytes that anyone may have sent are a snapshot or a refusal.</summary>
+public sealed class SnapshotFormatTests
+{
+    private const int Trials = 40_000;
+
+    private static readonly Gen<SimTime> Ticks = WireGen.Bits64.Select(bits => SimTime.FromTicks((long)bits));
+
+    /// <summary>Every finite number, -0.0 and the smallest there are among them.</summary>
+    private static readonly Gen<double> Exact = Gen.OneOf(
+        Gen.Elements(0.0, -0.0, double.Epsilon, -double.Epsilon, double.MaxValue), WireGen.Bits64.Select(BitConverter.UInt64BitsToDouble).Where(double.IsFinite));
+
+    private static readonly Gen<Vector3D> Vector = from x in Exact from y in Exact from z in Exact select new Vector3D(x, y, z);
+
+    private static readonly Gen<BodySnapshot> Body =
+        from id in WireGen.Bits64
+        from spec in WireGen.Spec
+        from at in Ticks
+        from round in WireGen.Bits32
+        from kind in WireGen.Byte
+        from parties in Gen.ArrayOf(WireGen.Bits64, 2)
+        from peer in WireGen.Byte
+        from sequence in WireGen.Bits32
+        from law in Gen.OneOf(Gen.Choose(1, 4).Select(n => (MotionLaw)n), Gen.Constant(MotionLaw.RungeKutta4))
+        from times in Gen.ArrayOf(Ticks, 2)
+        from vectors in Gen.ArrayOf(Vector, 6)
+        from supports in Gen.Choose(0, 3).SelectMany(count => Gen.ArrayOf(Gen.OneOf(Gen.Constant(int.MaxValue), Gen.Choose(0, 1000)), count))
+        from crowding in WireGen.Byte
+        select new BodySnapshot(
+            BodyId.FromPacked(id), spec, new EventKey(at, round, (EventKind)kind, BodyId.FromPacked(parties[0]), BodyId.FromPacked(parties[1]), peer, sequence),
+            law, times[0], times[1], vectors[0], vectors[1], vectors[2], supports, crowding,
+            law == MotionLaw.RungeKutta4 ? vectors[3] : default, law == MotionLaw.RungeKutta4 ? vectors[4] : default, law == MotionLaw.RungeKutta4 ? vectors[5] : default);
+
+    private static readonly Gen<WorldSnapshot> Any =
+        from start in Ticks
+        from time in Ticks
+        from hash in WireGen.Bits64
+        from count in Gen.Choose(0, 6)
+        from bodies in Gen.ArrayOf(Body, count)
+        select new WorldSnapshot(start, time, hash, bodies);
+
+    [Fact]
+    public void Encode_AnySnapshot_DecodesToTheSameToTheBit() => Prop.ForAll(
+        Any.ToArbitrary(), snapshot => Same(snapshot, Decoded(SnapshotFormat.Encode(snapshot)))).Check(WireGen.Config.WithMaxTest(2000));
+
+    [Fact]
+    public void Encode_RandomWorlds_DecodeToWorldsThatGoOnAlikeToTheBit()
+    {
+        int negativeZeros = 0, dense = 0, carried = 0;
+        for (int seed = 1; seed <= 150; seed++)
+        {
+            RandomWorld world = new(seed);
+            Simulation expected = world.OnTime();
+            WorldSnapshot snapshot = expected.Snapshot(At(0.1 + (seed * 0.007)));
+            WorldSnapshot again = Decoded(SnapshotFormat.Encode(snapshot));
+            WorldSnapshot negative = new(snapshot.Start, snapshot.Time, snapshot.EventHash, snapshot.Bodies.Select(WithNegativeZeros).ToArray());
+            Assert.True(Same(snapshot, again), $"seed {seed}");
+            Assert.True(Same(negative, Decoded(SnapshotFormat.Encode(negative))), $"seed {seed}, with every zero negative");
+            Simulation actual = new(world.Scene, again, KeepAll);
+            foreach (ExternalEvent external in world.Events.Where(e => e.Time >= snapshot.Time))
+            {
+                actual.Submit(external);
+            }
+
+            actual.AdvanceTo(At(RandomWorld.End));
+            Assert.Equal(expected.StateHash(At(RandomWorld.End)), actual.StateHash(At(RandomWorld.End)));
+            Assert.Equal(expected.EventHash(At(RandomWorld.End)), actual.EventHash(At(RandomWorld.End)));
+            negativeZeros += negative.Bodies.SelectMany(Numbers).Count(value => value == 0 && double.IsNegative(value));
+            dense += snapshot.Bodies.Count(b => b.Law == MotionLaw.RungeKutta4);
+            carried += snapshot.Bodies.Count(b => b.SupportCount > 0);
+        }
+
+        Assert.True(negativeZeros > 10 && dense > 50 && carried > 10, $"{negativeZeros} {dense} {carried}"); // else nothing was shown
+    }
+
+    [Fact]
+    public void Decode_OneBitOfAnyByteChanged_IsRefusedOrSeenAsAnother()
+    {
+        // The control of the tests above: no byte of a snapshot is without a meaning.
+        foreach (byte[] bytes in Valid(20))
+        {
+            WorldSnapshot was = Decoded(bytes);
+            for (int at = 0; at < bytes.Length; at++)
+            {
+                byte[] other = (byte[])bytes.Clone();
+                other[at] ^= 1;
+                Assert.True(!SnapshotFormat.TryDecode(other, out WorldSnapshot? again, out _) || !Same(was, again), $"byte {at} of {Convert.ToHexString(bytes)}");
+            }
+        }
+    }
+
+    [Fact]
+    public void TryDecode_EveryTruncationAndEveryTrailingByte_IsRefused()
+    {
+        foreach (byte[] bytes in Valid(20))
+        {
+            for (int length = 0; length < bytes.Length; length++)
+            {
+                Refused(WireRefusal.TooShort, bytes.AsSpan(0, length));
+            }
+
+            Refused(WireRefusal.TrailingBytes, [.. bytes, 0]);
+        }
+    }
+
+    [Fact]
+    public void TryDecode_MutatedSnapshots_NeverThrowsAndWhatIsAcceptedHasOneForm()
+    {
+        Random random = new(7);
+        byte[][] valid = Valid(60);
+        int accepted = 0, refused = 0;
+        for (int i = 0; i < Trials; i++)
+        {
+            byte[] bytes = (byte[])valid[random.Next(valid.Length)].Clone();
+            for (int change = random.Next(1, 4); change > 0; change--)
+            {
+                int at = random.Next(bytes.Length);
+                bytes[at] = random.Next(3) switch
+                {
+                    0 => (byte)random.Next(256),
+                    1 => (byte)(bytes[at] ^ (1 << random.Next(8))),
+                    _ => new byte[] { 0, 1, 0x7F, 0x80, 0xF0, 0xFF }[random.Next(6)],
+                };
+            }
+
+            bool isAccepted = OneForm(random.Next(4) > 0 ? bytes : bytes.AsSpan(0, random.Next(bytes.Length)));
+            accepted += isAccepted ? 1 : 0;
+            refused += isAccepted ? 0 : 1;
+        }
+
+        Assert.True(accepted > Trials / 10 && refused > Trials / 10, $"{accepted} accepted, {refused} refused: the mutations say little.");
+    }
+
+    [Fact]
+    public void TryDecode_RandomBytes_NeverThrows()
+    {
+        Random random = new(8);
+        byte[] buffer = new byte[2000];
+        for (int i = 0; i < Trials; i++)
+        {
+            Span<byte> bytes = buffer.AsSpan(0, random.Next(buffer.Length));
+            random.NextBytes(bytes);
+            if (i % 4 > 0 && bytes.Length > 28)
+            {
+                bytes[24] = (byte)(bytes.Length / 167); // a count that could be, or it tests nothing else
+                bytes[25..28].Clear();
+            }
+
+            OneForm(bytes);
+        }
+    }
+
+    [Fact]
+    public void MakeWorld_OfMutatedSnapshots_GivesAWorldOrASentence()
+    {
+        // What the decoder lets through, the door of the simulation judges; neither ends in anything but a sentence.
+        Random random = new(9);
+        RandomWorld[] worlds = [.. Enumerable.Range(1, 20).Select(seed => new RandomWorld(seed))];
+        byte[][] valid = [.. worlds.Select(world => SnapshotFormat.Encode(world.OnTime().Snapshot(At(0.6))))];
+        int made = 0, refused = 0;
+        for (int i = 0; i < 3000; i++)
+        {
+            int which = random.Next(valid.Length);
+            byte[] bytes = (byte[])valid[which].Clone();
+            bytes[random.Next(bytes.Length)] ^= (byte)(1 << random.Next(8));
+            if (!SnapshotFormat.TryDecode(bytes, out WorldSnapshot? snapshot, out _))
+            {
+                continue;
+            }
+
+            try
+            {
+                _ = new Simulation(worlds[which].Scene, snapshot, new SimulationOptions(maxSegments: 10_000));
+                made++;
+            }
+            catch (Exception failure) when (failure is SceneException or SimulationException)
+            {
+                refused++;
+            }
+        }
+
+        Assert.True(made > 100 && refused > 100, $"{made} made, {refused} refused");
+    }
+
+    [Fact]
+    public void TryDecode_WhatAnnouncesMuch_AllocatesByWhatIsThere()
+    {
+        byte[] one = SnapshotFormat.Encode(new WorldSnapshot(At(0), At(1), 7, [Decoded(Valid(1)[0]).Bodies[0]]));
+        foreach (uint count in new[] { 2u, 1000u, 400_000u, uint.MaxValue })
+        {
+            BitConverter.GetBytes(count).CopyTo(one, 24);
+            Refused(WireRefusal.TooShort, one);
+            Assert.InRange(Allocated(one), 0, 2000);
+        }
+
+        // The control: what is really there does take room, and no more than a few times its length.
+        byte[] many = SnapshotFormat.Encode(new WorldSnapshot(At(0), At(1), 7, Enumerable.Repeat(Plain(), 5000).ToArray()));
+        Assert.InRange(Allocated(many), many.Length, 6L * many.Length);
+        many[28 + 8] = many[28 + 9] = many[28 + 15] = 0xFF; // no radius: refused, and as cheap
+        many[28 + 14] = 0xFF;
+        Refused(WireRefusal.BadValue, many);
+        Assert.InRange(Allocated(many), 0, 6L * many.Length);
+    }
+
+    [Theory]
+    [InlineData(double.NaN)]
+    [InlineData(double.PositiveInfinity)]
+    public void TryDecode_NumberNotFinite_IsRefusedInEveryField(double value)
+    {
+        byte[] good = SnapshotFormat.Encode(new WorldSnapshot(At(0), At(1), 7, [Plain(MotionLaw.RungeKutta4)]));
+        int[] numbers = [28 + 8, 28 + 16, 28 + 24, .. Enumerable.Range(0, 9).Select(n => 28 + 93 + (8 * n)), .. Enumerable.Range(0, 9).Select(n => 28 + 167 + (8 * n))];
+        foreach (int at in numbers)
+        {
+            byte[] bytes = (byte[])good.Clone();
+            BitConverter.GetBytes(value).CopyTo(bytes, at);
+            Refused(WireRefusal.BadValue, bytes);
+            BitConverter.GetBytes(0.5).CopyTo(bytes, at); // the control: it is a number that stands there
+            Decoded(bytes);
+        }
+    }
+
+    [Fact]
+    public void TryDecode_FieldOutOfRange_IsRefused()
+    {
+        byte[] good = SnapshotFormat.Encode(new WorldSnapshot(At(0), At(1), 7, [Plain()]));
+        byte[] step = (byte[])good.Clone();
+        step.AsSpan(28 + 8 + 25, 8).Clear();
+        Refused(WireRefusal.BadValue, step);
+        byte[] supports = (byte[])good.Clone();
+        supports[28 + 166] = BodySnapshot.MaxSupports + 1;
+        Refused(WireRefusal.BadValue, [.. supports, .. new byte[16]]);
+        supports[28 + 166] = 1;
+        Refused(WireRefusal.BadValue, [.. supports, 0, 0, 0, 0x80]);
+        Decoded([.. supports, 0xFF, 0xFF, 0xFF, 0x7F]);
+    }
+
+    [Fact]
+    public void Encode_WhatCannotTravel_IsRefused()
+    {
+        Assert.Throws<ArgumentNullException>(() => SnapshotFormat.Encode(null!));
+        BodySnapshot b = Plain();
+        Refuse(new BodySnapshot(b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, V(double.NaN), b.Velocity, b.Acceleration), "finite");
+        Refuse(new BodySnapshot(b.Id, Ball(double.NaN), b.Opened, b.Law, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration), "finite");
+        Refuse(new BodySnapshot(b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, crowding: 256), "256");
+        Refuse(new BodySnapshot(b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [-1]), "plane -1");
+
+        static void Refuse(BodySnapshot body, string word) => Assert.Contains(
+            word, Assert.Throws<ArgumentException>(() => SnapshotFormat.Encode(new WorldSnapshot(At(0), At(1), 0, [body]))).Message, StringComparison.Ordinal);
+    }
+
+    private static BodySnapshot Plain(MotionLaw law = MotionLaw.Ballistic) => new(
+        First, Ball(), new EventKey(At(0.5), 0, EventKind.Impact, First, First, 0, 0), law, At(0.5), SimTime.MaxValue, V(1, 2, 3), V(4), V(0, -9.81));
+
+    private static BodySnapshot WithNegativeZeros(BodySnapshot b)
+    {
+        return new BodySnapshot(
+            b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, Negative(b.Position), Negative(b.Velocity), Negative(b.Acceleration),
+            Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray(), b.Crowding, b.Cubic, b.Quartic, b.Quintic);
+
+        static Vector3D Negative(Vector3D v) => new(v.X == 0 ? -0.0 : v.X, v.Y == 0 ? -0.0 : v.Y, v.Z == 0 ? -0.0 : v.Z);
+    }
+
+    private static byte[][] Valid(int count) =>
+        [.. Gen.Sample(Any, count, new Rnd(20261121, 1), 30).Where(s => s.Bodies.Count > 0).Select(SnapshotFormat.Encode), .. Enumerable.Range(1, count / 4).Select(seed => SnapshotFormat.Encode(new RandomWorld(seed).OnTime().Snapshot(At(0.6))))];
+
+    private static WorldSnapshot Decoded(ReadOnlySpan<byte> bytes)
+    {
+        Assert.True(SnapshotFormat.TryDecode(bytes, out WorldSnapshot? snapshot, out WireRefusal refusal), $"{refusal}");
+        Assert.Equal(WireRefusal.None, refusal);
+        return snapshot;
+    }
+
+    private static void Refused(WireRefusal expected, ReadOnlySpan<byte> bytes)
+    {
+        Assert.False(SnapshotFormat.TryDecode(bytes, out WorldSnapshot? snapshot, out WireRefusal refusal));
+        Assert.Null(snapshot);
+        Assert.Equal(expected, refusal);
+    }
+
+    private static bool OneForm(ReadOnlySpan<byte> bytes)
+    {
+        bool isAccepted = SnapshotFormat.TryDecode(bytes, out WorldSnapshot? snapshot, out WireRefusal refusal);
+        Assert.Equal(isAccepted, refusal == WireRefusal.None);
+        Assert.Equal(isAccepted, snapshot is not null);
+        if (isAccepted)
+        {
+            byte[] again = SnapshotFormat.Encode(snapshot!);
+            Assert.True(AnyDatagram.SameButForNegativeZero(bytes, again), Convert.ToHexString(bytes)); // of a spec only
+            Assert.True(Same(snapshot!, Decoded(again)));
+        }
+
+        return isAccepted;
+    }
+
+    private static long Allocated(byte[] bytes)
+    {
+        SnapshotFormat.TryDecode(bytes, out _, out _);
+        long before = GC.GetAllocatedBytesForCurrentThread();
+        SnapshotFormat.TryDecode(bytes, out _, out _);
+        return GC.GetAllocatedBytesForCurrentThread() - before;
+    }
+
+    private static IEnumerable<double> Numbers(BodySnapshot b) =>
+        new[] { b.Position, b.Velocity, b.Acceleration, b.Cubic, b.Quartic, b.Quintic }.SelectMany(v => new[] { v.X, v.Y, v.Z });
+
+    /// <summary>Every field of both, and of numbers every bit.</summary>
+    private static bool Same(WorldSnapshot a, WorldSnapshot b) =>
+        a.Start == b.Start && a.Time == b.Time && a.EventHash == b.EventHash && a.Bodies.Count == b.Bodies.Count && a.Bodies.Zip(b.Bodies).All(pair => Same(pair.First, pair.Second));
+
+    private static bool Same(BodySnapshot a, BodySnapshot b) =>
+        a.Id == b.Id && a.Spec.Equals(b.Spec) && a.Opened.Equals(b.Opened) && a.Law == b.Law && a.Epoch == b.Epoch && a.End == b.End
+        && a.Crowding == b.Crowding && a.SupportCount == b.SupportCount && Enumerable.Range(0, a.SupportCount).All(n => a.Support(n) == b.Support(n))
+        && Numbers(a).Select(BitConverter.DoubleToInt64Bits).SequenceEqual(Numbers(b).Select(BitConverter.DoubleToInt64Bits));
+}

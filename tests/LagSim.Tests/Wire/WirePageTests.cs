@@ -1,0 +1,297 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using System.Text.RegularExpressions;
+using FsCheck;
+using FsCheck.Fluent;
+using LagSim.Events;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Tests.Determinism;
+using LagSim.Timelines;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+using static LagSim.Tests.Wire.LayoutPage;
+
+namespace LagSim.Tests.Wire;
+
+/// <summary>docs/WIRE.md says what is true: datagrams and copies written from its tables, field by field in their order and types, are those of the library.</summary>
+public sealed class WirePageTests
+{
+    private static readonly string[] Page = Read("WIRE.md");
+
+    [Fact]
+    public void Tables_WrittenFieldByField_AreTheDatagrams()
+    {
+        int checkedOnes = 0;
+        foreach ((byte[] expected, Func<string[], byte[]> written) in Datagrams(60))
+        {
+            Assert.Equal(Convert.ToHexString(expected), Convert.ToHexString(written(Page)));
+            checkedOnes++;
+        }
+
+        Assert.Equal(9 * 60, checkedOnes);
+    }
+
+    [Fact]
+    public void Tables_OfCopyAndSnapshot_AreThoseOfWorlds()
+    {
+        int dense = 0, carried = 0;
+        foreach (RandomWorld world in Enumerable.Range(1, 40).Select(seed => new RandomWorld(seed)))
+        {
+            WorldSnapshot snapshot = world.OnTime().Snapshot(At(0.6));
+            Assert.Equal(Convert.ToHexString(SnapshotFormat.Encode(snapshot)), Convert.ToHexString(Snapshot(Page, snapshot)));
+            Assert.Equal(Convert.ToHexString(WorldCopy.Encode(world.Scene, snapshot)), Convert.ToHexString(Copy(Page, world.Scene, snapshot)));
+            dense += snapshot.Bodies.Count(b => b.Law == MotionLaw.RungeKutta4);
+            carried += snapshot.Bodies.Count(b => b.SupportCount > 0);
+        }
+
+        Assert.True(dense > 10 && carried > 3, $"{dense} {carried}"); // else nothing was shown
+    }
+
+    [Fact]
+    public void Tables_WithTwoRowsSwappedOrOneLess_AreSeenToFail()
+    {
+        (byte[] Expected, Func<string[], byte[]> Written)[] all = [.. Datagrams(25), .. Snapshots()];
+        int rows = 0;
+        for (int i = 0; i < Page.Length; i++)
+        {
+            if (IsField(Page, i))
+            {
+                string[] without = [.. Page[..i], .. Page[(i + 1)..]];
+                Assert.True(all.Any(one => Differs(one, without)), $"without '{Page[i]}'");
+                rows++;
+            }
+
+            if (IsField(Page, i) && IsField(Page, i + 1) && !Page[i].Contains("padding", StringComparison.Ordinal))
+            {
+                string[] swapped = [.. Page[..i], Page[i + 1], Page[i], .. Page[(i + 2)..]];
+                Assert.True(all.Any(one => Differs(one, swapped)), $"with '{Page[i]}' below the next");
+            }
+        }
+
+        Assert.Equal(3 + 3 + 8 + 2 + 16 + 4 + 6 + 3 + 2 + 4 + 5 + 3 + 3 + 23, rows);
+    }
+
+    [Fact]
+    public void Numbers_OfThePage_AreThoseOfTheCode()
+    {
+        string page = string.Join("\n", Page);
+        Assert.StartsWith($"# The wire format, version {WireFormat.Version}\n", page, StringComparison.Ordinal);
+        Dictionary<DatagramType, int> lengths = new()
+        {
+            [DatagramType.Knock] = WireFormat.KnockBytes,
+            [DatagramType.Welcome] = WireFormat.WelcomeBytes,
+            [DatagramType.Refusal] = WireFormat.RefusalBytes,
+            [DatagramType.Update] = WireFormat.EmptyUpdateBytes,
+            [DatagramType.Leave] = WireFormat.LeaveBytes,
+            [DatagramType.Challenge] = WireFormat.ChallengeBytes,
+            [DatagramType.Join] = WireFormat.JoinBytes,
+            [DatagramType.Fetch] = WireFormat.FetchBytes,
+            [DatagramType.Chunk] = WireFormat.EmptyChunkBytes + 1,
+        };
+        foreach (DatagramType type in Enum.GetValues<DatagramType>().Where(type => type != DatagramType.None))
+        {
+            Assert.Contains($"{(int)type} {type}", Table(Page, "## Header")[2].Value, StringComparison.Ordinal);
+            Assert.Single(Page, line => line.StartsWith($"## {(int)type} {type}, {lengths[type]} ", StringComparison.Ordinal));
+        }
+
+        AssertWords<RefusalReason>(Table(Page, "## 3 Refusal")[1].Value);
+        AssertWords<Verdict>(Table(Page, "## 4 Update").Single(row => row.Field == "entry verdict").Value);
+        Assert.Contains($"0 to {UpdateDatagram.MaxEntries};", page, StringComparison.Ordinal);
+        Assert.Contains($"{ChunkDatagram.MaxData.ToString("N0", CultureInfo.InvariantCulture)} bytes", page, StringComparison.Ordinal);
+        Assert.Contains($"1 to {WorldCopy.MaxBytes.ToString("N0", CultureInfo.InvariantCulture)} |", page, StringComparison.Ordinal);
+        Assert.Contains($"0 to {BodySnapshot.MaxSupports} |", page, StringComparison.Ordinal);
+        foreach (string refusal in Enum.GetNames<WireRefusal>().Where(name => name != nameof(WireRefusal.None)))
+        {
+            Assert.Matches($@"\| ([A-Za-z, ]*, )?{refusal}(, [A-Za-z]*)? \|", page);
+        }
+    }
+
+    private static void AssertWords<T>(string value)
+        where T : struct, Enum
+    {
+        foreach (T one in Enum.GetValues<T>())
+        {
+            string words = Regex.Replace(one.ToString(), "(?<!^)([A-Z])", " $1").ToLowerInvariant();
+            Assert.Contains(string.Create(CultureInfo.InvariantCulture, $"{Convert.ToInt32(one, CultureInfo.InvariantCulture)} {words}"), value, StringComparison.Ordinal);
+        }
+    }
+
+    private static bool Differs((byte[] Expected, Func<string[], byte[]> Written) one, string[] page)
+    {
+        try
+        {
+            return !one.Expected.AsSpan().SequenceEqual(one.Written(page));
+        }
+        catch (Exception wrong) when (wrong is KeyNotFoundException or InvalidCastException or IndexOutOfRangeException or FormatException or OverflowException)
+        {
+            return true; // a field that is not of this table
+        }
+    }
+
+    private static IEnumerable<(byte[] Expected, Func<string[], byte[]> Written)> Snapshots() => Enumerable.Range(1, 8).Select(seed =>
+    {
+        RandomWorld world = new(seed);
+        WorldSnapshot snapshot = world.OnTime().Snapshot(At(0.6));
+        if (seed == 1)
+        {
+            // No body of a world is carried and integrated at a time, but a layout has room for both.
+            BodySnapshot b = snapshot.Bodies[0];
+            BodySnapshot both = new(
+                b.Id, b.Spec, b.Opened, MotionLaw.RungeKutta4, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [7, 8, 9], 5, V(1, 2, 3), V(4, 5, 6), V(7, 8, 9));
+            snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [both]);
+        }
+
+        return (WorldCopy.Encode(world.Scene, snapshot), (Func<string[], byte[]>)(page => Copy(page, world.Scene, snapshot)));
+    });
+
+    private static IEnumerable<(byte[] Expected, Func<string[], byte[]> Written)> Datagrams(int each)
+    {
+        foreach (KnockDatagram d in Sample(WireGen.Knock, each))
+        {
+            yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(page, DatagramType.Knock, ("nonce", d.Nonce), ("padding", 0UL), ("more padding", 0UL)));
+        }
+
+        foreach (WelcomeDatagram d in Sample(WireGen.Welcome, each))
+        {
+            yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(
+                page, DatagramType.Welcome, ("nonce", d.Nonce), ("session id", d.SessionId), ("peer", d.Peer), ("last sequence", d.LastSequence),
+                ("history", d.History.Ticks), ("copy length", d.CopyLength), ("copy hash", d.CopyHash), ("log index", d.LogIndex)));
+        }
+
+        foreach (RefusalDatagram d in Sample(WireGen.Refusal, each))
+        {
+            yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(page, DatagramType.Refusal, ("nonce", d.Nonce), ("reason", (byte)d.Reason)));
+        }
+
+        foreach (UpdateDatagram d in Sample(WireGen.Update, each))
+        {
+            yield return (AnyDatagram.Bytes(d.Encode), page => Update(page, d));
+        }
+
+        foreach (LeaveDatagram d in Sample(WireGen.Leave, each))
+        {
+            yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(
+                page, DatagramType.Leave, ("session id", d.SessionId), ("peer", d.Peer), ("reason", (byte)d.Reason)));
+        }
+
+        foreach ((ulong nonce, byte[] cookie) in Sample(from n in WireGen.Bits64 from c in Gen.ArrayOf(WireGen.Byte, 16) select (n, c), each))
+        {
+            yield return (AnyDatagram.Bytes(new ChallengeDatagram(nonce, new Token128(cookie)).Encode), page => Datagram(
+                page, DatagramType.Challenge, ("nonce", nonce), ("cookie", cookie)));
+            yield return (AnyDatagram.Bytes(new JoinDatagram(nonce, new Token128(cookie), new Token128([.. cookie.Reverse()]), ~nonce).Encode), page => Datagram(
+                page, DatagramType.Join, ("nonce", nonce), ("cookie", cookie), ("proof", (byte[])[.. cookie.Reverse()]), ("scene hash", ~nonce)));
+            yield return (AnyDatagram.ChunkBytes(nonce, 77, cookie), page => Datagram(
+                page, DatagramType.Chunk, ("session id", nonce), ("index", 77), ("data", cookie)));
+        }
+
+        foreach (FetchDatagram d in Sample(WireGen.Fetch, each))
+        {
+            yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(
+                page, DatagramType.Fetch, ("session id", d.SessionId), ("peer", d.Peer), ("number", d.Number), ("first", d.First), ("wanted", d.Wanted)));
+        }
+    }
+
+    private static IEnumerable<T> Sample<T>(Gen<T> gen, int count) => Gen.Sample(gen, count, new Rnd(20261121, 1), 30);
+
+    private static byte[] Datagram(string[] page, DatagramType type, params (string Field, object Value)[] values)
+    {
+        MemoryStream bytes = new();
+        Header(bytes, page, type);
+        Write(bytes, Table(page, $"## {(int)type} {type}"), Values(values));
+        return bytes.ToArray();
+    }
+
+    private static void Header(Stream to, string[] page, DatagramType type) => Write(
+        to, Table(page, "## Header"), Values(("magic", 0x4C53), ("version", WireFormat.Version), ("type", (byte)type)));
+
+    private static byte[] Update(string[] page, UpdateDatagram d)
+    {
+        List<Dictionary<string, object>> entries = [];
+        foreach (UpdateEntry entry in d.Entries)
+        {
+            entries.Add(Values(
+                ("entry verdict", (byte)entry.Verdict + (entry.IsOwn ? 128 : 0)),
+                ("entry event", entry.IsOwn ? BitConverter.GetBytes(entry.Sequence) : Event(page, entry.Event))));
+        }
+
+        LayoutRow[] rows = Table(page, "## 4 Update");
+        if (!d.HasStateHash)
+        {
+            rows = [.. rows.Where(row => !row.Value.Contains("only with flag bit 0", StringComparison.Ordinal))];
+        }
+
+        MemoryStream bytes = new();
+        Header(bytes, page, DatagramType.Update);
+        Write(
+            bytes,
+            rows,
+            Values(
+                ("session id", d.SessionId), ("peer", d.Peer), ("number", d.Number), ("sent", d.Sent), ("echo sent", d.EchoSent), ("echo received", d.EchoReceived),
+                ("start", d.Start), ("watermark", d.Watermark), ("events received", d.EventsReceived), ("flags", (d.HasStateHash ? 1 : 0) + (d.Ready ? 2 : 0)),
+                ("hash time", d.HashTime), ("state hash", d.StateHash), ("first index", d.FirstIndex), ("count", d.Entries.Length)),
+            new() { ["count"] = ("entry ", entries) });
+        return bytes.ToArray();
+    }
+
+    /// <summary>An event from the table of what all have and the table of what each kind has.</summary>
+    private static byte[] Event(string[] page, ExternalEvent what)
+    {
+        MemoryStream bytes = new();
+        Write(bytes, Table(page, "### Event"), Values(("kind", (byte)what.Kind), ("peer", what.Peer), ("sequence", what.Sequence), ("time", what.Time)));
+        string words = Regex.Replace(what.Kind.ToString(), "(?<!^)([A-Z])", " $1").ToLowerInvariant();
+        string[] row = page.Single(line => line.StartsWith($"| {words} |", StringComparison.Ordinal)).Split('|');
+        foreach (string field in row[3].Split(';')[0].Split(',', StringSplitOptions.TrimEntries))
+        {
+            bytes.Write(field switch
+            {
+                "spec" => Spec(page, what.Spec),
+                "u64 body" => Bytes("u64", what.Body.Packed),
+                "position" => Bytes("vector", what.Position),
+                "velocity" or "impulse" => Bytes("vector", what.Velocity),
+                _ => throw new KeyNotFoundException(field),
+            });
+        }
+
+        Assert.Equal(int.Parse(row[2], CultureInfo.InvariantCulture), EventFormat.EncodedLength(what.Kind));
+        return bytes.ToArray();
+    }
+
+    private static byte[] Spec(string[] page, BodySpec spec)
+    {
+        MemoryStream bytes = new();
+        Write(bytes, Table(page, "### Spec"), Values(
+            ("radius", spec.Radius), ("mass", spec.Mass), ("restitution", spec.Restitution), ("flight", (byte)spec.Flight), ("step", spec.Step.Ticks),
+            ("acceleration", spec.Acceleration)));
+        return bytes.ToArray();
+    }
+
+    private static byte[] Copy(string[] page, Scene scene, WorldSnapshot snapshot)
+    {
+        byte[] first = SceneFormat.Encode(scene);
+        MemoryStream bytes = new();
+        Write(bytes, Table(page, "## The copy"), Values(("scene length", first.Length), ("scene", first), ("snapshot", Snapshot(page, snapshot))));
+        return bytes.ToArray();
+    }
+
+    private static byte[] Snapshot(string[] page, WorldSnapshot snapshot)
+    {
+        MemoryStream bytes = new();
+        Write(
+            bytes,
+            Table(page, "## Snapshot"),
+            Values(("start", snapshot.Start), ("time", snapshot.Time), ("event hash", snapshot.EventHash), ("bodies", snapshot.Bodies.Count)),
+            new() { ["bodies"] = ("", snapshot.Bodies.Select(Body)) });
+        return bytes.ToArray();
+    }
+
+    private static Dictionary<string, object> Body(BodySnapshot b) => Values(
+        ("body id", b.Id.Packed), ("body spec", b.Spec), ("opened at", b.Opened.Time), ("opened round", b.Opened.Round), ("opened kind", (byte)b.Opened.Kind),
+        ("opened body", b.Opened.Body.Packed), ("opened other", b.Opened.Other.Packed), ("opened peer", b.Opened.Peer), ("opened sequence", b.Opened.Sequence),
+        ("law", (byte)b.Law), ("epoch", b.Epoch), ("end", b.End), ("position", b.Position), ("velocity", b.Velocity), ("acceleration", b.Acceleration),
+        ("crowding", (byte)b.Crowding), ("supports", (byte)b.SupportCount), ("carried by", Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray()),
+        ("dense output", b.Law == MotionLaw.RungeKutta4 ? new[] { b.Cubic, b.Quartic, b.Quintic } : []));
+}
