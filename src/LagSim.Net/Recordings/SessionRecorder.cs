@@ -32,9 +32,8 @@ public sealed class SessionRecorder : IDisposable
     /// </param>
     /// <exception cref="InvalidOperationException">The session has a world already: what happened before would be missing.</exception>
     public SessionRecorder(Session session, string path)
-        : this(session, () => new FileStream(path, FileMode.Create, FileAccess.Write, FileShare.Read))
+        : this(session, Opener(path ?? throw new ArgumentNullException(nameof(path))))
     {
-        _ = path ?? throw new ArgumentNullException(nameof(path));
     }
 
     internal SessionRecorder(Session session, Func<Stream> open)
@@ -72,6 +71,8 @@ public sealed class SessionRecorder : IDisposable
         Try(() => writer?.WriteEnd(session.EndReason ?? "The recording ended before the session."));
         Close();
     }
+
+    private static Func<Stream> Opener(string path) => () => new FileStream(path, FileMode.Create, FileAccess.Write, FileShare.Read);
 
     private void OnBegun() => Try(() =>
     {
