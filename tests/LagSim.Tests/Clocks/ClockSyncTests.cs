@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 using LagSim.Harness.Links;
 using LagSim.Net.Clocks;
 using LagSim.Time;
@@ -163,7 +164,8 @@ public class ClockSyncTests
     [Fact]
     public void Add_TenThousandAfterWarmUp_AllocatesNothing()
     {
-        Assert.Equal(0, Measure(0));
+        // The least of a few: a collection that another test causes gives this thread's allocation buffer back, which counts as allocated.
+        Assert.Equal(0, Enumerable.Range(0, 5).Min(_ => Measure(0)));
         Assert.True(Measure(24) > 10_000 * 24); // negative control: what does allocate is seen
 
         static long Measure(int extra)
