@@ -4,5 +4,15 @@ namespace LagSim.Bench;
 
 internal static class Program
 {
-    internal static void Main(string[] arguments) => BenchmarkSwitcher.FromAssembly(typeof(Program).Assembly).Run(arguments);
+    internal static void Main(string[] arguments)
+    {
+        if (arguments is ["traffic"])
+        {
+            TrafficTable.Print();
+        }
+        else
+        {
+            BenchmarkSwitcher.FromAssembly(typeof(Program).Assembly).Run(arguments);
+        }
+    }
 }

@@ -1,0 +1,84 @@
+using System;
+using System.Globalization;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Bench;
+
+/// <summary>Bytes a second on each link of a session in virtual time: not a matter of speed, so not a benchmark of time.</summary>
+internal static class TrafficTable
+{
+    private const double Seconds = 100;
+
+    internal static void Print()
+    {
+        Console.WriteLine("Bytes a second of payload, host and 3 joiners on a lan, over 100 s (28 more a datagram with UDP and IPv4)");
+        Console.WriteLine("| events a second of one joiner | it sends | it gets | another joiner sends | another gets |");
+        Console.WriteLine("|---|---|---|---|---|");
+        foreach (double rate in new[] { 0, 1, 10, 60 })
+        {
+            Console.WriteLine(Row(rate));
+        }
+    }
+
+    private static string Row(double rate)
+    {
+        const int peers = 4;
+        VirtualClock clock = new(SimTime.FromSeconds(100));
+        VirtualNetwork network = new(clock, 1, LinkProfiles.Lan);
+        Scene scene = new SceneBuilder("traffic").AddPlane("floor", Vector3D.Up, Vector3D.Zero).AddBody("ball", new BodySpec(0.5, 1, 0.5), new Vector3D(0, 0.5, 0)).Build();
+        Session[] sessions = Enumerable.Range(0, peers).Select(peer => Make(network, clock, scene, peer, peers)).ToArray();
+        SimTime[] due = Enumerable.Repeat(clock.Now, peers).ToArray();
+        void Run(double seconds)
+        {
+            SimTime end = clock.Now + SimDuration.FromSeconds(seconds);
+            while (clock.Now < end)
+            {
+                SimTime next = SimTime.Min(end, due.Min());
+                next = network.NextDelivery is SimTime delivery ? SimTime.Min(next, delivery) : next;
+                bool delivered = network.DeliverUntil(SimTime.Max(next, clock.Now)) > 0;
+                for (int peer = 0; peer < peers; peer++)
+                {
+                    if (delivered || due[peer] <= clock.Now)
+                    {
+                        SimDuration wait = sessions[peer].Step();
+                        due[peer] = wait > SimDuration.FromSeconds(3600) ? SimTime.MaxValue : clock.Now + (wait > SimDuration.Zero ? wait : SimDuration.OneTick);
+                    }
+                }
+            }
+        }
+
+        Run(10);
+        LinkTraffic[] before = sessions.Skip(1).Select(s => s.Links[0]).ToArray();
+        for (double done = 0; done < Seconds; done += rate == 0 ? Seconds : 1 / rate)
+        {
+            if (rate > 0)
+            {
+                sessions[1].Do(PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, 0.1, 0)));
+                due[1] = clock.Now;
+            }
+
+            Run(rate == 0 ? Seconds : 1 / rate);
+        }
+
+        LinkTraffic[] after = sessions.Skip(1).Select(s => s.Links[0]).ToArray();
+        double PerSecond(Func<LinkTraffic, long> of, int joiner) => (of(after[joiner]) - of(before[joiner])) / Seconds;
+        return string.Create(
+            CultureInfo.InvariantCulture,
+            $"| {rate:0} | {PerSecond(l => l.BytesSent, 0):0} | {PerSecond(l => l.BytesReceived, 0):0} | {PerSecond(l => l.BytesSent, 1):0} | {PerSecond(l => l.BytesReceived, 1):0} |");
+    }
+
+    private static Session Make(VirtualNetwork network, VirtualClock clock, Scene scene, int peer, int peers)
+    {
+        SessionOptions options = new() { ExpectedJoiners = peers - 1 };
+        IDatagramPort port = network.CreatePort(peer);
+        return peer == 0
+            ? new HostSession(scene, port, clock, options, 1)
+            : new JoinerSession(null, port, clock, options, PeerAddress.Virtual(0), (ulong)peer);
+    }
+}
