@@ -159,7 +159,10 @@ public abstract class Session
         EventRights.Throw(external, Scene!);
         try
         {
-            World.Submit(external);
+            if (World.Submit(external) == SubmitResult.TooOld)
+            {
+                throw new InvalidOperationException($"Nothing can be done yet: the shared time is {external.Time}, and what lies before {World.Simulation.HistoryEdge} is committed.");
+            }
         }
         catch (SimulationException failure)
         {
