@@ -3,6 +3,7 @@ using System.Globalization;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Links;
+using LagSim.Harness.Peers;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
@@ -32,53 +33,33 @@ internal static class TrafficTable
         VirtualClock clock = new(SimTime.FromSeconds(100));
         VirtualNetwork network = new(clock, 1, LinkProfiles.Lan);
         Scene scene = new SceneBuilder("traffic").AddPlane("floor", Vector3D.Up, Vector3D.Zero).AddBody("ball", new BodySpec(0.5, 1, 0.5), new Vector3D(0, 0.5, 0)).Build();
-        Session[] sessions = Enumerable.Range(0, peers).Select(peer => Make(network, clock, scene, peer, peers)).ToArray();
-        SimTime[] due = Enumerable.Repeat(clock.Now, peers).ToArray();
-        void Run(double seconds)
+        VirtualSteps steps = new(network);
+        for (int peer = 0; peer < peers; peer++)
         {
-            SimTime end = clock.Now + SimDuration.FromSeconds(seconds);
-            while (clock.Now < end)
-            {
-                SimTime next = SimTime.Min(end, due.Min());
-                next = network.NextDelivery is SimTime delivery ? SimTime.Min(next, delivery) : next;
-                bool delivered = network.DeliverUntil(SimTime.Max(next, clock.Now)) > 0;
-                for (int peer = 0; peer < peers; peer++)
-                {
-                    if (delivered || due[peer] <= clock.Now)
-                    {
-                        SimDuration wait = sessions[peer].Step();
-                        due[peer] = wait > SimDuration.FromSeconds(3600) ? SimTime.MaxValue : clock.Now + (wait > SimDuration.Zero ? wait : SimDuration.OneTick);
-                    }
-                }
-            }
+            IDatagramPort port = network.CreatePort(peer);
+            SessionOptions options = new() { ExpectedJoiners = peers - 1 };
+            steps.Add(
+                peer == 0 ? new HostSession(scene, port, clock, options, 1) : new JoinerSession(null, port, clock, options, PeerAddress.Virtual(0), (ulong)peer),
+                port);
         }
 
-        Run(10);
-        LinkTraffic[] before = sessions.Skip(1).Select(s => s.Links[0]).ToArray();
+        steps.RunFor(SimDuration.FromSeconds(10));
+        LinkTraffic[] before = steps.Sessions.Skip(1).Select(s => s.Links[0]).ToArray();
         for (double done = 0; done < Seconds; done += rate == 0 ? Seconds : 1 / rate)
         {
             if (rate > 0)
             {
-                sessions[1].Do(PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, 0.1, 0)));
-                due[1] = clock.Now;
+                steps.Sessions[1].Do(PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, 0.1, 0)));
+                steps.Wake(1);
             }
 
-            Run(rate == 0 ? Seconds : 1 / rate);
+            steps.RunFor(SimDuration.FromSeconds(rate == 0 ? Seconds : 1 / rate));
         }
 
-        LinkTraffic[] after = sessions.Skip(1).Select(s => s.Links[0]).ToArray();
+        LinkTraffic[] after = steps.Sessions.Skip(1).Select(s => s.Links[0]).ToArray();
         double PerSecond(Func<LinkTraffic, long> of, int joiner) => (of(after[joiner]) - of(before[joiner])) / Seconds;
         return string.Create(
             CultureInfo.InvariantCulture,
             $"| {rate:0} | {PerSecond(l => l.BytesSent, 0):0} | {PerSecond(l => l.BytesReceived, 0):0} | {PerSecond(l => l.BytesSent, 1):0} | {PerSecond(l => l.BytesReceived, 1):0} |");
-    }
-
-    private static Session Make(VirtualNetwork network, VirtualClock clock, Scene scene, int peer, int peers)
-    {
-        SessionOptions options = new() { ExpectedJoiners = peers - 1 };
-        IDatagramPort port = network.CreatePort(peer);
-        return peer == 0
-            ? new HostSession(scene, port, clock, options, 1)
-            : new JoinerSession(null, port, clock, options, PeerAddress.Virtual(0), (ulong)peer);
     }
 }

@@ -3,6 +3,7 @@ using System.Linq;
 using System.Threading;
 using LagSim.Events;
 using LagSim.Harness.Links;
+using LagSim.Harness.Peers;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
@@ -64,7 +65,7 @@ public static class SessionFuzz
         private readonly Session[] sessions = new Session[Peers];
         private readonly IDatagramPort[] ports = new IDatagramPort[Peers];
         private readonly IDatagramPort[] strangers;
-        private readonly SimTime[] due = new SimTime[Peers];
+        private readonly VirtualSteps steps;
         private readonly SeededRandom random;
         private readonly HostileDatagrams hostile;
         private bool isLearning = true;
@@ -76,6 +77,7 @@ public static class SessionFuzz
             random = new SeededRandom(seed);
             hostile = new HostileDatagrams(random.Fork(1));
             network = new VirtualNetwork(clock, seed, LinkProfiles.Lan);
+            steps = new VirtualSteps(network);
             network.Lose((from, to, datagram) =>
             {
                 if (isLearning && from < Peers && to < Peers)
@@ -92,15 +94,13 @@ public static class SessionFuzz
                 .Build();
             for (int peer = 0; peer < Peers; peer++)
             {
-                int place = peer;
                 ports[peer] = network.CreatePort(peer);
-                ports[peer].Arrived += () => due[place] = clock.Now;
                 SessionOptions options = new() { ExpectedJoiners = Peers - 1, ConnectKey = "fuzz", ExtraHistory = SimDuration.FromSeconds(60) };
                 SkewedClock own = new(clock, 5 * peer, SimDuration.FromSeconds(peer));
                 sessions[peer] = peer == 0
                     ? new HostSession(scene, ports[0], own, options, random.NextUInt64())
                     : new JoinerSession(null, ports[peer], own, options, PeerAddress.Virtual(0), random.NextUInt64());
-                due[peer] = clock.Now;
+                steps.Add(sessions[peer], ports[peer]);
             }
 
             strangers = Enumerable.Range(Stranger, Strangers).Select(network.CreatePort).ToArray();
@@ -115,14 +115,14 @@ public static class SessionFuzz
                 for (; sent < packets; sent++)
                 {
                     SendOne();
-                    RunFor(Pace);
+                    steps.RunFor(Pace);
                     if (sent % 100 == 50)
                     {
                         Act(sent / 100 % Peers);
                     }
                 }
 
-                RunFor(SimDuration.FromSeconds(2));
+                steps.RunFor(SimDuration.FromSeconds(2));
             }
             catch (Exception thrown)
             {
@@ -164,26 +164,7 @@ public static class SessionFuzz
             if (sessions[peer].State == SessionState.Running)
             {
                 sessions[peer].Do(PlayerAction.Impulse(BodyId.OfScene((int)(random.NextUInt64() % 2)), new Vector3D(random.NextGaussian(), 3, 0)));
-                due[peer] = clock.Now;
-            }
-        }
-
-        private void RunFor(SimDuration span)
-        {
-            SimTime end = clock.Now + span;
-            while (clock.Now < end)
-            {
-                SimTime next = SimTime.Min(end, due.Min());
-                next = network.NextDelivery is SimTime delivery ? SimTime.Min(next, delivery) : next;
-                network.DeliverUntil(SimTime.Max(next, clock.Now));
-                for (int peer = 0; peer < Peers; peer++)
-                {
-                    if (due[peer] <= clock.Now)
-                    {
-                        SimDuration wait = sessions[peer].Step();
-                        due[peer] = wait > SimDuration.FromSeconds(3600) ? SimTime.MaxValue : clock.Now + (wait > SimDuration.Zero ? wait : SimDuration.OneTick);
-                    }
-                }
+                steps.Wake(peer);
             }
         }
 

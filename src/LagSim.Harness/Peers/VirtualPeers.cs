@@ -24,8 +24,8 @@ public sealed class VirtualPeers : PeerGroup
     private readonly PeerGroupOptions options;
     private readonly VirtualClock clock = new(SimTime.FromSeconds(2 * ClockSpreadSeconds));
     private readonly VirtualNetwork network;
+    private readonly VirtualSteps steps;
     private readonly Session[] sessions;
-    private readonly SimTime[] due;
 
     /// <summary>Makes the peers; nobody is connected yet.</summary>
     public VirtualPeers(Scene scene, PeerGroupOptions options)
@@ -35,7 +35,7 @@ public sealed class VirtualPeers : PeerGroup
         network = new VirtualNetwork(clock, options.Seed, options.Link);
         SeededRandom random = new SeededRandom(options.Seed).Fork(0xC10C);
         sessions = new Session[PeerCount];
-        due = new SimTime[PeerCount];
+        steps = new VirtualSteps(network);
         for (int peer = 0; peer < PeerCount; peer++)
         {
             IDatagramPort port = network.CreatePort(peer);
@@ -45,7 +45,7 @@ public sealed class VirtualPeers : PeerGroup
             sessions[peer] = peer == 0
                 ? new HostSession(scene, port, own, options.ToSessionOptions(), options.Seed)
                 : new JoinerSession(scene, port, own, options.ToSessionOptions(), PeerAddress.Virtual(0), options.Seed + (ulong)peer);
-            due[peer] = clock.Now;
+            steps.Add(sessions[peer], port);
         }
     }
 
@@ -64,7 +64,7 @@ public sealed class VirtualPeers : PeerGroup
         SimTime deadline = clock.Now + ConnectDeadline;
         while (sessions.Any(s => s.World is null))
         {
-            Advance(deadline);
+            steps.Advance(deadline);
             Session? ended = sessions.FirstOrDefault(s => s.State == SessionState.Ended);
             if (ended is not null || clock.Now >= deadline)
             {
@@ -86,7 +86,7 @@ public sealed class VirtualPeers : PeerGroup
     public override ExternalEvent Do(int peer, PlayerAction action)
     {
         ExternalEvent external = sessions[peer].Do(action);
-        due[peer] = clock.Now;
+        steps.Wake(peer);
         return external;
     }
 
@@ -96,28 +96,6 @@ public sealed class VirtualPeers : PeerGroup
     /// <inheritdoc/>
     public override void Dispose()
     {
-    }
-
-    /// <summary>Goes to the next moment at which anything is due, at most to <paramref name="limit"/>, and lets it happen.</summary>
-    private void Advance(SimTime limit)
-    {
-        SimTime next = limit;
-        foreach (SimTime time in due)
-        {
-            next = SimTime.Min(next, time);
-        }
-
-        next = network.NextDelivery is SimTime delivery ? SimTime.Min(next, delivery) : next;
-        next = SimTime.Max(next, clock.Now);
-        bool delivered = network.DeliverUntil(next) > 0;
-        for (int peer = 0; peer < PeerCount; peer++)
-        {
-            if (delivered || due[peer] <= clock.Now)
-            {
-                SimDuration wait = sessions[peer].Step();
-                due[peer] = wait > SimDuration.FromSeconds(3600) ? SimTime.MaxValue : clock.Now + AtLeastATick(wait);
-            }
-        }
     }
 
     private void Run(SimTime end, Session[] clocks, Action<SimDuration>? progress)
@@ -133,7 +111,7 @@ public sealed class VirtualPeers : PeerGroup
                 }
             }
 
-            Advance(next);
+            steps.Advance(next);
             Sample();
             for (int peer = 0; peer < PeerCount; peer++)
             {

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Links;
+using LagSim.Harness.Peers;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
@@ -17,11 +18,8 @@ internal sealed class SessionGroup
 {
     internal const ulong SessionId = 0x5E55_1017;
 
-    private static readonly SimDuration Hour = SimDuration.FromSeconds(3600);
-
-    private readonly List<SimTime> due = [];
+    private readonly VirtualSteps steps;
     private readonly List<IDatagramPort> ports = [];
-    private readonly List<Session> sessions = [];
     private readonly Random luck;
     private readonly UpdateDatagram tapped = new();
 
@@ -36,6 +34,7 @@ internal sealed class SessionGroup
             return false;
         });
         luck = new Random((int)seed);
+        steps = new VirtualSteps(Network);
         for (int peer = 0; peer < peers; peer++)
         {
             SessionOptions chosen = options?.Invoke(peer) ?? new SessionOptions { ExtraHistory = SimDuration.FromSeconds(60) };
@@ -54,7 +53,7 @@ internal sealed class SessionGroup
 
     internal IReadOnlyList<IDatagramPort> Ports => ports;
 
-    internal IReadOnlyList<Session> Sessions => sessions;
+    internal IReadOnlyList<Session> Sessions => steps.Sessions;
 
     internal HostSession Host => (HostSession)Sessions[0];
 
@@ -67,7 +66,10 @@ internal sealed class SessionGroup
     internal bool IsTapped { get; set; } = true;
 
     /// <summary>Called before each step of a peer.</summary>
-    internal Action<int>? BeforeStep { get; set; }
+    internal Action<int>? BeforeStep
+    {
+        set => steps.BeforeStep = value;
+    }
 
     internal JoinerSession Joiner(int peer) => (JoinerSession)Sessions[peer];
 
@@ -80,18 +82,13 @@ internal sealed class SessionGroup
     {
         ports[^1].Dispose();
         ports.RemoveAt(ports.Count - 1);
-        sessions.RemoveAt(sessions.Count - 1);
-        due.RemoveAt(due.Count - 1);
+        steps.RemoveLast();
     }
 
     /// <summary>Lets that much true time pass.</summary>
     internal void Run(double seconds)
     {
-        SimTime end = Clock.Now + SimDuration.FromSeconds(seconds);
-        while (Clock.Now < end)
-        {
-            Advance(end);
-        }
+        steps.RunFor(SimDuration.FromSeconds(seconds));
     }
 
     /// <summary>Lets time pass until something is so; false if it was not within that many seconds.</summary>
@@ -105,7 +102,7 @@ internal sealed class SessionGroup
                 return false;
             }
 
-            Advance(deadline);
+            steps.Advance(deadline);
         }
 
         return true;
@@ -121,7 +118,7 @@ internal sealed class SessionGroup
     internal ExternalEvent Do(int peer, PlayerAction action)
     {
         ExternalEvent external = Sessions[peer].Do(action);
-        due[peer] = Clock.Now;
+        steps.Wake(peer);
         return external;
     }
 
@@ -159,7 +156,7 @@ internal sealed class SessionGroup
         for (int i = 0; i <= instants; i++)
         {
             SimTime time = first + ((last - first) / instants * i);
-            for (int peer = 0; peer < sessions.Count; peer++)
+            for (int peer = 0; peer < Sessions.Count; peer++)
             {
                 Simulation actual = Sessions[peer].World!.Simulation;
                 if (actual.StateHash(time) != expected.StateHash(time))
@@ -181,30 +178,12 @@ internal sealed class SessionGroup
     {
         IDatagramPort port = Network.CreatePort(address);
         SkewedClock own = new(Clock, (luck.NextDouble() * 40) - 20, SimDuration.FromSeconds(luck.NextDouble() * 3600));
-        int place = ports.Count;
-        port.Arrived += () => due[place] = Clock.Now;
         ports.Add(port);
-        sessions.Add(sessions.Count == 0
+        Session session = Sessions.Count == 0
             ? new HostSession(scene!, port, own, options, SessionId)
-            : new JoinerSession(scene, port, own, options, PeerAddress.Virtual(0), nonce));
-        due.Add(Clock.Now);
-        return sessions[^1];
-    }
-
-    private void Advance(SimTime limit)
-    {
-        SimTime next = SimTime.Min(limit, due.Min());
-        next = Network.NextDelivery is SimTime delivery ? SimTime.Min(next, delivery) : next;
-        Network.DeliverUntil(SimTime.Max(next, Clock.Now));
-        for (int peer = 0; peer < sessions.Count; peer++)
-        {
-            if (due[peer] <= Clock.Now)
-            {
-                BeforeStep?.Invoke(peer);
-                SimDuration wait = Sessions[peer].Step();
-                due[peer] = wait > Hour ? SimTime.MaxValue : Clock.Now + (wait > SimDuration.Zero ? wait : SimDuration.OneTick);
-            }
-        }
+            : new JoinerSession(scene, port, own, options, PeerAddress.Virtual(0), nonce);
+        steps.Add(session, port);
+        return session;
     }
 
     private void Tap(int from, ReadOnlySpan<byte> datagram)

@@ -1,0 +1,92 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Harness.Links;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Time;
+
+namespace LagSim.Harness.Peers;
+
+/// <summary>Steps sessions in virtual time, each when it is due or something has arrived for it, in the order in which they were added.</summary>
+/// <remarks>Deterministic. For the network's one thread.</remarks>
+public sealed class VirtualSteps
+{
+    /// <summary>What is due later than this is due never, so that no sum runs out of the range of a time.</summary>
+    private static readonly SimDuration Never = SimDuration.FromSeconds(3600);
+
+    private readonly VirtualNetwork network;
+    private readonly List<Session> sessions = [];
+    private readonly List<SimTime> due = [];
+
+    /// <summary>No sessions yet.</summary>
+    public VirtualSteps(VirtualNetwork network)
+    {
+        ArgumentNullException.ThrowIfNull(network);
+        this.network = network;
+    }
+
+    /// <summary>The sessions, in the order of their numbers.</summary>
+    public IReadOnlyList<Session> Sessions => sessions;
+
+    /// <summary>Called with a session's number before each of its steps.</summary>
+    public Action<int>? BeforeStep { get; set; }
+
+    /// <summary>Adds a session, due at once, and the port that it listens to.</summary>
+    /// <returns>Its number, counted from 0.</returns>
+    public int Add(Session session, IDatagramPort port)
+    {
+        ArgumentNullException.ThrowIfNull(port);
+        int number = sessions.Count;
+        sessions.Add(session);
+        due.Add(network.Clock.Now);
+        port.Arrived += () => Wake(number);
+        return number;
+    }
+
+    /// <summary>Takes out the session that was added last. Its port must be disposed, for what arrives there wakes whoever gets its number.</summary>
+    public void RemoveLast()
+    {
+        sessions.RemoveAt(sessions.Count - 1);
+        due.RemoveAt(due.Count - 1);
+    }
+
+    /// <summary>Has a session stepped next, because something was done with it.</summary>
+    public void Wake(int number)
+    {
+        if (number < due.Count)
+        {
+            due[number] = network.Clock.Now;
+        }
+    }
+
+    /// <summary>Goes to the next moment at which anything is due, at most to <paramref name="limit"/>, and lets it happen.</summary>
+    public void Advance(SimTime limit)
+    {
+        SimTime next = network.NextDelivery is SimTime delivery ? SimTime.Min(limit, delivery) : limit;
+        foreach (SimTime time in due)
+        {
+            next = SimTime.Min(next, time);
+        }
+
+        network.DeliverUntil(SimTime.Max(next, network.Clock.Now));
+        for (int number = 0; number < sessions.Count; number++)
+        {
+            if (due[number] <= network.Clock.Now)
+            {
+                BeforeStep?.Invoke(number);
+                SimDuration wait = sessions[number].Step();
+                due[number] = wait > Never ? SimTime.MaxValue : network.Clock.Now + (wait > SimDuration.Zero ? wait : SimDuration.OneTick);
+            }
+        }
+    }
+
+    /// <summary>Lets that much true time pass.</summary>
+    public void RunFor(SimDuration span)
+    {
+        SimTime end = network.Clock.Now + span;
+        while (network.Clock.Now < end)
+        {
+            Advance(end);
+        }
+    }
+}
