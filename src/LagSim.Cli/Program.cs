@@ -20,7 +20,7 @@ internal static class Program
         Console.OutputEncoding = new UTF8Encoding(encoderShouldEmitUTF8Identifier: false); // tables and curves are not in every code page
         using Interruption interruption = new();
         int code = Run(arguments, StandardOutput.Open(), Console.Error, interruption.Token);
-        return interruption.ExitCode ?? code;
+        return code == ExitCode.CheckFailed ? code : interruption.ExitCode ?? code; // a check that failed is told however it ended
     }
 
     /// <summary>One call of the tool, results to one writer, progress and errors to the other, until it is done or asked to stop.</summary>
@@ -36,6 +36,11 @@ internal static class Program
             FuzzCommand.Create(console),
             RunCommand.Create(console),
             ScenesCommand.Create(console),
+            HostCommand.Create(console),
+            JoinCommand.Create(console),
+            RelayCommand.Create(console),
+            DiffCommand.Create(console),
+            ReplayCommand.Create(console),
         };
 
         ParseResult parsed = root.Parse(arguments);
@@ -71,7 +76,7 @@ internal static class Program
             return ExitCode.Usage;
         }
         catch (Exception failure) when (failure is SceneFileException or SceneException or SimulationException or PeerGroupException
-            or IOException or UnauthorizedAccessException)
+            or InputException or IOException or UnauthorizedAccessException)
         {
             error.WriteLine(failure.Message);
             return ExitCode.Input;

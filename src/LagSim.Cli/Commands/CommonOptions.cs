@@ -28,6 +28,13 @@ internal sealed class CommonOptions
         command.Options.Add(Json);
     }
 
+    /// <summary>For a command that has nothing to put into a folder.</summary>
+    internal void AddSeedAndJsonTo(Command command)
+    {
+        command.Options.Add(Seed);
+        command.Options.Add(Json);
+    }
+
     /// <summary>A number option with a range; NaN is in none.</summary>
     internal static Option<double> Number(string name, string description, double? byDefault, double least, double most)
     {

@@ -24,6 +24,22 @@ internal sealed class ResultFile : IDisposable
         : name == StandardOutput ? new ResultFile(console.Output, owned: false)
         : new ResultFile(new StreamWriter(name), owned: true);
 
+    /// <summary>Tries out whether a file can be written, and leaves everything as it was.</summary>
+    /// <exception cref="IOException">It cannot.</exception>
+    /// <exception cref="UnauthorizedAccessException">The same, for lack of permission.</exception>
+    internal static void ThrowIfNotWritable(string name)
+    {
+        bool isThere = File.Exists(name);
+        using (new FileStream(name, FileMode.OpenOrCreate, FileAccess.Write, FileShare.ReadWrite))
+        {
+        }
+
+        if (!isThere)
+        {
+            File.Delete(name);
+        }
+    }
+
     public void Dispose()
     {
         if (owned)

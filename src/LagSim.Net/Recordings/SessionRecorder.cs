@@ -19,6 +19,7 @@ public sealed class SessionRecorder : IDisposable
 
     private readonly Session session;
     private readonly Func<Stream> open;
+    private readonly SimDuration length;
     private readonly List<LogEntry> waiting = new();
     private RecordingWriter? writer;
     private volatile string? failure;
@@ -30,16 +31,18 @@ public sealed class SessionRecorder : IDisposable
     /// The file, which is made or replaced once there is a world; its name should end with <see cref="RecordingFormat.Extension"/>. That it cannot be
     /// made is a <see cref="Failure"/> like any other.
     /// </param>
+    /// <param name="length">Committed states later after the session's start than this are left out; null takes in all.</param>
     /// <exception cref="InvalidOperationException">The session has a world already: what happened before would be missing.</exception>
-    public SessionRecorder(Session session, string path)
-        : this(session, Opener(path ?? throw new ArgumentNullException(nameof(path))))
+    public SessionRecorder(Session session, string path, SimDuration? length = null)
+        : this(session, Opener(path ?? throw new ArgumentNullException(nameof(path))), length)
     {
     }
 
-    internal SessionRecorder(Session session, Func<Stream> open)
+    internal SessionRecorder(Session session, Func<Stream> open, SimDuration? length = null)
     {
         this.session = session ?? throw new ArgumentNullException(nameof(session));
         this.open = open;
+        this.length = length ?? SimDuration.MaxValue;
         if (session.World is not null)
         {
             throw new InvalidOperationException("A session is recorded from its beginning on; this one has a world already.");
@@ -109,7 +112,13 @@ public sealed class SessionRecorder : IDisposable
         }
     }
 
-    private void OnCommitted(CommittedState state) => Try(() => writer?.WriteCommitted(state.Time, state.StateHash, state.EventHash));
+    private void OnCommitted(CommittedState state)
+    {
+        if (state.Time - session.World!.Simulation.Start <= length)
+        {
+            Try(() => writer?.WriteCommitted(state.Time, state.StateHash, state.EventHash));
+        }
+    }
 
     private void Try(Action write)
     {

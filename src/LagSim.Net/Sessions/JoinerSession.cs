@@ -121,7 +121,13 @@ public sealed partial class JoinerSession : Session
         }
 
         // Its clock is set first: events are late or not by it.
+        bool hadWorld = World is not null;
         TryBegin(update.Start);
+        if (!hadWorld && World is not null)
+        {
+            link.Hasten(now); // until the host hears that it has begun, it is told so again and again
+        }
+
         if (World is not null)
         {
             TakeEntries(update, now);

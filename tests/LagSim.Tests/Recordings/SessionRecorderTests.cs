@@ -9,6 +9,7 @@ using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Tests.Cli;
 using LagSim.Tests.Sessions;
+using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.Recordings.Recorded;
 using static LagSim.Tests.TestWorlds;
@@ -176,6 +177,23 @@ public sealed class SessionRecorderTests
         group.Run(5);
         Recording read = Recording.Read(folder["mine.lagsim"]);
         Assert.True(read.Damage is null && read.EndReason is null && read.Committed.Count > 0);
+    }
+
+    [Fact]
+    public void Record_ForALength_LeavesLaterStatesOut()
+    {
+        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(2));
+        MemoryStream some = new(), all = new();
+        using (SessionRecorder first = new(group.Host, () => some, Seconds(2)), second = new(group.Host, () => all))
+        {
+            group.Connect();
+            Deed(group, 1, PlayerAction.Teleport(First, V(0, 4)));
+            group.Run(6);
+        }
+
+        SimTime start = group.Host.World!.Simulation.Start;
+        Assert.Equal([start + Seconds(1), start + Seconds(2)], Read(some.ToArray()).Committed.Select(state => state.Time));
+        Assert.True(Read(all.ToArray()).Committed.Count > 3);
     }
 
     [Fact]

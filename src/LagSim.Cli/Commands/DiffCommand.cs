@@ -1,0 +1,43 @@
+using System.CommandLine;
+using LagSim.Cli.Output;
+using LagSim.Net.Recordings;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary><c>lagsim diff</c>: two recordings of one session held against each other.</summary>
+internal static class DiffCommand
+{
+    internal static Command Create(ToolConsole console)
+    {
+        CommonOptions common = new();
+        Argument<string> first = new("A") { Description = "A recording." };
+        Argument<string> second = new("B") { Description = "Another peer's of the same session." };
+        Command command = new("diff", "Compares two recordings and names the first thing that differs: 0 they agree, 1 they do not, 3 one cannot be read.")
+        {
+            first, second,
+        };
+        common.AddSeedAndJsonTo(command);
+        command.SetAction(parsed =>
+        {
+            string[] files = [parsed.GetValue(first)!, parsed.GetValue(second)!];
+            Recording[] recordings = [Recording.Read(files[0]), Recording.Read(files[1])];
+            RecordingComparison found = RecordingComparison.Of(recordings[0], recordings[1], console.Stop);
+            if (recordings[0].Header is null || recordings[1].Header is null)
+            {
+                throw new InputException(found.Message);
+            }
+
+            if (parsed.GetValue(common.Json))
+            {
+                RecordingOutput.WriteJson(console.Output, parsed.GetValue(common.Seed), files, recordings, found);
+            }
+            else
+            {
+                console.Output.WriteLine(found.Message);
+            }
+
+            return found.Outcome == ComparisonOutcome.Agrees ? ExitCode.Done : ExitCode.CheckFailed;
+        });
+        return command;
+    }
+}

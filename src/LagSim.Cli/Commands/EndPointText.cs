@@ -1,0 +1,74 @@
+using System;
+using System.Globalization;
+using System.Linq;
+using System.Net;
+using System.Net.Sockets;
+using System.Threading;
+using LagSim.Cli.Output;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary>Where a host is, as a user writes it: <c>ADDRESS:PORT</c>, <c>[IPv6]:PORT</c> or <c>NAME:PORT</c>.</summary>
+internal static class EndPointText
+{
+    /// <summary>Takes the text apart.</summary>
+    /// <exception cref="UsageException">It has not this form.</exception>
+    internal static (string Host, int Port) Parse(string text)
+    {
+        int colon = text.LastIndexOf(':');
+        string host = colon < 0 ? "" : text[..colon];
+        bool isBracketed = host.Length > 2 && host[0] == '[' && host[^1] == ']';
+        bool isHost = isBracketed
+            ? IPAddress.TryParse(host[1..^1], out IPAddress? address) && address.AddressFamily == AddressFamily.InterNetworkV6
+            : host.Length > 0 && !host.Any(c => c is ':' or '[' or ']' || char.IsWhiteSpace(c));
+        if (!isHost)
+        {
+            throw new UsageException($"'{text}' does not say where the host is: write ADDRESS:PORT, as 192.168.0.7:5000, [::1]:5000 or some.name:5000.");
+        }
+
+        return int.TryParse(text[(colon + 1)..], NumberStyles.None, CultureInfo.InvariantCulture, out int port) && port is > 0 and <= 65535
+            ? (isBracketed ? host[1..^1] : host, port)
+            : throw new UsageException($"The port in '{text}' is '{text[(colon + 1)..]}'; it must be a whole number between 1 and 65535.");
+    }
+
+    /// <summary>The address itself; of a name with several the first, but IPv4 before IPv6.</summary>
+    /// <exception cref="UsageException">The text has not the form.</exception>
+    /// <exception cref="InputException">Nobody knows the name.</exception>
+    /// <exception cref="OperationCanceledException">The user has asked for an end.</exception>
+    internal static IPEndPoint Resolve(string text, CancellationToken stop)
+    {
+        (string host, int port) = Parse(text);
+        if (IPAddress.TryParse(host, out IPAddress? literal))
+        {
+            return new IPEndPoint(literal, port);
+        }
+
+        try
+        {
+            IPAddress[] found = Dns.GetHostAddressesAsync(host, stop).GetAwaiter().GetResult();
+            IPAddress? address = found.FirstOrDefault(a => a.AddressFamily == AddressFamily.InterNetwork)
+                ?? found.FirstOrDefault(a => a.AddressFamily == AddressFamily.InterNetworkV6);
+            return address is null ? throw new InputException($"The host '{host}' has no IP address.") : new IPEndPoint(address, port);
+        }
+        catch (Exception failure) when (failure is SocketException or ArgumentException)
+        {
+            throw new InputException($"The host '{host}' is not known: {failure.Message}.", failure);
+        }
+    }
+
+    /// <summary>An address to bind to.</summary>
+    /// <exception cref="UsageException">It is none.</exception>
+    internal static IPAddress ParseLocal(string option, string text) =>
+        !text.Contains('[', StringComparison.Ordinal) && IPAddress.TryParse(text, out IPAddress? address)
+            ? address
+            : throw new UsageException($"{option} is '{text}'; it must be an IP address of this machine, as 127.0.0.1, or 0.0.0.0 or :: for all.");
+
+    /// <summary>Of this machine's addresses the one from which that machine is reached: loopback reaches loopback only.</summary>
+    internal static IPAddress Facing(IPAddress machine)
+    {
+        bool v6 = machine.AddressFamily == AddressFamily.InterNetworkV6;
+        return IPAddress.IsLoopback(machine)
+            ? (v6 ? IPAddress.IPv6Loopback : IPAddress.Loopback)
+            : (v6 ? IPAddress.IPv6Any : IPAddress.Any);
+    }
+}

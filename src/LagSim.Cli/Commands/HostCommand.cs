@@ -1,0 +1,74 @@
+using System;
+using System.CommandLine;
+using System.Net;
+using LagSim.Cli.Output;
+using LagSim.Harness.Scenes;
+using LagSim.Hosting;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary><c>lagsim host</c>: a session that others join.</summary>
+internal static class HostCommand
+{
+    internal static Command Create(ToolConsole console)
+    {
+        CommonOptions common = new();
+        SessionArguments shared = new();
+        Option<string> scene = new("--scene") { Description = "A built-in scene's name, or a JSON file.", HelpName = "SCENE", Required = true };
+        Option<int> port = CommonOptions.Whole("--port", "The UDP port; 0 takes any free one", 0, 0, 65535);
+        Option<string> address = new("--address")
+        {
+            Description = "The address of this machine to listen on; 0.0.0.0 or :: for all, to be reached from others.",
+            DefaultValueFactory = _ => IPAddress.Loopback.ToString(),
+            HelpName = "ADDRESS",
+        };
+        Option<int> joiners = CommonOptions.Whole("--joiners", "Start once so many have joined; further ones may come at any time", 0, 0, SessionOptions.MaxJoiners);
+        Option<double> history = CommonOptions.Number("--history-s", "How late an event may come and still be accepted", 1, 0.05, 5);
+        Command command = new("host", "Opens a session that others join over UDP, and takes part in it. Ctrl-C ends it for everyone.")
+        {
+            scene, port, address, joiners, history,
+        };
+        shared.AddTo(command);
+        common.AddSeedAndJsonTo(command);
+        command.SetAction(parsed =>
+        {
+            IPAddress local = EndPointText.ParseLocal("--address", parsed.GetValue(address)!);
+            Scene loaded = SceneSource.Load(parsed.GetValue(scene)!);
+            SessionRequest request = shared.Read(parsed);
+            foreach (Deed deed in request.Deeds)
+            {
+                deed.ActionIn(loaded);
+            }
+
+            request.Options.ExpectedJoiners = parsed.GetValue(joiners);
+            request.Options.History = SimDuration.FromSeconds(parsed.GetValue(history));
+            using UdpPort carrier = new(new IPEndPoint(local, parsed.GetValue(port)));
+            HostSession session = Open(loaded, carrier, request.Options);
+            bool json = parsed.GetValue(common.Json);
+            SessionPrinter printer = new(console, json, "host", parsed.GetValue(common.Seed), request)
+            {
+                ListeningOn = new IPEndPoint(local, carrier.LocalAddress.ToEndPoint().Port).ToString(),
+            };
+            printer.Line($"listening on {printer.ListeningOn}");
+            using SessionRunner runner = new(session, carrier, request, printer, console.Stop);
+            return runner.Run();
+        });
+        return command;
+    }
+
+    private static HostSession Open(Scene scene, UdpPort carrier, SessionOptions options)
+    {
+        try
+        {
+            return new HostSession(scene, carrier, new StopwatchClock(), options, SessionRunner.RandomNumber());
+        }
+        catch (Exception failure) when (failure is ArgumentException or SceneException)
+        {
+            throw new InputException(failure.Message, failure);
+        }
+    }
+}

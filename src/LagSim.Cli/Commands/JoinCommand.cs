@@ -1,0 +1,42 @@
+using System.CommandLine;
+using System.Net;
+using LagSim.Cli.Output;
+using LagSim.Hosting;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary><c>lagsim join</c>: taking part in a session that somebody hosts, from its start or at any time later.</summary>
+internal static class JoinCommand
+{
+    internal static Command Create(ToolConsole console)
+    {
+        CommonOptions common = new();
+        SessionArguments shared = new();
+        Argument<string> host = new("ADDRESS:PORT")
+        {
+            Description = "Where the host is: 192.168.0.7:5000, [::1]:5000, or some.name:5000, of which IPv4 is taken where it has both.",
+        };
+        Command command = new(
+            "join",
+            "Joins a session; the host gives the scene. Ends with 0 when the host ends the session after --for-s, or without it at any time, and with 3 before.")
+        {
+            host,
+        };
+        shared.AddTo(command);
+        common.AddSeedAndJsonTo(command);
+        command.SetAction(parsed =>
+        {
+            SessionRequest request = shared.Read(parsed);
+            IPEndPoint there = EndPointText.Resolve(parsed.GetValue(host)!, console.Stop);
+            using UdpPort carrier = new(new IPEndPoint(EndPointText.Facing(there.Address), 0));
+            JoinerSession session = new(
+                null, carrier, new StopwatchClock(), request.Options, PeerAddress.From(there), SessionRunner.RandomNumber());
+            SessionPrinter printer = new(console, parsed.GetValue(common.Json), "join", parsed.GetValue(common.Seed), request);
+            using SessionRunner runner = new(session, carrier, request, printer, console.Stop);
+            return runner.Run();
+        });
+        return command;
+    }
+}

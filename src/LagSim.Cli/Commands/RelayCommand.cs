@@ -1,0 +1,109 @@
+using System;
+using System.CommandLine;
+using System.Globalization;
+using System.Linq;
+using System.Net;
+using System.Threading;
+using LagSim.Cli.Output;
+using LagSim.Harness.Links;
+using LagSim.Hosting;
+using LagSim.Time;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary><c>lagsim relay</c>: a bad link between real processes.</summary>
+internal static class RelayCommand
+{
+    private static readonly TimeSpan Look = TimeSpan.FromMilliseconds(500);
+
+    internal static Command Create(ToolConsole console)
+    {
+        CommonOptions common = new();
+        Argument<string> host = new("ADDRESS:PORT") { Description = "Where the host is; joiners are to be given the relay's own address instead." };
+        Option<string> profile = new("--profile")
+        {
+            Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, or {LinkProfiles.AnyDelay}.",
+            HelpName = "NAME",
+            Required = true,
+        };
+        Option<int> port = CommonOptions.Whole("--port", "The UDP port; 0 takes any free one", 0, 0, 65535);
+        Option<string> address = new("--address")
+        {
+            Description = "The address of this machine to listen on.",
+            DefaultValueFactory = _ => IPAddress.Loopback.ToString(),
+            HelpName = "ADDRESS",
+        };
+        Option<double?> length = SessionArguments.Seconds("--for-s", "How long; by default until Ctrl-C.", SessionArguments.LeastLength, Deed.MostSeconds);
+        Command command = new("relay", "Passes datagrams between joiners and a host on, as late and with as many losses as a link profile says.")
+        {
+            host, profile, port, address, length,
+        };
+        common.AddSeedAndJsonTo(command);
+        command.SetAction(parsed =>
+        {
+            if (!LinkProfiles.TryGet(parsed.GetValue(profile)!, out LinkProfile? link, out string? error))
+            {
+                throw new UsageException(error);
+            }
+
+            IPAddress local = EndPointText.ParseLocal("--address", parsed.GetValue(address)!);
+            IPEndPoint there = EndPointText.Resolve(parsed.GetValue(host)!, console.Stop);
+            bool json = parsed.GetValue(common.Json);
+            ulong seed = parsed.GetValue(common.Seed);
+            StopwatchClock clock = new();
+            using UdpRelay relay = Open(new IPEndPoint(local, parsed.GetValue(port)), there, link, seed, clock);
+            string listening = new IPEndPoint(local, relay.LocalAddress.ToEndPoint().Port).ToString();
+            (json ? console.Error : console.Output).WriteLine($"listening on {listening}");
+            (json ? console.Error : console.Output).Flush();
+            RelayTraffic traffic = Watch(relay, clock, parsed.GetValue(length), console.Stop);
+            if (json)
+            {
+                JsonDocumentWriter.Write(console.Output, "relay", seed, null, null, null, document =>
+                {
+                    document.WriteString("listening_on", listening);
+                    document.WriteString("profile", link.Name);
+                    document.WriteNumber("clients", traffic.Clients);
+                    document.WriteNumber("forwarded_to_host", traffic.ForwardedToHost);
+                    document.WriteNumber("lost_to_host", traffic.LostToHost);
+                    document.WriteNumber("forwarded_from_host", traffic.ForwardedFromHost);
+                    document.WriteNumber("lost_from_host", traffic.LostFromHost);
+                    document.WriteNumber("refused", traffic.Refused);
+                });
+            }
+            else
+            {
+                console.Output.WriteLine(string.Create(
+                    CultureInfo.InvariantCulture,
+                    $"{link.Name}, {traffic.Clients} joiners; to the host {traffic.ForwardedToHost} datagrams, {traffic.LostToHost} lost; from the host {traffic.ForwardedFromHost}, {traffic.LostFromHost} lost; {traffic.Refused} refused"));
+            }
+
+            return console.Stop.IsCancellationRequested ? ExitCode.Interrupted : ExitCode.Done;
+        });
+        return command;
+    }
+
+    private static UdpRelay Open(IPEndPoint listen, IPEndPoint host, LinkProfile link, ulong seed, StopwatchClock clock)
+    {
+        try
+        {
+            return new UdpRelay(listen, host, link, seed, clock);
+        }
+        catch (ArgumentException failure)
+        {
+            throw new InputException(failure.Message, failure);
+        }
+    }
+
+    private static RelayTraffic Watch(UdpRelay relay, StopwatchClock clock, double? seconds, CancellationToken stop)
+    {
+        SimTime end = seconds is double length ? clock.Now + SimDuration.FromSeconds(length) : SimTime.MaxValue;
+        while (!stop.IsCancellationRequested && clock.Now < end)
+        {
+            _ = relay.Traffic; // throws if the relay failed
+            double left = end == SimTime.MaxValue ? double.MaxValue : (end - clock.Now).ToMilliseconds();
+            stop.WaitHandle.WaitOne(TimeSpan.FromMilliseconds(Math.Clamp(Math.Ceiling(left), 0, Look.TotalMilliseconds)));
+        }
+
+        return relay.Traffic;
+    }
+}

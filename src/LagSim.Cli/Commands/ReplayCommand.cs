@@ -1,0 +1,44 @@
+using System.CommandLine;
+using LagSim.Cli.Output;
+using LagSim.Net.Recordings;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary><c>lagsim replay</c>: a recording run again.</summary>
+internal static class ReplayCommand
+{
+    internal static Command Create(ToolConsole console)
+    {
+        CommonOptions common = new();
+        Argument<string> file = new("FILE") { Description = "A recording." };
+        Command command = new("replay", "Runs a recording again; it must give its hashes: 0 it does, 1 it does not or has none, 3 it cannot be run.") { file };
+        common.AddSeedAndJsonTo(command);
+        command.SetAction(parsed =>
+        {
+            string name = parsed.GetValue(file)!;
+            Recording recording = Recording.Read(name);
+            RecordingReplay found = console.WithProgress($"replay {name}", 1, _ => RecordingReplay.Run(recording, console.Stop));
+            if (found.Outcome == ReplayOutcome.CannotRun)
+            {
+                throw new InputException($"{name}: {found.Message}");
+            }
+
+            if (recording.Damage is RecordingDamage damage)
+            {
+                console.Error.WriteLine($"{damage} What stands before is run.");
+            }
+
+            if (parsed.GetValue(common.Json))
+            {
+                RecordingOutput.WriteJson(console.Output, parsed.GetValue(common.Seed), name, recording, found);
+            }
+            else
+            {
+                console.Output.WriteLine(found.Message);
+            }
+
+            return found.Outcome == ReplayOutcome.Agrees ? ExitCode.Done : ExitCode.CheckFailed;
+        });
+        return command;
+    }
+}

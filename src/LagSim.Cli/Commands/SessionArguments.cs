@@ -1,0 +1,118 @@
+using System;
+using System.Collections.Generic;
+using System.CommandLine;
+using System.Globalization;
+using System.Linq;
+using LagSim.Cli.Output;
+using LagSim.Net.Sessions;
+using LagSim.Time;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary>The options that host and join share.</summary>
+internal sealed class SessionArguments
+{
+    internal const double LeastLength = 0.1;
+
+    private const double DefaultTimeoutSeconds = 10;
+    private const double MostKeepAliveSeconds = 2;
+
+    private readonly Option<string?> key = new("--key")
+    {
+        Description = $"What only those may know who shall join; up to {SessionOptions.MaxKeyLength} characters. By default none.",
+        HelpName = "TEXT",
+    };
+
+    private readonly Option<string[]> deeds = new("--do") { Description = $"Do something: {Deed.Syntax}", HelpName = "DEED" };
+    private readonly Option<double?> length = Seconds("--for-s", "How long to take part, counted from the session's start; by default until Ctrl-C.", LeastLength, Deed.MostSeconds);
+    private readonly Option<string?> record = CommonOptions.File("--record", "Record the session in this file, .lagsim by custom.");
+    private readonly Option<double> timeout = CommonOptions.Number(
+        "--timeout-s", "After how much silence another peer is given up; to be the same everywhere", DefaultTimeoutSeconds, 0.5, 600);
+
+    internal SessionArguments()
+    {
+        key.Validators.Add(result =>
+        {
+            if (result.Tokens.Count == 1 && result.Tokens[0].Value.Length > SessionOptions.MaxKeyLength)
+            {
+                result.AddError($"--key has {result.Tokens[0].Value.Length} characters; at most {SessionOptions.MaxKeyLength} are allowed.");
+            }
+        });
+        deeds.Validators.Add(result =>
+        {
+            foreach (System.CommandLine.Parsing.Token token in result.Tokens)
+            {
+                try
+                {
+                    Deed.Parse(token.Value);
+                }
+                catch (UsageException wrong)
+                {
+                    result.AddError(wrong.Message);
+                }
+            }
+        });
+    }
+
+    internal void AddTo(Command command)
+    {
+        command.Options.Add(key);
+        command.Options.Add(deeds);
+        command.Options.Add(length);
+        command.Options.Add(record);
+        command.Options.Add(timeout);
+    }
+
+    /// <summary>What they say.</summary>
+    /// <exception cref="UsageException">They do not go together.</exception>
+    /// <exception cref="System.IO.IOException">The recording cannot be written.</exception>
+    /// <exception cref="UnauthorizedAccessException">The same, for lack of permission.</exception>
+    internal SessionRequest Read(ParseResult parsed)
+    {
+        double? seconds = parsed.GetValue(length);
+        Deed[] ordered = (parsed.GetValue(deeds) ?? []).Select(Deed.Parse).OrderBy(deed => deed.Seconds).ToArray();
+        if (ordered.FirstOrDefault(deed => deed.Seconds >= seconds) is Deed late)
+        {
+            throw new UsageException(string.Create(CultureInfo.InvariantCulture, $"--do is '{late.Text}', which is not before the end, --for-s {seconds}."));
+        }
+
+        string? file = parsed.GetValue(record);
+        if (file == ResultFile.StandardOutput)
+        {
+            throw new UsageException("--record is '-'; a recording is not for stdout, it must be a file.");
+        }
+
+        if (file is not null)
+        {
+            ResultFile.ThrowIfNotWritable(file); // to be said before anybody has joined
+        }
+
+        double silence = parsed.GetValue(timeout);
+        SessionOptions options = new()
+        {
+            ConnectKey = parsed.GetValue(key) ?? "",
+            Timeout = SimDuration.FromSeconds(silence),
+            KeepAlive = SimDuration.FromSeconds(Math.Min(MostKeepAliveSeconds, silence / 4)),
+        };
+        return new SessionRequest(options, ordered, seconds, file);
+    }
+
+    /// <summary>A number of seconds that may be left out.</summary>
+    internal static Option<double?> Seconds(string name, string description, double least, double most) => new(name)
+    {
+        Description = string.Create(CultureInfo.InvariantCulture, $"{description} ({least} to {most})"),
+        HelpName = "NUMBER",
+        CustomParser = result => CommonOptions.ParseNumber(result, name, least, most),
+    };
+}
+
+/// <summary>How to take part in a session.</summary>
+/// <param name="Options">For the session.</param>
+/// <param name="Deeds">What to do, by time.</param>
+/// <param name="Seconds">How long, counted from the session's start; null until asked to stop.</param>
+/// <param name="RecordFile">Where to record; null for nowhere.</param>
+internal sealed record SessionRequest(SessionOptions Options, IReadOnlyList<Deed> Deeds, double? Seconds, string? RecordFile)
+{
+    /// <summary>The same as <see cref="Seconds"/>.</summary>
+    internal SimDuration? Length => Seconds is double seconds ? SimDuration.FromSeconds(seconds) : null;
+}

@@ -1,0 +1,302 @@
+using System;
+using System.Buffers.Binary;
+using System.Collections.Concurrent;
+using System.Collections.Generic;
+using System.Linq;
+using System.Security.Cryptography;
+using System.Threading;
+using System.Threading.Tasks;
+using LagSim.Cli.Output;
+using LagSim.Events;
+using LagSim.Net.Carriers;
+using LagSim.Net.Recordings;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+using LagSim.Time;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary>Takes part in a session from its beginning to its end: does what is to be done at its time, tells what happens, and leaves.</summary>
+/// <remarks>The session has a thread of its own; this type's methods are for the calling one, which alone prints.</remarks>
+internal sealed class SessionRunner : IDisposable
+{
+    private static readonly TimeSpan LookInterval = TimeSpan.FromMilliseconds(250);
+    private static readonly TimeSpan LeavePatience = TimeSpan.FromSeconds(1);
+
+    /// <summary>How long a host whose time is up waits for its joiners to leave.</summary>
+    private static readonly SimDuration HostPatience = SimDuration.FromSeconds(1.5);
+
+    /// <summary>How long a host that has said goodbye answers those who have not heard it.</summary>
+    private static readonly TimeSpan GoodbyeTime = TimeSpan.FromMilliseconds(300);
+
+    private readonly Session session;
+    private readonly UdpPort port;
+    private readonly SessionRequest request;
+    private readonly SessionPrinter printer;
+    private readonly CancellationToken stop;
+    private readonly PeerThread thread;
+    private readonly SessionRecorder? recorder;
+    private readonly AutoResetEvent news = new(false);
+    private readonly CancellationTokenRegistration onStop;
+    private readonly ConcurrentQueue<Action> told = new(); // what the session's thread has to say, for this one to print
+    private readonly Dictionary<uint, Deed> own = []; // by sequence number; the session's thread's
+    private bool hasToldDifference; // the same
+    private Task<IReadOnlyList<LinkTraffic>>? asked;
+    private PlayerAction[]? actions; // of the deeds, once the scene is known
+    private int done;
+    private bool hasFailedDeed;
+    private SimTime? patienceEnd;
+
+    internal SessionRunner(Session session, UdpPort port, SessionRequest request, SessionPrinter printer, CancellationToken stop)
+    {
+        this.session = session;
+        this.port = port;
+        this.request = request;
+        this.printer = printer;
+        this.stop = stop;
+        session.Begun += Wake;
+        session.Ended += Wake;
+        session.Logged += OnLogged;
+        session.StateCommitted += OnCommitted;
+        if (request.RecordFile is string file)
+        {
+            recorder = new SessionRecorder(session, file, request.Length);
+            recorder.Failed += why => Tell(() => printer.Problem(why));
+        }
+
+        thread = new PeerThread(session, port, "LagSim session");
+        onStop = stop.Register(Wake);
+    }
+
+    /// <summary>A number that nobody can guess.</summary>
+    internal static ulong RandomNumber()
+    {
+        Span<byte> bytes = stackalloc byte[sizeof(ulong)];
+        RandomNumberGenerator.Fill(bytes);
+        return BinaryPrimitives.ReadUInt64LittleEndian(bytes);
+    }
+
+    /// <summary>What a session that ended so is to the shell. That states differ is told whatever else there is.</summary>
+    internal static int ExitCodeOf(SessionEnd by, bool isTimeReached, long statesDiffered, bool hasFailedDeed, bool isInterrupted)
+    {
+        bool isOrderly = by is SessionEnd.Left || (by == SessionEnd.HostEnded && isTimeReached);
+        return statesDiffered > 0 ? ExitCode.CheckFailed
+            : isInterrupted ? ExitCode.Interrupted
+            : isOrderly && !hasFailedDeed ? ExitCode.Done
+            : ExitCode.Input;
+    }
+
+    /// <summary>Takes part until the end.</summary>
+    /// <returns>The exit code.</returns>
+    /// <exception cref="UsageException">Something is to be done to a body that the scene has not.</exception>
+    internal int Run()
+    {
+        thread.Start();
+        TimeSpan? wait = TimeSpan.Zero;
+        while (wait is TimeSpan span && !stop.IsCancellationRequested && thread.State != SessionState.Ended)
+        {
+            news.WaitOne(span);
+            PrintTold();
+            LookAtLinks();
+            wait = session.World is null ? LookInterval : Tend(session.World.Simulation.Start);
+        }
+
+        bool isTimeReached = request.Seconds is null || (session.World is not null && Passed(session.World.Simulation.Start) >= request.Seconds);
+        bool isInterrupted = stop.IsCancellationRequested && session.State != SessionState.Ended;
+        Leave();
+        int code = ExitCodeOf(session.EndedBy, isTimeReached, session.Counters.StatesDiffered, hasFailedDeed, isInterrupted);
+        if (session.EndedBy != SessionEnd.Left && code != ExitCode.Done)
+        {
+            printer.Problem(session.EndReason!);
+        }
+
+        if (session.World is not null)
+        {
+            printer.Summary(session, port, recorder?.Failure);
+        }
+
+        return code;
+    }
+
+    public void Dispose()
+    {
+        SayGoodbye(); // where something went wrong, the others are told even so
+        onStop.Dispose();
+        thread.Dispose();
+        recorder?.Dispose();
+        news.Dispose();
+    }
+
+    private void Wake()
+    {
+        try
+        {
+            news.Set();
+        }
+        catch (ObjectDisposedException)
+        {
+            // Nobody waits any more.
+        }
+    }
+
+    private void Tell(Action what)
+    {
+        told.Enqueue(what);
+        Wake();
+    }
+
+    private void PrintTold()
+    {
+        while (told.TryDequeue(out Action? what))
+        {
+            what();
+        }
+    }
+
+    private double Passed(SimTime start) => (session.SharedTime.Now - start).ToSeconds();
+
+    /// <summary>Does what is due.</summary>
+    /// <returns>How long there is nothing to do; null at the end.</returns>
+    private TimeSpan? Tend(SimTime start)
+    {
+        actions ??= request.Deeds.Select(deed => deed.ActionIn(session.Scene!)).ToArray();
+        double passed = Passed(start);
+        for (; done < actions.Length && request.Deeds[done].Seconds <= passed; done++)
+        {
+            Do(request.Deeds[done], actions[done]);
+        }
+
+        if (passed >= request.Seconds)
+        {
+            return HasSettled(start) ? null : LookInterval / 2;
+        }
+
+        double next = Math.Min(done < actions.Length ? request.Deeds[done].Seconds : double.MaxValue, request.Seconds ?? double.MaxValue);
+        return TimeSpan.FromMilliseconds(Math.Min(Math.Ceiling(1000 * (next - passed)), LookInterval.TotalMilliseconds));
+    }
+
+    /// <summary>
+    /// Whether all has been said, once the time is up: what happened until then is committed here, and a host has waited, but not for long, until its
+    /// joiners have heard of it and left.
+    /// </summary>
+    private bool HasSettled(SimTime start)
+    {
+        SimDuration interval = request.Options.CommitInterval;
+        SimTime last = start + (interval * (long)(request.Seconds!.Value / interval.ToSeconds()));
+        bool isCommitted = last == start || session.Committed?.Time >= last;
+        SimTime now = session.SharedTime.Now;
+        if (session is JoinerSession joiner)
+        {
+            patienceEnd ??= now + joiner.History + (request.Options.KeepAlive * 2);
+            return isCommitted || now >= patienceEnd;
+        }
+
+        if (isCommitted)
+        {
+            patienceEnd ??= now + HostPatience;
+            thread.Ask(host =>
+            {
+                ((HostSession)host).Hasten();
+                return true;
+            });
+        }
+
+        return isCommitted && (printer.Links.Present == 0 || now >= patienceEnd);
+    }
+
+    private void Do(Deed deed, PlayerAction action)
+    {
+        Task<ExternalEvent> answer = thread.Ask(peer =>
+        {
+            ExternalEvent external = peer.Do(action);
+            own[external.Sequence] = deed;
+            return external;
+        });
+        answer.ContinueWith(
+            failed => Tell(() =>
+            {
+                hasFailedDeed = true;
+                printer.Problem($"--do {deed.Text} was not done. {failed.Exception!.InnerException!.Message}");
+            }),
+            CancellationToken.None,
+            TaskContinuationOptions.OnlyOnFaulted,
+            TaskScheduler.Default);
+    }
+
+    private void LookAtLinks()
+    {
+        if (asked is { IsCompletedSuccessfully: true })
+        {
+            printer.LookAt(asked.Result);
+            asked = null;
+        }
+
+        asked ??= thread.Ask(peer => peer.Links);
+    }
+
+    private void OnLogged(LogEntry entry)
+    {
+        if (entry.Event.Peer == session.Peer && entry.Verdict != Verdict.Accepted && own.TryGetValue(entry.Event.Sequence, out Deed? deed))
+        {
+            Tell(() => printer.Problem($"The host refused --do {deed.Text}: {entry.Verdict}."));
+        }
+    }
+
+    private void OnCommitted(CommittedState state)
+    {
+        ClockReading? clock = session is JoinerSession joiner
+            ? new ClockReading(joiner.ClockSync.Offset, joiner.ClockSync.ErrorBound, joiner.ClockSync.RoundTrip / 2)
+            : null;
+        SimDuration sinceStart = state.Time - session.World!.Simulation.Start;
+        if (!(sinceStart > request.Length))
+        {
+            Tell(() => printer.State(state, sinceStart, clock));
+        }
+
+        TellDifference();
+    }
+
+    /// <summary>Tells of the first committed state that was not the host's.</summary>
+    private void TellDifference()
+    {
+        if (session.Counters.StatesDiffered > 0 && !hasToldDifference)
+        {
+            hasToldDifference = true;
+            double seconds = (session.Counters.FirstDifference - session.World!.Simulation.Start).ToSeconds();
+            Tell(() => printer.Problem(FormattableString.Invariant($"The committed state at T {seconds} s differs from the host's.")));
+        }
+    }
+
+    private void SayGoodbye()
+    {
+        bool hasJoiners = session is HostSession && printer.Links.Present > 0;
+        try
+        {
+            if (session.State != SessionState.Ended && thread.Ask(Goodbye).Wait(LeavePatience, CancellationToken.None) && hasJoiners)
+            {
+                Thread.Sleep(GoodbyeTime);
+            }
+        }
+        catch (Exception failure) when (failure is AggregateException or InvalidOperationException)
+        {
+            // The thread has ended; so does the session for everybody else, by their time-out.
+        }
+
+        static bool Goodbye(Session peer)
+        {
+            peer.Leave();
+            return true;
+        }
+    }
+
+    /// <summary>Says goodbye, stops the thread, and ends the recording.</summary>
+    private void Leave()
+    {
+        SayGoodbye();
+        thread.Dispose();
+        TellDifference();
+        PrintTold();
+        printer.LookAt(session.Links);
+        recorder?.Dispose();
+    }
+}

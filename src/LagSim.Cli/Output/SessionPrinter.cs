@@ -1,0 +1,210 @@
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using System.Text.Json;
+using LagSim.Cli.Commands;
+using LagSim.Harness.Reports;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>A session as it goes by, line by line, and its summary, as text or as JSON.</summary>
+/// <remarks>With JSON the lines are progress, and go to the error stream.</remarks>
+internal sealed class SessionPrinter
+{
+    private readonly ToolConsole console;
+    private readonly bool json;
+    private readonly string command;
+    private readonly ulong seed;
+    private readonly SessionRequest request;
+    private readonly List<(double Seconds, CommittedState State)> states = [];
+    private ClockReading? clock;
+
+    internal SessionPrinter(ToolConsole console, bool json, string command, ulong seed, SessionRequest request)
+    {
+        this.console = console;
+        this.json = json;
+        this.command = command;
+        this.seed = seed;
+        this.request = request;
+    }
+
+    /// <summary>Where a host can be reached; null for a joiner.</summary>
+    internal string? ListeningOn { get; init; }
+
+    internal LinkTable Links { get; } = new();
+
+    /// <summary>A line for whoever watches, at once.</summary>
+    internal void Line(string text)
+    {
+        TextWriter to = json ? console.Error : console.Output;
+        to.WriteLine(text);
+        to.Flush();
+    }
+
+    /// <summary>A line about something that is not as it should be.</summary>
+    internal void Problem(string sentence) => console.Error.WriteLine(sentence);
+
+    internal void State(in CommittedState state, SimDuration sinceStart, ClockReading? reading)
+    {
+        double seconds = sinceStart.ToSeconds();
+        states.Add((seconds, state));
+        Line(string.Create(CultureInfo.InvariantCulture, $"T {seconds} s state {state.StateHash:x16} events {state.EventHash:x16}"));
+        if (reading is ClockReading now)
+        {
+            clock = now;
+            Line(string.Create(
+                CultureInfo.InvariantCulture,
+                $"clock offset {now.Offset.ToMilliseconds():0.0000} ms bound {now.Bound.ToMilliseconds():0.0000} ms delay {now.Delay.ToMilliseconds():0.0000} ms"));
+        }
+    }
+
+    /// <summary>Takes in how the links are, and tells a host's who came and went.</summary>
+    internal void LookAt(IReadOnlyList<LinkTraffic> links)
+    {
+        bool isHost = ListeningOn is not null;
+        Links.LookAt(
+            links,
+            row => Progress(isHost ? $"peer {row.Peer} at {row.Address} came" : $"in as a peer of the host at {row.Address}"),
+            row => Progress($"peer {row.Peer} at {row.Address} is gone"));
+    }
+
+    /// <summary>What it came to. The session's thread must have stopped.</summary>
+    internal void Summary(Session session, UdpPort port, string? recordFailure)
+    {
+        if (json)
+        {
+            CommittedState? last = states.Count > 0 ? states[^1].State : null;
+            JsonDocumentWriter.Write(
+                console.Output, command, seed, session.Scene!.Name, session.Scene.Hash, last?.StateHash, document => Write(document, session, port, recordFailure));
+        }
+        else
+        {
+            WriteText(session, port, recordFailure);
+        }
+    }
+
+    private static IEnumerable<(string Name, long Count)> Counts(SessionCounters counters, UdpPort port) =>
+    [
+        ("datagrams_sent", counters.DatagramsSent), ("datagrams_received", counters.DatagramsReceived), ("datagrams_malformed", counters.DatagramsMalformed),
+        ("datagrams_ignored", counters.DatagramsIgnored), ("datagrams_dropped", port.Dropped), ("send_failures", port.SendFailures),
+        ("receive_failures", port.ReceiveFailures), ("events_forged", counters.EventsForged), ("events_deferred", counters.EventsDeferred),
+        ("events_lost", counters.EventsLost),
+    ];
+
+    private void Progress(string text)
+    {
+        console.Error.WriteLine(text);
+        console.Error.Flush();
+    }
+
+    private void WriteText(Session session, UdpPort port, string? recordFailure)
+    {
+        TextWriter to = console.Output;
+        Scene scene = session.Scene!;
+        SessionCounters counters = session.Counters;
+        to.WriteLine(string.Create(
+            CultureInfo.InvariantCulture, $"lagsim {ToolVersion.Text}   {command} {scene.Name}   scene {scene.Hash:x16}   peer {session.Peer}"));
+        to.WriteLine($"ended: {session.EndReason}");
+        to.WriteLine(states.Count == 0
+            ? "nothing was committed"
+            : string.Create(CultureInfo.InvariantCulture, $"last committed: {states[^1].Seconds} s, {states[^1].State}"));
+        to.WriteLine($"events: {counters.EventsAccepted} accepted, {counters.EventsRefused} refused; heals: {counters.Heals}");
+        if (session is JoinerSession)
+        {
+            to.WriteLine($"states held against the host's: {counters.StatesAgreed} agreed, {counters.StatesDiffered} differed");
+        }
+
+        foreach (LinkRow row in Links.Rows)
+        {
+            to.WriteLine(
+                $"peer {row.Peer} at {row.Address}: {PerSecond(row.SentPerSecond)} sent, {PerSecond(row.ReceivedPerSecond)} received, payload alone; "
+                + $"round trip {NumberText.Short(row.Last.RoundTrip.ToMilliseconds())} ms");
+        }
+
+        (string Name, long Count)[] counted = [.. Counts(counters, port).Where(c => c.Count != 0)];
+        if (counted.Length > 0)
+        {
+            to.WriteLine($"counted: {string.Join(", ", counted.Select(c => $"{c.Name.Replace('_', ' ')} {c.Count}"))}");
+        }
+
+        if (request.RecordFile is string file)
+        {
+            to.WriteLine(recordFailure is null ? $"recorded in {file}" : $"recorded in {file} only in part: {recordFailure}");
+        }
+
+        to.Flush();
+    }
+
+    private static string PerSecond(double bytes) => double.IsNaN(bytes) ? "- B/s" : $"{NumberText.Short(bytes)} B/s";
+
+    private void Write(Utf8JsonWriter document, Session session, UdpPort port, string? recordFailure)
+    {
+        SessionCounters counters = session.Counters;
+        document.WriteNumber("peer", session.Peer);
+        document.WriteString("listening_on", ListeningOn);
+        JsonDocumentWriter.Number(document, "for_s", request.Seconds);
+        document.WriteString("ended_by", Words(session.EndedBy));
+        document.WriteString("end_reason", session.EndReason);
+        JsonDocumentWriter.Number(document, "committed_s", states.Count > 0 ? states[^1].Seconds : null);
+        document.WriteString("event_hash", JsonDocumentWriter.Hash(states.Count > 0 ? states[^1].State.EventHash : null));
+        document.WriteStartArray("states");
+        foreach ((double seconds, CommittedState state) in states)
+        {
+            document.WriteStartObject();
+            document.WriteNumber("t_s", seconds);
+            document.WriteString("state_hash", JsonDocumentWriter.Hash(state.StateHash));
+            document.WriteString("event_hash", JsonDocumentWriter.Hash(state.EventHash));
+            document.WriteEndObject();
+        }
+
+        document.WriteEndArray();
+        document.WriteNumber("states_agreed", counters.StatesAgreed);
+        document.WriteNumber("states_differed", counters.StatesDiffered);
+        document.WriteNumber("events_accepted", counters.EventsAccepted);
+        document.WriteNumber("events_refused", counters.EventsRefused);
+        document.WriteNumber("heals", counters.Heals);
+        JsonDocumentWriter.Number(document, "clock_offset_ms", clock?.Offset.ToMilliseconds());
+        JsonDocumentWriter.Number(document, "clock_bound_ms", clock?.Bound.ToMilliseconds());
+        JsonDocumentWriter.Number(document, "delay_ms", clock?.Delay.ToMilliseconds());
+        document.WriteStartArray("links");
+        foreach (LinkRow row in Links.Rows)
+        {
+            document.WriteStartObject();
+            document.WriteNumber("peer", row.Peer);
+            document.WriteString("address", row.Address.ToString());
+            document.WriteNumber("sent_payload_bytes", row.Last.BytesSent);
+            document.WriteNumber("received_payload_bytes", row.Last.BytesReceived);
+            JsonDocumentWriter.Number(document, "sent_payload_bytes_per_s", row.SentPerSecond);
+            JsonDocumentWriter.Number(document, "received_payload_bytes_per_s", row.ReceivedPerSecond);
+            document.WriteNumber("round_trip_ms", row.Last.RoundTrip.ToMilliseconds());
+            document.WriteEndObject();
+        }
+
+        document.WriteEndArray();
+        document.WriteStartObject("counters");
+        foreach ((string name, long count) in Counts(counters, port))
+        {
+            document.WriteNumber(name, count);
+        }
+
+        document.WriteEndObject();
+        document.WriteString("recording", request.RecordFile);
+        document.WriteString("recording_failure", recordFailure);
+    }
+
+    private static string Words(SessionEnd end) => end switch
+    {
+        SessionEnd.None => "nothing",
+        SessionEnd.Left => "left",
+        SessionEnd.HostEnded => "host-ended",
+        SessionEnd.Refused => "refused",
+        SessionEnd.HostSilent => "host-silent",
+        SessionEnd.LetGo => "let-go",
+        _ => "failed",
+    };
+}

@@ -1,0 +1,69 @@
+using System;
+using System.Net;
+using LagSim.Cli.Commands;
+using LagSim.Cli.Output;
+using Xunit;
+
+namespace LagSim.Tests.Cli;
+
+/// <summary>Where a host is, as users write it.</summary>
+public sealed class EndPointTextTests
+{
+    [Theory]
+    [InlineData("127.0.0.1:5000", "127.0.0.1", 5000)]
+    [InlineData("[::1]:1", "::1", 1)]
+    [InlineData("[2001:db8::7]:65535", "2001:db8::7", 65535)]
+    [InlineData("some.name:80", "some.name", 80)]
+    public void Parse_AddressOrName_IsTakenApart(string text, string host, int port) => Assert.Equal((host, port), EndPointText.Parse(text));
+
+    [Theory]
+    [InlineData("nowhere")]
+    [InlineData("")]
+    [InlineData(":5000")]
+    [InlineData("::1:5000")]
+    [InlineData("[::1]")]
+    [InlineData("[127.0.0.1]:5000")]
+    [InlineData("[x]:5000")]
+    [InlineData("[]:5000")]
+    [InlineData("a b:5000")]
+    public void Parse_WhatSaysNoHost_IsRefusedWithExamples(string text)
+    {
+        string message = Assert.Throws<UsageException>(() => EndPointText.Parse(text)).Message;
+        Assert.Contains($"'{text}'", message, StringComparison.Ordinal);
+        Assert.Contains("[::1]:5000", message, StringComparison.Ordinal);
+        Assert.Equal(2, Tool.Run("join", text).ExitCode);
+    }
+
+    [Theory]
+    [InlineData("a:0")]
+    [InlineData("a:65536")]
+    [InlineData("a:x")]
+    [InlineData("a:")]
+    [InlineData("a:-1")]
+    public void Parse_PortOutOfRange_IsRefused(string text) =>
+        Assert.Contains("between 1 and 65535", Assert.Throws<UsageException>(() => EndPointText.Parse(text)).Message, StringComparison.Ordinal);
+
+    [Fact]
+    public void Resolve_NamesAndLiterals_GivesTheAddress()
+    {
+        Assert.Equal(new IPEndPoint(IPAddress.Loopback, 7), EndPointText.Resolve("127.0.0.1:7", TestContext.Current.CancellationToken));
+        Assert.Equal(new IPEndPoint(IPAddress.IPv6Loopback, 7), EndPointText.Resolve("[::1]:7", TestContext.Current.CancellationToken));
+        Assert.True(IPAddress.IsLoopback(EndPointText.Resolve("localhost:7", TestContext.Current.CancellationToken).Address));
+    }
+
+    [Fact]
+    public void Resolve_UnknownName_IsRefusedByName()
+    {
+        Tool.Refuses(3, ["join", "no-such-host.invalid:5000"], "The host 'no-such-host.invalid' is not known");
+        Tool.Refuses(3, ["relay", "no-such-host.invalid:5000", "--profile", "lan"], "The host 'no-such-host.invalid' is not known");
+        Tool.Refuses(3, ["join", new string('x', 300) + ":5000"], "is not known");
+    }
+
+    [Theory]
+    [InlineData("localhost")]
+    [InlineData("[::1]")]
+    [InlineData("[::1]:80")]
+    [InlineData("")]
+    public void ParseLocal_NoAddress_IsRefused(string text) =>
+        Tool.Refuses(2, ["host", "--scene", "drop", "--address", text], $"--address is '{text}'", "0.0.0.0 or :: for all");
+}

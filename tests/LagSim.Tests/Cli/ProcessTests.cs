@@ -1,0 +1,133 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using LagSim.Net.Recordings;
+using LagSim.Tests.Recordings;
+using Xunit;
+
+namespace LagSim.Tests.Cli;
+
+/// <summary>Real processes of the built tool on loopback: the same committed hash at the same printed time, whatever becomes of the others.</summary>
+[Collection(RealTime.Name)]
+public sealed class ProcessTests
+{
+    [Fact]
+    public void TwoProcesses_AgreeAndWhatIsWrongIsAnErrorAndControlCEndsTheSession()
+    {
+        using ToolProcess host = ToolProcess.Start("host --scene pair --key open-sesame --joiners 1 --history-s 0.2");
+        using ToolProcess joiner = ToolProcess.Start($"join {host.Address} --key open-sesame --do set-velocity@0.3:1,3,0");
+        string port = host.Address.Split(':')[1];
+        using ToolProcess second = ToolProcess.Start($"host --scene pair --port {port}");
+        using ToolProcess wrong = ToolProcess.Start($"join {host.Address} --key close-sesame");
+        using ToolProcess unknown = ToolProcess.Start("join no-such-host.invalid:5000");
+        second.Ends(3);
+        wrong.Ends(3);
+        unknown.Ends(3);
+        Assert.Contains($"UDP port 127.0.0.1:{port} cannot be opened: ", second.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains($"The host at {host.Address} refused: the key is wrong.", wrong.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains("The host 'no-such-host.invalid' is not known", unknown.Error.ToString(), StringComparison.Ordinal);
+        Assert.All(new[] { second, wrong, unknown }, process => Assert.Equal("", process.Output.ToString()));
+
+        joiner.Says("T 1 s ");
+        Assert.SkipWhen(OperatingSystem.IsWindows(), "Windows has no signal that a test can send.");
+        host.PressControlC();
+        host.Ends(130);
+        joiner.Ends(0);
+        AssertSame([host, joiner], least: 1);
+        Assert.Contains($"ended: The host at {host.Address} ended the session.", joiner.Output.ToString(), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void ThreeProcesses_OneJoinerKilledThenTheHost_LeaveTheOthersToGoOnAndThenToEndWithASentence()
+    {
+        using ToolProcess host = ToolProcess.Start("host --scene pair --joiners 2 --history-s 0.2 --timeout-s 1 --do impulse@0.4:1,4,0");
+        using ToolProcess first = ToolProcess.Start($"join {host.Address} --timeout-s 1");
+        using ToolProcess second = ToolProcess.Start($"join {host.Address} --timeout-s 1 --do impulse@1.5:-1,4,0");
+        second.Says("T 1 s ");
+        first.KillAtOnce();
+        host.Says("T 3 s ");
+        second.Says("T 3 s ");
+        AssertSame([host, second], least: 3);
+        Assert.Single(host.Error.Lines, line => line.EndsWith(" is gone", StringComparison.Ordinal));
+        host.KillAtOnce();
+        second.Ends(3);
+        Assert.Contains($"The host at {host.Address} fell silent for 1 s.", second.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains("last committed: ", second.Output.ToString(), StringComparison.Ordinal);
+        Assert.Contains("events: 2 accepted", second.Output.ToString(), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void EightProcesses_AgreeAndSoDoTheirRecordings()
+    {
+        using TemporaryFolder folder = new();
+        string[] files = Enumerable.Range(0, 8).Select(n => folder[$"{n}.lagsim"]).ToArray();
+        ToolProcess host = ToolProcess.Start($"host --scene billiards --joiners 7 --history-s 0.4 --for-s 2 --record {files[0]}");
+        ToolProcess[] all =
+        [
+            host,
+            .. Enumerable.Range(1, 7).Select(n => ToolProcess.Start($"join {host.Address} --for-s 2 --do impulse@{n}e-1:0.1,0,0.{n} --do impulse@1.{n}:0,0,-0.1 --record {files[n]}")),
+        ];
+        try
+        {
+            Assert.All(all, process => process.Ends(0));
+            AssertSame(all, least: 2);
+            string[] last = all.Select(process => process.Output.Lines.Single(line => line.StartsWith("last committed: 2 s", StringComparison.Ordinal))).ToArray();
+            Assert.Single(last.Distinct());
+            foreach (string file in files)
+            {
+                Assert.Contains("agree in all that both hold: 14 log entries and 2 committed states", Tool.Run("diff", files[0], file).Done().Output, StringComparison.Ordinal);
+                string replayed = Tool.Run("replay", file).Done().Output;
+                Assert.Contains(last[0].Split("s, ")[1], replayed, StringComparison.Ordinal);
+            }
+
+            // The control: one event less, and it is named.
+            File.WriteAllBytes(folder["less.lagsim"], SessionRecorderTests.Without(Recording.Read(files[3]), 5));
+            Tool differs = Tool.Run("diff", files[0], folder["less.lagsim"]);
+            Assert.Equal(1, differs.ExitCode);
+            Assert.StartsWith("Entry 5 of the log differs. In the first it is Accepted: Impulse of body ", differs.Output, StringComparison.Ordinal);
+            Assert.Equal(1, Tool.Run("replay", folder["less.lagsim"]).ExitCode);
+        }
+        finally
+        {
+            Array.ForEach(all, process => process.Dispose());
+        }
+    }
+
+    [Fact]
+    public void HostAndThreeJoiners_ThroughARelayThatPlaysAwful_Agree()
+    {
+        using TemporaryFolder folder = new();
+        using ToolProcess host = ToolProcess.Start($"host --scene pair --joiners 3 --history-s 1.5 --for-s 3 --do impulse@1:0,5,0 --record {folder["0"]}");
+        using ToolProcess relay = ToolProcess.Start($"relay {host.Address} --profile awful --for-s 60");
+        ToolProcess[] joiners = Enumerable.Range(1, 3)
+            .Select(n => ToolProcess.Start($"join {relay.Address} --for-s 3 --do impulse@0.{n}:0,3,{n} --do set-velocity@1.{n}:{n},2,0 --record {folder[$"{n}"]}")).ToArray();
+        try
+        {
+            Assert.All(joiners, joiner => joiner.Ends(0));
+            host.Ends(0);
+            AssertSame([host, .. joiners], least: 3);
+            foreach (string file in Enumerable.Range(1, 3).Select(n => folder[$"{n}"]))
+            {
+                Assert.Contains("7 log entries", Tool.Run("diff", folder["0"], file).Done().Output, StringComparison.Ordinal);
+                Tool.Run("replay", file).Done();
+            }
+
+            Assert.All(joiners, joiner => Assert.Matches("heals: [1-9]", joiner.Output.ToString())); // else nothing came late
+        }
+        finally
+        {
+            Array.ForEach(joiners, joiner => joiner.Dispose());
+        }
+    }
+
+    /// <summary>That all print the same at each time that they share, which must be so many.</summary>
+    private static void AssertSame(IReadOnlyList<ToolProcess> processes, int least)
+    {
+        Dictionary<string, string>[] states = processes.Select(process => LineWriter.States(process.Output.Lines)).ToArray();
+        string[] common = states[0].Keys.Where(time => states.All(of => of.ContainsKey(time))).ToArray();
+        Assert.True(common.Length >= least, $"{common.Length} times are common: {string.Join("", processes)}");
+        Assert.All(common, time => Assert.Single(states.Select(of => of[time]).Distinct()));
+        Assert.Equal(common.Length, common.Select(time => states[0][time]).Distinct().Count()); // and it is not the same all the time
+    }
+}

@@ -1,0 +1,239 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using System.Net;
+using System.Net.Sockets;
+using System.Text.Json;
+using System.Threading;
+using LagSim.Harness.Scenes;
+using LagSim.Hosting;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Cli;
+
+/// <summary>Host, join and relay over real sockets, in this process: that they work, not how fast.</summary>
+[Collection(RealTime.Name)]
+public sealed class SessionCommandTests
+{
+    private const string Host = "host --scene drop --history-s 0.2 --joiners 1";
+
+    [Fact]
+    public void HostAndJoin_AsText_PrintTheSameStatesAtTheSameTimesAndASummary()
+    {
+        using TemporaryFolder folder = new();
+        using LiveTool host = LiveTool.Run(Host + " --for-s 2 --do set-velocity@0.5:2,9,0 --record", folder["host.lagsim"]);
+        string address = host.Address;
+        Assert.StartsWith("127.0.0.1:", address, StringComparison.Ordinal);
+        using LiveTool joiner = LiveTool.Run($"join {address} --for-s 2 --do teleport@1.2:ball:0,12,0 --do remove@1.4 --record", folder["join.lagsim"]);
+        joiner.Ends(0);
+        host.Ends(0);
+
+        Dictionary<string, string> states = LineWriter.States(host.Output.Lines);
+        Assert.Equal(["1", "2"], states.Keys);
+        Assert.All(states.Values, state => Assert.Matches("^state [0-9a-f]{16} events [0-9a-f]{16}$", state));
+        Assert.Equal(states, LineWriter.States(joiner.Output.Lines));
+        Assert.Equal(2, joiner.Output.Lines.Count(line => line.StartsWith("clock offset ", StringComparison.Ordinal)));
+        Assert.Matches("\nclock offset -?[0-9.]+ ms bound [0-9.]+ ms delay [0-9.]+ ms\n", joiner.Output.ToString());
+        Assert.DoesNotContain(host.Output.Lines, line => line.StartsWith("clock ", StringComparison.Ordinal));
+        Assert.Contains("events: 3 accepted, 0 refused; heals: ", host.Output.ToString(), StringComparison.Ordinal);
+        Assert.Contains($"last committed: 2 s, {states["2"].Replace(" events", ", events", StringComparison.Ordinal)}", joiner.Output.ToString(), StringComparison.Ordinal);
+        Assert.Matches("peer 1 at 127.0.0.1:[0-9]+: [0-9.]+ B/s sent, [0-9.]+ B/s received", host.Output.ToString());
+        Assert.Contains("ended: This peer left.", joiner.Output.ToString(), StringComparison.Ordinal);
+
+        // What each recorded is run again to the same end, and is the same.
+        foreach (string name in new[] { "host.lagsim", "join.lagsim" })
+        {
+            using JsonDocument replay = JsonDocument.Parse(Tool.Run("replay", folder[name], "--json").Done().Output);
+            Assert.Contains(replay.RootElement.GetProperty("state_hash").GetString()!, states["2"], StringComparison.Ordinal);
+            Assert.Equal((2, 3), (replay.RootElement.GetProperty("committed_s").GetInt32(), replay.RootElement.GetProperty("events_applied").GetInt32()));
+        }
+
+        Assert.Contains("3 log entries and 2 committed states", Tool.Run("diff", folder["host.lagsim"], folder["join.lagsim"]).Done().Output, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void HostAndJoin_AsJson_PrintOneDocumentAndNothingElse()
+    {
+        // The host's disk is full, which does not end the session.
+        bool isFull = File.Exists("/dev/full");
+        using LiveTool host = LiveTool.Run(Host + " --for-s 1 --json --key secret --seed 7" + (isFull ? " --record /dev/full" : ""));
+        string? listening = host.Error.WaitFor(line => line.StartsWith("listening on ", StringComparison.Ordinal), LiveTool.Deadline);
+        using LiveTool joiner = LiveTool.Run($"join {listening!.Split(' ')[2]} --for-s 1 --json --key secret");
+        joiner.Ends(0);
+        host.Ends(0);
+        using JsonDocument one = JsonDocument.Parse(host.Output.ToString()), two = JsonDocument.Parse(joiner.Output.ToString());
+        foreach (JsonDocument document in new[] { one, two })
+        {
+            Assert.Equal(
+                ["tool", "version", "command", "seed", "scene", "scene_hash", "state_hash", "peer"],
+                document.RootElement.EnumerateObject().Take(8).Select(property => property.Name));
+            Assert.Equal(("drop", 1), (document.RootElement.GetProperty("scene").GetString(), document.RootElement.GetProperty("committed_s").GetInt32()));
+            Assert.Equal("left", document.RootElement.GetProperty("ended_by").GetString());
+        }
+
+        Assert.Equal(one.RootElement.GetProperty("states").GetRawText(), two.RootElement.GetProperty("states").GetRawText());
+        Assert.Equal(one.RootElement.GetProperty("state_hash").GetString(), two.RootElement.GetProperty("states")[0].GetProperty("state_hash").GetString());
+        Assert.Equal(7, one.RootElement.GetProperty("seed").GetInt32());
+        Assert.Equal("0", two.RootElement.GetProperty("links")[0].GetProperty("peer").GetRawText());
+        Assert.True(two.RootElement.GetProperty("clock_bound_ms").GetDouble() > 0);
+        Assert.Equal(JsonValueKind.Null, one.RootElement.GetProperty("clock_bound_ms").ValueKind);
+        Assert.Equal(isFull, one.RootElement.GetProperty("recording_failure").GetString() is not null);
+        Assert.Equal(isFull, host.Error.ToString().Contains("The recording ends here: ", StringComparison.Ordinal));
+    }
+
+    [Fact]
+    public void Host_ThatIsStopped_EndsTheSessionForAllWhichIsAnErrorBeforeAJoinersTime()
+    {
+        bool isSix = CanBind(IPAddress.IPv6Loopback);
+        using LiveTool host = LiveTool.Run(Host + (isSix ? " --address ::1" : ""));
+        Assert.StartsWith(isSix ? "[::1]:" : "127.0.0.1:", host.Address, StringComparison.Ordinal);
+        using LiveTool timed = LiveTool.Run($"join {host.Address} --for-s 100");
+        using LiveTool joiner = LiveTool.Run($"join {host.Address}");
+        Assert.NotNull(joiner.Output.WaitFor(line => line.StartsWith("T 1 s ", StringComparison.Ordinal), LiveTool.Deadline));
+        host.Stop();
+        host.Ends(130);
+        timed.Ends(3);
+        joiner.Ends(0);
+        Assert.Contains($"The host at {host.Address} ended the session.", timed.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains($"ended: The host at {host.Address} ended the session.", joiner.Output.ToString(), StringComparison.Ordinal);
+        Assert.Contains("ended: This peer left.", host.Output.ToString(), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Join_StateThatDiffersFromTheHosts_IsACheckThatFailed()
+    {
+        // A host that says another hash than it has.
+        using LyingPort port = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0)));
+        HostSession session = new(BuiltInScenes.Drop(), port, new StopwatchClock(), new SessionOptions { History = SimDuration.FromSeconds(0.2), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
+        using PeerThread host = new(session, port, "host");
+        host.Start();
+        using LiveTool joiner = LiveTool.Run($"join {port.LocalAddress} --for-s 1");
+        joiner.Ends(1);
+        Assert.Contains("The committed state at T 1 s differs from the host's.", joiner.Error.ToString(), StringComparison.Ordinal);
+        Assert.Matches("states held against the host's: 0 agreed, [1-9] differed", joiner.Output.ToString());
+    }
+
+    [Fact]
+    public void Join_HostOfAnotherVersion_IsAnErrorThatNamesBoth()
+    {
+        using UdpPort other = new(new IPEndPoint(IPAddress.Loopback, 0));
+        byte[] buffer = new byte[IDatagramPort.MaxDatagramBytes];
+        other.Arrived += () =>
+        {
+            if (other.TryReceive(buffer, out int length, out PeerAddress from) && KnockDatagram.TryDecode(buffer.AsSpan(0, length), out KnockDatagram knock, out _))
+            {
+                byte[] answer = new byte[WireFormat.RefusalBytes];
+                new RefusalDatagram(knock.Nonce, RefusalReason.VersionDiffers).Encode(answer);
+                answer[2] = 77;
+                other.Send(answer, from);
+            }
+        };
+        Tool.Refuses(3, ["join", other.LocalAddress.ToString()], $"The host at {other.LocalAddress} refused: it speaks version 77 of the protocol, this peer 2.");
+    }
+
+    [Fact]
+    public void Join_NobodyThere_IsAnErrorAfterTheTimeout()
+    {
+        using UdpPort silent = new(new IPEndPoint(IPAddress.Loopback, 0));
+        Tool.Refuses(3, ["join", silent.LocalAddress.ToString(), "--timeout-s", "0.5", "--json"], $"No answer from {silent.LocalAddress} within 0.5 s.");
+    }
+
+    [Fact]
+    public void Deeds_ThatMayNotBeDone_AreToldAndAnError()
+    {
+        using TemporaryFolder folder = new();
+        File.WriteAllText(
+            folder["mine.json"],
+            """
+            {"format": "lagsim-scene-1", "name": "mine", "planes": [{"name": "floor", "normal": [0, 1, 0], "offset_m": 0}], "bodies": [
+              {"name": "hers", "radius_m": 0.5, "mass_kg": 1, "restitution": 0.8, "position_m": [0, 10, 0], "players": [1]},
+              {"name": "his", "radius_m": 0.5, "mass_kg": 1, "restitution": 0.8, "position_m": [4, 10, 0], "players": [0]}]}
+            """);
+        using LiveTool host = LiveTool.Run(
+            "host --history-s 0.2 --joiners 1 --for-s 1 --do impulse@0.2:hers:0,1,0 --do impulse@0.3:his:0,1,0 --do teleport@0.4:his:0,-5,0 --scene", folder["mine.json"]);
+        using LiveTool joiner = LiveTool.Run($"join {host.Address} --for-s 1 --do impulse@0.2:hers:0,1,0");
+        Assert.NotNull(joiner.Error.WaitFor(line => line.StartsWith("in as a peer ", StringComparison.Ordinal), LiveTool.Deadline));
+        using LiveTool wrong = LiveTool.Run($"join {host.Address} --for-s 1 --do remove@0.2:theirs");
+        joiner.Ends(0);
+        host.Ends(3);
+        wrong.Ends(2);
+        Assert.Contains("--do impulse@0.2:hers:0,1,0 was not done. Peer 0 may not touch body 'hers'; those who may: 1.", host.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains("--do teleport@0.4:his:0,-5,0 was not done. The position of the Teleport of body 0.0.1", host.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains("events: 2 accepted", joiner.Output.ToString(), StringComparison.Ordinal);
+        Assert.Contains("scene 'mine' has no body 'theirs'; it has hers, his.", wrong.Error.ToString(), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Relay_ForATime_PassesDatagramsOnAndCounts()
+    {
+        using UdpPort host = new(new IPEndPoint(IPAddress.Loopback, 0)), client = new(new IPEndPoint(IPAddress.Loopback, 0));
+        using ManualResetEventSlim arrived = new();
+        host.Arrived += arrived.Set;
+        using LiveTool relay = LiveTool.Run($"relay {host.LocalAddress} --profile delay-10ms --json");
+        string? listening = relay.Error.WaitFor(line => line.StartsWith("listening on ", StringComparison.Ordinal), LiveTool.Deadline);
+        client.Send([1, 2, 3], PeerAddress.From(IPEndPoint.Parse(listening!.Split(' ')[2])));
+        Assert.True(arrived.Wait(LiveTool.Deadline, TestContext.Current.CancellationToken));
+        relay.Stop();
+        relay.Ends(130);
+        using JsonDocument document = JsonDocument.Parse(relay.Output.ToString());
+        Assert.Equal(("relay", "delay-10ms", 1, 1), (
+            document.RootElement.GetProperty("command").GetString(), document.RootElement.GetProperty("profile").GetString(),
+            document.RootElement.GetProperty("clients").GetInt32(), document.RootElement.GetProperty("forwarded_to_host").GetInt32()));
+
+        using LiveTool brief = LiveTool.Run($"relay {host.LocalAddress} --profile awful --for-s 0.1").Ends(0);
+        Assert.StartsWith("listening on 127.0.0.1:", brief.Output.ToString(), StringComparison.Ordinal);
+        Assert.Contains("awful, 0 joiners; to the host 0 datagrams, 0 lost", brief.Output.ToString(), StringComparison.Ordinal);
+        Tool.Refuses(3, ["relay", "0.0.0.0:7", "--profile", "lan"], "'0.0.0.0:7' is no host to relay to");
+    }
+
+    private static bool CanBind(IPAddress address)
+    {
+        try
+        {
+            using Socket socket = new(address.AddressFamily, SocketType.Dgram, ProtocolType.Udp);
+            socket.Bind(new IPEndPoint(address, 0));
+            return true;
+        }
+        catch (SocketException)
+        {
+            return false;
+        }
+    }
+
+    /// <summary>A port through which every state hash goes out with one bit changed.</summary>
+    private sealed class LyingPort(UdpPort inner) : IDatagramPort
+    {
+        private readonly UpdateDatagram update = new();
+        private readonly byte[] changed = new byte[IDatagramPort.MaxDatagramBytes];
+
+        public event Action? Arrived
+        {
+            add => inner.Arrived += value;
+            remove => inner.Arrived -= value;
+        }
+
+        public PeerAddress LocalAddress => inner.LocalAddress;
+
+        public void Send(ReadOnlySpan<byte> datagram, PeerAddress to)
+        {
+            if (update.TryDecode(datagram, out _) && update.HasStateHash)
+            {
+                update.StateHash ^= 1;
+                inner.Send(changed.AsSpan(0, update.Encode(changed)), to);
+            }
+            else
+            {
+                inner.Send(datagram, to);
+            }
+        }
+
+        public bool TryReceive(Span<byte> buffer, out int length, out PeerAddress from) => inner.TryReceive(buffer, out length, out from);
+
+        public void Dispose() => inner.Dispose();
+    }
+}

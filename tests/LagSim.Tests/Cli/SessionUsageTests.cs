@@ -1,0 +1,101 @@
+using System;
+using System.IO;
+using LagSim.Cli.Commands;
+using LagSim.Cli.Output;
+using LagSim.Net.Sessions;
+using Xunit;
+
+namespace LagSim.Tests.Cli;
+
+/// <summary>What host, join, relay, diff and replay refuse, and what their ends are to the shell.</summary>
+public sealed class SessionUsageTests
+{
+    private const int Usage = 2;
+    private const int Input = 3;
+
+    [Theory]
+    [InlineData("host", "--scene")]
+    [InlineData("host --scene drop --port 65536", "--port is '65536'; it must be a whole number between 0 and 65535")]
+    [InlineData("host --scene drop --joiners 9", "--joiners is '9'; it must be a whole number between 0 and 8")]
+    [InlineData("host --scene drop --history-s 6", "--history-s is '6'; it must be a number between 0.05 and 5")]
+    [InlineData("host --scene drop --timeout-s 0.1", "--timeout-s is '0.1'; it must be a number between 0.5 and 600")]
+    [InlineData("host --scene drop --for-s NaN", "--for-s is 'NaN'; it must be a number between 0.1 and 1000000")]
+    [InlineData("host --scene drop --for-s 2 --do remove@2", "--do is 'remove@2', which is not before the end, --for-s 2")]
+    [InlineData("host --scene drop --do remove@2:bell", "scene 'drop' has no body 'bell'; it has ball")]
+    [InlineData("host --scene drop --record -", "--record is '-'; a recording is not for stdout")]
+    [InlineData("join", "'join'")]
+    [InlineData("join 127.0.0.1:9 --for-s 0", "--for-s is '0'")]
+    [InlineData("join 127.0.0.1:9 --scene drop", "'--scene'")]
+    [InlineData("relay 127.0.0.1:9", "--profile")]
+    [InlineData("relay 127.0.0.1:9 --profile dreadful", "There is no link profile 'dreadful'; there are loopback")]
+    [InlineData("relay :9 --profile lan", "':9' does not say where the host is")]
+    [InlineData("diff a.lagsim", "'diff'")]
+    [InlineData("replay", "'replay'")]
+    public void Call_ThatCannotBe_IsRefusedWithWhatIsWrong(string line, string says) => Tool.Refuses(Usage, line.Split(' '), says);
+
+    [Fact]
+    public void Key_ThatIsTooLong_IsRefused() =>
+        Tool.Refuses(Usage, ["host", "--scene", "drop", "--key", new string('k', 257)], "--key has 257 characters; at most 256 are allowed");
+
+    [Theory]
+    [InlineData("host --scene no-such-scene", "no-such-scene")]
+    [InlineData("host --scene crowd-10001", "it has 10001 bodies; at most 10000 are allowed")]
+    [InlineData("host --scene drop --address 192.0.2.77", "UDP port 192.0.2.77:0 cannot be opened")]
+    [InlineData("host --scene drop --record never-made/x.lagsim", "never-made")]
+    [InlineData("diff no-such.lagsim no-such.lagsim", "no-such.lagsim")]
+    [InlineData("replay no-such.lagsim", "no-such.lagsim")]
+    public void Call_OfWhatIsNotThere_IsRefusedWithItsName(string line, string says) => Tool.Refuses(Input, line.Split(' '), says);
+
+    [Fact]
+    public void Record_FileThatWasThere_IsLeftAloneByACallThatIsRefused()
+    {
+        using TemporaryFolder folder = new();
+        File.WriteAllText(folder["kept"], "of yesterday");
+        Tool.Refuses(Input, ["join", "no-such-host.invalid:5", "--record", folder["kept"]], "not known");
+        Tool.Refuses(Input, ["join", "no-such-host.invalid:5", "--record", folder["new"]], "not known");
+        Assert.Equal([folder["kept"]], Directory.GetFileSystemEntries(folder.Path));
+        Assert.Equal("of yesterday", File.ReadAllText(folder["kept"]));
+    }
+
+    [Fact]
+    public void DiffAndReplay_OfWhatIsNoRecording_AreRefused()
+    {
+        using TemporaryFolder folder = new();
+        File.WriteAllText(folder["none"], "of yesterday");
+        Tool.Refuses(Input, ["replay", folder["none"]], folder["none"], "This is no recording of LagSim");
+        Tool.Refuses(Input, ["replay", folder["none"], "--json"], "This is no recording of LagSim");
+        Tool.Refuses(Input, ["diff", folder["none"], folder["none"]], "The first is damaged at byte 0");
+    }
+
+    [Theory]
+    [InlineData("host")]
+    [InlineData("join")]
+    [InlineData("relay")]
+    [InlineData("diff")]
+    [InlineData("replay")]
+    public void Help_OfEveryCommand_GoesToStdout(string command)
+    {
+        Tool tool = Tool.Run(command, "--help").Done();
+        Assert.Contains("Usage:", tool.Output, StringComparison.Ordinal);
+        if (command is "host" or "join")
+        {
+            Assert.Contains(Deed.Syntax, tool.Output, StringComparison.Ordinal);
+        }
+    }
+
+    [Theory]
+    [InlineData(SessionEnd.Left, true, 0, false, false, ExitCode.Done)]
+    [InlineData(SessionEnd.Left, false, 0, false, true, ExitCode.Interrupted)]
+    [InlineData(SessionEnd.Left, true, 0, true, false, ExitCode.Input)]
+    [InlineData(SessionEnd.Left, true, 1, true, true, ExitCode.CheckFailed)]
+    [InlineData(SessionEnd.HostEnded, true, 0, false, false, ExitCode.Done)]
+    [InlineData(SessionEnd.HostEnded, false, 0, false, false, ExitCode.Input)]
+    [InlineData(SessionEnd.HostEnded, true, 2, false, false, ExitCode.CheckFailed)]
+    [InlineData(SessionEnd.HostSilent, true, 0, false, false, ExitCode.Input)]
+    [InlineData(SessionEnd.HostSilent, true, 1, false, false, ExitCode.CheckFailed)]
+    [InlineData(SessionEnd.Refused, true, 0, false, false, ExitCode.Input)]
+    [InlineData(SessionEnd.LetGo, true, 0, false, false, ExitCode.Input)]
+    [InlineData(SessionEnd.Failed, true, 0, false, false, ExitCode.Input)]
+    public void ExitCodeOf_EveryEnd_IsTheDocumentedOne(SessionEnd by, bool isTimeReached, long differed, bool hasFailedDeed, bool isInterrupted, int expected) =>
+        Assert.Equal(expected, SessionRunner.ExitCodeOf(by, isTimeReached, differed, hasFailedDeed, isInterrupted));
+}
