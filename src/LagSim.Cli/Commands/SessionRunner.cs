@@ -23,8 +23,10 @@ internal sealed class SessionRunner : IDisposable
     private static readonly TimeSpan LookInterval = TimeSpan.FromMilliseconds(250);
     private static readonly TimeSpan LeavePatience = TimeSpan.FromSeconds(1);
 
-    /// <summary>How long a host whose time is up waits for its joiners to leave.</summary>
+    /// <summary>How long a host whose time is up waits for its joiners to leave, besides some round trips.</summary>
     private static readonly SimDuration HostPatience = SimDuration.FromSeconds(1.5);
+
+    private const int RoundTripsOfPatience = 4;
 
     /// <summary>How long a host that has said goodbye answers those who have not heard it.</summary>
     private static readonly TimeSpan GoodbyeTime = TimeSpan.FromMilliseconds(300);
@@ -193,7 +195,7 @@ internal sealed class SessionRunner : IDisposable
 
         if (isCommitted)
         {
-            patienceEnd ??= now + HostPatience;
+            patienceEnd ??= now + HostPatience + (printer.Links.LongestRoundTrip * RoundTripsOfPatience);
             thread.Ask(host =>
             {
                 ((HostSession)host).Hasten();

@@ -4,6 +4,7 @@ using System.Diagnostics;
 using System.Linq;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
+using LagSim.Time;
 
 namespace LagSim.Cli.Output;
 
@@ -17,6 +18,9 @@ internal sealed class LinkTable
 
     /// <summary>How many there are now.</summary>
     internal int Present { get; private set; }
+
+    /// <summary>The longest there and back of those that there are; zero without one.</summary>
+    internal SimDuration LongestRoundTrip => rows.Where(row => row.IsPresent).Select(row => row.Last.RoundTrip).DefaultIfEmpty().Max();
 
     /// <summary>Takes in what went over the links so far.</summary>
     /// <param name="now">The links that there are.</param>

@@ -20,7 +20,7 @@ namespace LagSim.Tests.Cli;
 [Collection(RealTime.Name)]
 public sealed class SessionCommandTests
 {
-    private const string Host = "host --scene drop --history-s 0.2 --joiners 1";
+    private const string Host = "host --scene drop --history-s 0.5 --joiners 1";
 
     [Fact]
     public void HostAndJoin_AsText_PrintTheSameStatesAtTheSameTimesAndASummary()
@@ -155,7 +155,7 @@ public sealed class SessionCommandTests
               {"name": "his", "radius_m": 0.5, "mass_kg": 1, "restitution": 0.8, "position_m": [4, 10, 0], "players": [0]}]}
             """);
         using LiveTool host = LiveTool.Run(
-            "host --history-s 0.2 --joiners 1 --for-s 1 --do impulse@0.2:hers:0,1,0 --do impulse@0.3:his:0,1,0 --do teleport@0.4:his:0,-5,0 --scene", folder["mine.json"]);
+            "host --history-s 0.5 --joiners 1 --for-s 1 --do impulse@0.2:hers:0,1,0 --do impulse@0.3:his:0,1,0 --do teleport@0.4:his:0,-5,0 --scene", folder["mine.json"]);
         using LiveTool joiner = LiveTool.Run($"join {host.Address} --for-s 1 --do impulse@0.2:hers:0,1,0");
         Assert.NotNull(joiner.Error.WaitFor(line => line.StartsWith("in as a peer ", StringComparison.Ordinal), LiveTool.Deadline));
         using LiveTool wrong = LiveTool.Run($"join {host.Address} --for-s 1 --do remove@0.2:theirs");
