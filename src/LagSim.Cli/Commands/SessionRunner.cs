@@ -247,7 +247,7 @@ internal sealed class SessionRunner : IDisposable
     private void OnCommitted(CommittedState state)
     {
         ClockReading? clock = session is JoinerSession joiner
-            ? new ClockReading(joiner.ClockSync.Offset, joiner.ClockSync.ErrorBound, joiner.ClockSync.RoundTrip / 2)
+            ? new ClockReading(joiner.ClockSync.Estimate.Offset, joiner.ClockSync.Estimate.ErrorBound, joiner.ClockSync.RoundTrip / 2)
             : null;
         SimDuration sinceStart = state.Time - session.World!.Simulation.Start;
         if (!(sinceStart > request.Length))

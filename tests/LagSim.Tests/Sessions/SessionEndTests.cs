@@ -117,7 +117,7 @@ public sealed class SessionEndTests
     private static List<string> Listen(SessionGroup group)
     {
         List<string> told = [];
-        for (int peer = 0; peer < group.Sessions.Length; peer++)
+        for (int peer = 0; peer < group.Sessions.Count; peer++)
         {
             int number = peer;
             group.Sessions[peer].Begun += () => told.Add($"{number} begun");
