@@ -17,7 +17,7 @@ public sealed partial class Simulation
     /// Opens the body's next segment from a state that holds <paramref name="carry"/> seconds before the key's tick (under a tick, either
     /// way): at rest on or sliding along those of the touched planes that carry it, else in free flight.
     /// </summary>
-    private void Open(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, ReadOnlySpan<int> touchedPlanes, int crowding = 0)
+    private void Open(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, int crowding = 0)
     {
         if (touchedPlanes.Length > 0 && TryOpenSupported(slot, key, position, velocity, carry, touchedPlanes, crowding))
         {
@@ -66,7 +66,7 @@ public sealed partial class Simulation
     /// the plane, and it rests from the end of that time on. Tangential motion goes on unchanged: frictionless bounces do not touch it.
     /// </summary>
     private bool TryOpenSupported(
-        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, ReadOnlySpan<int> touchedPlanes, int crowding)
+        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, int crowding)
     {
         if (bodies[slot].Spec.Acceleration != 0)
         {

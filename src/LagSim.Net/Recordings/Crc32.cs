@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.InteropServices;
 
 namespace LagSim.Net.Recordings;
 
@@ -11,7 +12,8 @@ internal static class Crc32
     internal static uint Append(uint before, ReadOnlySpan<byte> bytes)
     {
         uint crc = ~before;
-        foreach (byte next in bytes)
+        // As a writable span: the indexer of a read-only one cannot be linked by some Mono runtimes (docs/ARCHITECTURE.md).
+        foreach (byte next in MemoryMarshal.CreateSpan(ref MemoryMarshal.GetReference(bytes), bytes.Length))
         {
             crc = Table[(byte)(crc ^ next)] ^ (crc >> 8);
         }

@@ -134,7 +134,7 @@ public sealed partial class HostSession : Session
             Counters.DatagramsIgnored++; // a gap, which no joiner of ours leaves: each update has all that is not acknowledged
         }
 
-        foreach (UpdateEntry entry in update.Entries)
+        foreach (UpdateEntry entry in update.Held)
         {
             if (sequence++ == joiner.EventsReceived + 1)
             {

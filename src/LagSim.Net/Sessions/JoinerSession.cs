@@ -243,7 +243,7 @@ public sealed partial class JoinerSession : Session
     {
         uint index = update.FirstIndex;
         bool any = false;
-        foreach (UpdateEntry entry in update.Entries)
+        foreach (UpdateEntry entry in update.Held)
         {
             if (index++ == entriesReceived + 1)
             {

@@ -41,7 +41,7 @@ public readonly struct KnockDatagram
     internal static bool TryReadAnyVersion(ReadOnlySpan<byte> datagram, out ulong nonce)
     {
         nonce = 0;
-        if (datagram.Length < WireFormat.KnockBytes || datagram[WireFormat.HeaderBytes - 1] != (byte)DatagramType.Knock)
+        if (datagram.Length < WireFormat.KnockBytes || WireReader.ByteAt(datagram, WireFormat.HeaderBytes - 1) != (byte)DatagramType.Knock)
         {
             return false;
         }

@@ -56,12 +56,12 @@ public readonly struct RefusalDatagram
     {
         nonce = 0;
         version = 0;
-        if (datagram.Length != WireFormat.RefusalBytes || datagram[WireFormat.HeaderBytes - 1] != (byte)DatagramType.Refusal)
+        if (datagram.Length != WireFormat.RefusalBytes || WireReader.ByteAt(datagram, WireFormat.HeaderBytes - 1) != (byte)DatagramType.Refusal)
         {
             return false;
         }
 
-        version = datagram[sizeof(ushort)];
+        version = WireReader.ByteAt(datagram, sizeof(ushort));
         WireReader reader = new(datagram.Slice(WireFormat.HeaderBytes, sizeof(ulong)));
         nonce = reader.ReadUInt64();
         return true;

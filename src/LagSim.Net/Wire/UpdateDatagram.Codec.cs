@@ -37,7 +37,7 @@ public sealed partial class UpdateDatagram
 
         writer.WriteUInt32(FirstIndex);
         writer.WriteByte((byte)count);
-        foreach (ref readonly UpdateEntry entry in Entries)
+        foreach (ref readonly UpdateEntry entry in Held)
         {
             writer.WriteByte((byte)((byte)entry.Verdict | (entry.IsOwn ? OwnFlag : 0)));
             if (entry.IsOwn)

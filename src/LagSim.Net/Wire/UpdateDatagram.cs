@@ -77,7 +77,10 @@ public sealed partial class UpdateDatagram
     public uint FirstIndex { get; set; }
 
     /// <summary>The entries, valid until the next change to this object.</summary>
-    public ReadOnlySpan<UpdateEntry> Entries => entries.AsSpan(0, count);
+    public ReadOnlySpan<UpdateEntry> Entries => Held;
+
+    /// <summary>The same for this library, which indexes no read-only span: some Mono runtimes cannot link that (docs/ARCHITECTURE.md).</summary>
+    internal Span<UpdateEntry> Held => entries.AsSpan(0, count);
 
     /// <summary>The datagram's length as it stands, in bytes.</summary>
     public int EncodedLength => WireFormat.EmptyUpdateBytes + (HasStateHash ? WireFormat.StateHashBytes : 0) + entryBytes;

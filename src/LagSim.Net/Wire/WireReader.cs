@@ -1,5 +1,6 @@
 using System;
 using System.Buffers.Binary;
+using System.Runtime.InteropServices;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -56,7 +57,10 @@ public ref struct WireReader
     }
 
     /// <summary>One byte.</summary>
-    public byte ReadByte() => TryTake(1, out ReadOnlySpan<byte> taken) ? taken[0] : (byte)0;
+    public byte ReadByte() => TryTake(1, out ReadOnlySpan<byte> taken) ? ByteAt(taken, 0) : (byte)0;
+
+    /// <summary>One byte of many, which must be there. Not by the span's own indexer: some Mono runtimes cannot link it (docs/ARCHITECTURE.md).</summary>
+    internal static byte ByteAt(ReadOnlySpan<byte> bytes, int index) => MemoryMarshal.Read<byte>(bytes.Slice(index));
 
     /// <summary>Two bytes.</summary>
     public ushort ReadUInt16() =>

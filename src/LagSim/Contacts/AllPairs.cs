@@ -42,5 +42,5 @@ internal sealed class AllPairs : IPairIndex
         }
     }
 
-    public ReadOnlySpan<int> Candidates(int slot) => present.AsSpan(0, count);
+    public Span<int> Candidates(int slot) => present.AsSpan(0, count);
 }

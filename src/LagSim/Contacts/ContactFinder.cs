@@ -109,7 +109,7 @@ internal static class ContactFinder
         }
     }
 
-    private static int SquaredDistance(ReadOnlySpan<Vector3D> d, double reach, Span<double> f)
+    private static int SquaredDistance(Span<Vector3D> d, double reach, Span<double> f)
     {
         int terms = (2 * d.Length) - 1;
         for (int k = 0; k < terms; k++)

@@ -58,7 +58,7 @@ internal static class FirstDescent
     }
 
     /// <summary>Whether a function with these derivatives (as power coefficients, from the first on) falls just after 0.</summary>
-    private static bool FallsFromZero(ReadOnlySpan<double> coefficients)
+    private static bool FallsFromZero(Span<double> coefficients)
     {
         foreach (double c in coefficients)
         {
@@ -72,7 +72,7 @@ internal static class FirstDescent
     }
 
     /// <summary>The first root at which f, at or above zero at 0, goes below zero; NaN if there is none in (0, length].</summary>
-    private static double FirstRootFromAbove(ReadOnlySpan<double> f, double length)
+    private static double FirstRootFromAbove(Span<double> f, double length)
     {
         Span<double> bernstein = stackalloc double[MaxDegree + 1];
         int degree = f.Length - 1;
@@ -99,7 +99,7 @@ internal static class FirstDescent
         return Isolate(f, bernstein, 0, length, 0);
     }
 
-    private static double Isolate(ReadOnlySpan<double> f, ReadOnlySpan<double> bernstein, double low, double width, int halvings)
+    private static double Isolate(Span<double> f, Span<double> bernstein, double low, double width, int halvings)
     {
         int changes = 0;
         bool above = true;
@@ -154,7 +154,7 @@ internal static class FirstDescent
     }
 
     /// <summary>Newton's method inside a bracket [low, high] with f(low) >= 0 >= f(high); bisection where Newton leaves it.</summary>
-    private static double Refine(ReadOnlySpan<double> f, double low, double high)
+    private static double Refine(Span<double> f, double low, double high)
     {
         double t = 0.5 * (low + high);
         for (int i = 0; i < MaxRefinements; i++)
@@ -193,7 +193,7 @@ internal static class FirstDescent
         return t;
     }
 
-    private static double Value(ReadOnlySpan<double> f, double t)
+    private static double Value(Span<double> f, double t)
     {
         double value = 0;
         for (int k = f.Length - 1; k >= 0; k--)

@@ -10,5 +10,5 @@ internal interface IPairIndex
     void Place(int slot, in MotionSegment segment);
 
     /// <summary>The slots of bodies that the newest motion of <paramref name="slot"/> may touch; may contain the slot itself. Valid until the next call.</summary>
-    ReadOnlySpan<int> Candidates(int slot);
+    Span<int> Candidates(int slot);
 }

@@ -51,7 +51,7 @@ internal sealed class ImpactSolver
     private int bodies;
 
     /// <summary>Changes the velocities by the impulses of all contacts. <paramref name="masses"/> and velocities by number of body.</summary>
-    internal void Solve(ReadOnlySpan<ContactPoint> contacts, ReadOnlySpan<double> masses, Span<Vector3D> velocities)
+    internal void Solve(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities)
     {
         if (contacts.Length == 1)
         {
@@ -79,13 +79,13 @@ internal sealed class ImpactSolver
     }
 
     /// <summary>How fast the two of a contact part; negative while they close.</summary>
-    internal static double Opening(in ContactPoint contact, ReadOnlySpan<Vector3D> velocities) =>
+    internal static double Opening(in ContactPoint contact, Span<Vector3D> velocities) =>
         Vector3D.Dot(
             contact.Normal,
             contact.Second == ContactPoint.Static ? velocities[contact.First] : velocities[contact.First] - velocities[contact.Second]);
 
     // By mass fractions instead of impulses: a few ulp at any mass ratio, and an elastic bounce off a plane is exactly a mirror.
-    private static void Single(in ContactPoint c, ReadOnlySpan<double> masses, Span<Vector3D> velocities)
+    private static void Single(in ContactPoint c, Span<double> masses, Span<Vector3D> velocities)
     {
         double change = c.Target - Opening(c, velocities);
         if (!(change > 0))
@@ -104,7 +104,7 @@ internal sealed class ImpactSolver
         velocities[c.Second] -= c.Normal * (change * (masses[c.First] / whole));
     }
 
-    private void Demand(ReadOnlySpan<ContactPoint> contacts, ReadOnlySpan<Vector3D> velocities, Func<ContactPoint, double> target)
+    private void Demand(Span<ContactPoint> contacts, Span<Vector3D> velocities, Func<ContactPoint, double> target)
     {
         for (int i = 0; i < contacts.Length; i++)
         {
@@ -116,7 +116,7 @@ internal sealed class ImpactSolver
     /// Whether the bodies would gain more energy than the speeds beyond restitution give them where they are free to part: twice the largest of
     /// those for each. A row that just fits between two walls has almost no way to part, and would be shot out sideways for a micrometre's hop.
     /// </summary>
-    private bool IsCostly(ReadOnlySpan<ContactPoint> contacts, ReadOnlySpan<double> masses, ReadOnlySpan<Vector3D> velocities)
+    private bool IsCostly(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities)
     {
         double given = 0;
         foreach (ref readonly ContactPoint c in contacts)
@@ -138,7 +138,7 @@ internal sealed class ImpactSolver
     }
 
     /// <summary>Lawson and Hanson's active-set method; false if some demand cannot be met. Leaves the change of every velocity.</summary>
-    private bool TrySolve(ReadOnlySpan<ContactPoint> contacts, ReadOnlySpan<double> masses)
+    private bool TrySolve(Span<ContactPoint> contacts, Span<double> masses)
     {
         int n = contacts.Length;
         int count = 0;
@@ -198,7 +198,7 @@ internal sealed class ImpactSolver
     private double Missing(in ContactPoint contact, int i) => demand[i] - Opening(contact, change.AsSpan(0, bodies));
 
     /// <summary>Moves from the last impulses towards the active set's solution, dropping contacts that would have to pull.</summary>
-    private int Retreat(ReadOnlySpan<ContactPoint> contacts, ReadOnlySpan<double> masses, int count)
+    private int Retreat(Span<ContactPoint> contacts, Span<double> masses, int count)
     {
         while (true)
         {
@@ -228,7 +228,7 @@ internal sealed class ImpactSolver
     }
 
     /// <summary>Takes the contacts whose impulse has come down to nothing out of the active set; the rows from the first of them on are made anew.</summary>
-    private int Drop(ReadOnlySpan<ContactPoint> contacts, ReadOnlySpan<double> masses, int count)
+    private int Drop(Span<ContactPoint> contacts, Span<double> masses, int count)
     {
         int kept = 0;
         int intact = count;
@@ -270,7 +270,7 @@ internal sealed class ImpactSolver
     /// Makes the basis row of a contact: its own row less what it shares with the rows before, twice, so that rounding leaves nothing of
     /// them. False if nothing is left.
     /// </summary>
-    private bool TryAddRow(in ContactPoint contact, int row, ReadOnlySpan<double> masses)
+    private bool TryAddRow(in ContactPoint contact, int row, Span<double> masses)
     {
         Span<Vector3D> mine = basis.AsSpan(row * bodies, bodies);
         Span<double> shares = share.AsSpan(row * demand.Length, row + 1);
@@ -299,11 +299,11 @@ internal sealed class ImpactSolver
         return weight[row] > 0;
     }
 
-    private void TakeAway(Span<Vector3D> mine, Span<double> shares, int rows, ReadOnlySpan<double> masses)
+    private void TakeAway(Span<Vector3D> mine, Span<double> shares, int rows, Span<double> masses)
     {
         for (int k = 0; k < rows; k++)
         {
-            ReadOnlySpan<Vector3D> theirs = basis.AsSpan(k * bodies, bodies);
+            Span<Vector3D> theirs = basis.AsSpan(k * bodies, bodies);
             double part = Product(mine, theirs, masses) / weight[k];
             shares[k] += part;
             for (int b = 0; b < bodies; b++)
@@ -314,7 +314,7 @@ internal sealed class ImpactSolver
         }
     }
 
-    private static double Product(ReadOnlySpan<Vector3D> a, ReadOnlySpan<Vector3D> b, ReadOnlySpan<double> masses)
+    private static double Product(Span<Vector3D> a, Span<Vector3D> b, Span<double> masses)
     {
         double sum = 0;
         for (int i = 0; i < a.Length; i++)
@@ -353,7 +353,7 @@ internal sealed class ImpactSolver
     /// The bodies' changes of velocity: by the contacts' impulses, which keep a symmetric impact symmetric, but along the basis rows where
     /// the impulses at a light body nearly cancel.
     /// </summary>
-    private void ChangeBy(ReadOnlySpan<ContactPoint> contacts, int count, ReadOnlySpan<double> masses)
+    private void ChangeBy(Span<ContactPoint> contacts, int count, Span<double> masses)
     {
         for (int b = 0; b < bodies; b++)
         {

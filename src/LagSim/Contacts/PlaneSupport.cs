@@ -17,7 +17,7 @@ internal static class PlaneSupport
 
     /// <summary>The planes that carry; none if nothing needs to.</summary>
     internal static SupportSet Solve(
-        ReadOnlySpan<int> touching, StaticPlane[] planes, in Vector3D free, out Vector3D acceleration)
+        Span<int> touching, StaticPlane[] planes, in Vector3D free, out Vector3D acceleration)
     {
         double slack = Negligible * free.Length;
         acceleration = free;
@@ -80,7 +80,7 @@ internal static class PlaneSupport
         return Vector3D.Zero;
     }
 
-    private static SupportSet Corner(ReadOnlySpan<int> touching, StaticPlane[] planes, in Vector3D free)
+    private static SupportSet Corner(Span<int> touching, StaticPlane[] planes, in Vector3D free)
     {
         for (int i = 0; i < touching.Length; i++)
         {
@@ -115,7 +115,7 @@ internal static class PlaneSupport
         return pa - (ab * pb) >= 0 && pb - (ab * pa) >= 0;
     }
 
-    private static bool Permitted(in Vector3D acceleration, ReadOnlySpan<int> touching, StaticPlane[] planes, double slack)
+    private static bool Permitted(in Vector3D acceleration, Span<int> touching, StaticPlane[] planes, double slack)
     {
         foreach (int plane in touching)
         {

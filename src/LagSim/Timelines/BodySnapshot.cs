@@ -53,11 +53,9 @@ public readonly struct BodySnapshot
         Id = id;
         Spec = spec;
         Opened = opened;
-        SupportSet set = new(
-            supports.Length,
-            supports.Length > 0 ? supports[0] : 0,
-            supports.Length > 1 ? supports[1] : 0,
-            supports.Length > 2 ? supports[2] : 0);
+        Span<int> planes = stackalloc int[] { 0, 0, 0 };
+        supports.CopyTo(planes);
+        SupportSet set = new(supports.Length, planes[0], planes[1], planes[2]);
         Segment = new MotionSegment(law, epoch, end, position, velocity, acceleration, set, crowding);
         Dense = new DenseOutput(cubic, quartic, quintic);
     }

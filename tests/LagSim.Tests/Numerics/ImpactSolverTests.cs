@@ -12,7 +12,7 @@ namespace LagSim.Tests.Numerics;
 /// <summary>All contacts of one impact together: what the law demands, for any bodies and any normals.</summary>
 public sealed class ImpactSolverTests
 {
-    private delegate void Solver(ReadOnlySpan<ContactPoint> contacts, ReadOnlySpan<double> masses, Span<Vector3D> velocities);
+    private delegate void Solver(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities);
 
     private static Config Many => Config.QuickThrowOnFailure.WithMaxTest(3000).WithReplay(20261121, 1);
 
