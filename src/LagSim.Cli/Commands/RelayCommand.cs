@@ -104,6 +104,7 @@ internal static class RelayCommand
             stop.WaitHandle.WaitOne(TimeSpan.FromMilliseconds(Math.Clamp(Math.Ceiling(left), 0, Look.TotalMilliseconds)));
         }
 
+        relay.Dispose(); // else a datagram on which it works now would be passed on and not counted
         return relay.Traffic;
     }
 }

@@ -65,7 +65,7 @@ public sealed class UdpRelay : IDisposable
     /// <summary>Where clients reach the relay; on this machine only, if it listens on every address there is.</summary>
     public PeerAddress LocalAddress { get; }
 
-    /// <summary>What went through so far.</summary>
+    /// <summary>What went through so far; all of it once the relay is disposed, a moment less while it works.</summary>
     /// <exception cref="InvalidOperationException">The relay's thread ended by an exception, the inner one.</exception>
     public RelayTraffic Traffic
     {
