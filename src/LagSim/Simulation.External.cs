@@ -151,13 +151,7 @@ public sealed partial class Simulation
             int last = timelines.Last(slot);
             double seconds = SecondsInto(last, key.Time);
             SupportSet supports = timelines.Segment(last).Supports;
-            After(
-                external,
-                bodies[slot].Spec,
-                timelines.Segment(last).PositionAt(seconds, timelines.Dense(last)),
-                timelines.Segment(last).VelocityAt(seconds, timelines.Dense(last)),
-                out Vector3D position,
-                out Vector3D velocity);
+            bool isPermitted = TryAfter(external, slot, last, seconds, out Vector3D position, out Vector3D velocity);
             Span<int> carriers = stackalloc int[SupportSet.Most];
             int count = external.Kind == EventKind.Teleport ? 0 : supports.Count;
             for (int k = 0; k < count; k++)
@@ -165,24 +159,28 @@ public sealed partial class Simulation
                 carriers[k] = supports[k];
             }
 
-            // The door cannot know the velocity an impulse meets; a sum above what may be given has no effect, on every peer alike.
-            if (velocity.Length <= Limits.MaxGivenSpeed(Scene.SmallestRadius))
+            if (isPermitted)
             {
                 Open(slot, key, position, velocity, 0, carriers.Slice(0, count));
             }
         }
     }
 
-    /// <summary>The state right after an event, from the state right before it.</summary>
-    private static void After(
-        in ExternalEvent external, in BodySpec spec, in Vector3D before, in Vector3D velocityBefore, out Vector3D position, out Vector3D velocity)
+    /// <summary>
+    /// The state right after an event that comes so many seconds into a segment. False if it would be faster than may be given: the door cannot
+    /// know the velocity that an impulse meets, so such an event has no effect, on every peer alike.
+    /// </summary>
+    private bool TryAfter(in ExternalEvent external, int slot, int segment, double seconds, out Vector3D position, out Vector3D velocity)
     {
-        position = external.Kind == EventKind.Teleport ? external.Position : before;
+        ref readonly MotionSegment before = ref timelines.Segment(segment);
+        DenseOutput dense = timelines.Dense(segment);
+        position = external.Kind == EventKind.Teleport ? external.Position : before.PositionAt(seconds, dense);
         velocity = external.Kind switch
         {
             EventKind.Teleport or EventKind.SetVelocity => external.Velocity,
-            EventKind.Impulse => velocityBefore + (external.Velocity / spec.Mass),
+            EventKind.Impulse => before.VelocityAt(seconds, dense) + (external.Velocity / bodies[slot].Spec.Mass),
             _ => throw new InvalidOperationException($"{external.Kind} has no effect of its own on a state."),
         };
+        return velocity.Length <= Limits.MaxGivenSpeed(Scene.SmallestRadius);
     }
 }

@@ -26,16 +26,9 @@ public sealed partial class Simulation
             int then = timelines.At(slot, external.Time);
             then = then == TimelineStore.None ? timelines.First(slot) : then;
             double seconds = Math.Max(0, SecondsInto(then, external.Time));
-            After(
-                external,
-                bodies[slot].Spec,
-                timelines.Segment(then).PositionAt(seconds, timelines.Dense(then)),
-                timelines.Segment(then).VelocityAt(seconds, timelines.Dense(then)),
-                out position,
-                out velocity);
-            if (velocity.Length > Limits.MaxGivenSpeed(Scene.SmallestRadius))
+            if (!TryAfter(external, slot, then, seconds, out position, out velocity))
             {
-                return; // no effect, as of such an event that comes in time
+                return;
             }
         }
 

@@ -127,7 +127,8 @@ public sealed partial class Simulation
 
             Vector3D normal = SurfaceNormal(surface, PositionAt(last, contact));
             double closing = -Vector3D.Dot(normal, VelocityAt(last, contact));
-            if (!TryDefer(opened, round, closing, -Vector3D.Dot(normal, AccelerationAt(last, contact)), segment.End, out from))
+            from = LookAgain(opened, round, closing, -Vector3D.Dot(normal, AccelerationAt(last, contact)), segment.End);
+            if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
             }
@@ -189,7 +190,8 @@ public sealed partial class Simulation
             Vector3D normal = Direction(PositionAt(lastA, contact) - PositionAt(lastB, contact));
             double closing = -Vector3D.Dot(normal, VelocityAt(lastA, contact) - VelocityAt(lastB, contact));
             double pressing = -Vector3D.Dot(normal, AccelerationAt(lastA, contact) - AccelerationAt(lastB, contact));
-            if (!TryDefer(opened, round, closing, pressing, until, out from))
+            from = LookAgain(opened, round, closing, pressing, until);
+            if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
             }
@@ -199,11 +201,11 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// Whether a contact that closes from the opening of its segments on can wait, and until when: so slow, as rounding leaves it, that it is a
-    /// thousandth of the resolution deep only after <see cref="CollapseWait"/>. If not it is <paramref name="opened"/>, or
-    /// <see cref="SimTime.MaxValue"/> where the segments end before.
+    /// From when on a contact that closes from the opening of its segments on is to be looked for again: so slow, as rounding leaves it, that it
+    /// is a thousandth of the resolution deep only after <see cref="CollapseWait"/>. <paramref name="opened"/> if it cannot wait,
+    /// <see cref="SimTime.MaxValue"/> if the segments end before.
     /// </summary>
-    private bool TryDefer(SimTime opened, uint round, double closing, double pressing, SimTime end, out SimTime until)
+    private SimTime LookAgain(SimTime opened, uint round, double closing, double pressing, SimTime end)
     {
         // The root of u t + a t^2 / 2 = depth; if it eases off by itself, as if it did not.
         double depth = 2e-3 * Scene.Resolution;
@@ -211,23 +213,15 @@ public sealed partial class Simulation
         SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
         if (wait < CollapseWait)
         {
-            until = opened;
             if (round <= CollapseRound || closing > CollapseSpeed)
             {
-                return false;
+                return opened;
             }
 
             wait = CollapseWait;
         }
 
-        until = SimTime.MaxValue;
-        if (end.SecondsSince(opened) < wait.ToSeconds())
-        {
-            return false;
-        }
-
-        until = opened + wait;
-        return true;
+        return end.SecondsSince(opened) < wait.ToSeconds() ? SimTime.MaxValue : opened + wait;
     }
 
     private Vector3D SurfaceNormal(int surface, in Vector3D position)

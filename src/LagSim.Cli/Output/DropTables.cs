@@ -99,7 +99,7 @@ internal static class DropTables
     {
         string late = run.Case == DropCase.Teleport ? $", event {NumberText.Short(run.Lateness.Max)} ms late" : "";
         string rest = run.CpuCoresAtRest is double cpu ? $", at rest {NumberText.Short(100 * cpu)} % of a core" : "";
-        console.Output.WriteLine($"{run.Events} {(run.Events == 1 ? "event" : "events")}, {run.Heals} {(run.Heals == 1 ? "heal" : "heals")}, clock error {NumberText.Short(run.ClockErrorMilliseconds)} ms{late}{rest}");
+        console.Output.WriteLine($"{NumberText.Count(run.Events, "event")}, {NumberText.Count(run.Heals, "heal")}, clock error {NumberText.Short(run.ClockErrorMilliseconds)} ms{late}{rest}");
         if (!run.BallRested)
         {
             console.Output.WriteLine("The ball had not come to rest when it was lifted: this is not the thesis's test.");

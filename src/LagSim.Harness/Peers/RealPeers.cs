@@ -116,6 +116,7 @@ public sealed class RealPeers : PeerGroup
         }
 
         Run(end, Array.ConvertAll(threads, t => t.Session), progress);
+        AwaitWorlds(end);
     }
 
     /// <inheritdoc/>
@@ -179,6 +180,16 @@ public sealed class RealPeers : PeerGroup
         }
 
         Sample();
+    }
+
+    /// <summary>A thread that the machine kept waiting may be behind its clock: what settles at the end is to be there, however long that takes within reason.</summary>
+    private void AwaitWorlds(SimTime end)
+    {
+        long deadline = Stopwatch.GetTimestamp() + (long)(AnswerDeadline.ToSeconds() * Stopwatch.Frequency);
+        while (!Array.TrueForAll(threads, t => t.Latest()!.To >= end) && Stopwatch.GetTimestamp() < deadline)
+        {
+            Thread.Sleep(PollMilliseconds);
+        }
     }
 
     private bool AllRest() => Array.TrueForAll(threads, t => t.Latest()!.To == SimTime.MaxValue);

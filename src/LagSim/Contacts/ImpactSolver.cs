@@ -11,7 +11,7 @@ namespace LagSim.Contacts;
 /// <para>It is the least-squares problem with bounds that Lawson and Hanson solve by an active set ("Solving Least Squares Problems", 1974,
 /// ch. 23): finite, and independent of the order in which the contacts were found, for they come in canonical order. If no velocities
 /// satisfy all targets (a body squeezed between surfaces that cannot give way), or only at an expense of energy, only restitution is asked for, and
-/// if that is impossible too every target becomes 0, which never is.</para>
+/// if that cannot be had either every target becomes 0, which always can.</para>
 /// <para>The rows of the active contacts are made orthogonal in the space of the bodies' motions, by modified Gram-Schmidt with 1/mass as
 /// weight, rather than by factors of the matrix of their products: where a light body carries a heavy one, that matrix has already lost
 /// the heavy one to rounding. No square roots: small integer systems, such as equal masses in a row, stay exact and a symmetric impact
@@ -61,15 +61,10 @@ internal sealed class ImpactSolver
 
         bodies = velocities.Length;
         Grow(contacts.Length);
-        Demand(contacts, velocities, c => c.Target);
-        if (!TrySolve(contacts, masses) || IsCostly(contacts, masses, velocities))
+        if (!TryMeet(contacts, masses, velocities, c => c.Target) && !TryMeet(contacts, masses, velocities, c => c.Restored))
         {
-            Demand(contacts, velocities, c => c.Restored);
-            if (!TrySolve(contacts, masses) || IsCostly(contacts, masses, velocities))
-            {
-                Demand(contacts, velocities, _ => 0);
-                TrySolve(contacts, masses);
-            }
+            Demand(contacts, velocities, _ => 0);
+            TrySolve(contacts, masses);
         }
 
         for (int b = 0; b < bodies; b++)
@@ -102,6 +97,13 @@ internal sealed class ImpactSolver
         double whole = masses[c.First] + masses[c.Second];
         velocities[c.First] += c.Normal * (change * (masses[c.Second] / whole));
         velocities[c.Second] -= c.Normal * (change * (masses[c.First] / whole));
+    }
+
+    /// <summary>Solves for these speeds after the impact; false if they cannot be had, or only at an expense of energy.</summary>
+    private bool TryMeet(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, Func<ContactPoint, double> target)
+    {
+        Demand(contacts, velocities, target);
+        return TrySolve(contacts, masses) && !IsCostly(contacts, masses, velocities);
     }
 
     private void Demand(Span<ContactPoint> contacts, Span<Vector3D> velocities, Func<ContactPoint, double> target)
