@@ -98,9 +98,23 @@ public sealed partial class HostSession : Session
         }
     }
 
+    // A loop, since a delegate would be allocated for every datagram.
+    private Joiner? JoinerAt(PeerAddress from)
+    {
+        foreach (Joiner joiner in joiners)
+        {
+            if (joiner.Link.Other == from)
+            {
+                return joiner;
+            }
+        }
+
+        return null;
+    }
+
     private protected override void OnUpdate(UpdateDatagram update, PeerAddress from)
     {
-        Joiner? joiner = joiners.Find(j => j.Link.Other == from);
+        Joiner? joiner = JoinerAt(from);
         if (joiner is null || update.SessionId != joiner.Link.SessionId || update.Peer != joiner.Peer || State == SessionState.Ended)
         {
             Counters.DatagramsIgnored++;
