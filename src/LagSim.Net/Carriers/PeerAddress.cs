@@ -76,6 +76,10 @@ public readonly struct PeerAddress : IEquatable<PeerAddress>
         return new IPEndPoint(new IPAddress(bytes.Slice(0, v6 ? 16 : 4)), (int)((portAndFamily & 0x1FFFF) - 1));
     }
 
+    /// <summary>Whether the other is of the same machine: the same IP address, whatever the port.</summary>
+    internal bool IsSameMachine(PeerAddress other) =>
+        high == other.high && low == other.low && portAndFamily >> 31 == other.portAndFamily >> 31;
+
     /// <summary>All of it as bytes, for a hash.</summary>
     internal void Write(Span<byte> destination)
     {

@@ -23,7 +23,7 @@ public sealed class JoinedState
             throw new ArgumentOutOfRangeException(nameof(firstIndex), firstIndex, "The entries of a log are counted from 1.");
         }
 
-        if (snapshot is not null && !IsInRange(snapshot))
+        if (snapshot is not null && !SnapshotFormat.IsInRange(snapshot))
         {
             throw new ArgumentException(
                 $"The snapshot is of {snapshot.Time} in a world that began at {snapshot.Start}; it must come after that, and both lie within 48 days of the origin.",
@@ -51,7 +51,4 @@ public sealed class JoinedState
 
     /// <summary>The shared time of the snapshot; null without one.</summary>
     public SimTime? Time => Snapshot?.Time;
-
-    internal static bool IsInRange(WorldSnapshot snapshot) =>
-        WireFormat.IsInRange(snapshot.Start) && WireFormat.IsInRange(snapshot.Time) && snapshot.Time > snapshot.Start;
 }

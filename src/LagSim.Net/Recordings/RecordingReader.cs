@@ -246,7 +246,7 @@ internal sealed class RecordingReader
         {
             SnapshotFormat.TryDecode(bytes, out snapshot, out WireRefusal refusal);
             reader.Require(snapshot is not null, refusal);
-            reader.Require(snapshot is null || (snapshot.Start == header!.Start && JoinedState.IsInRange(snapshot)));
+            reader.Require(snapshot is null || (snapshot.Start == header!.Start && SnapshotFormat.IsInRange(snapshot)));
         }
 
         if (IsSound(ref reader, "The joined state"))

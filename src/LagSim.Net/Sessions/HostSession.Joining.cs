@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using LagSim.Net.Carriers;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
@@ -13,6 +14,20 @@ public sealed partial class HostSession
     /// <summary>So many joins are remembered until their cookies are stale; until then no more come in.</summary>
     private const int MaxRecentJoins = 1024;
 
+    /// <summary>So many joins of one machine are remembered: more than that a minute come from nobody honest.</summary>
+    private const int MaxRecentJoinsOfOne = 32;
+
+    /// <summary>A joiner gets pieces of its copy at this rate, 2.3 MB/s, and after a pause four windows of them at once.</summary>
+    private const double PiecesPerSecond = 2000;
+
+    private const int PiecesAtOnce = 4 * FetchDatagram.MaxChunks;
+
+    /// <summary>How often every piece of a copy can be asked for in the mean, before no more of it is given.</summary>
+    private const int MostRepeats = 8;
+
+    /// <summary>A place that was asked for is given up after this long, or the timeout if that is shorter, if its joiner then says nothing.</summary>
+    private static readonly SimDuration SilentPlace = SimDuration.FromSeconds(5);
+
     /// <summary>A copy this fresh serves the next joiner too.</summary>
     private static readonly SimDuration CopyAge = SimDuration.FromSeconds(1);
 
@@ -21,7 +36,9 @@ public sealed partial class HostSession
     private readonly JoinCookies cookies;
     private readonly byte[] sceneCopy;
     private readonly Queue<(ulong Nonce, PeerAddress From, SimTime At)> recentJoins = new();
+    private readonly RateLimit?[] eventLimits = new RateLimit?[SessionOptions.MaxJoiners + 1]; // by number: to come again starts none anew
     private Copy? newestCopy;
+    private SimTime settledTo = SimTime.MinValue;
 
     private protected override void OnOtherVersion(ReadOnlySpan<byte> datagram, PeerAddress from)
     {
@@ -50,10 +67,9 @@ public sealed partial class HostSession
 
         if (known is null)
         {
-            byte number = FreeNumber(from);
-            RefusalReason? refusal = !cookies.IsProof(join) ? RefusalReason.WrongKey
+            RefusalReason? refusal = !TryNumber(join, from, out byte number) ? RefusalReason.WrongKey
                 : join.SceneHash != 0 && join.SceneHash != Scene!.Hash ? RefusalReason.SceneDiffers
-                : number == 0 || recentJoins.Count >= MaxRecentJoins ? RefusalReason.Full
+                : number == 0 || HasJoinedTooOften(from) ? RefusalReason.Full
                 : null;
             if (refusal is RefusalReason reason)
             {
@@ -62,7 +78,7 @@ public sealed partial class HostSession
                 return;
             }
 
-            Copy made;
+            Copy? made;
             try
             {
                 made = CopyFor(now);
@@ -73,11 +89,17 @@ public sealed partial class HostSession
                 return;
             }
 
+            if (made is null)
+            {
+                return; // the world is being simulated again; the joiner asks once more
+            }
+
             joiners.RemoveAll(j => j.Link.Other == from); // the same address, shown by the cookie, under a new nonce: it started again
+            LetGo(number);
             recentJoins.Enqueue((nonce, from, now));
-            known = new Joiner(
-                nonce, new UpdateLink(sessionId + joins++, 0, number, from, now), made, lastSequences[number],
-                new EventBudget(Options.MaxEventsPerSecond, now));
+            RateLimit events = eventLimits[number] ??= new RateLimit(Options.MaxEventsPerSecond, Options.MaxEventsPerSecond, now);
+            UpdateLink way = new(cookies.SessionId(sessionId, joins++), 0, number, from, now);
+            known = new Joiner(nonce, way, made, lastSequences[number], events, new RateLimit(PiecesPerSecond, PiecesAtOnce, now));
             joiners.Add(known);
         }
 
@@ -115,18 +137,49 @@ public sealed partial class HostSession
         Send(bytes.Slice(0, new RefusalDatagram(nonce, reason).Encode(bytes)), to);
     }
 
-    /// <summary>The least number that no other address has; 0 if there is none.</summary>
+    /// <summary>Whether so many joins are remembered, of this machine or of all, that no more come in until their cookies are stale.</summary>
+    private bool HasJoinedTooOften(PeerAddress from) =>
+        recentJoins.Count >= MaxRecentJoins || recentJoins.Count(join => join.From.IsSameMachine(from)) >= MaxRecentJoinsOfOne;
+
+    /// <summary>The number that a player's key gives, or for the connect key the least that is free, 0 if there is none; false if it is no key of ours.</summary>
+    private bool TryNumber(in JoinDatagram join, PeerAddress from, out byte number)
+    {
+        foreach (KeyValuePair<byte, string> player in Options.PlayerKeys)
+        {
+            if (JoinCookies.IsProof(player.Value, join))
+            {
+                number = player.Key;
+                return true;
+            }
+        }
+
+        number = FreeNumber(from);
+        return JoinCookies.IsProof(Options.ConnectKey, join);
+    }
+
+    /// <summary>The least number that neither another address nor a player with a key has; 0 if there is none.</summary>
     private byte FreeNumber(PeerAddress from)
     {
         for (byte number = 1; number <= SessionOptions.MaxJoiners; number++)
         {
-            if (!joiners.Exists(j => j.Peer == number && j.Link.Other != from) && lastSequences[number] < uint.MaxValue)
+            bool isTaken = Options.PlayerKeys.ContainsKey(number) || joiners.Exists(j => j.Peer == number && j.Link.Other != from);
+            if (!isTaken && lastSequences[number] < uint.MaxValue)
             {
                 return number;
             }
         }
 
         return 0;
+    }
+
+    /// <summary>Tells who has the number that its player came in from elsewhere.</summary>
+    private void LetGo(byte number)
+    {
+        if (joiners.Find(j => j.Peer == number) is Joiner before)
+        {
+            SayGoodbye(before, LeaveReason.Replaced);
+            joiners.Remove(before);
+        }
     }
 
     private void OnFetch(in FetchDatagram fetch, PeerAddress from)
@@ -139,8 +192,9 @@ public sealed partial class HostSession
             return;
         }
 
+        SimTime now = Clock.Now;
         joiner.Fetches = fetch.Number;
-        joiner.Link.NoteHeard(Clock.Now);
+        joiner.Link.NoteHeard(now);
         joiner.Link.CountReceived(WireFormat.FetchBytes);
         Span<byte> bytes = stackalloc byte[WireFormat.MaxBytes];
         ReadOnlySpan<byte> copy = joiner.Copy.Bytes;
@@ -149,6 +203,12 @@ public sealed partial class HostSession
             long index = (long)fetch.First + n;
             if ((fetch.Wanted >> n & 1) != 0 && index * ChunkDatagram.MaxData < copy.Length)
             {
+                if (joiner.PiecesGiven >= MostRepeats * ((copy.Length / ChunkDatagram.MaxData) + FetchDatagram.MaxChunks) || !joiner.Pieces.TrySpend(now))
+                {
+                    return; // what is still missing is asked for again
+                }
+
+                joiner.PiecesGiven++;
                 int at = (int)index * ChunkDatagram.MaxData;
                 ChunkDatagram chunk = new(session, (uint)index, copy.Slice(at, Math.Min(ChunkDatagram.MaxData, copy.Length - at)));
                 Send(bytes.Slice(0, chunk.Encode(bytes)), joiner.Link);
@@ -156,21 +216,36 @@ public sealed partial class HostSession
         }
     }
 
-    /// <summary>What someone who joins now has to fetch: the scene, and once the watermark is past the start the state that it commits to.</summary>
-    private Copy CopyFor(SimTime now)
+    /// <summary>
+    /// What someone who joins now has to fetch: the scene, and once what is committed lies past the start the state then. Null while the
+    /// world is behind what it had committed to.
+    /// </summary>
+    private Copy? CopyFor(SimTime now)
     {
         ForgetCopies(now);
         if (newestCopy is null)
         {
-            bool hasState = World is not null && Watermark > World.Simulation.Start;
-            World?.Advance(SharedTime.Now);
-            SimTime watermark = hasState ? SimTime.Max(Watermark, World!.Simulation.HistoryEdge) : Watermark;
-            byte[] bytes = hasState ? WorldCopy.Encode(Scene!, World!.Simulation.Snapshot(watermark)) : sceneCopy;
-            log.Settle(watermark);
-            newestCopy = new Copy(bytes, log.Settled, now);
+            // One instant for both: the log goes on from where the state ends, however the clock runs on meanwhile.
+            SettleLog();
+            Simulation? world = World?.Simulation;
+            bool hasState = world is not null && settledTo > world.Start;
+            if (hasState && (settledTo > world!.SimulatedTo || settledTo < world.HistoryEdge))
+            {
+                return null;
+            }
+
+            newestCopy = new Copy(hasState ? WorldCopy.Encode(Scene!, world!.Snapshot(settledTo)) : sceneCopy, log.Settled, now);
         }
 
         return newestCopy;
+    }
+
+    /// <summary>Moves on what nobody who joins from now on needs: what the watermark and the world have both passed.</summary>
+    private void SettleLog()
+    {
+        SimTime watermark = Watermark;
+        settledTo = SimTime.Max(settledTo, World is null ? watermark : SimTime.Min(watermark, World.Simulation.SimulatedTo));
+        log.Settle(settledTo);
     }
 
     private void ForgetCopies(SimTime now)

@@ -31,14 +31,14 @@ public sealed partial class HostSession : Session
     /// <param name="clock">This machine's own clock.</param>
     /// <param name="options">How to take part.</param>
     /// <param name="sessionId">
-    /// A number that no other session on these machines has; choose it at random. It is the first joiner's, and each further one gets the next:
-    /// so what is still on its way from or to a former joiner is not taken for that of one who came later with the same address and number.
+    /// A number that no other session on these machines has; choose it at random. From it and a secret of this host each join gets a session id that nobody
+    /// else can tell: it goes with every datagram, and what is still on its way from or to a former joiner is not taken for that of a later one.
     /// </param>
     public HostSession(Scene scene, IDatagramPort port, IClock clock, SessionOptions options, ulong sessionId)
         : base(scene ?? throw new ArgumentNullException(nameof(scene)), port, clock, options)
     {
         this.sessionId = sessionId;
-        cookies = new JoinCookies(options.ConnectKey);
+        cookies = new JoinCookies();
         sceneCopy = WorldCopy.Encode(scene, null);
         SharedTime.Adjust(SimDuration.Zero);
         State = SessionState.Waiting;
@@ -152,7 +152,7 @@ public sealed partial class HostSession : Session
         {
             if (sequence++ == joiner.EventsReceived + 1)
             {
-                if (!joiner.Budget.TrySpend(now))
+                if (!joiner.Events.TrySpend(now))
                 {
                     Counters.EventsDeferred++;
                     break;
@@ -172,12 +172,19 @@ public sealed partial class HostSession : Session
     {
         for (int i = joiners.Count - 1; i >= 0; i--)
         {
-            bool isSilent = now - joiners[i].Link.Heard > Options.Timeout;
+            bool isSilent = now - joiners[i].Link.Heard > PatienceWith(joiners[i]);
             if (isSilent || log.Count - joiners[i].Acknowledged > MaxUnacknowledged)
             {
                 SayGoodbye(joiners[i], isSilent ? LeaveReason.TimedOut : LeaveReason.FellBehind);
                 joiners.RemoveAt(i);
             }
+        }
+
+        if (now > MaxClock)
+        {
+            Farewell();
+            End(SessionEnd.Failed, $"The session has lasted {MaxClock.ToSeconds():F0} s, the longest there is; host a new one.");
+            return;
         }
 
         if (World is null && joiners.Count(j => j.IsReady) >= Options.ExpectedJoiners)
@@ -187,7 +194,7 @@ public sealed partial class HostSession : Session
         }
 
         Commit(Watermark);
-        log.Settle(Watermark);
+        SettleLog();
         ForgetCopies(now);
         log.ForgetUpTo(joiners.Aggregate(newestCopy?.LogIndex ?? uint.MaxValue, (least, joiner) => Math.Min(least, joiner.Acknowledged)));
         foreach (Joiner joiner in joiners)
@@ -199,12 +206,14 @@ public sealed partial class HostSession : Session
         }
     }
 
+    private SimDuration PatienceWith(Joiner joiner) => joiner.HasWritten || Options.Timeout < SilentPlace ? Options.Timeout : SilentPlace;
+
     private protected override SimTime NextDue(SimTime now)
     {
         SimTime due = NextCommit(Options.History);
         foreach (Joiner joiner in joiners)
         {
-            due = SimTime.Min(due, joiner.HasWritten ? joiner.Link.Due : joiner.Link.Heard + Options.Timeout + SimDuration.OneTick);
+            due = SimTime.Min(due, joiner.HasWritten ? joiner.Link.Due : joiner.Link.Heard + PatienceWith(joiner) + SimDuration.OneTick);
         }
 
         return due;
@@ -293,7 +302,7 @@ public sealed partial class HostSession : Session
 
     private sealed class Joiner
     {
-        internal Joiner(ulong nonce, UpdateLink link, Copy copy, uint firstSequence, EventBudget budget)
+        internal Joiner(ulong nonce, UpdateLink link, Copy copy, uint firstSequence, RateLimit events, RateLimit pieces)
         {
             Nonce = nonce;
             Link = link;
@@ -301,7 +310,8 @@ public sealed partial class HostSession : Session
             FirstSequence = firstSequence;
             EventsReceived = firstSequence;
             Acknowledged = copy.LogIndex;
-            Budget = budget;
+            Events = events;
+            Pieces = pieces;
         }
 
         internal byte Peer => Link.Peer;
@@ -319,7 +329,14 @@ public sealed partial class HostSession : Session
         /// <summary>The last sequence number of those who had its number before.</summary>
         internal uint FirstSequence { get; }
 
-        internal EventBudget Budget { get; }
+        /// <summary>How many of its events are judged.</summary>
+        internal RateLimit Events { get; }
+
+        /// <summary>How many pieces of its copy it gets.</summary>
+        internal RateLimit Pieces { get; }
+
+        /// <summary>How many it got.</summary>
+        internal long PiecesGiven { get; set; }
 
         /// <summary>Whether it has scene, state and clock, and so wants the log.</summary>
         internal bool IsReady { get; set; }

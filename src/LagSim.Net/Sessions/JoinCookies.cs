@@ -11,7 +11,8 @@ namespace LagSim.Net.Sessions;
 /// <summary>How a host knows, without keeping anything, that who wants to join is at the address it gives and has the connect key.</summary>
 /// <remarks>
 /// A cookie is HMAC-SHA-256 over address, nonce and half minute with a secret of this host; it is good for half a minute to a minute. The
-/// proof of the key is HMAC-SHA-256 over nonce and cookie with the key. Both are cut to 128 bits. For one thread.
+/// proof of a key is HMAC-SHA-256 over nonce and cookie with the key. Both are cut to 128 bits. A session id is HMAC-SHA-256 with the secret too, so
+/// who has one cannot tell another's. For one thread.
 /// </remarks>
 internal sealed class JoinCookies : IDisposable
 {
@@ -19,21 +20,15 @@ internal sealed class JoinCookies : IDisposable
     private static readonly SimDuration Age = SimDuration.FromSeconds(30);
 
     private readonly HMACSHA256 maker;
-    private readonly HMACSHA256 prover;
 
-    internal JoinCookies(string connectKey)
+    internal JoinCookies()
     {
         byte[] secret = new byte[HashBytes];
-        RandomNumberGenerator.Fill(secret); // no run depends on it: a cookie is right or wrong whatever its bits
+        RandomNumberGenerator.Fill(secret); // no run depends on it: a cookie, or a session id, is right or wrong whatever its bits
         maker = new HMACSHA256(secret);
-        prover = new HMACSHA256(Encoding.UTF8.GetBytes(connectKey));
     }
 
-    public void Dispose()
-    {
-        maker.Dispose();
-        prover.Dispose();
-    }
+    public void Dispose() => maker.Dispose();
 
     /// <summary>What shows that one has the key.</summary>
     internal static Token128 Prove(string connectKey, ulong nonce, Token128 cookie)
@@ -50,7 +45,16 @@ internal sealed class JoinCookies : IDisposable
         return cookie == Make(address, nonce, epoch) || cookie == Make(address, nonce, epoch - 1);
     }
 
-    internal bool IsProof(in JoinDatagram join) => join.Proof == Prove(prover, join.Nonce, join.Cookie);
+    internal static bool IsProof(string key, in JoinDatagram join) => join.Proof == Prove(key, join.Nonce, join.Cookie);
+
+    /// <summary>The session id of the n-th join of a session.</summary>
+    internal ulong SessionId(ulong session, ulong join)
+    {
+        Span<byte> bytes = stackalloc byte[2 * sizeof(ulong)];
+        BinaryPrimitives.WriteUInt64LittleEndian(bytes, session);
+        BinaryPrimitives.WriteUInt64LittleEndian(bytes.Slice(sizeof(ulong)), join);
+        return Hash(maker, bytes).First;
+    }
 
     private static long Epoch(SimTime now) => now.Ticks / Age.Ticks;
 

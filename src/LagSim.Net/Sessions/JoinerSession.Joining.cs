@@ -15,6 +15,7 @@ public sealed partial class JoinerSession
 
     private Token128? cookie;
     private SimTime challenged;
+    private SimDuration joinTook; // a round trip at least: until one is measured, pieces are not asked for again before
     private CopyFetch? fetch;
     private ulong copyHash;
     private WorldCopy? copy;
@@ -57,7 +58,7 @@ public sealed partial class JoinerSession
         {
             Counters.DatagramsIgnored++;
         }
-        else if (cookie != challenge.Cookie)
+        else if (cookie != challenge.Cookie || Clock.Now - challenged > CookieAge)
         {
             cookie = challenge.Cookie;
             challenged = Clock.Now;
@@ -79,6 +80,7 @@ public sealed partial class JoinerSession
             History = welcome.History;
             LogStart = entriesReceived = welcome.LogIndex;
             copyHash = welcome.CopyHash;
+            joinTook = now - challenged;
             fetch = new CopyFetch(welcome.CopyLength, now);
             link = new UpdateLink(welcome.SessionId, welcome.Peer, 0, host, now);
             State = SessionState.Synchronising;
@@ -139,7 +141,7 @@ public sealed partial class JoinerSession
             return;
         }
 
-        SimDuration roundTrip = link!.Traffic.RoundTrip;
+        SimDuration roundTrip = link!.Traffic.RoundTrip == SimDuration.Zero ? joinTook : link.Traffic.RoundTrip;
         SimDuration patience = roundTrip + (roundTrip / 2) > LeastPatience ? roundTrip + (roundTrip / 2) : LeastPatience;
         Span<byte> bytes = stackalloc byte[WireFormat.FetchBytes];
         Send(bytes.Slice(0, fetch.Ask(link.SessionId, Peer, now, patience).Encode(bytes)), link);

@@ -193,6 +193,7 @@ public sealed partial class JoinerSession : Session
             End(leave.Reason == LeaveReason.HostEnded ? SessionEnd.HostEnded : SessionEnd.LetGo, leave.Reason switch
             {
                 LeaveReason.TimedOut => $"The host at {host} heard nothing from this peer for too long.",
+                LeaveReason.Replaced => $"This player came in from elsewhere; the host at {host} let this peer go.",
                 LeaveReason.FellBehind => $"The host at {host} let this peer go: it did not take in what happened as fast as it did.",
                 _ => $"The host at {host} ended the session.",
             });

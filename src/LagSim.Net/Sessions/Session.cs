@@ -37,6 +37,9 @@ public abstract class Session
     private volatile object? committed; // a boxed state: other threads read it whole
     private CommitSchedule? schedule;
 
+    /// <summary>The furthest that a clock may have run, 23 days: so long a session can last.</summary>
+    internal static readonly SimTime MaxClock = SimTime.FromSeconds(2_000_000); // the estimate of another clock takes readings of up to 24 days
+
     private protected Session(Scene? scene, IDatagramPort port, IClock clock, SessionOptions options)
     {
         this.scene = scene;
@@ -44,6 +47,11 @@ public abstract class Session
         Clock = clock ?? throw new ArgumentNullException(nameof(clock));
         Options = options ?? throw new ArgumentNullException(nameof(options));
         options.Check();
+        if (clock.Now > MaxClock)
+        {
+            throw new ArgumentException($"The clock reads {clock.Now.ToSeconds():F0} s; a session takes one that reads less than {MaxClock.ToSeconds():F0} s. Make a new one.", nameof(clock));
+        }
+
         strategy = LateEventStrategies.Create(options.Strategy);
         SharedTime = new SharedClock(clock);
     }

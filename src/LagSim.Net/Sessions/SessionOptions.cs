@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using LagSim.Hosting;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
@@ -30,6 +31,13 @@ public sealed class SessionOptions
     /// does not travel, and it keeps strangers out; it does not encrypt.
     /// </summary>
     public string ConnectKey { get; set; } = "";
+
+    /// <summary>
+    /// Host only: keys of players by number, 1 to <see cref="MaxJoiners"/>; default none. Who gives such a key as its <see cref="ConnectKey"/> has that number,
+    /// whenever it comes, and takes it over from whoever still holds it; nobody else gets it. Without, numbers go by order of arrival and are given
+    /// again, and with them what a scene grants to a number.
+    /// </summary>
+    public IReadOnlyDictionary<byte, string> PlayerKeys { get; set; } = new Dictionary<byte, string>();
 
     /// <summary>Joiner only: the accelerations that this program can supply to a scene that it gets from the host; default none.</summary>
     public IReadOnlyList<IAcceleration>? Accelerations { get; set; }
@@ -88,6 +96,20 @@ public sealed class SessionOptions
         if (ConnectKey is null || ConnectKey.Length > MaxKeyLength)
         {
             throw new ArgumentOutOfRangeException(nameof(ConnectKey), $"{ConnectKey?.Length} characters", $"A connect key has 0 to {MaxKeyLength} characters.");
+        }
+
+        foreach (KeyValuePair<byte, string> player in PlayerKeys)
+        {
+            if (player.Key is 0 or > MaxJoiners || string.IsNullOrEmpty(player.Value) || player.Value.Length > MaxKeyLength)
+            {
+                throw new ArgumentOutOfRangeException(
+                    nameof(PlayerKeys), $"{player.Value?.Length ?? 0} characters for player {player.Key}", $"Players 1 to {MaxJoiners} can have keys, each of 1 to {MaxKeyLength} characters.");
+            }
+        }
+
+        if (PlayerKeys.Values.Append(ConnectKey).Distinct().Count() != PlayerKeys.Count + 1)
+        {
+            throw new ArgumentException("Two players have the same key, or one the connect key; each must have another.", nameof(PlayerKeys));
         }
 
         if (MaxEventsPerSecond is < 1 or > 100_000)

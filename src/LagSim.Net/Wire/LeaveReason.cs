@@ -14,4 +14,7 @@ public enum LeaveReason : byte
 
     /// <summary>It did not take in what happened as fast as it did.</summary>
     FellBehind = 4,
+
+    /// <summary>Somebody with the key of the same player came in, from elsewhere.</summary>
+    Replaced = 5,
 }

@@ -68,6 +68,10 @@ public static class SnapshotFormat
         return accepted;
     }
 
+    /// <summary>Whether a snapshot's times can travel, and are of a world that has begun.</summary>
+    internal static bool IsInRange(WorldSnapshot snapshot) =>
+        WireFormat.IsInRange(snapshot.Start) && WireFormat.IsInRange(snapshot.Time) && snapshot.Time > snapshot.Start;
+
     /// <summary>How many bytes a snapshot takes.</summary>
     internal static long EncodedLength(WorldSnapshot snapshot)
     {

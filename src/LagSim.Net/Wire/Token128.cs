@@ -32,6 +32,9 @@ public readonly struct Token128 : IEquatable<Token128>
         this.high = high;
     }
 
+    /// <summary>The first eight of them.</summary>
+    internal ulong First => low;
+
     /// <inheritdoc/>
     public bool Equals(Token128 other) => ((low ^ other.low) | (high ^ other.high)) == 0;
 

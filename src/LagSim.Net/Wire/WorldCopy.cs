@@ -83,6 +83,12 @@ public sealed class WorldCopy
             return false;
         }
 
+        if (snapshot is not null && !SnapshotFormat.IsInRange(snapshot))
+        {
+            error = $"The copy of the world's state is of {snapshot.Time} in a world that began at {snapshot.Start}; the first must come after the second, and both travel only within 48 days of the origin.";
+            return false;
+        }
+
         copy = new WorldCopy(own is not null && own.Hash == scene.Hash ? own : scene, snapshot);
         error = null;
         return true;

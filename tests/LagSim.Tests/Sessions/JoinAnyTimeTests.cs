@@ -32,7 +32,7 @@ public sealed class JoinAnyTimeTests
                 group.Run(random.NextDouble() * 0.3);
             }
 
-            JoinerSession joiner = group.Join(100, (ulong)(1000 + i));
+            JoinerSession joiner = group.Join(100 + i, (ulong)(1000 + i));
             Assert.True(group.RunUntil(() => joiner.State == SessionState.Running, 5), joiner.EndReason);
             Kick(group, random);
             group.Do(2, PlayerAction.SetVelocity(BodyId.OfScene(random.Next(16)), V(random.NextDouble() - 0.5, 0, random.NextDouble() - 0.5)));

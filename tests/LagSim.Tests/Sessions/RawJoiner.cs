@@ -31,6 +31,9 @@ internal sealed class RawJoiner
 
     internal ulong SessionId { get; private set; }
 
+    /// <summary>How long the copy is that it could fetch.</summary>
+    internal int CopyLength { get; private set; }
+
     /// <summary>The last sequence number of those who had its number before.</summary>
     internal uint LastSequence { get; private set; }
 
@@ -42,6 +45,7 @@ internal sealed class RawJoiner
         Assert.Equal(nonce, welcome.Nonce);
         Peer = welcome.Peer;
         SessionId = welcome.SessionId;
+        CopyLength = welcome.CopyLength;
         LastSequence = welcome.LastSequence;
     }
 
