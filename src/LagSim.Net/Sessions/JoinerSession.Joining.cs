@@ -13,9 +13,12 @@ public sealed partial class JoinerSession
     /// <summary>The least time after which pieces that did not come are asked for again.</summary>
     private static readonly SimDuration LeastPatience = SimDuration.FromMilliseconds(50);
 
+    /// <summary>The longest round trip that is assumed before one is measured.</summary>
+    private static readonly SimDuration MostGuessed = SimDuration.FromMilliseconds(400);
+
     private Token128? cookie;
     private SimTime challenged;
-    private SimDuration joinTook; // a round trip at least: until one is measured, pieces are not asked for again before
+    private SimDuration joinTook; // a round trip at least, and more where something was lost
     private CopyFetch? fetch;
     private ulong copyHash;
     private WorldCopy? copy;
@@ -141,7 +144,12 @@ public sealed partial class JoinerSession
             return;
         }
 
-        SimDuration roundTrip = link!.Traffic.RoundTrip == SimDuration.Zero ? joinTook : link.Traffic.RoundTrip;
+        SimDuration roundTrip = link!.Traffic.RoundTrip;
+        if (roundTrip == SimDuration.Zero)
+        {
+            roundTrip = joinTook < MostGuessed ? joinTook : MostGuessed;
+        }
+
         SimDuration patience = roundTrip + (roundTrip / 2) > LeastPatience ? roundTrip + (roundTrip / 2) : LeastPatience;
         Span<byte> bytes = stackalloc byte[WireFormat.FetchBytes];
         Send(bytes.Slice(0, fetch.Ask(link.SessionId, Peer, now, patience).Encode(bytes)), link);

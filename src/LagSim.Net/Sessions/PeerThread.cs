@@ -42,30 +42,45 @@ public sealed class PeerThread : IDisposable
     /// <summary>Opens a session over UDP on a thread that is started already. Disposing it leaves the session and closes the port.</summary>
     /// <param name="scene">The scene that all share.</param>
     /// <param name="udpPort">Where others reach it, 0 to 65,535; 0 takes any free port, which <see cref="LocalAddress"/> tells.</param>
-    /// <param name="options">How to take part; default waits for one joiner.</param>
-    /// <param name="bind">The address to listen at; default every one this machine has.</param>
+    /// <param name="options">How to take part; default begins at once, whoever joins later.</param>
+    /// <param name="bind">The address to listen at; default every IPv4 address this machine has.</param>
     /// <exception cref="System.IO.IOException">The system does not give the port, for instance because it is in use.</exception>
-    /// <exception cref="ArgumentOutOfRangeException">The port or an option is out of its range.</exception>
+    /// <exception cref="ArgumentException">The port or an option is out of its range, or the scene is too large to be shared.</exception>
     public static PeerThread Host(Scene scene, int udpPort = 0, SessionOptions? options = null, IPAddress? bind = null)
     {
+        if (udpPort is < 0 or > IPEndPoint.MaxPort)
+        {
+            throw new ArgumentOutOfRangeException(nameof(udpPort), udpPort, $"A UDP port is a number from 1 to {IPEndPoint.MaxPort}, or 0 for any that is free.");
+        }
+
         UdpPort port = new(new IPEndPoint(bind ?? IPAddress.Any, udpPort));
         return Begin(port, () => new HostSession(scene, port, new StopwatchClock(), options ?? new SessionOptions(), Draw()), "LagSim host");
     }
 
     /// <summary>Joins a session over UDP on a thread that is started already. Disposing it leaves the session and closes the port.</summary>
-    /// <param name="host">Where the host is.</param>
+    /// <param name="host">Where the host is: the address of one machine, and a port from 1 on.</param>
     /// <param name="options">How to take part.</param>
     /// <param name="scene">The scene that the host is expected to have; null takes the host's, whichever it is.</param>
     /// <exception cref="System.IO.IOException">The system gives no port.</exception>
-    /// <exception cref="ArgumentOutOfRangeException">An option is out of its range.</exception>
+    /// <exception cref="ArgumentException">That is no machine's address, or an option is out of its range.</exception>
     public static PeerThread Join(IPEndPoint host, SessionOptions? options = null, Scene? scene = null)
     {
+        if (host is null)
+        {
+            throw new ArgumentNullException(nameof(host));
+        }
+
+        if (host.Port == 0 || host.Address.Equals(IPAddress.Any) || host.Address.Equals(IPAddress.IPv6Any) || host.Address.Equals(IPAddress.Broadcast))
+        {
+            throw new ArgumentException($"'{host}' is no host to join: it takes the address of one machine and a port from 1 to {IPEndPoint.MaxPort}.", nameof(host));
+        }
+
         PeerAddress address = PeerAddress.From(host);
         UdpPort port = new(new IPEndPoint(host.AddressFamily == AddressFamily.InterNetwork ? IPAddress.Any : IPAddress.IPv6Any, 0));
         return Begin(port, () => new JoinerSession(scene, port, new StopwatchClock(), options ?? new SessionOptions(), address, Draw()), "LagSim joiner");
     }
 
-    /// <summary>Where this peer's port is reached.</summary>
+    /// <summary>Where this peer's port is reached, from this machine only if it listens at every address there is: then others use one of the machine's own.</summary>
     public PeerAddress LocalAddress => port.LocalAddress;
 
     /// <summary>The session. While the thread runs, read of it only what it says may be read from any thread.</summary>
@@ -108,7 +123,10 @@ public sealed class PeerThread : IDisposable
 
     /// <summary>Does something to the shared world as soon as the session's thread gets to it, which is at once unless it is at work.
     /// Asked before <see cref="Start"/>, it waits for the thread.</summary>
-    /// <returns>The stamped event, or the exception that <see cref="Session.Do"/> throws.</returns>
+    /// <returns>
+    /// The stamped event, or the exception that <see cref="Session.Do"/> throws: look at it, or what was refused goes unnoticed. What the host makes of the
+    /// event is heard later, by <see cref="Session.Logged"/>.
+    /// </returns>
     public Task<ExternalEvent> Do(PlayerAction action) => Ask(session => session.Do(action));
 
     /// <summary>Asks the session something on its own thread; answered once the thread is started, cancelled if it is disposed before.</summary>
@@ -116,6 +134,11 @@ public sealed class PeerThread : IDisposable
     /// <exception cref="InvalidOperationException">The thread ended by an exception, the inner one.</exception>
     public Task<T> Ask<T>(Func<Session, T> question)
     {
+        if (question is null)
+        {
+            throw new ArgumentNullException(nameof(question));
+        }
+
         thread.ThrowIfFaulted();
         if (disposed)
         {

@@ -160,7 +160,9 @@ public abstract class Session
 
         if (State != SessionState.Running || World is null)
         {
-            throw new InvalidOperationException($"Nothing can be done while the session is {State}; wait until it is Running.");
+            throw new InvalidOperationException(State == SessionState.Ended
+                ? $"Nothing can be done any more: the session has ended. {EndReason}"
+                : $"Nothing can be done while the session is {State}; wait until it is Running.");
         }
 
         ExternalEvent external = action.Stamp(SharedTime.Now, Peer, LastSequence + 1);

@@ -26,6 +26,10 @@ public sealed class SessionOptions
     /// <summary>The longest <see cref="ConnectKey"/>, in characters.</summary>
     public const int MaxKeyLength = 256;
 
+    private static readonly SimDuration MostKeepAlive = SimDuration.FromSeconds(2);
+
+    private SimDuration? keepAlive;
+
     /// <summary>
     /// What only those may know who shall join; the host refuses any other. Up to <see cref="MaxKeyLength"/> characters, default none. It
     /// does not travel, and it keeps strangers out; it does not encrypt.
@@ -60,8 +64,8 @@ public sealed class SessionOptions
     /// <summary>How much of the past pictures show, 0 to 60 s; default 250 ms.</summary>
     public SimDuration PicturePast { get; set; } = LiveWorld.DefaultPicturePast;
 
-    /// <summary>Host only: how many joiners the start waits for, 0 to 8; default 1.</summary>
-    public int ExpectedJoiners { get; set; } = 1;
+    /// <summary>Host only: how many joiners the start waits for, 0 to 8; default 0. Before the start there is no world, and nothing can be done.</summary>
+    public int ExpectedJoiners { get; set; }
 
     /// <summary>Host only: how long after all expected joiners are ready the scene starts, 0 to 60 s; default 500 ms.</summary>
     public SimDuration StartLead { get; set; } = SimDuration.FromMilliseconds(500);
@@ -72,8 +76,12 @@ public sealed class SessionOptions
     /// <summary>How long what is not acknowledged waits before it is sent again, 1 ms to 1 s; default 30 ms.</summary>
     public SimDuration ResendInterval { get; set; } = SimDuration.FromMilliseconds(30);
 
-    /// <summary>How long nothing is sent at most, 10 ms to a third of the timeout; default 2 s.</summary>
-    public SimDuration KeepAlive { get; set; } = SimDuration.FromSeconds(2);
+    /// <summary>How long nothing is sent at most, 10 ms to a third of the timeout; default that third, but no more than 2 s.</summary>
+    public SimDuration KeepAlive
+    {
+        get => keepAlive ?? (Timeout / 3 < MostKeepAlive ? Timeout / 3 : MostKeepAlive);
+        set => keepAlive = value;
+    }
 
     /// <summary>The name of what to do with late events, one of <see cref="LateEventStrategies.Names"/>.</summary>
     public string Strategy { get; set; } = LateEventStrategies.Default;
@@ -86,16 +94,25 @@ public sealed class SessionOptions
         Range(StartLead, 0, 60, nameof(StartLead));
         Range(Timeout, 0.1, 600, nameof(Timeout));
         Range(ResendInterval, 0.001, 1, nameof(ResendInterval));
-        Range(KeepAlive, 0.01, Timeout.ToSeconds() / 3, nameof(KeepAlive));
+        if (keepAlive is SimDuration given)
+        {
+            Range(given, 0.01, Timeout.ToSeconds() / 3, nameof(KeepAlive));
+        }
+
         if (LookAhead <= SimDuration.Zero || LookAhead > SimDuration.FromSeconds(1))
         {
             throw new ArgumentOutOfRangeException(nameof(LookAhead), LookAhead, "The look-ahead must be above zero and at most 1 s.");
         }
 
         Range(CommitInterval, 0.1, 60, nameof(CommitInterval));
-        if (ConnectKey is null || ConnectKey.Length > MaxKeyLength)
+        if (ConnectKey is null || PlayerKeys is null)
         {
-            throw new ArgumentOutOfRangeException(nameof(ConnectKey), $"{ConnectKey?.Length} characters", $"A connect key has 0 to {MaxKeyLength} characters.");
+            throw new ArgumentException("The connect key and the players' keys may be empty, but not null.", ConnectKey is null ? nameof(ConnectKey) : nameof(PlayerKeys));
+        }
+
+        if (ConnectKey.Length > MaxKeyLength)
+        {
+            throw new ArgumentOutOfRangeException(nameof(ConnectKey), $"{ConnectKey.Length} characters", $"A connect key has 0 to {MaxKeyLength} characters.");
         }
 
         foreach (KeyValuePair<byte, string> player in PlayerKeys)

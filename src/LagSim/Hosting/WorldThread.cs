@@ -41,7 +41,22 @@ public sealed class WorldThread : IDisposable
     public long Steps => Volatile.Read(ref steps);
 
     /// <summary>Starts it; once.</summary>
-    public void Start() => thread.Start();
+    /// <exception cref="InvalidOperationException">It has been started already.</exception>
+    /// <exception cref="ObjectDisposedException">It has been disposed.</exception>
+    public void Start()
+    {
+        if (disposed)
+        {
+            throw new ObjectDisposedException(thread.Name);
+        }
+
+        if ((thread.ThreadState & ThreadState.Unstarted) == 0)
+        {
+            throw new InvalidOperationException($"The thread '{thread.Name}' has been started already.");
+        }
+
+        thread.Start();
+    }
 
     /// <summary>Has the next step done now. Never blocks; calling it from a step, or many times, means one more step.</summary>
     public void Wake()
