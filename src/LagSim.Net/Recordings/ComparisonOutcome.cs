@@ -3,7 +3,7 @@ namespace LagSim.Net.Recordings;
 /// <summary>What a <see cref="RecordingComparison"/> found.</summary>
 public enum ComparisonOutcome
 {
-    /// <summary>Everything that both cover is the same; there is something.</summary>
+    /// <summary>Everything that both cover is the same; there is at least one committed state that both hold.</summary>
     Agrees,
 
     /// <summary>The scenes differ: the recordings are of different worlds.</summary>
@@ -18,6 +18,6 @@ public enum ComparisonOutcome
     /// <summary>The log is the same where both cover it, and a committed state differs.</summary>
     StateDiffers,
 
-    /// <summary>There is no entry and no committed time that both cover, or one of them has no sound header.</summary>
+    /// <summary>There is no committed time that both cover, whatever entries of the log are the same, or one of them has no sound header.</summary>
     NothingInCommon,
 }

@@ -85,7 +85,7 @@ public sealed class RecordingComparison
         {
             return new RecordingComparison(
                 ComparisonOutcome.EventDiffers, entries, 0,
-                FormattableString.Invariant($"Entry {one.Index} of the log differs. In the first it is {one}. In the second it is {other}.")
+                FormattableString.Invariant($"Entry {one.Index} of the log differs, at {Words.SinceStart(one.Event.Time, a.Start)}. In the first it is {one}. In the second it is {other}.")
                     + Remarks(first, second))
             {
                 FirstEntry = one,
@@ -99,14 +99,16 @@ public sealed class RecordingComparison
             return OfStates(first, second, entries, states, mine, theirs, cancellation);
         }
 
-        return entries + states == 0
+        // The same events say nothing of what a peer made of them: without a state that was compared there is no agreement.
+        string log = entries == 0 ? "no log entry and no committed time in common" : $"the same in {Words.Count(entries, "common log entry")}, and no committed time in common";
+        return states == 0
             ? new RecordingComparison(
-                ComparisonOutcome.NothingInCommon, 0, 0,
-                "The recordings are of one scene and start, and have no log entry and no committed time in common." + Remarks(first, second))
+                ComparisonOutcome.NothingInCommon, entries, 0,
+                $"The recordings are of one scene and start, and have {log}: of the states nothing is known." + Remarks(first, second))
             : new RecordingComparison(
                 ComparisonOutcome.Agrees, entries, states,
                 $"The recordings agree in all that both hold: {Words.Count(entries, "log entry")} and {Words.Count(states, "committed state")}."
-                    + (states == 0 ? " They have no committed time in common, so of the states nothing is known." : "") + Remarks(first, second));
+                    + Remarks(first, second));
     }
 
     private static RecordingComparison OfStates(
@@ -123,8 +125,8 @@ public sealed class RecordingComparison
         string log = entries == 0 ? "The recordings have no log entry in common" : $"The log is the same in {Words.Count(entries, "common entry")}";
         return new RecordingComparison(
             ComparisonOutcome.StateDiffers, entries, states,
-            $"{log}, and the committed state at {mine.Time} differs: {mine} in the first; {theirs} in the second."
-                + $" The first {Verdict(firstReplay)} The second {Verdict(secondReplay)}" + Remarks(first, second))
+            $"{log}, and the committed state at {Words.SinceStart(mine.Time, first.Header!.Start)} differs: {mine} in the first; {theirs} in the second."
+                + $" The first {Verdict(firstReplay, first)} The second {Verdict(secondReplay, second)}" + Remarks(first, second))
         {
             FirstState = mine,
             SecondState = theirs,
@@ -194,10 +196,10 @@ public sealed class RecordingComparison
         return same;
     }
 
-    private static string Verdict(RecordingReplay replay) => replay.Outcome switch
+    private static string Verdict(RecordingReplay replay, Recording of) => replay.Outcome switch
     {
         ReplayOutcome.Agrees => "agrees with its own replay.",
-        ReplayOutcome.Differs => $"departs from its own replay at {replay.Expected!.Value.Time}.",
+        ReplayOutcome.Differs => $"departs from its own replay at {Words.SinceStart(replay.Expected!.Value.Time, of.Header!.Start)}.",
         _ => $"has no replay to tell: {replay.Message}",
     };
 

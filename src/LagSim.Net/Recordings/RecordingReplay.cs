@@ -89,7 +89,7 @@ public sealed class RecordingReplay
                 {
                     return new RecordingReplay(
                         ReplayOutcome.Differs, applied, agreed, expected, actual,
-                        $"The replay differs at {expected.Time}: recorded {expected}; replayed {actual}.");
+                        $"The replay differs at {Words.SinceStart(expected.Time, recording.Header!.Start)}: recorded {expected}; replayed {actual}.");
                 }
 
                 last = expected;
@@ -105,7 +105,7 @@ public sealed class RecordingReplay
         return last is CommittedState end
             ? new RecordingReplay(
                 ReplayOutcome.Agrees, applied, agreed, end, end,
-                $"The replay agrees: {Words.Count(agreed, "committed state")} up to {end.Time}, with {Words.Count(applied, "accepted event")}; {end}.")
+                $"The replay agrees: {Words.Count(agreed, "committed state")} up to {Words.SinceStart(end.Time, recording.Header!.Start)}, with {Words.Count(applied, "accepted event")}; {end}.")
             : new RecordingReplay(
                 ReplayOutcome.NothingToCheck, applied, agreed, null, null, "The recording holds no committed state that a replay could be checked against.");
     }

@@ -1,4 +1,5 @@
 using System.Globalization;
+using LagSim.Time;
 
 namespace LagSim.Net.Recordings;
 
@@ -11,4 +12,8 @@ internal static class Words
         string many = one.EndsWith('y') ? one.Substring(0, one.Length - 1) + "ies" : one + "s";
         return string.Format(CultureInfo.InvariantCulture, "{0} {1}", count, count == 1 ? one : many);
     }
+
+    /// <summary>A time as peers print it, in seconds since the session's start: <c>T 6 s</c>.</summary>
+    internal static string SinceStart(SimTime time, SimTime start) =>
+        string.Format(CultureInfo.InvariantCulture, "T {0} s", (time - start).ToSeconds());
 }

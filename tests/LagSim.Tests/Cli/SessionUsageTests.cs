@@ -1,8 +1,11 @@
 using System;
 using System.IO;
+using System.Linq;
+using System.Text.Json;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
 using LagSim.Net.Sessions;
+using LagSim.Tests.Recordings;
 using Xunit;
 
 namespace LagSim.Tests.Cli;
@@ -65,6 +68,36 @@ public sealed class SessionUsageTests
         Tool.Refuses(Input, ["replay", folder["none"]], folder["none"], "This is no recording of LagSim");
         Tool.Refuses(Input, ["replay", folder["none"], "--json"], "This is no recording of LagSim");
         Tool.Refuses(Input, ["diff", folder["none"], folder["none"]], "The first is damaged at byte 0");
+    }
+
+    [Fact]
+    public void Diff_WithoutACommittedStateThatBothHold_IsACheckThatFailed()
+    {
+        using TemporaryFolder folder = new();
+        File.WriteAllBytes(folder["all"], Recorded.Small());
+        File.WriteAllBytes(folder["no state"], Recorded.Bytes(writer => writer.WriteEntry(1, Recorded.Log[0].Verdict, Recorded.Log[0].Event)));
+        Tool nothing = Tool.Run("diff", folder["all"], folder["no state"]);
+        Assert.Equal(1, nothing.ExitCode);
+        Assert.Contains("the same in 1 common log entry, and no committed time in common: of the states nothing is known.", nothing.Output, StringComparison.Ordinal);
+        using JsonDocument document = JsonDocument.Parse(Tool.Run("diff", folder["all"], folder["no state"], "--json").Output);
+        Assert.Equal("nothing-in-common", document.RootElement.GetProperty("outcome").GetString());
+    }
+
+    [Fact]
+    public void DiffAndReplay_OfDamagedRecordings_AreDecidedByWhatStandsBefore()
+    {
+        using TemporaryFolder folder = new();
+        byte[] bytes = Recorded.Small();
+        File.WriteAllBytes(folder["all"], bytes);
+        File.WriteAllBytes(folder["cut late"], bytes[..^60]);
+        int first = Enumerable.Range(1, bytes.Length).First(n => Recorded.Read(bytes[..n]).Committed.Count == 1);
+        File.WriteAllBytes(folder["cut early"], bytes[..(first - 1)]);
+        Assert.Contains("The second is damaged at byte ", Tool.Run("diff", folder["all"], folder["cut late"]).Done().Output, StringComparison.Ordinal);
+        Tool replay = Tool.Run("replay", folder["cut late"]).Done();
+        Assert.Contains("What stands before is run.", replay.Error, StringComparison.Ordinal);
+        Assert.Matches(@"up to T [0-9.]+ s, with", replay.Output);
+        Assert.Equal(1, Tool.Run("diff", folder["all"], folder["cut early"]).ExitCode);
+        Assert.Equal(1, Tool.Run("replay", folder["cut early"]).ExitCode);
     }
 
     [Theory]

@@ -38,7 +38,7 @@ public sealed class ComparisonTests
         Assert.Equal(Log[4], compared.FirstEntry);
         Assert.Equal(other[4], compared.SecondEntry);
         Assert.Equal(
-            "Entry 5 of the log differs. In the first it is Accepted: SetVelocity of body 0.0.1 at 101.5s by 0.1: to (0, 5, 0) m/s."
+            "Entry 5 of the log differs, at T 1.25 s. In the first it is Accepted: SetVelocity of body 0.0.1 at 101.5s by 0.1: to (0, 5, 0) m/s."
                 + " In the second it is Accepted: SetVelocity of body 0.0.1 at 101.5s by 0.1: to (0, 5.000000000000001, 0) m/s.",
             compared.Message);
     }
@@ -64,8 +64,8 @@ public sealed class ComparisonTests
         Assert.Equal(World(lost).StateHash(Start + Seconds(1)), compared.SecondState!.Value.StateHash);
         Assert.Equal((ReplayOutcome.Agrees, ReplayOutcome.Differs), (compared.FirstReplay!.Outcome, compared.SecondReplay!.Outcome));
         Assert.Equal(3, compared.FirstReplay.StatesChecked); // no further than to where they differ
-        Assert.StartsWith("The log is the same in 6 common entries, and the committed state at 101.25s differs: state ", compared.Message, StringComparison.Ordinal);
-        Assert.EndsWith("The first agrees with its own replay. The second departs from its own replay at 101.25s.", compared.Message, StringComparison.Ordinal);
+        Assert.StartsWith("The log is the same in 6 common entries, and the committed state at T 1 s differs: state ", compared.Message, StringComparison.Ordinal);
+        Assert.EndsWith("The first agrees with its own replay. The second departs from its own replay at T 1 s.", compared.Message, StringComparison.Ordinal);
     }
 
     [Fact]
@@ -76,7 +76,7 @@ public sealed class ComparisonTests
         RecordingComparison compared = Compare(Written(1), Written(2));
 
         Assert.Equal(ComparisonOutcome.StateDiffers, compared.Outcome);
-        Assert.StartsWith("The recordings have no log entry in common, and the committed state at 1s differs", compared.Message, StringComparison.Ordinal);
+        Assert.StartsWith("The recordings have no log entry in common, and the committed state at T 1 s differs", compared.Message, StringComparison.Ordinal);
         Assert.Contains("The second has no replay to tell: The recording cannot be run again. The scene needs", compared.Message, StringComparison.Ordinal);
     }
 
@@ -111,7 +111,7 @@ public sealed class ComparisonTests
 
         RecordingComparison compared = Compare(first, second);
         Assert.Equal(ComparisonOutcome.NothingInCommon, compared.Outcome);
-        Assert.Equal("The recordings are of one scene and start, and have no log entry and no committed time in common.", compared.Message);
+        Assert.Equal("The recordings are of one scene and start, and have no log entry and no committed time in common: of the states nothing is known.", compared.Message);
         Assert.Equal(ComparisonOutcome.NothingInCommon, Compare(Bytes(_ => { }), Bytes(_ => { })).Outcome);
 
         RecordingComparison unreadable = Compare(first, [1, 2, 3]);
@@ -135,11 +135,11 @@ public sealed class ComparisonTests
     }
 
     [Fact]
-    public void Of_EntriesWithoutStates_SaysThatOfStatesNothingIsKnown()
+    public void Of_EntriesWithoutStates_IsNotAgreement()
     {
         RecordingComparison compared = Compare(Small(), Bytes(writer => writer.WriteEntry(1, Log[0].Verdict, Log[0].Event)));
-        Assert.Equal((ComparisonOutcome.Agrees, 1, 0), (compared.Outcome, compared.EntriesCompared, compared.StatesCompared));
-        Assert.EndsWith("1 log entry and 0 committed states. They have no committed time in common, so of the states nothing is known.", compared.Message, StringComparison.Ordinal);
+        Assert.Equal((ComparisonOutcome.NothingInCommon, 1, 0), (compared.Outcome, compared.EntriesCompared, compared.StatesCompared));
+        Assert.EndsWith("have the same in 1 common log entry, and no committed time in common: of the states nothing is known.", compared.Message, StringComparison.Ordinal);
     }
 
     [Fact]
