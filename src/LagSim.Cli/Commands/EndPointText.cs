@@ -32,10 +32,22 @@ internal static class EndPointText
     }
 
     /// <summary>The address itself; of a name with several the first, but IPv4 before IPv6.</summary>
+    /// <param name="text">What the user wrote.</param>
+    /// <param name="purpose">What the host is for, as a verb.</param>
+    /// <param name="stop">Ends the asking.</param>
     /// <exception cref="UsageException">The text has not the form.</exception>
-    /// <exception cref="InputException">Nobody knows the name.</exception>
+    /// <exception cref="InputException">Nobody knows the name, or it is the address of no machine, at which nobody could answer.</exception>
     /// <exception cref="OperationCanceledException">The user has asked for an end.</exception>
-    internal static IPEndPoint Resolve(string text, CancellationToken stop)
+    internal static IPEndPoint Resolve(string text, string purpose, CancellationToken stop)
+    {
+        IPEndPoint found = Find(text, stop);
+        IPAddress machine = found.Address.IsIPv4MappedToIPv6 ? found.Address.MapToIPv4() : found.Address;
+        return machine.Equals(IPAddress.Any) || machine.Equals(IPAddress.IPv6Any)
+            ? throw new InputException($"'{found}' is no host to {purpose}: it takes the address of one machine and a port from 1 to 65535.")
+            : found;
+    }
+
+    private static IPEndPoint Find(string text, CancellationToken stop)
     {
         (string host, int port) = Parse(text);
         if (IPAddress.TryParse(host, out IPAddress? literal))

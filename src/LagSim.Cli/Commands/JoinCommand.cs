@@ -29,7 +29,7 @@ internal static class JoinCommand
         command.SetAction(parsed =>
         {
             SessionRequest request = shared.Read(parsed);
-            IPEndPoint there = EndPointText.Resolve(parsed.GetValue(host)!, console.Stop);
+            IPEndPoint there = EndPointText.Resolve(parsed.GetValue(host)!, "join", console.Stop);
             using UdpPort carrier = new(new IPEndPoint(EndPointText.Facing(there.Address), 0));
             JoinerSession session = new(
                 null, carrier, new StopwatchClock(), request.Options, PeerAddress.From(there), SessionRunner.RandomNumber());

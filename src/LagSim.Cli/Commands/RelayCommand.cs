@@ -47,7 +47,7 @@ internal static class RelayCommand
             }
 
             IPAddress local = EndPointText.ParseLocal("--address", parsed.GetValue(address)!);
-            IPEndPoint there = EndPointText.Resolve(parsed.GetValue(host)!, console.Stop);
+            IPEndPoint there = EndPointText.Resolve(parsed.GetValue(host)!, "relay to", console.Stop);
             bool json = parsed.GetValue(common.Json);
             ulong seed = parsed.GetValue(common.Seed);
             StopwatchClock clock = new();

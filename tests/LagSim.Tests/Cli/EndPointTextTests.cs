@@ -46,9 +46,20 @@ public sealed class EndPointTextTests
     [Fact]
     public void Resolve_NamesAndLiterals_GivesTheAddress()
     {
-        Assert.Equal(new IPEndPoint(IPAddress.Loopback, 7), EndPointText.Resolve("127.0.0.1:7", TestContext.Current.CancellationToken));
-        Assert.Equal(new IPEndPoint(IPAddress.IPv6Loopback, 7), EndPointText.Resolve("[::1]:7", TestContext.Current.CancellationToken));
-        Assert.True(IPAddress.IsLoopback(EndPointText.Resolve("localhost:7", TestContext.Current.CancellationToken).Address));
+        Assert.Equal(new IPEndPoint(IPAddress.Loopback, 7), EndPointText.Resolve("127.0.0.1:7", "join", TestContext.Current.CancellationToken));
+        Assert.Equal(new IPEndPoint(IPAddress.IPv6Loopback, 7), EndPointText.Resolve("[::1]:7", "join", TestContext.Current.CancellationToken));
+        Assert.True(IPAddress.IsLoopback(EndPointText.Resolve("localhost:7", "join", TestContext.Current.CancellationToken).Address));
+    }
+
+    [Theory]
+    [InlineData("0.0.0.0:7", "'0.0.0.0:7'")]
+    [InlineData("[::]:7", "'[::]:7'")]
+    [InlineData("[::ffff:0.0.0.0]:7", "'[::ffff:0:0]:7'")]
+    public void Resolve_AddressOfNoMachine_IsRefusedAtOnce(string text, string named)
+    {
+        // A joiner would wait out its time-out, ten minutes here, for an answer that cannot come.
+        Tool.Refuses(3, ["join", text, "--timeout-s", "600"], $"{named} is no host to join: it takes the address of one machine and a port from 1 to 65535.");
+        Tool.Refuses(3, ["relay", text, "--profile", "lan"], $"{named} is no host to relay to: it takes the address of one machine and a port from 1 to 65535.");
     }
 
     [Fact]
