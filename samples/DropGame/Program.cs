@@ -76,7 +76,7 @@ try
         Thread.Sleep(1000 / FramesPerSecond);
     }
 
-    SessionCounters counters = await me.Ask(session => session.Counters);
+    SessionCounters counters = await me.Ask(session => session.Counters.Copy());
     Console.WriteLine($"events {counters.EventsAccepted}, of them late {counters.Heals}; {me.Session.EndReason ?? "goodbye"}");
     return isDemo && counters.EventsAccepted == 0 ? 1 : 0;
 }

@@ -94,13 +94,14 @@ public sealed partial class HostSession
                 return; // the world is being simulated again; the joiner asks once more
             }
 
-            joiners.RemoveAll(j => j.Link.Other == from); // the same address, shown by the cookie, under a new nonce: it started again
-            LetGo(number);
+            LetGo(j => j.Link.Other == from); // the same address, shown by the cookie, under a new nonce: it started again
+            Replace(number);
             recentJoins.Enqueue((nonce, from, now));
             RateLimit events = eventLimits[number] ??= new RateLimit(Options.MaxEventsPerSecond, Options.MaxEventsPerSecond, now);
             UpdateLink way = new(cookies.SessionId(sessionId, joins++), 0, number, from, now);
             known = new Joiner(nonce, way, made, lastSequences[number], events, new RateLimit(PiecesPerSecond, PiecesAtOnce, now));
             joiners.Add(known);
+            JoinerCame?.Invoke(known.Link.Traffic);
         }
 
         if (known.Copy is Copy copy)
@@ -173,12 +174,12 @@ public sealed partial class HostSession
     }
 
     /// <summary>Tells who has the number that its player came in from elsewhere.</summary>
-    private void LetGo(byte number)
+    private void Replace(byte number)
     {
         if (joiners.Find(j => j.Peer == number) is Joiner before)
         {
             SayGoodbye(before, LeaveReason.Replaced);
-            joiners.Remove(before);
+            LetGo(j => j == before);
         }
     }
 

@@ -44,6 +44,17 @@ public sealed partial class HostSession : Session
         State = SessionState.Waiting;
     }
 
+    /// <summary>
+    /// Raised on the session's thread for each joiner that was let in, which then fetches scene and state, with its link. Handlers must not throw.
+    /// </summary>
+    public event Action<LinkTraffic>? JoinerCame;
+
+    /// <summary>
+    /// Raised on the session's thread, once, for each joiner that left, fell silent, was told to go, or came anew from the same address, with what went over
+    /// its link in all. Not for those who are there when the session ends. Handlers must not throw.
+    /// </summary>
+    public event Action<LinkTraffic>? JoinerGone;
+
     /// <summary>How many joiners there are now.</summary>
     public int JoinerCount => joiners.Count;
 
@@ -90,7 +101,7 @@ public sealed partial class HostSession : Session
                 break;
             case DatagramType.Leave when IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)):
                 Counters.DatagramsIgnored +=
-                    joiners.RemoveAll(j => j.Link.Other == from && j.Peer == leave.Peer && j.Link.SessionId == leave.SessionId) == 0 ? 1 : 0;
+                    LetGo(j => j.Link.Other == from && j.Peer == leave.Peer && j.Link.SessionId == leave.SessionId) ? 0 : 1;
                 break;
             case DatagramType.Welcome or DatagramType.Refusal or DatagramType.Challenge or DatagramType.Chunk:
                 Counters.DatagramsIgnored++; // a host's own words
@@ -176,7 +187,7 @@ public sealed partial class HostSession : Session
             if (isSilent || log.Count - joiners[i].Acknowledged > MaxUnacknowledged)
             {
                 SayGoodbye(joiners[i], isSilent ? LeaveReason.TimedOut : LeaveReason.FellBehind);
-                joiners.RemoveAt(i);
+                LetGo(i);
             }
         }
 
@@ -227,6 +238,25 @@ public sealed partial class HostSession : Session
         {
             SayGoodbye(joiner, LeaveReason.HostEnded);
         }
+    }
+
+    /// <summary>Forgets the joiner of which that holds, of which there is one at most.</summary>
+    private bool LetGo(Predicate<Joiner> isIt)
+    {
+        int index = joiners.FindIndex(isIt);
+        if (index >= 0)
+        {
+            LetGo(index);
+        }
+
+        return index >= 0;
+    }
+
+    private void LetGo(int index)
+    {
+        LinkTraffic link = joiners[index].Link.Traffic;
+        joiners.RemoveAt(index);
+        JoinerGone?.Invoke(link);
     }
 
     private void SayGoodbye(Joiner joiner, LeaveReason reason)

@@ -115,7 +115,7 @@ public abstract class Session
     /// <summary>How many lines of the host's log this peer has, those included that were in the state it began from. On the session's thread.</summary>
     public abstract uint LogLength { get; }
 
-    /// <summary>What was counted.</summary>
+    /// <summary>What was counted; it goes on counting. On the session's thread: another gets a <see cref="SessionCounters.Copy"/>.</summary>
     public SessionCounters Counters { get; } = new();
 
     /// <summary>Whether all peers with this strategy end up with the same world, bit for bit.</summary>

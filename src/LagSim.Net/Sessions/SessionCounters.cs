@@ -1,15 +1,43 @@
+using System;
 using System.Collections.Generic;
 using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>What a session counted. Written on its thread; read it there, or once it has stopped.</summary>
+/// <summary>What a session counted. That of <see cref="Session.Counters"/> goes on counting: read it on the session's thread, or once that has stopped.</summary>
+/// <remarks>A <see cref="Copy"/> never changes and is safe on any thread.</remarks>
 public sealed class SessionCounters
 {
     /// <summary>How many latenesses are kept; further ones only count.</summary>
     public const int MaxKeptLatenesses = 100_000;
 
-    private readonly List<SimDuration> lateness = new();
+    // Only ever added to, and a longer one takes its place: the copies share what they have of it.
+    private SimDuration[] lateness = Array.Empty<SimDuration>();
+    private int latenessCount;
+
+    internal SessionCounters()
+    {
+    }
+
+    private SessionCounters(SessionCounters other)
+    {
+        DatagramsReceived = other.DatagramsReceived;
+        DatagramsMalformed = other.DatagramsMalformed;
+        DatagramsIgnored = other.DatagramsIgnored;
+        DatagramsSent = other.DatagramsSent;
+        EventsAccepted = other.EventsAccepted;
+        EventsRefused = other.EventsRefused;
+        EventsLost = other.EventsLost;
+        Heals = other.Heals;
+        LastShown = other.LastShown;
+        EventsForged = other.EventsForged;
+        EventsDeferred = other.EventsDeferred;
+        StatesAgreed = other.StatesAgreed;
+        StatesDiffered = other.StatesDiffered;
+        FirstDifference = other.FirstDifference;
+        lateness = other.lateness;
+        latenessCount = other.latenessCount;
+    }
 
     /// <summary>Datagrams that came in, refused ones included.</summary>
     public long DatagramsReceived { get; internal set; }
@@ -57,7 +85,11 @@ public sealed class SessionCounters
     public SimTime FirstDifference { get; internal set; } = SimTime.MinValue;
 
     /// <summary>By how much the events of other peers came after their own time; negative for those that came before.</summary>
-    public IReadOnlyList<SimDuration> Lateness => lateness;
+    public IReadOnlyList<SimDuration> Lateness => new ArraySegment<SimDuration>(lateness, 0, latenessCount);
+
+    /// <summary>What was counted up to now, which stays as it is. Taken on the session's thread, it may be read on any: see <see cref="PeerThread.Ask"/>.</summary>
+    /// <remarks>Cheap, however much was counted.</remarks>
+    public SessionCounters Copy() => new(this);
 
     internal void Count(bool agrees, SimTime time)
     {
@@ -68,9 +100,16 @@ public sealed class SessionCounters
 
     internal void AddLateness(SimDuration span)
     {
-        if (lateness.Count < MaxKeptLatenesses)
+        if (latenessCount == MaxKeptLatenesses)
         {
-            lateness.Add(span);
+            return;
         }
+
+        if (latenessCount == lateness.Length)
+        {
+            Array.Resize(ref lateness, Math.Min(MaxKeptLatenesses, Math.Max(16, 2 * latenessCount)));
+        }
+
+        lateness[latenessCount++] = span;
     }
 }

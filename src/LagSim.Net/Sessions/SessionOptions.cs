@@ -32,7 +32,8 @@ public sealed class SessionOptions
 
     /// <summary>
     /// What only those may know who shall join; the host refuses any other. Up to <see cref="MaxKeyLength"/> characters, default none. It
-    /// does not travel, and it keeps strangers out; it does not encrypt.
+    /// does not travel, and it keeps strangers out; it does not encrypt. Take a long random one: who listens, or plays a host, gets what guesses can be
+    /// tried against without asking anybody, and no host shows a joiner that it knows the key.
     /// </summary>
     public string ConnectKey { get; set; } = "";
 

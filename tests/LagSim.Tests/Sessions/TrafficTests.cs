@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Links;
@@ -13,6 +14,32 @@ namespace LagSim.Tests.Sessions;
 /// <summary>What a session sends, to whom, and what it keeps.</summary>
 public sealed class TrafficTests
 {
+    [Fact]
+    public void Copy_OfCounters_StaysAsItIsWhileTheSessionGoesOn()
+    {
+        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(50), 4).Connect();
+        int done = 0;
+        SessionCounters[] copies = new SessionCounters[40];
+        string[] then = new string[copies.Length];
+        for (int n = 0; n < copies.Length; n++)
+        {
+            done += new Deeds(n, mostSpawns: 0).DoIn(group, 2).Count;
+            group.Run(0.1);
+            copies[n] = group.Host.Counters.Copy();
+            then[n] = Everything(group.Host.Counters);
+        }
+
+        Assert.True(group.Settle(done));
+        group.Run(3);
+        Assert.Equal(then, copies.Select(Everything));
+        Assert.Equal(copies.Length, then.Distinct().Count()); // they differ from one another, so they would have changed
+        Assert.True(group.Host.Counters.Lateness.Count > 20, $"{group.Host.Counters.Lateness.Count}");
+
+        // By the names of the properties, so that none that is added later is left out of a copy.
+        static string Everything(SessionCounters counters) => string.Join(" ", typeof(SessionCounters).GetProperties().Select(p =>
+            p.GetValue(counters) is IReadOnlyList<SimDuration> spans ? string.Join(",", spans.Select(span => span.Ticks)) : $"{p.Name} {p.GetValue(counters)}"));
+    }
+
     [Fact]
     public void Idle_HostWithEightJoiners_SendsLessThanFiftyBytesASecondOnALink()
     {

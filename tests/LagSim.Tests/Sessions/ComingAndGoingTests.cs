@@ -1,0 +1,79 @@
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Harness.Links;
+using LagSim.Net.Sessions;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>A host tells of each joiner that comes and goes, once, whatever the reason.</summary>
+public sealed class ComingAndGoingTests
+{
+    [Fact]
+    public void Events_JoinersThatComeLeaveFallSilentAndComeAnew_AreToldOnceEachInOrder()
+    {
+        SessionGroup group = new(Deeds.Box(), 3, LinkProfiles.PureDelay(5), 2, _ => new SessionOptions
+        {
+            Timeout = SimDuration.FromSeconds(3),
+            KeepAlive = SimDuration.FromSeconds(0.5),
+        });
+        List<string> told = Listen(group.Host);
+        group.Connect();
+        Assert.Equal(["1 came", "2 came"], told.Order());
+
+        told.Clear();
+        group.Sessions[1].Leave();
+        group.Cut(2, 0);
+        group.Run(1);
+        Assert.Equal([$"{group.Sessions[1].Peer} gone"], told);
+        group.Run(5);
+        Assert.Equal([$"{group.Sessions[1].Peer} gone", $"{group.Sessions[2].Peer} gone"], told);
+        Assert.Equal(0, group.Host.JoinerCount);
+    }
+
+    [Fact]
+    public void Events_SameAddressUnderANewNonce_TellsThatTheFormerIsGoneFirst()
+    {
+        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
+        List<string> told = Listen(group.Host);
+        group.DropLast(); // it crashed, and nobody was told
+        group.Join(1, 4242);
+        group.Run(1);
+        Assert.Equal(["1 gone", "1 came"], told);
+        Assert.Equal(1, group.Host.JoinerCount);
+    }
+
+    [Fact]
+    public void JoinerGone_AtItsEnd_TellsAllThatWentOverTheLink()
+    {
+        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
+        LinkTraffic? gone = null;
+        group.Host.JoinerGone += link => gone = link;
+        group.Run(3);
+        LinkTraffic last = group.Host.Links.Single();
+        group.Sessions[1].Leave();
+        group.Run(0.1);
+        Assert.Equal((last.Peer, last.Address), (gone!.Peer, gone.Address));
+        Assert.True(gone.BytesSent >= last.BytesSent && gone.BytesReceived >= last.BytesReceived && last.BytesSent > 0);
+    }
+
+    [Fact]
+    public void Events_KnocksAndWrongKeys_AreNobodyComing()
+    {
+        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
+        List<string> told = Listen(group.Host);
+        JoinerSession wrong = group.Join(100, 77, new SessionOptions { ConnectKey = "wrong" });
+        group.Run(1);
+        Assert.Equal(SessionEnd.Refused, wrong.EndedBy);
+        Assert.Empty(told);
+    }
+
+    private static List<string> Listen(HostSession host)
+    {
+        List<string> told = [];
+        host.JoinerCame += link => told.Add($"{link.Peer} came");
+        host.JoinerGone += link => told.Add($"{link.Peer} gone");
+        return told;
+    }
+}
