@@ -41,11 +41,13 @@ internal sealed class SessionRunner : IDisposable
     private readonly AutoResetEvent news = new(false);
     private readonly CancellationTokenRegistration onStop;
     private readonly ConcurrentQueue<Action> told = new(); // what the session's thread has to say, for this one to print
-    private readonly Dictionary<uint, Deed> own = []; // by sequence number; the session's thread's
-    private bool hasToldDifference; // the same
-    private Task<IReadOnlyList<LinkTraffic>>? asked;
+    private readonly Dictionary<uint, Deed> unjudged = []; // own ones of a joiner, by sequence number; the session's thread's
+    private readonly List<(Deed Deed, Task Attempt)> attempts = []; // of which the outcome has not been looked at
+    private volatile bool isAwaitingVerdict; // whether any is unjudged
+    private bool hasToldDifference; // the session's thread's
+    private bool isLooking;
     private PlayerAction[]? actions; // of the deeds, once the scene is known
-    private int done;
+    private int done; // or given up
     private bool hasFailedDeed;
     private SimTime? patienceEnd;
 
@@ -59,6 +61,12 @@ internal sealed class SessionRunner : IDisposable
         session.Begun += Wake;
         session.Ended += Wake;
         session.Logged += OnLogged;
+        if (session is HostSession host)
+        {
+            host.JoinerCame += link => Tell(() => printer.Came(link));
+            host.JoinerGone += link => Tell(() => printer.Gone(link));
+        }
+
         session.StateCommitted += OnCommitted;
         if (request.RecordFile is string file)
         {
@@ -99,6 +107,7 @@ internal sealed class SessionRunner : IDisposable
         {
             news.WaitOne(span);
             PrintTold();
+            LookAtAttempts();
             LookAtLinks();
             wait = session.World is null ? LookInterval : Tend(session.World.Simulation.Start);
         }
@@ -106,6 +115,11 @@ internal sealed class SessionRunner : IDisposable
         bool isTimeReached = request.Seconds is null || (session.World is not null && Passed(session.World.Simulation.Start) >= request.Seconds);
         bool isInterrupted = stop.IsCancellationRequested && session.State != SessionState.Ended;
         Leave();
+        if (!isInterrupted)
+        {
+            TellUndone();
+        }
+
         int code = ExitCodeOf(session.EndedBy, isTimeReached, session.Counters.StatesDiffered, hasFailedDeed, isInterrupted);
         if (session.EndedBy != SessionEnd.Left && code != ExitCode.Done)
         {
@@ -161,8 +175,13 @@ internal sealed class SessionRunner : IDisposable
     /// <returns>How long there is nothing to do; null at the end.</returns>
     private TimeSpan? Tend(SimTime start)
     {
-        actions ??= request.Deeds.Select(deed => deed.ActionIn(session.Scene!)).ToArray();
         double passed = Passed(start);
+        if (actions is null)
+        {
+            actions = request.Deeds.Select(deed => deed.ActionIn(session.Scene!)).ToArray();
+            SkipPast(passed);
+        }
+
         for (; done < actions.Length && request.Deeds[done].Seconds <= passed; done++)
         {
             Do(request.Deeds[done], actions[done]);
@@ -190,7 +209,7 @@ internal sealed class SessionRunner : IDisposable
         if (session is JoinerSession joiner)
         {
             patienceEnd ??= now + joiner.History + (request.Options.KeepAlive * 2);
-            return isCommitted || now >= patienceEnd;
+            return (isCommitted && attempts.Count == 0 && !isAwaitingVerdict) || now >= patienceEnd;
         }
 
         if (isCommitted)
@@ -206,41 +225,96 @@ internal sealed class SessionRunner : IDisposable
         return isCommitted && (printer.Links.Present == 0 || now >= patienceEnd);
     }
 
-    private void Do(Deed deed, PlayerAction action)
+    /// <summary>Gives up what was to be done before this peer came in: done now it would be something else.</summary>
+    private void SkipPast(double passed)
     {
-        Task<ExternalEvent> answer = thread.Ask(peer =>
+        for (; done < request.Deeds.Count && request.Deeds[done].Seconds < passed; done++)
         {
-            ExternalEvent external = peer.Do(action);
-            own[external.Sequence] = deed;
-            return external;
-        });
-        answer.ContinueWith(
-            failed => Tell(() =>
-            {
-                hasFailedDeed = true;
-                printer.Problem($"--do {deed.Text} was not done. {failed.Exception!.InnerException!.Message}");
-            }),
-            CancellationToken.None,
-            TaskContinuationOptions.OnlyOnFaulted,
-            TaskScheduler.Default);
-    }
-
-    private void LookAtLinks()
-    {
-        if (asked is { IsCompletedSuccessfully: true })
-        {
-            printer.LookAt(asked.Result);
-            asked = null;
         }
 
-        asked ??= thread.Ask(peer => peer.Links);
+        if (done > 0)
+        {
+            Fail(FormattableString.Invariant($"Not done, for the time was past when this peer came in at T {passed:0.000} s: {Texts(request.Deeds.Take(done))}."));
+        }
+    }
+
+    private void Do(Deed deed, PlayerAction action) => attempts.Add((deed, thread.Ask(peer =>
+    {
+        ExternalEvent external = peer.Do(action);
+        if (peer is JoinerSession) // what a host does needs nobody's leave
+        {
+            unjudged[external.Sequence] = deed;
+            isAwaitingVerdict = true;
+        }
+
+        return external;
+    })));
+
+    /// <summary>Tells of what could not be done here.</summary>
+    private void LookAtAttempts()
+    {
+        foreach ((Deed deed, Task attempt) in attempts)
+        {
+            if (attempt.IsFaulted)
+            {
+                Fail($"--do {deed.Text} was not done. {attempt.Exception!.InnerException!.Message}");
+            }
+        }
+
+        attempts.RemoveAll(a => a.Attempt.IsFaulted || a.Attempt.IsCompletedSuccessfully);
+    }
+
+    /// <summary>Tells of what was not done, or what nobody knows of. The session's thread must have stopped.</summary>
+    private void TellUndone()
+    {
+        Deed[] undone = [.. attempts.Select(a => a.Deed), .. request.Deeds.Skip(done)];
+        if (undone.Length > 0)
+        {
+            Fail($"Not done, for the session ended before: {Texts(undone)}.");
+        }
+
+        if (unjudged.Count > 0)
+        {
+            Fail($"Done here, but the session ended before the host's verdict came: {Texts(unjudged.OrderBy(d => d.Key).Select(d => d.Value))}.");
+        }
+    }
+
+    private void Fail(string sentence)
+    {
+        hasFailedDeed = true;
+        printer.Problem(sentence);
+    }
+
+    private static string Texts(IEnumerable<Deed> deeds) => string.Join(", ", deeds.Select(deed => $"--do {deed.Text}"));
+
+    /// <summary>Has the session's thread say how its links are; what it said before of who came and went is printed before.</summary>
+    private void LookAtLinks()
+    {
+        if (!isLooking)
+        {
+            isLooking = true;
+            thread.Ask(peer =>
+            {
+                IReadOnlyList<LinkTraffic> links = peer.Links;
+                told.Enqueue(() =>
+                {
+                    isLooking = false;
+                    printer.LookAt(links);
+                });
+                return true;
+            });
+        }
     }
 
     private void OnLogged(LogEntry entry)
     {
-        if (entry.Event.Peer == session.Peer && entry.Verdict != Verdict.Accepted && own.TryGetValue(entry.Event.Sequence, out Deed? deed))
+        if (session is JoinerSession && entry.Event.Peer == session.Peer && unjudged.Remove(entry.Event.Sequence, out Deed? deed))
         {
-            Tell(() => printer.Problem($"The host refused --do {deed.Text}: {entry.Verdict}."));
+            isAwaitingVerdict = unjudged.Count > 0;
+            if (entry.Verdict != Verdict.Accepted)
+            {
+                Tell(() => Fail($"The host refused --do {deed.Text}: {entry.Verdict}."));
+            }
         }
     }
 
@@ -298,6 +372,7 @@ internal sealed class SessionRunner : IDisposable
         thread.Dispose();
         TellDifference();
         PrintTold();
+        LookAtAttempts();
         printer.LookAt(session.Links);
         recorder?.Dispose();
     }

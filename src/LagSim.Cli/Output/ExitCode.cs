@@ -10,7 +10,7 @@ internal static class ExitCode
 
     internal const int Usage = 2;
 
-    /// <summary>Something could not be read, written or reached, or is not valid.</summary>
+    /// <summary>Something could not be read, written, reached or done, or is not valid.</summary>
     internal const int Input = 3;
 
     /// <summary>Ctrl-C, as shells report it: 128 and the number of the signal.</summary>

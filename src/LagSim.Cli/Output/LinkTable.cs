@@ -1,4 +1,3 @@
-using System;
 using System.Collections.Generic;
 using System.Diagnostics;
 using System.Linq;
@@ -17,38 +16,30 @@ internal sealed class LinkTable
     internal IReadOnlyList<LinkRow> Rows => rows;
 
     /// <summary>How many there are now.</summary>
-    internal int Present { get; private set; }
+    internal int Present => rows.Count(row => row.IsPresent);
 
     /// <summary>The longest there and back of those that there are; zero without one.</summary>
     internal SimDuration LongestRoundTrip => rows.Where(row => row.IsPresent).Select(row => row.Last.RoundTrip).DefaultIfEmpty().Max();
 
-    /// <summary>Takes in what went over the links so far.</summary>
-    /// <param name="now">The links that there are.</param>
-    /// <param name="came">Told of each that is new.</param>
-    /// <param name="gone">Told of each that is no more.</param>
-    internal void LookAt(IReadOnlyList<LinkTraffic> now, Action<LinkRow> came, Action<LinkRow> gone)
+    /// <summary>A link that is new.</summary>
+    internal void Add(LinkTraffic link) => rows.Add(new LinkRow(link, Stopwatch.GetTimestamp()));
+
+    /// <summary>Takes in what went over a link so far; false if there is none to that peer now.</summary>
+    internal bool LookAt(LinkTraffic link)
     {
-        long at = Stopwatch.GetTimestamp();
-        foreach (LinkRow row in rows.Where(row => row.IsPresent && !now.Any(row.Is)).ToArray())
+        LinkRow? known = rows.Find(row => row.IsPresent && row.Is(link));
+        known?.LookAt(link, Stopwatch.GetTimestamp());
+        return known is not null;
+    }
+
+    /// <summary>A link that is no more, with all that went over it.</summary>
+    internal void End(LinkTraffic link)
+    {
+        if (rows.Find(row => row.IsPresent && row.Is(link)) is LinkRow known)
         {
-            row.IsPresent = false;
-            gone(row);
+            known.LookAt(link, Stopwatch.GetTimestamp());
+            known.IsPresent = false;
         }
-
-        foreach (LinkTraffic link in now)
-        {
-            LinkRow? known = rows.Find(row => row.IsPresent && row.Is(link));
-            if (known is null)
-            {
-                known = new LinkRow(link, at);
-                rows.Add(known);
-                came(known);
-            }
-
-            known.LookAt(link, at);
-        }
-
-        Present = now.Count;
     }
 }
 
@@ -81,8 +72,7 @@ internal sealed class LinkRow
     /// <summary>The same of what came.</summary>
     internal double ReceivedPerSecond => PerSecond(Last.BytesReceived - first.BytesReceived);
 
-    internal bool Is(LinkTraffic link) =>
-        link.Peer == Peer && link.Address == Address && link.DatagramsSent >= Last.DatagramsSent && link.DatagramsReceived >= Last.DatagramsReceived;
+    internal bool Is(LinkTraffic link) => link.Peer == Peer && link.Address == Address;
 
     internal void LookAt(LinkTraffic link, long at)
     {

@@ -63,14 +63,31 @@ internal sealed class SessionPrinter
         }
     }
 
-    /// <summary>Takes in how the links are, and tells a host's who came and went.</summary>
+    /// <summary>A joiner came to this host.</summary>
+    internal void Came(LinkTraffic link)
+    {
+        Links.Add(link);
+        Progress($"peer {link.Peer} at {link.Address} came");
+    }
+
+    /// <summary>One is gone.</summary>
+    internal void Gone(LinkTraffic link)
+    {
+        Links.End(link);
+        Progress($"peer {link.Peer} at {link.Address} is gone");
+    }
+
+    /// <summary>Takes in how the links are, and tells a joiner's that there is one.</summary>
     internal void LookAt(IReadOnlyList<LinkTraffic> links)
     {
-        bool isHost = ListeningOn is not null;
-        Links.LookAt(
-            links,
-            row => Progress(isHost ? $"peer {row.Peer} at {row.Address} came" : $"in as a peer of the host at {row.Address}"),
-            row => Progress($"peer {row.Peer} at {row.Address} is gone"));
+        foreach (LinkTraffic link in links)
+        {
+            if (!Links.LookAt(link))
+            {
+                Links.Add(link);
+                Progress($"in as a peer of the host at {link.Address}");
+            }
+        }
     }
 
     /// <summary>What it came to. The session's thread must have stopped.</summary>

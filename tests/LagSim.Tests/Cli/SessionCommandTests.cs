@@ -6,11 +6,14 @@ using System.Net;
 using System.Net.Sockets;
 using System.Text.Json;
 using System.Threading;
+using System.Threading.Tasks;
+using LagSim.Events;
 using LagSim.Harness.Scenes;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
+using LagSim.Scenes;
 using LagSim.Time;
 using Xunit;
 
@@ -119,6 +122,22 @@ public sealed class SessionCommandTests
     }
 
     [Fact]
+    public async Task Join_EventThatAStrangerTookOutOnItsWay_IsACheckThatFailed()
+    {
+        using EventTakingPort port = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0)));
+        HostSession session = new(
+            BuiltInScenes.Drop(), port, new StopwatchClock(), new SessionOptions { History = SimDuration.FromSeconds(0.2), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
+        using PeerThread host = new(session, port, "host");
+        host.Start();
+        using LiveTool joiner = LiveTool.Run($"join {port.LocalAddress} --for-s 2");
+        Assert.True(host.WaitUntilRunning(LiveTool.Deadline));
+        await host.Do(PlayerAction.SetVelocity(BodyId.OfScene(0), new Vector3D(2, 5, 0)));
+        joiner.Ends(1);
+        Assert.Contains("The committed state at T 1 s differs from the host's.", joiner.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains("events: 0 accepted, 1 refused", joiner.Output.ToString(), StringComparison.Ordinal);
+    }
+
+    [Fact]
     public void Join_HostOfAnotherVersion_IsAnErrorThatNamesBoth()
     {
         using UdpPort other = new(new IPEndPoint(IPAddress.Loopback, 0));
@@ -169,6 +188,58 @@ public sealed class SessionCommandTests
     }
 
     [Fact]
+    public void Deed_ThatTheHostRefuses_IsToldAndAnError()
+    {
+        // News that is 200 ms old, to a host that takes what is 100 ms old.
+        using LiveTool host = LiveTool.Run("host --scene drop --history-s 0.1 --joiners 1");
+        using LiveTool relay = LiveTool.Run($"relay {host.Address} --profile delay-200ms");
+        using LiveTool joiner = LiveTool.Run($"join {relay.Address} --for-s 1.9 --do set-velocity@1.8:2,9,0 --do teleport@1.85:0,12,0");
+        joiner.Ends(3);
+        Assert.Contains("The host refused --do set-velocity@1.8:2,9,0: TooLate.", joiner.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains("The host refused --do teleport@1.85:0,12,0: TooLate.", joiner.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains("events: 0 accepted, 2 refused", joiner.Output.ToString(), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Deeds_AfterTheHostsEndOrBeforeThePeerCameIn_AreNamedAndAnError()
+    {
+        using LiveTool host = LiveTool.Run("host --scene drop --history-s 0.2 --for-s 3");
+        Assert.NotNull(host.Output.WaitFor(line => line.StartsWith("T 1 s ", StringComparison.Ordinal), LiveTool.Deadline));
+        using LiveTool early = LiveTool.Run($"join {host.Address} --do remove@0.2 --do impulse@0.1:0,1,0");
+        using LiveTool late = LiveTool.Run($"join {host.Address} --do teleport@30:0,15,0 --do remove@31");
+        using LiveTool idle = LiveTool.Run($"join {host.Address}");
+        host.Ends(0);
+        early.Ends(3);
+        late.Ends(3);
+        idle.Ends(0); // without a deed the host's orderly end is nobody's error
+        Assert.Matches(
+            @"Not done, for the time was past when this peer came in at T [0-9.]+ s: --do impulse@0\.1:0,1,0, --do remove@0\.2\.\r?\n", early.Error.ToString());
+        Assert.Contains("Not done, for the session ended before: --do teleport@30:0,15,0, --do remove@31.", late.Error.ToString(), StringComparison.Ordinal);
+        Assert.DoesNotContain("Not done", idle.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains("events: 0 accepted, 0 refused", host.Output.ToString(), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Host_JoinerThatIsGoneAtOnce_IsToldOfNevertheless()
+    {
+        using LiveTool host = LiveTool.Run("host --scene drop");
+        using UdpPort port = new(new IPEndPoint(IPAddress.Loopback, 0));
+        JoinerSession brief = new(null, port, new StopwatchClock(), new SessionOptions(), PeerAddress.From(IPEndPoint.Parse(host.Address)), 9);
+        Assert.True(SpinWait.SpinUntil(
+            () =>
+            {
+                brief.Step();
+                return brief.Links.Count > 0;
+            },
+            LiveTool.Deadline));
+        brief.Leave();
+        Assert.NotNull(host.Error.WaitFor(line => line == $"peer 1 at {port.LocalAddress} is gone", LiveTool.Deadline));
+        Assert.Contains($"peer 1 at {port.LocalAddress} came\n", host.Error.ToString(), StringComparison.Ordinal);
+        host.Stop();
+        host.Ends(130);
+    }
+
+    [Fact]
     public void Relay_ForATime_PassesDatagramsOnAndCounts()
     {
         using UdpPort host = new(new IPEndPoint(IPAddress.Loopback, 0)), client = new(new IPEndPoint(IPAddress.Loopback, 0));
@@ -206,7 +277,28 @@ public sealed class SessionCommandTests
     }
 
     /// <summary>A port through which every state hash goes out with one bit changed.</summary>
-    private sealed class LyingPort(UdpPort inner) : IDatagramPort
+    private sealed class LyingPort(UdpPort inner) : ChangingPort(inner)
+    {
+        protected override bool Change(UpdateDatagram update)
+        {
+            update.StateHash ^= update.HasStateHash ? 1u : 0;
+            return update.HasStateHash;
+        }
+    }
+
+    /// <summary>A port through which no accepted event goes out: each is said to be refused, and so leaves the world of who hears of it.</summary>
+    private sealed class EventTakingPort(UdpPort inner) : ChangingPort(inner)
+    {
+        protected override bool Change(UpdateDatagram update)
+        {
+            UpdateEntry[] entries = update.Entries.ToArray();
+            update.ClearEntries();
+            return entries.Count(entry => update.TryAdd(Verdict.Invalid, entry.Event)) > 0;
+        }
+    }
+
+    /// <summary>A port whose updates go out changed.</summary>
+    private abstract class ChangingPort(UdpPort inner) : IDatagramPort
     {
         private readonly UpdateDatagram update = new();
         private readonly byte[] changed = new byte[IDatagramPort.MaxDatagramBytes];
@@ -221,19 +313,14 @@ public sealed class SessionCommandTests
 
         public void Send(ReadOnlySpan<byte> datagram, PeerAddress to)
         {
-            if (update.TryDecode(datagram, out _) && update.HasStateHash)
-            {
-                update.StateHash ^= 1;
-                inner.Send(changed.AsSpan(0, update.Encode(changed)), to);
-            }
-            else
-            {
-                inner.Send(datagram, to);
-            }
+            bool isChanged = update.TryDecode(datagram, out _) && Change(update);
+            inner.Send(isChanged ? changed.AsSpan(0, update.Encode(changed)) : datagram, to);
         }
 
         public bool TryReceive(Span<byte> buffer, out int length, out PeerAddress from) => inner.TryReceive(buffer, out length, out from);
 
         public void Dispose() => inner.Dispose();
+
+        protected abstract bool Change(UpdateDatagram update);
     }
 }
