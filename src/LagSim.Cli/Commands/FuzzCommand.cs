@@ -80,7 +80,7 @@ internal static class FuzzCommand
         console.Output.WriteLine(string.Create(culture, $"{report.Packets:N0} hostile datagrams at {report.Sessions:N0} sessions, every other of which got them from strangers, or as true ones played again"));
         console.Output.WriteLine(string.Create(culture, $"refused by a decoder {report.Malformed:N0}, ignored {report.Ignored:N0}"));
         console.Output.WriteLine(string.Create(culture, $"strangers sent {report.StrangerBytesSent:N0} bytes and got {report.StrangerBytesReceived:N0}"));
-        console.Output.WriteLine(string.Create(culture, $"sessions broken by who had a peer's own address {report.SessionsBroken:N0}; memory grew by {report.RetainedBytes:N0} bytes"));
+        console.Output.WriteLine(string.Create(culture, $"sessions broken by who had a peer's own address {report.SessionsBroken:N0}; memory grew by {report.RetainedBytes:N0} bytes, within a session by {report.SessionGrowthBytes:N0}"));
         console.Output.WriteLine(report.Failure ?? "Nothing threw, and no stranger ended a session.");
     }
 
@@ -95,6 +95,7 @@ internal static class FuzzCommand
             json.WriteNumber("stranger_sent_bytes", report.StrangerBytesSent);
             json.WriteNumber("stranger_received_bytes", report.StrangerBytesReceived);
             json.WriteNumber("retained_bytes", report.RetainedBytes);
+            json.WriteNumber("session_growth_bytes", report.SessionGrowthBytes);
             json.WriteString("failure", report.Failure);
         });
 }

@@ -9,7 +9,7 @@ namespace LagSim.Harness.Fuzz;
 /// <param name="Ignored">How many were well formed and no business of who got them.</param>
 /// <param name="EventsDone">How many events the two peers did meanwhile.</param>
 /// <param name="EventsAgreed">How many of them both have.</param>
-/// <param name="RetainedBytes">By how much the memory in use grew from just after its beginning to its end.</param>
+/// <param name="RetainedBytes">By how much the memory in use grew from its first fifth to its end, both sessions going on.</param>
 /// <param name="MaxLatenessMilliseconds">The furthest that shared time ran beyond what a world had been simulated to.</param>
 /// <param name="Failure">What must not be, as a sentence; null for nothing.</param>
 public sealed record FloodReport(

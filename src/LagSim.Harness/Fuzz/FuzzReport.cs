@@ -12,6 +12,7 @@ namespace LagSim.Harness.Fuzz;
 /// <param name="StrangerBytesSent">What strangers sent to peers, without headers.</param>
 /// <param name="StrangerBytesReceived">What they got in answer; never more.</param>
 /// <param name="RetainedBytes">By how much the memory in use grew from the end of the first session to that of the last.</param>
+/// <param name="SessionGrowthBytes">The most by which the memory in use grew while a session of strangers went on, of those looked at.</param>
 /// <param name="Failure">The first thing that must not be, as a sentence with the seed and the number of the packet; null for none.</param>
 public sealed record FuzzReport(
     long Packets,
@@ -22,4 +23,5 @@ public sealed record FuzzReport(
     long StrangerBytesSent,
     long StrangerBytesReceived,
     long RetainedBytes,
+    long SessionGrowthBytes,
     string? Failure);

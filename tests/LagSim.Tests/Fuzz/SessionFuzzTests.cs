@@ -23,6 +23,7 @@ public sealed class SessionFuzzTests
         Assert.InRange(report.Ignored, 60_000, 280_000);
         Assert.InRange(report.SessionsBroken, 1, 136); // who has a peer's address can break its session: the attack reaches something
         Assert.InRange(report.RetainedBytes, -50_000_000, 2_000_000);
+        Assert.InRange(report.SessionGrowthBytes, 1, 200_000); // looked at, and no more than an honest session's
         Assert.True(report.StrangerBytesReceived > 0);
     }
 
@@ -34,6 +35,22 @@ public sealed class SessionFuzzTests
         Assert.True(report.GarbageSent + report.ReplaysSent >= 20_000 && report.ReplaysSent > 5_000, $"{report}");
         Assert.True(report.Malformed > 100 && report.Ignored > 1_000, $"{report}");
         Assert.Equal(report.EventsDone, report.EventsAgreed);
+        Assert.NotEqual(0, report.RetainedBytes); // it was looked at
+    }
+
+    [Fact]
+    public void Sessions_ThatKeepSomethingOfEachDatagram_AreSeenToFail()
+    {
+        FuzzReport report = SessionFuzz.Run(10_000, 1, null, port => new LeakingPort(port), CancellationToken.None);
+        Assert.Matches("^Seed 1: the memory of a living session grew by [0-9]{7,} bytes over its last 1500 packets.$", report.Failure);
+        Assert.True(report.SessionGrowthBytes > 1_500 * 2_048, $"{report}");
+    }
+
+    [Fact]
+    public void Flood_OfPeersThatKeepSomethingOfEachDatagram_IsSeenToFail()
+    {
+        FloodReport report = RealFlood.Run(30, 20_000, 1, null, port => new LeakingPort(port), CancellationToken.None);
+        Assert.Matches("^Memory grew by [0-9]{8,} bytes during the flood.$", report.Failure);
     }
 
     [Fact]
@@ -41,7 +58,7 @@ public sealed class SessionFuzzTests
     {
         FuzzReport once = SessionFuzz.Run(5_000, 7, null, CancellationToken.None);
         FuzzReport twice = SessionFuzz.Run(5_000, 7, null, CancellationToken.None);
-        Assert.Equal(once with { RetainedBytes = 0 }, twice with { RetainedBytes = 0 });
+        Assert.Equal(once with { RetainedBytes = 0, SessionGrowthBytes = 0 }, twice with { RetainedBytes = 0, SessionGrowthBytes = 0 });
         Assert.NotEqual(once.Malformed, SessionFuzz.Run(5_000, 8, null, CancellationToken.None).Malformed);
     }
 }
