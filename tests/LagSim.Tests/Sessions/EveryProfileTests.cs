@@ -1,6 +1,8 @@
 using System;
 using System.Linq;
+using LagSim.Events;
 using LagSim.Harness.Links;
+using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Time;
@@ -9,6 +11,10 @@ using Xunit;
 namespace LagSim.Tests.Sessions;
 
 /// <summary>A host with eight joiners for a minute of virtual time, on every kind of link.</summary>
+/// <remarks>
+/// Without any extra history: who heard of an event after its own watermark would lose it, and a hash of each second's committed state, which is compared with the
+/// host's, tells of the time that nobody keeps any more.
+/// </remarks>
 public sealed class EveryProfileTests
 {
     private const double Seconds = 60;
@@ -45,21 +51,68 @@ public sealed class EveryProfileTests
     [Fact]
     public void Check_RelayThatLosesOneEventForGood_IsSeenToFail()
     {
+        // Every datagram that holds it: the joiner waits for it from then on, and stands still.
         UpdateDatagram read = new();
-        SessionGroup group = Play("4g", 2, (from, to, datagram) => from == 0 && to == 4 && read.TryDecode(datagram.Span, out _)
+        SessionGroup group = Play("4g", 2, 60, (group, from, to, datagram) => from == 0 && to == 4 && read.TryDecode(datagram.Span, out _)
             && read.Entries.Length > 0 && read.FirstIndex <= 40 && read.FirstIndex + read.Entries.Length > 40);
         string? difference = group.Difference();
         Assert.True(difference?.StartsWith("peer 4", StringComparison.Ordinal), difference);
     }
 
-    private static SessionGroup Play(string profile, ulong seed, Func<int, int, ReadOnlyMemory<byte>, bool>? loses = null)
+    [Fact]
+    public void Check_RelayThatTakesOneEventOutOfItsDatagrams_IsSeenByTheSessionItself()
+    {
+        // The joiner is told that it was refused, and goes on: the hashes that it compares with the host's are what tells.
+        UpdateDatagram read = new();
+        byte[] buffer = new byte[WireFormat.MaxBytes];
+        bool isOwn = false;
+        int taken = 0;
+        SessionGroup group = Play("4g", 2, 0, (group, from, to, datagram) =>
+        {
+            uint place = Accepted(group);
+            if (isOwn || from != 0 || to != 4 || place == 0 || !read.TryDecode(datagram.Span, out _)
+                || read.FirstIndex > place || read.FirstIndex + read.Entries.Length <= place)
+            {
+                return false;
+            }
+
+            UpdateEntry[] entries = read.Entries.ToArray();
+            read.ClearEntries();
+            for (uint n = 0; n < entries.Length; n++)
+            {
+                Verdict verdict = read.FirstIndex + n == place ? Verdict.Invalid : entries[n].Verdict;
+                Assert.True(entries[n].IsOwn ? read.TryAddOwn(verdict, entries[n].Sequence) : read.TryAdd(verdict, entries[n].Event));
+            }
+
+            isOwn = true;
+            group.Ports[0].Send(buffer.AsSpan(0, read.Encode(buffer)), PeerAddress.Virtual(4));
+            isOwn = false;
+            taken++;
+            return true;
+        });
+        Assert.True(taken > 0);
+        Assert.All(group.Sessions, s => Assert.Equal((SessionState.Running, group.Host.LogLength), (s.State, s.LogLength)));
+        SessionCounters robbed = group.Sessions[4].Counters;
+        Assert.True(robbed.StatesDiffered > 5 && robbed.StatesAgreed > 5, $"{robbed.StatesDiffered} differed, {robbed.StatesAgreed} agreed");
+        Assert.InRange((robbed.FirstDifference - group.Log[Accepted(group)].Event.Time).ToSeconds(), 0, 1);
+        Assert.All(group.Sessions.Where(s => s != group.Sessions[4]), s => Assert.Equal(0, s.Counters.StatesDiffered));
+        string? difference = group.Difference();
+        Assert.True(difference?.StartsWith("peer 4", StringComparison.Ordinal), difference);
+
+        // The first accepted velocity of another from the tenth line on: early enough for its body to be there still.
+        static uint Accepted(SessionGroup group) => group.Log.FirstOrDefault(e => e.Key >= 10 && e.Value.Verdict == Verdict.Accepted
+            && e.Value.Event.Peer != group.Sessions[4].Peer && e.Value.Event.Kind == EventKind.SetVelocity).Key;
+    }
+
+    private static SessionGroup Play(string profile, ulong seed, double extraHistory = 0, Func<SessionGroup, int, int, ReadOnlyMemory<byte>, bool>? loses = null)
     {
         Assert.True(LinkProfiles.TryGet(profile, out LinkProfile? link, out _));
-        SessionGroup group = new(Deeds.Box(), 9, link, seed, _ => new SessionOptions { History = SimDuration.FromSeconds(5), ExtraHistory = SimDuration.FromSeconds(60), Timeout = SimDuration.FromSeconds(loses is null ? 10 : 600) });
+        SessionGroup group = new(Deeds.Box(), 9, link, seed, _ => new SessionOptions { History = SimDuration.FromSeconds(5), ExtraHistory = SimDuration.FromSeconds(extraHistory), Timeout = SimDuration.FromSeconds(loses is null ? 10 : 600) });
         group.Connect();
         if (loses is not null)
         {
-            group.Network.Lose(loses);
+            group.IsTapped = false; // what it changes is not the host's
+            group.Network.Lose((from, to, datagram) => loses(group, from, to, datagram));
         }
 
         SimTime end = group.Clock.Now + SimDuration.FromSeconds(Seconds);

@@ -54,6 +54,63 @@ public sealed class JoinAnyTimeTests
     }
 
     [Theory]
+    [InlineData("awful", 1)]
+    [InlineData("awful", 2)]
+    [InlineData("wifi-busy", 3)]
+    [InlineData("starlink", 4)]
+    [InlineData("blackout", 5)]
+    public void Join_AgainAndAgainOverABadLinkWhileAllSortsIsDone_IsTheSameEachTime(string link, int seed)
+    {
+        // Spawns, removals, bodies on Runge-Kutta, others who act during the join; three addresses in turn, of which some leave and some just vanish.
+        const int joins = 9;
+        Assert.True(LinkProfiles.TryGet(link, out LinkProfile? profile, out _));
+        SessionOptions Options() => new() { History = SimDuration.FromSeconds(3) };
+        SessionGroup group = new SessionGroup(Deeds.Box(), 3, profile, (ulong)seed, _ => Options()).Connect();
+        Deeds deeds = new(seed, mostSpawns: 20);
+        Random random = new(seed);
+        HashSet<(byte Peer, uint Sequence)> judged = [];
+        group.Host.Logged += entry => judged.Add((entry.Event.Peer, entry.Event.Sequence));
+        List<ExternalEvent> done = [];
+        int late = 0;
+        for (int i = 0; i < joins; i++)
+        {
+            done.AddRange(deeds.DoIn(group, 3));
+            group.Run(random.NextDouble() * 2);
+            JoinerSession joiner = group.Join(100 + (i % 3), (ulong)(1000 + i + (100 * seed)), Options());
+            for (int tries = 0; tries < 200 && joiner.State is not (SessionState.Running or SessionState.Ended); tries++)
+            {
+                if (tries % 3 == 0)
+                {
+                    done.Add(group.Do(random.Next(3), PlayerAction.SetVelocity(BodyId.OfScene(random.Next(4)), V(random.NextDouble() - 0.5, random.NextDouble() * 3))));
+                }
+
+                group.Run(0.1);
+            }
+
+            Assert.True(joiner.State == SessionState.Running, $"join {i}: {joiner.State} {joiner.EndReason}");
+            late += joiner.BegunFrom is null ? 0 : 1;
+            done.AddRange(deeds.DoIn(group, 6));
+            Assert.True(group.RunUntil(() => done.All(e => judged.Contains((e.Peer, e.Sequence))) && group.Sessions.All(s => s.LogLength == group.Host.LogLength), 30), $"join {i} does not settle");
+            group.Run(0.5);
+            string? difference = group.Difference();
+            Assert.True(difference is null, $"join {i}: {difference}");
+            Assert.All(group.Sessions, s => Assert.Equal(0, s.Counters.EventsLost + s.Counters.StatesDiffered + s.Counters.EventsForged));
+            if (i % 2 == 0)
+            {
+                joiner.Leave();
+            }
+
+            group.Run(0.01 * random.Next(3));
+            group.DropLast();
+        }
+
+        Assert.True(late > joins / 2, $"{late} went on from a copy of the state");
+        Assert.All(group.Sessions.Skip(1), s => Assert.True(s.Counters.StatesAgreed > 10, $"{s.Counters.StatesAgreed}"));
+        Assert.Superset(new HashSet<EventKind> { EventKind.Spawn, EventKind.Remove, EventKind.Teleport, EventKind.Impulse }, done.Select(e => e.Kind).ToHashSet());
+        Assert.Contains(group.Accepted, e => e.Kind == EventKind.Spawn && e.Spec.Flight == MotionLaw.RungeKutta4);
+    }
+
+    [Theory]
     [InlineData("loopback")]
     [InlineData("awful")]
     [InlineData("delay-1000ms")]
