@@ -62,7 +62,7 @@ public sealed class SessionRecorderTests
         RecordingComparison compared = Compared(recordings[0], less);
         Assert.Equal(ComparisonOutcome.EventDiffers, compared.Outcome);
         Assert.Equal(3u, compared.FirstEntry!.Value.Index);
-        Assert.Contains("Entry 3 of the log differs. In the first it is ", compared.Message, StringComparison.Ordinal);
+        Assert.Contains("Entry 3 of the log differs, at T ", compared.Message, StringComparison.Ordinal);
         Assert.Equal(ReplayOutcome.Differs, Replayed(less).Outcome);
     }
 

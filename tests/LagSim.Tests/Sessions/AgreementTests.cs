@@ -158,7 +158,7 @@ public sealed class AgreementTests
         return group;
     }
 
-    private static SessionOptions LongHistory(int peer) => new() { History = SimDuration.FromSeconds(5), ExtraHistory = SimDuration.FromSeconds(60) };
+    private static SessionOptions LongHistory(int peer) => new() { History = SimDuration.FromSeconds(5) };
 
     private static SessionGroup Connected(string link, int peers, ulong seed, Func<int, SessionOptions> options) =>
         new SessionGroup(Deeds.Box(), peers, Link(link), seed, options).Connect();

@@ -167,7 +167,7 @@ public sealed class JoinAnyTimeTests
     {
         SessionGroup group = new SessionGroup(
             Deeds.Box(), 2, LinkProfiles.PureDelay(10), 3,
-            _ => new SessionOptions { Timeout = SimDuration.FromSeconds(2), KeepAlive = SimDuration.FromSeconds(0.5), ExtraHistory = SimDuration.FromSeconds(60) }).Connect();
+            _ => new SessionOptions { Timeout = SimDuration.FromSeconds(2), KeepAlive = SimDuration.FromSeconds(0.5) }).Connect();
         new Deeds(1).DoIn(group, 5);
         group.Cut(0, 1);
         group.Cut(1, 0);

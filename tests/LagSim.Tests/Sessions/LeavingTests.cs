@@ -155,7 +155,6 @@ public sealed class LeavingTests
     {
         Timeout = SimDuration.FromSeconds(timeout),
         KeepAlive = SimDuration.FromSeconds(timeout / 5),
-        ExtraHistory = SimDuration.FromSeconds(60),
     }).Connect();
 
     private static void GoesOn(SessionGroup group)

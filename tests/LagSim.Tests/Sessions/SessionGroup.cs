@@ -37,7 +37,7 @@ internal sealed class SessionGroup
         steps = new VirtualSteps(Network);
         for (int peer = 0; peer < peers; peer++)
         {
-            SessionOptions chosen = options?.Invoke(peer) ?? new SessionOptions { ExtraHistory = SimDuration.FromSeconds(60) };
+            SessionOptions chosen = options?.Invoke(peer) ?? new SessionOptions();
             chosen.ExpectedJoiners = expected ?? peers - 1;
             Add(peer, scenes?.Invoke(peer) ?? scene, chosen, seed + (ulong)peer);
         }
@@ -75,7 +75,7 @@ internal sealed class SessionGroup
 
     /// <summary>One more joiner, which knows nothing of the scene, at an address of its own.</summary>
     internal JoinerSession Join(int address, ulong nonce, SessionOptions? options = null) =>
-        (JoinerSession)Add(address, null, options ?? new SessionOptions { ExtraHistory = SimDuration.FromSeconds(60) }, nonce);
+        (JoinerSession)Add(address, null, options ?? new SessionOptions(), nonce);
 
     /// <summary>Takes the peer that came last out of the group, gone or not.</summary>
     internal void DropLast()

@@ -79,7 +79,7 @@ public sealed class TrafficTests
     {
         SessionGroup group = new SessionGroup(
             Deeds.Box(), 3, LinkProfiles.PureDelay(5), 1,
-            _ => new SessionOptions { MaxEventsPerSecond = 50, History = SimDuration.FromSeconds(5), ExtraHistory = SimDuration.FromSeconds(60) }).Connect();
+            _ => new SessionOptions { MaxEventsPerSecond = 50, History = SimDuration.FromSeconds(5) }).Connect();
         for (int i = 0; i < 200; i++)
         {
             group.Do(1, PlayerAction.Impulse(First, V(0.01, 0.05)));
