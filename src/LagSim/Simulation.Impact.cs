@@ -54,6 +54,7 @@ public sealed partial class Simulation
             Unite();
         }
 
+        LimitSpeeds();
         contactCount = struck;
 
         EventKey canonical = CanonicalKey(key);
@@ -88,6 +89,23 @@ public sealed partial class Simulation
         }
 
         partyVelocities.AsSpan(0, partyCount).Fill(common);
+    }
+
+    /// <summary>
+    /// What an impact would make faster than <see cref="Limits.MaxReboundSpeed"/> leaves it at that speed, in its direction: a rule of the world, the same bits on
+    /// every peer. What is not finite stays as it is, and ends the simulation.
+    /// </summary>
+    private void LimitSpeeds()
+    {
+        double limit = Limits.MaxReboundSpeed(Scene.SmallestRadius);
+        for (int i = 0; i < partyCount; i++)
+        {
+            double speed = partyVelocities[i].Length;
+            if (speed > limit)
+            {
+                partyVelocities[i] *= limit / speed;
+            }
+        }
     }
 
     private void EvaluateParties(SimTime time, double residual)

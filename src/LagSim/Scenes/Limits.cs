@@ -51,6 +51,12 @@ internal static class Limits
     /// <summary>The highest speed that a body may reach by impacts and forces: twice that, so that gravity does not end what a player just began.</summary>
     internal static double MaxSpeed(double smallestRadius) => 2 * MaxGivenSpeed(smallestRadius);
 
+    /// <summary>
+    /// The highest speed that an impact leaves: a light body that meets a heavy one would otherwise leave the range in which its state means something, and
+    /// so whoever may spawn two bodies could end a world. Halfway between the two above, so that gravity does not end at once what an impact begins.
+    /// </summary>
+    internal static double MaxReboundSpeed(double smallestRadius) => 1.5 * MaxGivenSpeed(smallestRadius);
+
     internal static void CheckPosition<T>(in Vector3D position, T whose) => Components(position, MaxCoordinate, whose, "position", "m");
 
     internal static void CheckVelocity<T>(in Vector3D velocity, double smallestRadius, T whose)
