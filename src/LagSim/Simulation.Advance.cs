@@ -19,6 +19,23 @@ public sealed partial class Simulation
     /// <exception cref="OperationCanceledException">The options' token asked for an end; what lies behind <see cref="SimulatedTo"/> stands.</exception>
     public void AdvanceTo(SimTime time)
     {
+        long events = long.MaxValue;
+        TryAdvanceTo(time, ref events);
+    }
+
+    /// <summary>Lets everything happen up to and including <paramref name="time"/>, or as much of it as so many events are, and stops between two instants.</summary>
+    /// <param name="time">Up to when.</param>
+    /// <param name="events">
+    /// How many events may happen; what is left of them. The events of one instant all happen, so it may end below zero; at or below zero nothing happens.
+    /// Looking again what a body meets next counts as an event.
+    /// </param>
+    /// <returns>Whether it got there; if not, <see cref="SimulatedTo"/> tells how far, and the next call goes on from there.</returns>
+    /// <remarks>Advancing in pieces changes no bit of what happens. Cost: per event, not per time.</remarks>
+    /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>.</exception>
+    /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their memory.</exception>
+    /// <exception cref="OperationCanceledException">The options' token asked for an end; what lies behind <see cref="SimulatedTo"/> stands.</exception>
+    public bool TryAdvanceTo(SimTime time, ref long events)
+    {
         ThrowIfFaulted();
         if (time < SimulatedTo)
         {
@@ -28,6 +45,7 @@ public sealed partial class Simulation
 
         SimTime reached = SimulatedTo;
         bool isCancelled = false;
+        bool isThere = true;
         try
         {
             while (queue.Count > 0 && queue.LeastKey.Time <= time)
@@ -35,7 +53,8 @@ public sealed partial class Simulation
                 if (queue.LeastKey.Time > reached)
                 {
                     isCancelled = cancellation.IsCancellationRequested; // between instants: one has happened as a whole or not at all
-                    if (isCancelled)
+                    isThere = events > 0;
+                    if (isCancelled || !isThere)
                     {
                         break;
                     }
@@ -44,6 +63,7 @@ public sealed partial class Simulation
                     ForgetUpTo(reached);
                 }
 
+                events--;
                 Process(queue.LeastSlot, queue.LeastKey);
             }
         }
@@ -59,12 +79,14 @@ public sealed partial class Simulation
             throw fault;
         }
 
-        SimulatedTo = isCancelled ? reached : time;
+        SimulatedTo = isCancelled || !isThere ? reached : time;
         ForgetUpTo(SimulatedTo);
         if (isCancelled)
         {
             throw new OperationCanceledException(cancellation);
         }
+
+        return isThere;
     }
 
     /// <summary>Moves the edge of the history along, event by event, so that one long advance takes no more memory than many short ones.</summary>

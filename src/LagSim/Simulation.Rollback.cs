@@ -10,6 +10,12 @@ public sealed partial class Simulation
     /// <summary>Cuts timelines at their time instead of at their key, which is wrong: only a test's negative control sets it.</summary>
     internal bool CutsByTime { get; set; }
 
+    /// <summary>
+    /// Whether a rollback simulates again only the instant of its event, so that <see cref="SimulatedTo"/> goes back; whoever advances does the rest, in pieces
+    /// if need be, and for several late events once.
+    /// </summary>
+    internal bool DefersAgain { get; set; }
+
     /// <summary>Cuts every timeline at the key, not at its time, and simulates again up to where the world was.</summary>
     private void Rollback(in EventKey key)
     {
@@ -37,6 +43,6 @@ public sealed partial class Simulation
 
         SimTime front = SimulatedTo;
         SimulatedTo = key.Time - SimDuration.OneTick;
-        AdvanceTo(front);
+        AdvanceTo(DefersAgain ? key.Time : front);
     }
 }

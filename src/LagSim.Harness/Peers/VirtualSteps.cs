@@ -31,6 +31,12 @@ public sealed class VirtualSteps
     /// <summary>Called with a session's number before each of its steps.</summary>
     public Action<int>? BeforeStep { get; set; }
 
+    /// <summary>
+    /// How much virtual time a step takes that leaves a world behind; default none: the machines are as fast as they need be, and such a session is stepped until
+    /// its world is there. With a machine that is too slow its port is served meanwhile.
+    /// </summary>
+    public SimDuration BusyStep { get; set; }
+
     /// <summary>Adds a session, due at once, and the port that it listens to.</summary>
     /// <returns>Its number, counted from 0.</returns>
     public int Add(Session session, IDatagramPort port)
@@ -75,10 +81,18 @@ public sealed class VirtualSteps
             {
                 BeforeStep?.Invoke(number);
                 SimDuration wait = sessions[number].Step();
+                while (IsBehind(sessions[number]) && BusyStep == SimDuration.Zero)
+                {
+                    wait = sessions[number].Step();
+                }
+
+                wait = IsBehind(sessions[number]) ? BusyStep : wait;
                 due[number] = wait > Never ? SimTime.MaxValue : network.Clock.Now + (wait > SimDuration.Zero ? wait : SimDuration.OneTick);
             }
         }
     }
+
+    private static bool IsBehind(Session session) => session.State != SessionState.Ended && session.World?.IsBehind == true;
 
     /// <summary>Lets that much true time pass.</summary>
     public void RunFor(SimDuration span)

@@ -28,6 +28,15 @@ internal sealed class CommitSchedule
     /// <summary>The next instant to hash.</summary>
     internal SimTime Next { get; private set; }
 
+    /// <summary>Leaves out the instants before that time, which nobody can hash any more.</summary>
+    internal void SkipTo(SimTime time)
+    {
+        if (Next < time)
+        {
+            Next += interval * (((time - Next).Ticks + interval.Ticks - 1) / interval.Ticks);
+        }
+    }
+
     /// <summary>Hashes the next instant and moves on.</summary>
     internal CommittedState Take(Simulation world)
     {

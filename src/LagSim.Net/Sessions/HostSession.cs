@@ -281,9 +281,10 @@ public sealed partial class HostSession : Session
             : !EventRights.Has(external, Scene!) ? Verdict.NoRight
             : external.Time < now - Options.History || external.Time < World.Simulation.Start ? Verdict.TooLate
             : external.Time > now + Options.History ? Verdict.TooEarly
-            : Verdict.Accepted;
+            : Limits.WhyNot(external, World.Simulation, now, out _);
         if (verdict == Verdict.Accepted)
         {
+            Limits.Note(external);
             Apply(external);
         }
 

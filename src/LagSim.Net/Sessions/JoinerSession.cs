@@ -220,7 +220,13 @@ public sealed partial class JoinerSession : Session
 
         if (copy!.Snapshot is not WorldSnapshot snapshot)
         {
-            if (start != SimTime.MinValue)
+            if (start != SimTime.MinValue && start < EarliestStart())
+            {
+                Farewell();
+                End(SessionEnd.Failed, FormattableString.Invariant(
+                    $"The host at {host} says that the session began {(SharedTime.Now - start).ToSeconds():0} s ago and sent no state of it: that is more than history and time-out allow."));
+            }
+            else if (start != SimTime.MinValue)
             {
                 Begin(start);
             }
@@ -239,6 +245,13 @@ public sealed partial class JoinerSession : Session
             End(SessionEnd.Failed, $"The state that the host at {host} sent is no world of its scene. {failure.Message}");
         }
     }
+
+    /// <summary>
+    /// Whoever joins later than the history after the start gets a state with the scene. The start of one who got none lies at most the history before it
+    /// asked to be let in, and the time-out for clocks and copies; before that nothing is simulated, however long it would take.
+    /// </summary>
+    private SimTime EarliestStart() =>
+        SharedTime.Now - (Clock.Now - began) - (History < SessionOptions.MaxHistory ? History : SessionOptions.MaxHistory) - Options.Timeout;
 
     private void TakeEntries(UpdateDatagram update, SimTime now)
     {
@@ -293,9 +306,11 @@ public sealed partial class JoinerSession : Session
         if (own && !accepted)
         {
             Counters.EventsLost += World!.Retract(external) ? 0 : 1;
+            Limits.TakeBack(external);
         }
         else if (!own && accepted && external.Time >= from)
         {
+            Limits.Note(external);
             Apply(external);
         }
 

@@ -35,6 +35,7 @@ public abstract class Session
     private volatile LiveWorld? world;
     private volatile Scene? scene;
     private volatile object? committed; // a boxed state: other threads read it whole
+    private SimTime settled = SimTime.MinValue; // the watermark that was last committed to
     private CommitSchedule? schedule;
 
     /// <summary>The furthest that a clock may have run, 23 days: so long a session can last.</summary>
@@ -52,6 +53,7 @@ public abstract class Session
             throw new ArgumentException($"The clock reads {clock.Now.ToSeconds():F0} s; a session takes one that reads less than {MaxClock.ToSeconds():F0} s. Make a new one.", nameof(clock));
         }
 
+        Limits = new PlayerLimits(options);
         strategy = LateEventStrategies.Create(options.Strategy);
         SharedTime = new SharedClock(clock);
     }
@@ -127,10 +129,13 @@ public abstract class Session
 
     private protected SessionOptions Options { get; }
 
+    /// <summary>What players may do at most; a host judges by it.</summary>
+    private protected PlayerLimits Limits { get; }
+
     /// <summary>The number of this peer's newest event.</summary>
     private protected uint LastSequence { get; set; }
 
-    /// <summary>Does what is due: takes in datagrams, brings the world ahead, sends.</summary>
+    /// <summary>Does what is due: takes in datagrams, sends, brings the world ahead, by a bounded number of events; see <see cref="LiveWorld.IsBehind"/>.</summary>
     /// <returns>How long until something is due again, unless a datagram or an action comes first.</returns>
     /// <remarks>A world that cannot be simulated any further ends the session, with the reason; whatever others send, it does not throw.</remarks>
     public SimDuration Step()
@@ -149,7 +154,10 @@ public abstract class Session
     /// <summary>Does something to the shared world, now: seen here at once, by the others as soon as they hear of it.</summary>
     /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
     /// <exception cref="InvalidOperationException">The session is not running.</exception>
-    /// <exception cref="SceneException">A value may not enter the world, or this peer may not do that; nothing happened.</exception>
+    /// <exception cref="SceneException">
+    /// A value may not enter the world, or this peer may not do that, or it is more than <see cref="SessionOptions.MaxGivenSpeed"/> or
+    /// <see cref="SessionOptions.MaxSpawned"/> permits here; nothing happened.
+    /// </exception>
     /// <exception cref="SimulationException">The world cannot be simulated with it; the session has ended.</exception>
     public ExternalEvent Do(in PlayerAction action)
     {
@@ -167,6 +175,11 @@ public abstract class Session
 
         ExternalEvent external = action.Stamp(SharedTime.Now, Peer, LastSequence + 1);
         EventRights.Throw(external, Scene!);
+        if (Limits.WhyNot(external, World.Simulation, external.Time, out string sentence) != Verdict.Accepted)
+        {
+            throw new SceneException(sentence);
+        }
+
         try
         {
             if (World.Submit(external) == SubmitResult.TooOld)
@@ -181,6 +194,7 @@ public abstract class Session
         }
 
         hasUnshown = true;
+        Limits.Note(external);
         LastSequence++;
         Publish(external);
         return external;
@@ -313,6 +327,7 @@ public abstract class Session
             return;
         }
 
+        settled = SimTime.Max(settled, watermark);
         while (schedule.Next < watermark && schedule.Next <= World.Simulation.Horizon)
         {
             CommittedState state = schedule.Take(World.Simulation);
@@ -327,6 +342,22 @@ public abstract class Session
 
         // What is still to be hashed is kept.
         World.Simulation.DropHistoryBefore(SimTime.Min(watermark - Options.ExtraHistory, schedule.Next));
+    }
+
+    /// <summary>
+    /// A world that has long to go takes no more memory for it than one that is there: what has been committed to is hashed as the world gets there, and
+    /// what is older than any event that can still come is forgotten, committed or not.
+    /// </summary>
+    private void ForgetWhileBehind(SimTime shared)
+    {
+        Commit(settled);
+        Simulation simulation = World!.Simulation;
+        SimTime oldest = SimTime.Min(shared - SessionOptions.MaxHistory - Options.Timeout - Options.ExtraHistory, simulation.SimulatedTo);
+        if (oldest > simulation.HistoryEdge)
+        {
+            schedule!.SkipTo(oldest);
+            simulation.DropHistoryBefore(oldest);
+        }
     }
 
     /// <summary>
@@ -382,10 +413,15 @@ public abstract class Session
         {
             SimTime shared = SharedTime.Now;
             SimTime worldDue = World.Step(shared);
-            if (hasUnshown)
+            if (hasUnshown && !World.IsBehind)
             {
                 Counters.LastShown = SharedTime.Now;
                 hasUnshown = false;
+            }
+
+            if (World.IsBehind)
+            {
+                ForgetWhileBehind(shared);
             }
 
             if (worldDue != SimTime.MaxValue)

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Hosting;
 using LagSim.Net.Strategies;
+using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -49,6 +50,20 @@ public sealed class SessionOptions
 
     /// <summary>Host only: how many events a second it takes from each joiner, 1 to 100,000; default 500. What is more is taken later.</summary>
     public int MaxEventsPerSecond { get; set; } = 500;
+
+    /// <summary>
+    /// The highest speed in m/s that an event of a player may give, above 0, up to <see cref="double.PositiveInfinity"/> for no limit beyond the world's own; default
+    /// 1,000. It holds for the velocity of a spawn, a teleport or a set velocity, and for what an impulse leaves, unless that is slower than what was there. A host
+    /// refuses more as <see cref="Verdict.Invalid"/>, by its own option; a joiner's own <see cref="Session.Do"/> goes by the joiner's.
+    /// </summary>
+    /// <remarks>It is what keeps a stranger from asking the world for more than anyone can simulate: a fast ball in a narrow gap.</remarks>
+    public double MaxGivenSpeed { get; set; } = 1_000;
+
+    /// <summary>
+    /// How many bodies that one player spawned may be there at a time, 0 to 1,000,000; default 64. Those of the former holders of a joiner's number count. A host
+    /// refuses more as <see cref="Verdict.NoRight"/>, by its own option; a joiner's own <see cref="Session.Do"/> goes by the joiner's.
+    /// </summary>
+    public int MaxSpawned { get; set; } = 64;
 
     /// <summary>How much time lies between two committed states that are hashed, 100 ms to 60 s; default 1 s. The same on all peers, to be compared.</summary>
     public SimDuration CommitInterval { get; set; } = SimDuration.FromSeconds(1);
@@ -133,6 +148,16 @@ public sealed class SessionOptions
         if (MaxEventsPerSecond is < 1 or > 100_000)
         {
             throw new ArgumentOutOfRangeException(nameof(MaxEventsPerSecond), MaxEventsPerSecond, "A host takes 1 to 100,000 events a second from a joiner.");
+        }
+
+        if (!(MaxGivenSpeed > 0))
+        {
+            throw new ArgumentOutOfRangeException(nameof(MaxGivenSpeed), MaxGivenSpeed, "The highest speed that a player may give is above 0 m/s.");
+        }
+
+        if (MaxSpawned is < 0 or > 1_000_000)
+        {
+            throw new ArgumentOutOfRangeException(nameof(MaxSpawned), MaxSpawned, "A player may have spawned 0 to 1,000,000 bodies that are there.");
         }
 
         if (ExpectedJoiners is < 0 or > MaxJoiners)

@@ -21,8 +21,16 @@ public sealed class LiveWorld
     /// <summary>How much of the past pictures show where nothing else is said: 250 ms.</summary>
     public static readonly SimDuration DefaultPicturePast = SimDuration.FromMilliseconds(250);
 
+    /// <summary>What a step may cost where nothing else is said, as <see cref="Effort"/> counts: some hundredths of a second.</summary>
+    private const long DefaultEffort = 32_768;
+
+    /// <summary>However many bodies there are, so many events a step: it has to get on.</summary>
+    private const long LeastEvents = 16;
+
     private readonly SimDuration picturePast;
     private bool changed = true;
+    private volatile bool isBehind;
+    private long events; // how many may still happen before the next step
     private long lateSteps;
     private long maxLatenessTicks;
 
@@ -53,6 +61,7 @@ public sealed class LiveWorld
     private LiveWorld(Simulation simulation, SimDuration? lookAhead, SimDuration? picturePast)
     {
         Simulation = simulation;
+        events = EventsAStep;
         LookAhead = lookAhead ?? DefaultLookAhead;
         this.picturePast = picturePast ?? DefaultPicturePast;
     }
@@ -72,43 +81,85 @@ public sealed class LiveWorld
     /// <summary>The furthest the clock was beyond what was simulated when a step began. From any thread.</summary>
     public SimDuration MaxLateness => SimDuration.FromTicks(Volatile.Read(ref maxLatenessTicks));
 
+    /// <summary>
+    /// Whether the world is not where it should be, <see cref="LookAhead"/> beyond the clock of the last <see cref="Step"/> or <see cref="Advance"/>, because there
+    /// was more to do than may be done at a time; the next step goes on. From any thread.
+    /// </summary>
+    public bool IsBehind => isBehind;
+
+    /// <summary>
+    /// What a step may cost, as looks of one body at another: an event of a body looks at all others. Counted, not timed, so that where a step stops depends
+    /// on the world alone.
+    /// </summary>
+    internal long Effort { get; set; } = DefaultEffort;
+
+    private long EventsAStep => Math.Max(LeastEvents, Effort / (Simulation.BodyCount + 8));
+
     /// <summary>Submits an event at its own time.</summary>
+    /// <remarks>What a late event has simulated again counts as this step's work: if it is too much, the next step goes on, and the world is behind meanwhile.</remarks>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult Submit(in ExternalEvent external)
     {
-        changed = true;
-        return Simulation.Submit(external);
+        SimTime front = BeginChange();
+        try
+        {
+            SubmitResult result = Simulation.Submit(external);
+            Return(front);
+            return result;
+        }
+        finally
+        {
+            Simulation.DefersAgain = false;
+        }
     }
 
     /// <summary>Submits an event that takes effect at its arrival; see <see cref="Simulation.SubmitForwarded"/>.</summary>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult SubmitForwarded(in ExternalEvent external, SimTime arrival)
     {
-        changed = true;
-        return Simulation.SubmitForwarded(external, arrival);
+        SimTime front = BeginChange();
+        try
+        {
+            SubmitResult result = Simulation.SubmitForwarded(external, arrival);
+            Return(front);
+            return result;
+        }
+        finally
+        {
+            Simulation.DefersAgain = false;
+        }
     }
 
     /// <summary>Takes an event back; see <see cref="Simulation.Retract"/>.</summary>
     public bool Retract(in ExternalEvent external)
     {
-        changed = true;
-        return Simulation.Retract(external);
+        SimTime front = BeginChange();
+        try
+        {
+            bool wasThere = Simulation.Retract(external);
+            Return(front);
+            return wasThere;
+        }
+        finally
+        {
+            Simulation.DefersAgain = false;
+        }
     }
 
-    /// <summary>Brings the world ahead of <paramref name="now"/>, without publishing.</summary>
+    /// <summary>Brings the world ahead of <paramref name="now"/>, without publishing, as far as this step's work goes; see <see cref="IsBehind"/>.</summary>
     public void Advance(SimTime now)
     {
         SimTime target = SimTime.Max(now, Simulation.Start) + LookAhead;
         changed |= Simulation.Horizon < target;
-        if (target > Simulation.SimulatedTo)
-        {
-            Simulation.AdvanceTo(target);
-        }
+        isBehind = target > Simulation.SimulatedTo && !Simulation.TryAdvanceTo(target, ref events);
     }
 
     /// <summary>Brings the world ahead of <paramref name="now"/> again and publishes it if it changed.</summary>
-    /// <returns>When the next step is due if nothing changes before; <see cref="SimTime.MaxValue"/> for a world in which nothing will happen.</returns>
-    /// <remarks>Half of the look-ahead may be used up before the next step is due, so a moving world steps about once a frame, one at rest never.</remarks>
+    /// <returns>
+    /// When the next step is due if nothing changes before: <paramref name="now"/> while the world <see cref="IsBehind"/>, and
+    /// <see cref="SimTime.MaxValue"/> for a world in which nothing will happen.
+    /// </returns>
+    /// <remarks>It does a bounded number of events, so that whoever calls it gets to other things in between. Half of the look-ahead may be used up before the next step is due, so a moving world steps about once a frame, one at rest never.</remarks>
     public SimTime Step(SimTime now)
     {
         if (Simulation.Horizon < now)
@@ -118,15 +169,33 @@ public sealed class LiveWorld
             Volatile.Write(ref maxLatenessTicks, Math.Max(maxLatenessTicks, late));
         }
 
+        events = EventsAStep;
         Advance(now);
         if (changed)
         {
-            SimTime from = SimTime.Max(now, Simulation.Start) - picturePast;
+            // What is behind shows where it stands, and ends there.
+            SimTime from = SimTime.Min(SimTime.Max(now, Simulation.Start), Simulation.SimulatedTo) - picturePast;
             Pictures.Publish(Simulation, SimTime.Max(from, Simulation.HistoryEdge));
             changed = false;
         }
 
-        return Simulation.Horizon == SimTime.MaxValue ? SimTime.MaxValue : Simulation.Horizon - (LookAhead / 2);
+        return isBehind ? now : Simulation.Horizon == SimTime.MaxValue ? SimTime.MaxValue : Simulation.Horizon - (LookAhead / 2);
+    }
+
+    private SimTime BeginChange()
+    {
+        changed = true;
+        Simulation.DefersAgain = true; // what is simulated again counts as this step's work
+        return Simulation.SimulatedTo;
+    }
+
+    /// <summary>Simulates again what a late event took back.</summary>
+    private void Return(SimTime front)
+    {
+        if (Simulation.SimulatedTo < front)
+        {
+            isBehind |= !Simulation.TryAdvanceTo(front, ref events);
+        }
     }
 
     /// <summary>The options, if they and the spans go together.</summary>

@@ -54,6 +54,9 @@ public sealed class SimulationHost : IDisposable
     /// <summary>How far, at most.</summary>
     public SimDuration MaxLateness => world.MaxLateness;
 
+    /// <summary>Whether there is more to simulate than could be done by now, so that <see cref="Picture"/> ends before <see cref="Now"/> or soon after.</summary>
+    public bool IsBehind => world.IsBehind;
+
     /// <summary>How many steps the thread has done; a world at rest does none.</summary>
     public long Steps => thread.Steps;
 

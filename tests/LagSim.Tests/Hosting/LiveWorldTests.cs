@@ -112,6 +112,86 @@ public sealed class LiveWorldTests
         Assert.Throws<ArgumentNullException>(() => new LiveWorld(scene, null!));
     }
 
+    [Fact]
+    public void Step_MoreToDoThanAStepMay_StopsBetweenTwoInstantsAndGoesOn()
+    {
+        LiveWorld bounded = new(Rattle(1_000), Kept) { Effort = 9 * 500 };
+        LiveWorld free = new(Rattle(1_000), Kept) { Effort = long.MaxValue };
+        Assert.True(free.Step(At(0)) > At(0));
+        Assert.False(free.IsBehind);
+        Assert.True(free.Simulation.EventsProcessed > 5_000); // the control: without a bound all is done in one step
+
+        int steps = 0;
+        SimTime reached = At(0);
+        do
+        {
+            long before = bounded.Simulation.EventsProcessed;
+            SimTime due = bounded.Step(At(0));
+            Assert.InRange(bounded.Simulation.EventsProcessed - before, 1, 500);
+            Assert.Equal(bounded.IsBehind, due == At(0));
+            Assert.Equal(bounded.Simulation.Horizon, bounded.Pictures.Latest().To); // no more than is there
+            Assert.True(bounded.Simulation.SimulatedTo > reached);
+            reached = bounded.Simulation.SimulatedTo;
+            steps++;
+        }
+        while (bounded.IsBehind);
+
+        Assert.True(steps > 10, $"{steps}");
+        Assert.Equal(free.Simulation.SimulatedTo, bounded.Simulation.SimulatedTo);
+        SameTimelines(free.Simulation, bounded.Simulation);
+    }
+
+    [Fact]
+    public void Step_WorldThatFallsBehind_ShowsWhereItStandsAndCountsThatItIsLate()
+    {
+        LiveWorld world = new(Rattle(1_000), Kept) { Effort = 9 * 500 };
+        for (int frame = 1; frame <= 10; frame++)
+        {
+            world.Step(At(0.1 * frame));
+            Picture picture = world.Pictures.Latest();
+            Assert.True(world.IsBehind && picture.To < At(0.1 * frame) && picture.From <= picture.To);
+            Assert.True(picture.TryRead(First, picture.To, out _));
+            Assert.Equal(frame, world.LateSteps);
+        }
+
+        Assert.True(world.MaxLateness > SimDuration.FromSeconds(0.9));
+    }
+
+    [Fact]
+    public void Submit_LateEventWithMoreToSimulateAgainThanAStepMay_IsFinishedByLaterSteps()
+    {
+        ExternalEvent late = ExternalEvent.SetVelocity(At(0.001), 1, 1, First, V(-999));
+        LiveWorld bounded = new(Rattle(1_000), Kept);
+        LiveWorld free = new(Rattle(1_000), Kept) { Effort = long.MaxValue };
+        foreach (LiveWorld world in new[] { bounded, free })
+        {
+            do
+            {
+                world.Step(At(0));
+            }
+            while (world.IsBehind);
+
+            world.Effort = Math.Min(world.Effort, 9 * 500);
+            world.Effort = world == free ? long.MaxValue : world.Effort;
+            world.Step(At(0));
+            SimTime front = world.Simulation.SimulatedTo;
+            Assert.Equal(SubmitResult.RolledBack, world.Submit(late));
+            Assert.Equal(world == bounded, world.IsBehind);
+            Assert.Equal(world == bounded, world.Simulation.SimulatedTo < front);
+        }
+
+        while (bounded.IsBehind)
+        {
+            bounded.Step(At(0));
+        }
+
+        SameTimelines(free.Simulation, bounded.Simulation);
+    }
+
+    /// <summary>A ball in a gap of 2 mm, which meets 500 times its speed in walls a second.</summary>
+    private static Scene Rattle(double speed) => new SceneBuilder("rattle").WithGravity(Vector3D.Zero)
+        .AddPlane("west", V(1), V(-0.501), 1).AddPlane("east", V(-1), V(0.501), 1).AddBody("ball", Ball(), V(0), V(speed)).Build();
+
     private static Scene RandomScene => new RandomWorld(3).Scene;
 
     /// <summary>Plays a world with events heard late, twice and taken back, and compares pictures with the simulation at random times.</summary>

@@ -2,6 +2,7 @@ using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Net.Sessions;
+using LagSim.Scenes;
 using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
@@ -124,8 +125,33 @@ public sealed class LeavingTests
     [Fact]
     public void Step_WorldThatCannotGoOn_EndsEverySessionWithASentenceAndDoesNotThrow()
     {
-        // Each is permitted, but the light one leaves the impact faster than a state means something.
-        SessionGroup group = Three();
+        SessionGroup group = Three(scene: Poisoned());
+        RawJoiner other = new(group);
+        other.Claim(1, ExternalEvent.Spawn(group.Host.SharedTime.Now, other.Peer, 1, Ball(flight: MotionLaw.RungeKutta4, force: 1), V(-20, 5)));
+        group.Run(0.1);
+        Assert.All(group.Sessions, s => Assert.Equal(SessionState.Running, s.State)); // the control: it is the place that ends it
+        other.Claim(2, ExternalEvent.Spawn(group.Host.SharedTime.Now, other.Peer, 2, Ball(flight: MotionLaw.RungeKutta4, force: 1), V(20, 5)));
+        group.Run(1);
+        Assert.All(group.Sessions, s => Assert.Equal(SessionState.Ended, s.State));
+        Assert.StartsWith("The world cannot be simulated any further. In the step from ", group.Host.EndReason, System.StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Do_WorldThatCannotGoOnWithIt_ThrowsAndEndsTheSession()
+    {
+        SessionGroup group = Three(scene: Poisoned());
+        Assert.Throws<SimulationException>(() => group.Do(1, PlayerAction.Spawn(Ball(flight: MotionLaw.RungeKutta4, force: 1), V(20, 5))));
+        Assert.Equal(SessionState.Ended, group.Sessions[1].State);
+        group.Run(1);
+        Assert.Equal(1, group.Host.JoinerCount);
+        GoesOn(group);
+    }
+
+    [Fact]
+    public void Step_BodiesThatMeetAtTheGreatestSpeed_EndsNothing()
+    {
+        // The light one would leave the impact faster than a state means something.
+        SessionGroup group = Three(most: double.PositiveInfinity);
         double limit = 0.1 * group.Scene.SmallestRadius * SimDuration.TicksPerSecond;
         RawJoiner other = new(group);
         SimTime now = group.Host.SharedTime.Now;
@@ -134,26 +160,21 @@ public sealed class LeavingTests
             ExternalEvent.Spawn(now, other.Peer, 1, Ball(mass: 1e9, e: 1), V(0, 1e6), V(0, limit)),
             ExternalEvent.Spawn(now, other.Peer, 2, Ball(e: 1), V(0, 1e6 + 2), V(0, -limit)));
         group.Run(1);
-        Assert.All(group.Sessions, s => Assert.Equal(SessionState.Ended, s.State));
-        Assert.StartsWith("The world cannot be simulated any further. At ", group.Host.EndReason, System.StringComparison.Ordinal);
+        Assert.All(group.Sessions, s => Assert.Equal(SessionState.Running, s.State));
+        Assert.Equal(2, group.Host.Counters.EventsAccepted);
+        Simulation world = group.Host.World!.Simulation;
+        Assert.Equal(1.5 * limit, Read(world, new BodyId(other.Peer, 2, 0), world.SimulatedTo).Velocity.Length, limit * 1e-9);
+        Assert.Null(group.Difference());
     }
 
-    [Fact]
-    public void Do_WorldThatCannotGoOnWithIt_ThrowsAndEndsTheSession()
-    {
-        SessionGroup group = Three();
-        double limit = 0.1 * group.Scene.SmallestRadius * SimDuration.TicksPerSecond;
-        group.Do(1, PlayerAction.Spawn(Ball(mass: 1e9, e: 1), V(0, 1e6), V(0, limit)));
-        Assert.Throws<SimulationException>(() => group.Do(1, PlayerAction.Spawn(Ball(e: 1), V(0, 1e6 + 2), V(0, -limit))));
-        Assert.Equal(SessionState.Ended, group.Sessions[1].State);
-        group.Run(1);
-        Assert.Equal(1, group.Host.JoinerCount);
-        GoesOn(group);
-    }
+    /// <summary>A box with a force that gives no number right of it.</summary>
+    private static Scene Poisoned() => new SceneBuilder("poisoned").WithSmallestRadius(0.25).AddAcceleration(new Force((_, x, _) => V(x.X > 10 ? double.NaN : 0)))
+        .AddPlane("floor", Vector3D.Up, V(0), 0.9).AddBody("a", Ball(0.3), V(0, 1)).AddBody("b", Ball(0.3), V(2, 1)).Build();
 
-    private static SessionGroup Three(double timeout = 10) => new SessionGroup(Deeds.Box(), 3, LinkProfiles.PureDelay(5), 2, _ => new SessionOptions
+    private static SessionGroup Three(double timeout = 10, Scene? scene = null, double most = 1_000) => new SessionGroup(scene ?? Deeds.Box(), 3, LinkProfiles.PureDelay(5), 2, _ => new SessionOptions
     {
         Timeout = SimDuration.FromSeconds(timeout),
+        MaxGivenSpeed = most,
         KeepAlive = SimDuration.FromSeconds(timeout / 5),
     }).Connect();
 

@@ -71,6 +71,12 @@ internal sealed class SessionGroup
         set => steps.BeforeStep = value;
     }
 
+    /// <summary>How long a step takes that leaves a world behind; see <see cref="VirtualSteps.BusyStep"/>.</summary>
+    internal double BusyMilliseconds
+    {
+        set => steps.BusyStep = SimDuration.FromMilliseconds(value);
+    }
+
     internal JoinerSession Joiner(int peer) => (JoinerSession)Sessions[peer];
 
     /// <summary>One more joiner, which knows nothing of the scene, at an address of its own.</summary>

@@ -1,0 +1,136 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions;
+
+/// <summary>What one player may ask of a world at most: how fast, and how many bodies. The host's verdict; a joiner asks it of what it does itself.</summary>
+/// <remarks>No rule of the world: what was accepted once happens everywhere, whatever others would have said to it.</remarks>
+internal sealed class PlayerLimits
+{
+    private readonly SessionOptions options;
+    private readonly Dictionary<BodyId, Spawned> spawned = new(); // those that are there or went lately
+
+    internal PlayerLimits(SessionOptions options) => this.options = options;
+
+    /// <summary>Whether it keeps to the limits; if not, with which verdict and in which words.</summary>
+    internal Verdict WhyNot(in ExternalEvent external, Simulation world, SimTime now, out string sentence)
+    {
+        sentence = "";
+        if (external.Kind == EventKind.Spawn && external.Velocity.Length <= options.MaxGivenSpeed)
+        {
+            byte player = external.Peer;
+            ForgetBefore(now - options.History);
+            if (spawned.Count < options.MaxSpawned || spawned.Count(s => s.Key.Peer == player && s.Value.Removed > now) < options.MaxSpawned)
+            {
+                return Verdict.Accepted;
+            }
+
+            sentence = $"Peer {player} has spawned {options.MaxSpawned} bodies that are still there, and no player may have more at a time; some have to be removed first.";
+            return Verdict.NoRight;
+        }
+
+        double speed = SpeedAfter(external, world, out double before);
+        if (speed <= options.MaxGivenSpeed || speed <= before)
+        {
+            return Verdict.Accepted;
+        }
+
+        sentence = FormattableString.Invariant(
+            $"The {external.Kind} gives body {external.Body} a speed of {speed:R} m/s; in this session a player may give {options.MaxGivenSpeed:R} m/s at most.");
+        return Verdict.Invalid;
+    }
+
+    /// <summary>Keeps what was accepted, or done here and not refused yet.</summary>
+    internal void Note(in ExternalEvent external)
+    {
+        if (external.Kind == EventKind.Spawn)
+        {
+            spawned[external.Body] = new Spawned(external.Spec.Mass, external.Time);
+        }
+        else if (external.Kind == EventKind.Remove && spawned.TryGetValue(external.Body, out Spawned? body) && external.Time >= body.Since)
+        {
+            body.Removed = SimTime.Min(body.Removed, external.Time); // before it was there nothing was removed
+        }
+    }
+
+    /// <summary>What was done here was refused.</summary>
+    internal void TakeBack(in ExternalEvent external)
+    {
+        if (external.Kind == EventKind.Spawn)
+        {
+            spawned.Remove(external.Body);
+        }
+        else if (external.Kind == EventKind.Remove && spawned.TryGetValue(external.Body, out Spawned? body) && body.Removed == external.Time)
+        {
+            body.Removed = SimTime.MaxValue;
+        }
+    }
+
+    /// <summary>How fast the event leaves its body, and how fast that was; an impulse is judged by the world as it is known now.</summary>
+    private double SpeedAfter(in ExternalEvent external, Simulation world, out double before)
+    {
+        before = 0;
+        if (external.Kind != EventKind.Impulse)
+        {
+            return external.Kind == EventKind.Remove ? 0 : external.Velocity.Length;
+        }
+
+        if (external.Body.Peer == external.Peer && external.Body.Sequence > external.Sequence)
+        {
+            return double.PositiveInfinity; // on what it will spawn itself, of any mass
+        }
+
+        BodyState state = default;
+        if (external.Time >= world.HistoryEdge && external.Time <= world.Horizon)
+        {
+            world.TryRead(external.Body, external.Time, out state);
+        }
+
+        before = state.Velocity.Length;
+        return (state.Velocity + (external.Velocity / MassOf(external.Body, world))).Length;
+    }
+
+    /// <summary>In kg; of a body that nobody here has heard of, as one that acts faster than its spawner is heard may mean, as if it were 1 kg.</summary>
+    private double MassOf(BodyId body, Simulation world)
+    {
+        if (body.Peer == 0 && body.Sequence == 0 && body.Index < world.Scene.Bodies.Count)
+        {
+            return world.Scene.Bodies[body.Index].Spec.Mass;
+        }
+
+        double mass = spawned.TryGetValue(body, out Spawned? known) ? known.Mass : world.SpecOf(body).Mass;
+        return mass > 0 ? mass : 1;
+    }
+
+    /// <summary>Forgets what went before that time: nothing that is still accepted finds it there.</summary>
+    private void ForgetBefore(SimTime time)
+    {
+        if (spawned.Count >= options.MaxSpawned)
+        {
+            foreach (BodyId gone in spawned.Where(s => s.Value.Removed < time).Select(s => s.Key).ToList())
+            {
+                spawned.Remove(gone);
+            }
+        }
+    }
+
+    private sealed class Spawned
+    {
+        internal Spawned(double mass, SimTime since)
+        {
+            Mass = mass;
+            Since = since;
+        }
+
+        internal double Mass { get; }
+
+        internal SimTime Since { get; }
+
+        internal SimTime Removed { get; set; } = SimTime.MaxValue;
+    }
+}
