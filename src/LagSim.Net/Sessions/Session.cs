@@ -68,6 +68,7 @@ public abstract class Session
     public event Action<LogEntry>? Logged;
 
     /// <summary>Raised on the session's thread for every committed state, in order; see <see cref="SessionOptions.CommitInterval"/>. Handlers must not throw.</summary>
+    /// <remarks>A world that is behind commits later; where it had to forget an instant before that could be committed, none is raised for it.</remarks>
     public event Action<CommittedState>? StateCommitted;
 
     /// <summary>The scene that all peers share; null for a joiner that has not heard of it. From any thread.</summary>

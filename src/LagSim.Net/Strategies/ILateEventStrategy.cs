@@ -18,7 +18,7 @@ public interface ILateEventStrategy
     bool RewritesPast { get; }
 
     /// <summary>Brings the event into the world.</summary>
-    /// <param name="world">The world, simulated to beyond <paramref name="arrival"/>.</param>
+    /// <param name="world">The world, simulated to beyond <paramref name="arrival"/> unless it is behind.</param>
     /// <param name="external">The event as its sender stamped it.</param>
     /// <param name="arrival">Shared time now; may be before the event's own time.</param>
     /// <returns>What became of it.</returns>
