@@ -21,8 +21,8 @@ public sealed class LiveWorld
     /// <summary>How much of the past pictures show where nothing else is said: 250 ms.</summary>
     public static readonly SimDuration DefaultPicturePast = SimDuration.FromMilliseconds(250);
 
-    /// <summary>What a step may cost where nothing else is said, as <see cref="Effort"/> counts: some hundredths of a second.</summary>
-    private const long DefaultEffort = 32_768;
+    /// <summary>What a step may cost where nothing else is said, as <see cref="Effort"/> counts: some hundredths of a second for a heap, which costs most.</summary>
+    private const long DefaultEffort = 8_192;
 
     /// <summary>However many bodies there are, so many events a step: it has to get on.</summary>
     private const long LeastEvents = 16;
