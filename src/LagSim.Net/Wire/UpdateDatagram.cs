@@ -49,7 +49,7 @@ public sealed partial class UpdateDatagram
     /// <summary>The shared time at which the session starts; <see cref="SimTime.MinValue"/>: not decided.</summary>
     public SimTime Start { get; set; }
 
-    /// <summary>The shared time before which the host accepts nothing more; <see cref="SimTime.MinValue"/>: none.</summary>
+    /// <summary>The shared time before which no accepted event comes after this update's last entry; <see cref="SimTime.MinValue"/>: none.</summary>
     public SimTime Watermark { get; set; }
 
     /// <summary>
@@ -72,7 +72,7 @@ public sealed partial class UpdateDatagram
 
     /// <summary>
     /// The number of the first entry: from the host its index in the log. The entry after it has the next number, and none is above
-    /// 4,294,967,295.
+    /// 4,294,967,295. It may be beyond what the addressee has: what is between is in other updates.
     /// </summary>
     public uint FirstIndex { get; set; }
 
@@ -103,15 +103,7 @@ public sealed partial class UpdateDatagram
     /// <summary>Puts one more entry at the end, if it fits; room for a state hash is always kept.</summary>
     /// <returns>False when the datagram is full for an event of this kind.</returns>
     /// <exception cref="ArgumentException">The event is not <see cref="EventFormat.IsWellFormed"/>, or the verdict none of the enum's.</exception>
-    public bool TryAdd(Verdict verdict, in ExternalEvent what)
-    {
-        if (!EventFormat.IsWellFormed(what) || verdict > Verdict.Invalid)
-        {
-            throw new ArgumentException($"'{what}' cannot travel: its kind, sequence, time or a number in it is out of range.", nameof(what));
-        }
-
-        return TryAdd(new UpdateEntry(verdict, what));
-    }
+    public bool TryAdd(Verdict verdict, in ExternalEvent what) => TryAdd(new UpdateEntry(verdict, what));
 
     /// <summary>Puts the addressee's own event of that number at the end, if it fits.</summary>
     /// <returns>False when the datagram is full.</returns>
@@ -126,8 +118,14 @@ public sealed partial class UpdateDatagram
         return TryAdd(new UpdateEntry(verdict, sequence));
     }
 
-    private bool TryAdd(in UpdateEntry entry)
+    /// <summary>Puts an entry at the end, if it fits, as the two above do.</summary>
+    internal bool TryAdd(in UpdateEntry entry)
     {
+        if (!entry.IsOwn && (!EventFormat.IsWellFormed(entry.Event) || entry.Verdict > Verdict.Invalid))
+        {
+            throw new ArgumentException($"'{entry.Event}' cannot travel: its kind, sequence, time or a number in it is out of range.", nameof(entry));
+        }
+
         int length = LengthOf(entry);
         bool fits = count < MaxEntries
             && WireFormat.EmptyUpdateBytes + WireFormat.StateHashBytes + entryBytes + length <= WireFormat.MaxBytes;
@@ -140,6 +138,6 @@ public sealed partial class UpdateDatagram
         return fits;
     }
 
-    private static int LengthOf(in UpdateEntry entry) =>
+    internal static int LengthOf(in UpdateEntry entry) =>
         entry.IsOwn ? OwnEntryBytes : VerdictBytes + EventFormat.EncodedLength(entry.Event.Kind);
 }
