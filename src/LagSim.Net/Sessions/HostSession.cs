@@ -20,6 +20,7 @@ public sealed partial class HostSession : Session
     private const int MaxUnacknowledged = 1 << 16;
 
     private readonly VerdictLog log = new();
+    private readonly LogView logView;
     private readonly List<Joiner> joiners = new();
     private readonly uint[] lastSequences = new uint[SessionOptions.MaxJoiners + 1]; // by number: of the last event that bears it
     private readonly ulong sessionId;
@@ -38,6 +39,7 @@ public sealed partial class HostSession : Session
         : base(scene ?? throw new ArgumentNullException(nameof(scene)), port, clock, options)
     {
         this.sessionId = sessionId;
+        logView = new LogView(log);
         cookies = new JoinCookies();
         sceneCopy = WorldCopy.Encode(scene, null);
         SharedTime.Adjust(SimDuration.Zero);
@@ -129,16 +131,17 @@ public sealed partial class HostSession : Session
         if (joiner is null || update.SessionId != joiner.Link.SessionId || update.Peer != joiner.Peer || State == SessionState.Ended)
         {
             Counters.DatagramsIgnored++;
-            if (joiner is not null && State == SessionState.Ended)
+            if (State == SessionState.Ended || update.SessionId != joiner?.Link.SessionId)
             {
-                SayGoodbye(joiner, LeaveReason.HostEnded); // it has not heard the first one
+                // It has not heard the goodbye, or never was one of ours. Told with its own session's number, and in fewer bytes than it sent.
+                SayGoodbye(from, update.SessionId, State == SessionState.Ended ? LeaveReason.HostEnded : LeaveReason.NotJoined);
             }
 
             return;
         }
 
         SimTime now = Clock.Now;
-        if (!joiner.Link.Note(update, now))
+        if (!joiner.Link.Note(update, now, out _))
         {
             Counters.DatagramsIgnored++;
             return;
@@ -148,32 +151,20 @@ public sealed partial class HostSession : Session
         joiner.HasWritten = true;
         joiner.IsReady |= update.Ready;
         joiner.HasBegun |= update.Start != SimTime.MinValue;
-        if (update.EventsReceived > joiner.Acknowledged && update.EventsReceived <= log.Count)
+        if (update.EventsReceived <= log.Count)
         {
-            joiner.Acknowledged = update.EventsReceived;
+            joiner.Outgoing.Acknowledge(update.EventsReceived);
         }
 
         uint sequence = update.FirstIndex;
-        if (update.Entries.Length > 0 && sequence > joiner.EventsReceived + 1)
-        {
-            Counters.DatagramsIgnored++; // a gap, which no joiner of ours leaves: each update has all that is not acknowledged
-        }
-
+        bool isNear = true;
         foreach (UpdateEntry entry in update.Held)
         {
-            if (sequence++ == joiner.EventsReceived + 1)
-            {
-                if (!joiner.Events.TrySpend(now))
-                {
-                    Counters.EventsDeferred++;
-                    break;
-                }
-
-                joiner.EventsReceived++;
-                lastSequences[joiner.Peer] = joiner.EventsReceived;
-                Judge(entry, joiner.Peer, joiner.EventsReceived);
-            }
+            isNear &= joiner.Incoming.Put(sequence++, entry);
         }
+
+        Counters.DatagramsIgnored += isNear ? 0 : 1; // further ahead than any joiner of ours goes
+        Counters.EventsDeferred += JudgeNext(joiner, now) ? 0 : 1;
 
         // An answer at once: it carries the acknowledgement, and the joiner's clock has its exchange without waiting.
         joiner.Link.Hasten(now);
@@ -204,6 +195,11 @@ public sealed partial class HostSession : Session
             Hasten();
         }
 
+        foreach (Joiner joiner in joiners)
+        {
+            JudgeNext(joiner, now); // what was left for later
+        }
+
         Commit(Watermark);
         SettleLog();
         ForgetCopies(now);
@@ -212,7 +208,7 @@ public sealed partial class HostSession : Session
         {
             if (joiner.HasWritten && joiner.Link.Due <= now)
             {
-                SendUpdate(joiner, now);
+                SendUpdates(joiner, now);
             }
         }
     }
@@ -225,6 +221,7 @@ public sealed partial class HostSession : Session
         foreach (Joiner joiner in joiners)
         {
             due = SimTime.Min(due, joiner.HasWritten ? joiner.Link.Due : joiner.Link.Heard + PatienceWith(joiner) + SimDuration.OneTick);
+            due = joiner.Incoming.HasNext ? SimTime.Min(due, now + Options.ResendInterval) : due;
         }
 
         return due;
@@ -234,9 +231,12 @@ public sealed partial class HostSession : Session
 
     private protected override void Farewell()
     {
-        foreach (Joiner joiner in joiners)
+        for (int n = 0; n < Goodbyes; n++)
         {
-            SayGoodbye(joiner, LeaveReason.HostEnded);
+            foreach (Joiner joiner in joiners)
+            {
+                SayGoodbye(joiner, LeaveReason.HostEnded);
+            }
         }
     }
 
@@ -263,6 +263,31 @@ public sealed partial class HostSession : Session
     {
         Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];
         Send(bytes.Slice(0, new LeaveDatagram(joiner.Link.SessionId, 0, reason).Encode(bytes)), joiner.Link);
+    }
+
+    private void SayGoodbye(PeerAddress to, ulong itsSession, LeaveReason reason)
+    {
+        Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];
+        Send(bytes.Slice(0, new LeaveDatagram(itsSession, 0, reason).Encode(bytes)), to);
+    }
+
+    /// <summary>Judges what a joiner did, in order, as far as it is here.</summary>
+    /// <returns>False if something is left for later, because the joiner did too much.</returns>
+    private bool JudgeNext(Joiner joiner, SimTime now)
+    {
+        while (joiner.Incoming.HasNext)
+        {
+            if (!joiner.Events.TrySpend(now))
+            {
+                return false;
+            }
+
+            UpdateEntry entry = joiner.Incoming.Take();
+            lastSequences[joiner.Peer] = joiner.EventsReceived;
+            Judge(entry, joiner.Peer, joiner.EventsReceived);
+        }
+
+        return true;
     }
 
     private void Judge(in UpdateEntry entry, byte sender, uint sequence)
@@ -295,17 +320,26 @@ public sealed partial class HostSession : Session
     {
         Counters.EventsAccepted += verdict == Verdict.Accepted ? 1 : 0;
         Counters.EventsRefused += verdict == Verdict.Accepted ? 0 : 1;
-        log.Add(external, verdict);
+        log.Add(external, verdict, SimTime.Min(Watermark, external.Time)); // it was judged, or done, a little earlier
         Tell(log[log.Count]);
         Hasten();
     }
 
-    private void SendUpdate(Joiner joiner, SimTime now)
+    private void SendUpdates(Joiner joiner, SimTime now)
+    {
+        bool hasMore = true;
+        for (int n = 0; hasMore && n < SendWindow.MaxDatagramsAtOnce; n++)
+        {
+            hasMore = SendUpdate(joiner, now);
+        }
+    }
+
+    /// <summary>Sends one update; whether there is more to be sent at once.</summary>
+    private bool SendUpdate(Joiner joiner, SimTime now)
     {
         UpdateDatagram update = joiner.Link.Compose(now);
         update.EventsReceived = joiner.EventsReceived;
         update.Start = World?.Simulation.Start ?? SimTime.MinValue;
-        update.FirstIndex = joiner.Acknowledged + 1;
         if (Committed is CommittedState committed)
         {
             update.HasStateHash = true;
@@ -313,23 +347,39 @@ public sealed partial class HostSession : Session
             update.StateHash = committed.StateHash;
         }
 
-        uint next = joiner.Acknowledged;
-        while (joiner.IsReady && next < log.Count && TryAdd(update, joiner, log[next + 1]))
-        {
-            next++;
-        }
+        logView.Reader = joiner;
+        bool hasMore = joiner.Outgoing.Fill(update, logView, now, joiner.Link.Patience + Options.ResendInterval, Options.ResendInterval);
 
-        // The watermark is a promise about the whole log: with an entry left out it could not yet be relied on.
-        update.Watermark = World is null || next < log.Count ? SimTime.MinValue : Watermark;
-        bool isPending = next > joiner.Acknowledged || (World is not null && joiner.IsReady && !joiner.HasBegun);
-        Send(joiner.Link.Seal(now + WaitAfterUpdate(isPending, joiner.Link.Silence(now), Overdue)), joiner.Link);
+        // The watermark is a promise about what comes after this update's last entry: the one at which the next entry was added, or as there is none, now's.
+        uint last = update.FirstIndex + (uint)update.Held.Length - 1;
+        update.Watermark = World is null ? SimTime.MinValue : last < log.Count ? log.WatermarkAfter(last) : Watermark;
+        bool isPending = joiner.Acknowledged < logView.Last || (World is not null && joiner.IsReady && !joiner.HasBegun);
+        Send(joiner.Link.Seal(hasMore ? now : now + WaitAfterUpdate(isPending, joiner.Link.Silence(now), Overdue)), joiner.Link);
+        return hasMore;
     }
 
-    /// <summary>Of what a joiner did itself only the number travels back; a former one of its number is another.</summary>
-    private static bool TryAdd(UpdateDatagram update, Joiner joiner, in LogEntry entry) =>
-        entry.Event.Peer == joiner.Peer && entry.Event.Sequence > joiner.FirstSequence
-            ? update.TryAddOwn(entry.Verdict, entry.Event.Sequence)
-            : update.TryAdd(entry.Verdict, entry.Event);
+    /// <summary>The log as one joiner gets it: of what it did itself only the number travels back; a former one of its number is another.</summary>
+    private sealed class LogView : IEntrySource
+    {
+        private readonly VerdictLog log;
+
+        internal LogView(VerdictLog log) => this.log = log;
+
+        internal Joiner? Reader { get; set; }
+
+        public uint Last => Reader!.IsReady ? log.Count : Reader.Acknowledged;
+
+        public UpdateEntry this[uint number]
+        {
+            get
+            {
+                LogEntry entry = log[number];
+                return entry.Event.Peer == Reader!.Peer && entry.Event.Sequence > Reader.FirstSequence
+                    ? new UpdateEntry(entry.Verdict, entry.Event.Sequence)
+                    : new UpdateEntry(entry.Verdict, entry.Event);
+            }
+        }
+    }
 
     private sealed class Joiner
     {
@@ -339,8 +389,8 @@ public sealed partial class HostSession : Session
             Link = link;
             Copy = copy;
             FirstSequence = firstSequence;
-            EventsReceived = firstSequence;
-            Acknowledged = copy.LogIndex;
+            Incoming = new ReceiveWindow(firstSequence);
+            Outgoing = new SendWindow(copy.LogIndex);
             Events = events;
             Pieces = pieces;
         }
@@ -379,9 +429,15 @@ public sealed partial class HostSession : Session
         internal bool HasWritten { get; set; }
 
         /// <summary>How many entries of the log it has.</summary>
-        internal uint Acknowledged { get; set; }
+        internal uint Acknowledged => Outgoing.Acknowledged;
 
         /// <summary>How many of its events are judged, those of former holders of its number included.</summary>
-        internal uint EventsReceived { get; set; }
+        internal uint EventsReceived => Incoming.Received;
+
+        /// <summary>What it is told of the log.</summary>
+        internal SendWindow Outgoing { get; }
+
+        /// <summary>What it did.</summary>
+        internal ReceiveWindow Incoming { get; }
     }
 }

@@ -79,9 +79,12 @@ public sealed partial class JoinerSession
         {
             SimTime now = Clock.Now;
             Peer = welcome.Peer;
-            LastSequence = acknowledged = firstSequence = welcome.LastSequence;
+            LastSequence = firstSequence = welcome.LastSequence;
             History = welcome.History;
-            LogStart = entriesReceived = welcome.LogIndex;
+            LogStart = welcome.LogIndex;
+            unjudged = new OwnEvents(firstSequence);
+            outgoing = new SendWindow(firstSequence);
+            incoming = new ReceiveWindow(LogStart);
             copyHash = welcome.CopyHash;
             joinTook = now - challenged;
             fetch = new CopyFetch(welcome.CopyLength, now);

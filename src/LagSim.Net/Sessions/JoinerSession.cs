@@ -17,10 +17,15 @@ namespace LagSim.Net.Sessions;
 /// </remarks>
 public sealed partial class JoinerSession : Session
 {
+    /// <summary>
+    /// So many own events can wait for the host's verdict; <see cref="Session.Do"/> throws while they do. 16,384: at the rate that a host takes by default,
+    /// more than half a minute without an answer.
+    /// </summary>
+    public const int MaxUnjudgedEvents = 1 << 14;
+
     /// <summary>How long between two tries to be let in, and between two exchanges while the clock is set.</summary>
     private static readonly SimDuration Pace = SimDuration.FromMilliseconds(20);
 
-    private readonly List<ExternalEvent> unjudged = new(); // own events whose verdict has not come, oldest first
     private readonly PeerAddress host;
     private readonly ulong nonce;
     private readonly SimTime began;
@@ -28,8 +33,9 @@ public sealed partial class JoinerSession : Session
     private SimTime joinDue;
     private SimTime from = SimTime.MinValue; // the world goes on from there: earlier events are in it
     private uint firstSequence; // the last sequence number of those who had this peer's number before
-    private uint entriesReceived;
-    private uint acknowledged; // how many own events the host has; their verdicts may come later
+    private OwnEvents unjudged = new(0);
+    private SendWindow outgoing = new(0); // what the host has of own events; their verdicts may come later
+    private ReceiveWindow incoming = new(0); // the host's log
 
     /// <summary>Asks to be let in, from the first step on.</summary>
     /// <param name="scene">The scene that the host is expected to have; null takes the host's, whichever it is.</param>
@@ -58,7 +64,10 @@ public sealed partial class JoinerSession : Session
     public override IReadOnlyList<LinkTraffic> Links => link is null ? Array.Empty<LinkTraffic>() : new[] { link.Traffic };
 
     /// <inheritdoc/>
-    public override uint LogLength => entriesReceived;
+    public override uint LogLength => incoming.Received;
+
+    /// <summary>How many own events wait for the host's verdict, at most <see cref="MaxUnjudgedEvents"/>. On the session's thread.</summary>
+    public int UnjudgedEvents => unjudged.Count;
 
     private bool IsReady => copy is not null && SharedTime.IsSet;
 
@@ -98,18 +107,23 @@ public sealed partial class JoinerSession : Session
         if (link is null || sender != host || update.SessionId != link.SessionId || update.Peer != 0 || State == SessionState.Ended)
         {
             Counters.DatagramsIgnored++;
+            if (link is not null && sender == host && update.SessionId == link.SessionId && State == SessionState.Ended)
+            {
+                SayGoodbye(link); // it has not heard the first one
+            }
+
             return;
         }
 
         SimTime now = Clock.Now;
-        if (!link.Note(update, now))
+        if (!link.Note(update, now, out bool isNewest))
         {
             Counters.DatagramsIgnored++;
             return;
         }
 
         link.CountReceived(update.EncodedLength);
-        if (update.EchoSent != SimTime.MinValue
+        if (isNewest && update.EchoSent != SimTime.MinValue
             && ClockSync.Add(update.EchoSent, update.EchoReceived, update.Sent, now) && ClockSync.IsReady)
         {
             SharedTime.Adjust(ClockSync.Estimate);
@@ -130,14 +144,13 @@ public sealed partial class JoinerSession : Session
 
         if (World is not null)
         {
+            outgoing.Acknowledge(Math.Min(update.EventsReceived, LastSequence));
             TakeEntries(update, now);
             if (update.HasStateHash)
             {
                 CompareCommitted(update.HashTime, update.StateHash);
             }
         }
-
-        acknowledged = Math.Max(acknowledged, Math.Min(update.EventsReceived, LastSequence));
     }
 
     private protected override void Tend(SimTime now)
@@ -165,7 +178,11 @@ public sealed partial class JoinerSession : Session
         TendFetch(now);
         if (link.Due <= now)
         {
-            SendUpdate(link, now);
+            bool hasMore = true;
+            for (int n = 0; hasMore && n < SendWindow.MaxDatagramsAtOnce; n++)
+            {
+                hasMore = SendUpdate(link, now);
+            }
         }
     }
 
@@ -177,13 +194,27 @@ public sealed partial class JoinerSession : Session
         link!.Hasten(Clock.Now);
     }
 
+    private protected override void ThrowIfTooMuch()
+    {
+        if (unjudged.Count >= MaxUnjudgedEvents)
+        {
+            throw new InvalidOperationException(
+                $"Nothing more can be done yet: {unjudged.Count} events of this peer wait for the host's verdict, and that is the most that may.");
+        }
+    }
+
     private protected override void Farewell()
     {
-        if (link is not null)
+        for (int n = 0; link is not null && n < Goodbyes; n++)
         {
-            Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];
-            Send(bytes.Slice(0, new LeaveDatagram(link.SessionId, Peer, LeaveReason.Left).Encode(bytes)), link);
+            SayGoodbye(link);
         }
+    }
+
+    private void SayGoodbye(UpdateLink to)
+    {
+        Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];
+        Send(bytes.Slice(0, new LeaveDatagram(to.SessionId, Peer, LeaveReason.Left).Encode(bytes)), to);
     }
 
     private void OnLeave(in LeaveDatagram leave)
@@ -194,6 +225,7 @@ public sealed partial class JoinerSession : Session
             {
                 LeaveReason.TimedOut => $"The host at {host} heard nothing from this peer for too long.",
                 LeaveReason.Replaced => $"This player came in from elsewhere; the host at {host} let this peer go.",
+                LeaveReason.NotJoined => $"The host at {host} does not have this peer among its joiners, or no longer.",
                 LeaveReason.FellBehind => $"The host at {host} let this peer go: it did not take in what happened as fast as it did.",
                 _ => $"The host at {host} ended the session.",
             });
@@ -255,25 +287,30 @@ public sealed partial class JoinerSession : Session
 
     private void TakeEntries(UpdateDatagram update, SimTime now)
     {
-        uint index = update.FirstIndex;
-        bool any = false;
+        uint number = update.FirstIndex;
         foreach (UpdateEntry entry in update.Held)
         {
-            if (index++ == entriesReceived + 1)
-            {
-                entriesReceived++;
-                any = true;
-                Take(entry);
-            }
+            incoming.Put(number++, entry); // what is too far ahead comes again
         }
 
-        // The watermark speaks of the log up to this update's last entry; with a gap before it, it does not hold here yet.
-        if (update.Watermark != SimTime.MinValue && index <= entriesReceived + 1)
+        if (update.Watermark != SimTime.MinValue && number > 0)
+        {
+            incoming.Promise(number - 1, update.Watermark);
+        }
+
+        bool any = incoming.HasNext;
+        while (incoming.HasNext)
+        {
+            UpdateEntry entry = incoming.Take();
+            Take(entry);
+        }
+
+        if (incoming.Promised != SimTime.MinValue)
         {
             // What is not judged yet, or still to be done, may have to be taken back, and for that its history must be there. Own stamps
             // never go back. That the host has an event is not enough: an older update may come between that and its verdict.
-            SimTime needed = unjudged.Count > 0 ? unjudged[0].Time : SharedTime.Now;
-            Commit(SimTime.Min(update.Watermark, needed));
+            SimTime needed = unjudged.Count > 0 ? unjudged.Oldest.Time : SharedTime.Now;
+            Commit(SimTime.Min(incoming.Promised, needed));
         }
 
         if (any)
@@ -287,7 +324,7 @@ public sealed partial class JoinerSession : Session
         bool own = entry.IsOwn;
         ExternalEvent external = entry.Event;
         bool isAnothers = !own && (external.Peer != Peer || external.Sequence <= firstSequence);
-        bool isNextOwn = own && unjudged.Count > 0 && unjudged[0].Sequence == entry.Sequence;
+        bool isNextOwn = own && unjudged.Count > 0 && unjudged.Oldest.Sequence == entry.Sequence;
         if (!isAnothers && !isNextOwn)
         {
             Counters.EventsForged++; // a host that judges what this peer did not do, or not in order, is none of ours
@@ -296,8 +333,8 @@ public sealed partial class JoinerSession : Session
 
         if (own)
         {
-            external = unjudged[0];
-            unjudged.RemoveAt(0);
+            external = unjudged.Take();
+            outgoing.Acknowledge(external.Sequence); // an update that was overtaken may tell the verdict first
         }
 
         bool accepted = entry.Verdict == Verdict.Accepted && (own || MayEnter(external));
@@ -314,25 +351,19 @@ public sealed partial class JoinerSession : Session
             Apply(external);
         }
 
-        Tell(new LogEntry(entriesReceived, entry.Verdict, external));
+        Tell(new LogEntry(incoming.Received, entry.Verdict, external));
     }
 
-    private void SendUpdate(UpdateLink to, SimTime now)
+    /// <summary>Sends one update; whether there is more to be sent at once.</summary>
+    private bool SendUpdate(UpdateLink to, SimTime now)
     {
         UpdateDatagram update = to.Compose(now);
-        update.EventsReceived = entriesReceived;
+        update.EventsReceived = incoming.Received;
         update.Ready = IsReady;
         update.Start = World?.Simulation.Start ?? SimTime.MinValue;
-        update.FirstIndex = acknowledged + 1;
-        foreach (ExternalEvent external in unjudged)
-        {
-            if (external.Sequence > acknowledged && !update.TryAdd(Verdict.Pending, external))
-            {
-                break;
-            }
-        }
-
-        SimDuration wait = !IsReady ? Pace : WaitAfterUpdate(acknowledged < LastSequence, to.Silence(now), Options.KeepAlive);
-        Send(to.Seal(now + wait), to);
+        bool hasMore = outgoing.Fill(update, unjudged, now, to.Patience + Options.ResendInterval, Options.ResendInterval);
+        SimDuration wait = !IsReady ? Pace : WaitAfterUpdate(outgoing.Acknowledged < LastSequence, to.Silence(now), Options.KeepAlive);
+        Send(to.Seal(hasMore ? now : now + wait), to);
+        return hasMore;
     }
 }

@@ -24,6 +24,9 @@ public abstract class Session
     /// <summary>As many datagrams are taken in at a time at most: whoever floods this peer does not keep it from its own work.</summary>
     private const int MaxDatagramsAStep = 256;
 
+    /// <summary>As often a goodbye is said at once; who has not heard it hears it again in answer to what it sends, for as long as the port is there.</summary>
+    private protected const int Goodbyes = 3;
+
     private readonly byte[] buffer = new byte[IDatagramPort.MaxDatagramBytes];
     private readonly ILateEventStrategy strategy;
     private readonly UpdateDatagram received = new();
@@ -154,7 +157,10 @@ public abstract class Session
 
     /// <summary>Does something to the shared world, now: seen here at once, by the others as soon as they hear of it.</summary>
     /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
-    /// <exception cref="InvalidOperationException">The session is not running.</exception>
+    /// <exception cref="InvalidOperationException">
+    /// The session is not running; or of a joiner's events <see cref="JoinerSession.MaxUnjudgedEvents"/> wait for the host's verdict, and nothing happened:
+    /// it can be done again once verdicts have come.
+    /// </exception>
     /// <exception cref="SceneException">
     /// A value may not enter the world, or this peer may not do that, or it is more than <see cref="SessionOptions.MaxGivenSpeed"/> or
     /// <see cref="SessionOptions.MaxSpawned"/> permits here; nothing happened.
@@ -174,6 +180,7 @@ public abstract class Session
                 : $"Nothing can be done while the session is {State}; wait until it is Running.");
         }
 
+        ThrowIfTooMuch();
         ExternalEvent external = action.Stamp(SharedTime.Now, Peer, LastSequence + 1);
         EventRights.Throw(external, Scene!);
         if (Limits.WhyNot(external, World.Simulation, external.Time, out string sentence) != Verdict.Accepted)
@@ -230,6 +237,11 @@ public abstract class Session
     private protected abstract void Publish(in ExternalEvent external);
 
     private protected abstract void Farewell();
+
+    /// <exception cref="InvalidOperationException">Of what this peer did too much is not settled yet.</exception>
+    private protected virtual void ThrowIfTooMuch()
+    {
+    }
 
     private protected void End(SessionEnd by, string reason)
     {

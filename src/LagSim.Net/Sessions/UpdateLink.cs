@@ -11,10 +11,13 @@ internal sealed class UpdateLink
     /// <summary>Who writes more often is not answered more often than this.</summary>
     private static readonly SimDuration LeastDistance = SimDuration.FromMilliseconds(1);
 
+    /// <summary>A round trip that is said to be longer is none: what the other says of its own times is not checked.</summary>
+    private static readonly SimDuration MostRoundTrip = SimDuration.FromSeconds(10);
+
     private readonly UpdateDatagram outgoing = new();
     private readonly byte[] buffer = new byte[IDatagramPort.MaxDatagramBytes];
+    private readonly SeenNumbers seen = new();
     private uint lastSent;
-    private uint lastReceived;
     private SimTime echoSent = SimTime.MinValue;
     private SimTime echoReceived = SimTime.MinValue;
     private SimDuration unheard;
@@ -24,6 +27,8 @@ internal sealed class UpdateLink
     private long datagramsReceived;
     private long bytesReceived;
     private SimDuration roundTrip;
+    private SimDuration meanRoundTrip;
+    private SimDuration meanDeviation;
 
     internal UpdateLink(ulong sessionId, byte self, byte peer, PeerAddress other, SimTime now)
     {
@@ -54,12 +59,25 @@ internal sealed class UpdateLink
     /// <summary>The longer of two silences: for how long nothing came, and for how long the other said, when it last wrote, that nothing came there.</summary>
     internal SimDuration Silence(SimTime now) => now - Heard > unheard ? now - Heard : unheard;
 
-    /// <summary>Notes an update that came; false for one that was overtaken or came twice, in which there is nothing that a later one has not.</summary>
-    internal bool Note(UpdateDatagram update, SimTime now)
+    /// <summary>After how long an answer can be taken for lost: the mean round trip and four times its mean deviation, as TCP has it. Zero before there is one.</summary>
+    internal SimDuration Patience => meanRoundTrip + (meanDeviation * 4);
+
+    /// <summary>Notes an update that came.</summary>
+    /// <param name="update">The update.</param>
+    /// <param name="now">When it came, by the own clock.</param>
+    /// <param name="isNewest">False for one that was overtaken: of it only entries, watermark and acknowledgement are news.</param>
+    /// <returns>False for one that came before, or is so old that it may have.</returns>
+    internal bool Note(UpdateDatagram update, SimTime now, out bool isNewest)
     {
-        if (update.Number <= lastReceived)
+        isNewest = update.Number > seen.Newest;
+        if (!seen.Add(update.Number))
         {
             return false; // perhaps somebody plays it again: it does not even show that the other is there
+        }
+
+        if (!isNewest)
+        {
+            return true;
         }
 
         Heard = now;
@@ -67,10 +85,13 @@ internal sealed class UpdateLink
         {
             SimDuration exchange = now - update.EchoSent;
             SimDuration held = update.Sent - update.EchoReceived;
-            roundTrip = held >= SimDuration.Zero && held <= exchange ? exchange - held : roundTrip; // else it is made up
+            if (held >= SimDuration.Zero && held <= exchange) // else it is made up
+            {
+                roundTrip = exchange - held;
+                Average(roundTrip);
+            }
         }
 
-        lastReceived = update.Number;
         echoSent = update.Sent;
         echoReceived = now;
         unheard = update.EchoReceived == SimTime.MinValue ? SimDuration.Zero : update.Sent - update.EchoReceived; // both by its own clock
@@ -111,8 +132,27 @@ internal sealed class UpdateLink
     /// <summary>The bytes of the composed update; sets when the next is due.</summary>
     internal ReadOnlySpan<byte> Seal(SimTime nextDue)
     {
-        Due = nextDue;
         earliest = outgoing.Sent + LeastDistance;
+        Due = SimTime.Max(nextDue, earliest);
         return buffer.AsSpan(0, outgoing.Encode(buffer));
+    }
+
+    private void Average(SimDuration sample)
+    {
+        if (sample > MostRoundTrip)
+        {
+            return;
+        }
+
+        if (meanRoundTrip == SimDuration.Zero)
+        {
+            meanRoundTrip = sample;
+            meanDeviation = sample / 2;
+            return;
+        }
+
+        SimDuration off = sample - meanRoundTrip;
+        meanRoundTrip += off / 8;
+        meanDeviation += ((off < SimDuration.Zero ? -off : off) - meanDeviation) / 4;
     }
 }

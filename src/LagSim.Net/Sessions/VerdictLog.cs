@@ -9,7 +9,7 @@ namespace LagSim.Net.Sessions;
 /// <summary>The host's log: every event it said yes or no to, in that order, counted from 1; its beginning is forgotten once nobody needs it.</summary>
 internal sealed class VerdictLog
 {
-    private readonly List<LogEntry> entries = new();
+    private readonly List<(LogEntry Entry, SimTime Watermark)> entries = new();
     private uint forgotten;
     private uint settled;
 
@@ -22,9 +22,17 @@ internal sealed class VerdictLog
     /// <summary>How many of them are kept.</summary>
     internal int Kept => entries.Count;
 
-    internal LogEntry this[uint number] => entries[(int)(number - forgotten - 1)];
+    internal LogEntry this[uint number] => entries[(int)(number - forgotten - 1)].Entry;
 
-    internal void Add(in ExternalEvent external, Verdict verdict) => entries.Add(new LogEntry(Count + 1, verdict, external));
+    /// <param name="external">The event.</param>
+    /// <param name="verdict">What the host says.</param>
+    /// <param name="watermark">The time before which there is no accepted event from this entry on.</param>
+    internal void Add(in ExternalEvent external, Verdict verdict, SimTime watermark) =>
+        entries.Add((new LogEntry(Count + 1, verdict, external), watermark));
+
+    /// <summary>The time before which there is, and will be, no accepted event after the entries up to a number.</summary>
+    /// <param name="number">Below <see cref="Count"/>, of an entry whose next one is kept.</param>
+    internal SimTime WatermarkAfter(uint number) => entries[(int)(number - forgotten)].Watermark;
 
     /// <summary>Moves on what is settled.</summary>
     internal void Settle(SimTime watermark)

@@ -17,4 +17,7 @@ public enum LeaveReason : byte
 
     /// <summary>Somebody with the key of the same player came in, from elsewhere.</summary>
     Replaced = 5,
+
+    /// <summary>It is not, or no longer, among the host's joiners; the answer to an update of somebody who thinks so.</summary>
+    NotJoined = 6,
 }

@@ -52,11 +52,26 @@ public sealed class ForgedEventTests
     }
 
     [Fact]
-    public void Claim_GapBefore_IsNotTakenInButCounted()
+    public void Claim_GapBefore_WaitsForWhatIsMissing()
+    {
+        ExternalEvent[] events = Enumerable.Range(1, 3).Select(n => ExternalEvent.SetVelocity(Now, liar.Peer, (uint)n, First, V(0, n))).ToArray();
+        liar.Claim(3, events[2]);
+        liar.Claim(2, events[1]);
+        Assert.Equal(0u, group.Host.LogLength);
+        liar.Claim(1, events[0]);
+        Assert.Equal(events, group.Accepted);
+        AssertGoesOn(accepted: 3, refused: 0);
+    }
+
+    [Theory]
+    [InlineData(4096u, 0)]
+    [InlineData(4097u, 1)]
+    [InlineData(uint.MaxValue, 1)]
+    public void Claim_FurtherAheadThanMayBeUnderWay_IsNotKeptButCounted(uint place, int counted)
     {
         long ignored = group.Host.Counters.DatagramsIgnored;
-        liar.Claim(3, ExternalEvent.SetVelocity(Now, liar.Peer, 3, First, V(0, 9)));
-        Assert.Equal(ignored + 1, group.Host.Counters.DatagramsIgnored);
+        liar.Claim(place, ExternalEvent.SetVelocity(Now, liar.Peer, place, First, V(0, 9)));
+        Assert.Equal(ignored + counted, group.Host.Counters.DatagramsIgnored);
         AssertGoesOn(accepted: 0, refused: 0);
     }
 

@@ -1,7 +1,10 @@
+using System;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Links;
+using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
 using Xunit;
@@ -23,7 +26,7 @@ public sealed class LeavingTests
         Assert.All(group.Sessions, s => Assert.Equal(SessionState.Ended, s.State));
         Assert.All(group.Sessions.Skip(1), s => Assert.Equal("The host at virtual:0 ended the session.", s.EndReason));
         Assert.Null(group.Difference());
-        Assert.Throws<System.InvalidOperationException>(() => group.Do(1, PlayerAction.Remove(First)));
+        Assert.Throws<InvalidOperationException>(() => group.Do(1, PlayerAction.Remove(First)));
     }
 
     [Fact]
@@ -85,6 +88,91 @@ public sealed class LeavingTests
         group.Run(1);
         Assert.Equal("The host at virtual:0 fell silent for 3 s.", group.Sessions[1].EndReason);
         GoesOn(group);
+    }
+
+    [Fact]
+    public void Leave_JoinerWhoseGoodbyeIsLost_IsHeardInAnswerToTheNextUpdate()
+    {
+        SessionGroup group = Three();
+        group.Cut(1, 0);
+        group.Sessions[1].Leave();
+        group.Run(0.05);
+        Assert.Equal(2, group.Host.JoinerCount);
+        group.Restore(1, 0);
+        group.Do(0, PlayerAction.Impulse(First, V(1))); // else the host would write of itself only once the keep-alive is overdue
+        group.Run(0.05);
+        Assert.Equal(1, group.Host.JoinerCount);
+        GoesOn(group);
+    }
+
+    [Theory]
+    [InlineData(2, true)]
+    [InlineData(3, false)] // the control: when all that are sent at once are lost
+    public void Leave_SomeGoodbyesLost_IsHeardAtOnce(int lost, bool isHeard)
+    {
+        SessionGroup group = Three();
+        group.Network.Lose((from, _, datagram) => from == 1 && datagram.Span[3] == (byte)DatagramType.Leave && lost-- > 0);
+        group.Sessions[1].Leave();
+        group.Run(0.05);
+        Assert.Equal(isHeard ? 1 : 2, group.Host.JoinerCount);
+    }
+
+    [Fact]
+    public void Update_OfOneWhoWasLetGoAndDidNotHear_IsAnsweredAtOnce()
+    {
+        SessionGroup group = Three(timeout: 3);
+        bool isLost = true;
+        group.Network.Lose((_, to, datagram) => isLost && to == 1 && datagram.Span[3] == (byte)DatagramType.Leave);
+        group.Cut(1, 0);
+        Assert.True(group.RunUntil(() => group.Host.JoinerCount == 1, 4));
+        group.Run(0.1);
+        Assert.Equal(SessionState.Running, group.Sessions[1].State);
+        isLost = false;
+        group.Restore(1, 0);
+        group.Run(0.1);
+        Assert.Equal("The host at virtual:0 does not have this peer among its joiners, or no longer.", group.Sessions[1].EndReason);
+        Assert.Equal(SessionEnd.LetGo, group.Sessions[1].EndedBy);
+        GoesOn(group);
+    }
+
+    [Fact]
+    public void Update_OfAFormerSessionOrInAnothersNumber_PutsNobodyOut()
+    {
+        // From a joiner's own address, as somebody may send who gives that address: what it is told is not about the session that it has.
+        SessionGroup group = Three();
+        ulong own = 0;
+        bool isOwn = true;
+        group.Network.Lose((from, _, datagram) =>
+        {
+            own = isOwn && from == 1 && datagram.Span[3] == (byte)DatagramType.Update ? BitConverter.ToUInt64(datagram.Span[4..]) : own;
+            return false;
+        });
+        Assert.True(group.RunUntil(() => own != 0, 5));
+        isOwn = false;
+        int answers = 0, longest = 0;
+        group.Network.Lose((from, to, datagram) =>
+        {
+            if (from == 0 && to == 1 && datagram.Span[3] == (byte)DatagramType.Leave)
+            {
+                answers++;
+                longest = Math.Max(longest, datagram.Length);
+                Assert.NotEqual(own, BitConverter.ToUInt64(datagram.Span[4..]));
+            }
+
+            return false;
+        });
+        byte[] bytes = new byte[WireFormat.EmptyUpdateBytes];
+        byte peer = group.Sessions[1].Peer;
+        foreach ((ulong session, byte number) in new[] { (own + 100, peer), (own, (byte)(peer + 1)), (own - 100, (byte)0) })
+        {
+            new UpdateDatagram { SessionId = session, Peer = number, Number = uint.MaxValue }.Encode(bytes);
+            group.Ports[1].Send(bytes, PeerAddress.Virtual(0));
+        }
+
+        group.Run(0.2);
+        Assert.Equal((2, WireFormat.LeaveBytes), (answers, longest)); // no more than what came, and nothing about the session it has
+        Assert.True(WireFormat.LeaveBytes < WireFormat.EmptyUpdateBytes);
+        Assert.All(group.Sessions, s => Assert.Equal(SessionState.Running, s.State));
     }
 
     [Fact]

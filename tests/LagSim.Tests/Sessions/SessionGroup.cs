@@ -22,6 +22,7 @@ internal sealed class SessionGroup
     private readonly List<IDatagramPort> ports = [];
     private readonly Random luck;
     private readonly UpdateDatagram tapped = new();
+    private SimTime promised = SimTime.MinValue; // the greatest watermark sent: whatever the host logs from then on is not before it
 
     /// <summary>Peers that are not connected yet: the host has number 0 in the network, the joiners 1 and up.</summary>
     internal SessionGroup(Scene scene, int peers, LinkProfile link, ulong seed = 1, Func<int, SessionOptions>? options = null, Func<int, Scene>? scenes = null, int? expected = null)
@@ -42,7 +43,11 @@ internal sealed class SessionGroup
             Add(peer, scenes?.Invoke(peer) ?? scene, chosen, seed + (ulong)peer);
         }
 
-        Host.Logged += entry => Log.Add(entry.Index, new UpdateEntry(entry.Verdict, entry.Event));
+        Host.Logged += entry =>
+        {
+            Log.Add(entry.Index, new UpdateEntry(entry.Verdict, entry.Event));
+            Assert.True(entry.Verdict != Verdict.Accepted || entry.Event.Time >= promised, $"{entry} came after a watermark of {promised}");
+        };
     }
 
     internal Scene Scene { get; }
@@ -206,6 +211,12 @@ internal sealed class SessionGroup
             UpdateEntry logged = Log[index++];
             Assert.Equal((logged.Verdict, logged.Sequence), (entry.Verdict, entry.Sequence));
             Assert.True(entry.IsOwn || entry.Event.Equals(logged.Event));
+        }
+
+        promised = SimTime.Max(promised, tapped.Watermark);
+        for (; tapped.Watermark != SimTime.MinValue && Log.TryGetValue(index, out UpdateEntry later); index++)
+        {
+            Assert.True(later.Verdict != Verdict.Accepted || later.Event.Time >= tapped.Watermark, $"{later.Event} comes after a watermark of {tapped.Watermark}");
         }
     }
 }
