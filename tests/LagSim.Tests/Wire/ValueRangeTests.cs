@@ -174,7 +174,7 @@ public class ValueRangeTests
         byte[] knock = AnyDatagram.Bytes(new KnockDatagram(1).Encode);
         knock[^1] = 1;
         AssertRefused(knock);
-        foreach (byte reason in new byte[] { 0, 6, 255 })
+        foreach (byte reason in new byte[] { 0, 7, 255 })
         {
             byte[] answer = AnyDatagram.Bytes(new RefusalDatagram(1, RefusalReason.Full).Encode);
             answer[^1] = reason;
