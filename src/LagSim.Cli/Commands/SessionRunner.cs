@@ -28,6 +28,12 @@ internal sealed class SessionRunner : IDisposable
 
     private const int RoundTripsOfPatience = 4;
 
+    /// <summary>How far a world may be behind before it is said.</summary>
+    private static readonly SimDuration MostBehind = SimDuration.FromSeconds(2);
+
+    /// <summary>How long a host waits, after its time is up and the history has passed, for a world that is behind.</summary>
+    private static readonly SimDuration WorldPatience = SimDuration.FromSeconds(5);
+
     /// <summary>How long a host that has said goodbye answers those who have not heard it.</summary>
     private static readonly TimeSpan GoodbyeTime = TimeSpan.FromMilliseconds(300);
 
@@ -49,6 +55,7 @@ internal sealed class SessionRunner : IDisposable
     private PlayerAction[]? actions; // of the deeds, once the scene is known
     private int done; // or given up
     private bool hasFailedDeed;
+    private bool hasToldPace;
     private SimTime? patienceEnd;
 
     internal SessionRunner(Session session, UdpPort port, SessionRequest request, SessionPrinter printer, CancellationToken stop)
@@ -103,13 +110,21 @@ internal sealed class SessionRunner : IDisposable
     {
         thread.Start();
         TimeSpan? wait = TimeSpan.Zero;
-        while (wait is TimeSpan span && !stop.IsCancellationRequested && thread.State != SessionState.Ended)
+        try
         {
-            news.WaitOne(span);
-            PrintTold();
-            LookAtAttempts();
-            LookAtLinks();
-            wait = session.World is null ? LookInterval : Tend(session.World.Simulation.Start);
+            while (wait is TimeSpan span && !stop.IsCancellationRequested && thread.State != SessionState.Ended)
+            {
+                news.WaitOne(span);
+                PrintTold();
+                LookAtAttempts();
+                LookAtLinks();
+                LookAtPace();
+                wait = session.World is null ? LookInterval : Tend(session.World.Simulation.Start);
+            }
+        }
+        catch (InvalidOperationException fault) when (fault.InnerException is not null)
+        {
+            throw new InputException(fault.Message, fault); // the session's thread ended by an exception, of which a handler or a force is the likeliest source
         }
 
         bool isTimeReached = request.Seconds is null || (session.World is not null && Passed(session.World.Simulation.Start) >= request.Seconds);
@@ -131,7 +146,7 @@ internal sealed class SessionRunner : IDisposable
             printer.Summary(session, port, recorder?.Failure);
         }
 
-        return code;
+        return code == ExitCode.Done && recorder?.Failure is not null ? ExitCode.Input : code;
     }
 
     public void Dispose()
@@ -166,6 +181,16 @@ internal sealed class SessionRunner : IDisposable
         while (told.TryDequeue(out Action? what))
         {
             what();
+        }
+    }
+
+    /// <summary>Tells, once, of a world that this machine cannot simulate as fast as time passes.</summary>
+    private void LookAtPace()
+    {
+        if (!hasToldPace && session.World is { } world && session.SharedTime.Now - world.Simulation.SimulatedTo is var behind && behind > MostBehind)
+        {
+            hasToldPace = true;
+            printer.Problem(FormattableString.Invariant($"The world is {behind.ToSeconds():0.0} s behind: this machine cannot simulate it in real time."));
         }
     }
 
@@ -210,6 +235,12 @@ internal sealed class SessionRunner : IDisposable
         {
             patienceEnd ??= now + joiner.History + (request.Options.KeepAlive * 2);
             return (isCommitted && attempts.Count == 0 && !isAwaitingVerdict) || now >= patienceEnd;
+        }
+
+        if (!isCommitted && now - start > SimDuration.FromSeconds(request.Seconds.Value) + request.Options.History + WorldPatience)
+        {
+            Fail(FormattableString.Invariant($"The time is up, and the world is not committed to T {(last - start).ToSeconds()} s: it is too far behind."));
+            return true;
         }
 
         if (isCommitted)
@@ -370,6 +401,11 @@ internal sealed class SessionRunner : IDisposable
     {
         SayGoodbye();
         thread.Dispose();
+        if (session.State != SessionState.Ended)
+        {
+            session.Leave(); // its thread was stopped in the middle of its work, so this one may
+        }
+
         TellDifference();
         PrintTold();
         LookAtAttempts();

@@ -219,6 +219,19 @@ public sealed class PeerThread : IDisposable
         }
     }
 
+    /// <summary>Whatever went wrong here, the others need not wait for the time-out.</summary>
+    private void SayGoodbye()
+    {
+        try
+        {
+            Session.Leave();
+        }
+        catch (Exception failure) when (failure is not OutOfMemoryException)
+        {
+            // What ends the thread is told; that leaving failed too adds nothing.
+        }
+    }
+
     private SimDuration Step()
     {
         try
@@ -232,8 +245,13 @@ public sealed class PeerThread : IDisposable
 
             return wait;
         }
-        catch
+        catch (Exception failure)
         {
+            if (failure is not OperationCanceledException)
+            {
+                SayGoodbye();
+            }
+
             decided.Set();
             disposed = true; // the thread ends with the exception: who still waits for an answer gets none
             AnswerAll();

@@ -1,0 +1,58 @@
+using System;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Harness.Peers;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>A machine that slept, or whose clock was set: its player is told, and not left to do what all others refuse.</summary>
+public sealed class ClockJumpTests
+{
+    [Theory]
+    [InlineData(0.5, false)]
+    [InlineData(5, true)]
+    [InlineData(60, true)]
+    [InlineData(-5, true)]
+    public void Clock_ThatJumps_EndsTheSessionIfByMoreThanTheHistory(double seconds, bool ends)
+    {
+        VirtualClock clock = new(SimTime.FromSeconds(10));
+        VirtualNetwork network = new(clock, 1, LinkProfiles.Lan);
+        VirtualSteps steps = new(network);
+        IDatagramPort hostPort = network.CreatePort(0), port = network.CreatePort(1);
+        HostSession host = new(Deeds.Box(), hostPort, clock, new SessionOptions(), 1);
+        JumpingClock own = new(clock);
+        JoinerSession joiner = new(null, port, own, new SessionOptions(), PeerAddress.Virtual(0), 4);
+        steps.Add(host, hostPort);
+        steps.Add(joiner, port);
+        steps.RunFor(SimDuration.FromSeconds(5));
+        Assert.Equal(SessionState.Running, joiner.State);
+
+        own.Jump += SimDuration.FromSeconds(seconds);
+        steps.RunFor(SimDuration.FromSeconds(30));
+        Assert.Equal(ends ? SessionState.Ended : SessionState.Running, joiner.State);
+        if (ends)
+        {
+            Assert.Matches($"^This machine's clock and the host's are {Math.Abs(seconds)}[0-9.]* s further apart than before: .* Join again.$", joiner.EndReason!.Replace("4.99", "5", StringComparison.Ordinal).Replace("59.99", "60", StringComparison.Ordinal));
+            Assert.Equal((SessionEnd.Failed, 0), (joiner.EndedBy, host.JoinerCount));
+        }
+        else
+        {
+            ExternalEvent external = joiner.Do(PlayerAction.Impulse(First, V(0, 1)));
+            steps.RunFor(SimDuration.FromSeconds(1));
+            Assert.Equal((1L, 0L), (host.Counters.EventsAccepted, host.Counters.EventsRefused));
+            Assert.Equal(joiner.Peer, external.Peer);
+        }
+    }
+
+    private sealed class JumpingClock(IClock inner) : IClock
+    {
+        internal SimDuration Jump { get; set; }
+
+        public SimTime Now => inner.Now + Jump;
+    }
+}
