@@ -6,6 +6,7 @@ using System.Net;
 using System.Threading;
 using LagSim.Cli.Output;
 using LagSim.Harness.Links;
+using LagSim.Harness.Reports;
 using LagSim.Hosting;
 using LagSim.Time;
 
@@ -74,7 +75,7 @@ internal static class RelayCommand
             {
                 console.Output.WriteLine(string.Create(
                     CultureInfo.InvariantCulture,
-                    $"{link.Name}, {traffic.Clients} joiners; to the host {traffic.ForwardedToHost} datagrams, {traffic.LostToHost} lost; from the host {traffic.ForwardedFromHost}, {traffic.LostFromHost} lost; {traffic.Refused} refused"));
+                    $"{link.Name}, {NumberText.Count(traffic.Clients, "joiner")}; to the host {traffic.ForwardedToHost} datagrams, {traffic.LostToHost} lost; from the host {traffic.ForwardedFromHost}, {traffic.LostFromHost} lost; {traffic.Refused} refused"));
             }
 
             return console.Stop.IsCancellationRequested ? ExitCode.Interrupted : ExitCode.Done;

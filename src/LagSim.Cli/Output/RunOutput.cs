@@ -45,7 +45,7 @@ internal static class RunOutput
             $"lagsim {ToolVersion.Text}   run {scene.Name}   seed {seed}   scene {scene.Hash:x16}   state {run.End.StateHash(run.Until):x16}   events {run.End.EventHash(run.Until):x16}"));
         console.Rich.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
-            $"{run.Until.ToSeconds()} s, {run.End.EventsProcessed} events, {run.End.ImpactsProcessed} impacts, {NumberText.Short(run.WallSeconds)} s of computing; "
+            $"{run.Until.ToSeconds()} s, {NumberText.Count(run.End.EventsProcessed, "event")}, {NumberText.Count(run.End.ImpactsProcessed, "impact")}, {NumberText.Short(run.WallSeconds)} s of computing; "
             + $"energy {NumberText.Short(run.StartEnergy)} J at the start, {NumberText.Short(run.EndEnergy)} J at the end"));
         Table table = new Table { Border = TableBorder.Rounded }.AddColumns("body", "position (m)", "velocity (m/s)", "motion");
         for (int body = 0; body < scene.Bodies.Count; body++)

@@ -26,6 +26,9 @@ public sealed partial class JoinerSession : Session
     /// <summary>How long between two tries to be let in, and between two exchanges while the clock is set.</summary>
     private static readonly SimDuration Pace = SimDuration.FromMilliseconds(20);
 
+    /// <summary>By less than this a clock's estimate may be corrected on a bad link too.</summary>
+    private static readonly SimDuration LeastJump = SimDuration.FromSeconds(1);
+
     private readonly PeerAddress host;
     private readonly ulong nonce;
     private readonly SimTime began;
@@ -130,7 +133,7 @@ public sealed partial class JoinerSession : Session
         {
             SharedTime.Adjust(ClockSync.Estimate);
             SimDuration off = SharedTime.Remaining < SimDuration.Zero ? SimDuration.Zero - SharedTime.Remaining : SharedTime.Remaining;
-            if (World is not null && off > History)
+            if (World is not null && off > History && off > LeastJump)
             {
                 // To bend it back at 5 % takes twenty times as long, and until then all that is done here would be refused.
                 Farewell();

@@ -62,13 +62,13 @@ public sealed class SessionCommandTests
     [Fact]
     public void HostAndJoin_AsJson_PrintOneDocumentAndNothingElse()
     {
-        // The host's disk is full, which does not end the session.
+        // The host's disk is full, which does not end the session, and is told.
         bool isFull = File.Exists("/dev/full");
         using LiveTool host = LiveTool.Run(Host + " --for-s 1 --json --key secret --seed 7" + (isFull ? " --record /dev/full" : ""));
         string? listening = host.Error.WaitFor(line => line.StartsWith("listening on ", StringComparison.Ordinal), LiveTool.Deadline);
         using LiveTool joiner = LiveTool.Run($"join {listening!.Split(' ')[2]} --for-s 1 --json --key secret");
         joiner.Ends(0);
-        host.Ends(0);
+        host.Ends(isFull ? 3 : 0);
         using JsonDocument one = JsonDocument.Parse(host.Output.ToString()), two = JsonDocument.Parse(joiner.Output.ToString());
         foreach (JsonDocument document in new[] { one, two })
         {
