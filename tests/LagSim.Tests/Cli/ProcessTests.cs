@@ -31,6 +31,7 @@ public sealed class ProcessTests
 
         joiner.Says("T 1 s ");
         Assert.SkipWhen(OperatingSystem.IsWindows(), "Windows has no signal that a test can send.");
+        Assert.SkipWhen(ToolProcess.IgnoresControlC(), "Ctrl-C is ignored here, and by what is started from here.");
         host.PressControlC();
         host.Ends(130);
         joiner.Ends(0);

@@ -1,6 +1,7 @@
 using System;
 using System.Diagnostics;
 using System.IO;
+using System.Linq;
 using System.Runtime.InteropServices;
 using LagSim.Cli;
 using Xunit;
@@ -59,6 +60,14 @@ internal sealed class ToolProcess : IDisposable
     /// <summary>Waits for a line that begins like this.</summary>
     internal void Says(string begin) => Assert.True(
         Output.WaitFor(said => said.StartsWith(begin, StringComparison.Ordinal), LiveTool.Deadline) is not null, $"'{line}' does not say '{begin}': {this}");
+
+    /// <summary>Whether this process was started with Ctrl-C ignored, as a shell does with what it runs in the background: then so are those it starts.</summary>
+    internal static bool IgnoresControlC()
+    {
+        const string status = "/proc/self/status";
+        string? ignored = File.Exists(status) ? File.ReadLines(status).FirstOrDefault(line => line.StartsWith("SigIgn:", StringComparison.Ordinal)) : null;
+        return ignored is not null && (Convert.ToUInt64(ignored.Split('\t')[1], 16) & (1UL << (Interrupt - 1))) != 0;
+    }
 
     /// <summary>Presses Ctrl-C.</summary>
     internal void PressControlC() => Assert.Equal(0, Kill(process.Id, Interrupt));
