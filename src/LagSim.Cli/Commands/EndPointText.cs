@@ -5,6 +5,7 @@ using System.Net;
 using System.Net.Sockets;
 using System.Threading;
 using LagSim.Cli.Output;
+using LagSim.Net.Carriers;
 
 namespace LagSim.Cli.Commands;
 
@@ -41,10 +42,7 @@ internal static class EndPointText
     internal static IPEndPoint Resolve(string text, string purpose, CancellationToken stop)
     {
         IPEndPoint found = Find(text, stop);
-        IPAddress machine = found.Address.IsIPv4MappedToIPv6 ? found.Address.MapToIPv4() : found.Address;
-        return machine.Equals(IPAddress.Any) || machine.Equals(IPAddress.IPv6Any)
-            ? throw new InputException($"'{found}' is no host to {purpose}: it takes the address of one machine and a port from 1 to 65535.")
-            : found;
+        return UdpDestination.IsOneMachine(found, purpose, out string? error) ? found : throw new InputException(error);
     }
 
     private static IPEndPoint Find(string text, CancellationToken stop)
@@ -74,13 +72,4 @@ internal static class EndPointText
         !text.Contains('[', StringComparison.Ordinal) && IPAddress.TryParse(text, out IPAddress? address)
             ? address
             : throw new UsageException($"{option} is '{text}'; it must be an IP address of this machine, as 127.0.0.1, or 0.0.0.0 or :: for all.");
-
-    /// <summary>Of this machine's addresses the one from which that machine is reached: loopback reaches loopback only.</summary>
-    internal static IPAddress Facing(IPAddress machine)
-    {
-        bool v6 = machine.AddressFamily == AddressFamily.InterNetworkV6;
-        return IPAddress.IsLoopback(machine)
-            ? (v6 ? IPAddress.IPv6Loopback : IPAddress.Loopback)
-            : (v6 ? IPAddress.IPv6Any : IPAddress.Any);
-    }
 }

@@ -64,7 +64,7 @@ internal static class HostCommand
     {
         try
         {
-            return new HostSession(scene, carrier, new StopwatchClock(), options, SessionRunner.RandomNumber());
+            return new HostSession(scene, carrier, new StopwatchClock(), options, Session.DrawNumber());
         }
         catch (Exception failure) when (failure is ArgumentException or SceneException)
         {

@@ -30,9 +30,9 @@ internal static class JoinCommand
         {
             SessionRequest request = shared.Read(parsed);
             IPEndPoint there = EndPointText.Resolve(parsed.GetValue(host)!, "join", console.Stop);
-            using UdpPort carrier = new(new IPEndPoint(EndPointText.Facing(there.Address), 0));
+            using UdpPort carrier = new(UdpDestination.Facing(there.Address));
             JoinerSession session = new(
-                null, carrier, new StopwatchClock(), request.Options, PeerAddress.From(there), SessionRunner.RandomNumber());
+                null, carrier, new StopwatchClock(), request.Options, PeerAddress.From(there), Session.DrawNumber());
             SessionPrinter printer = new(console, parsed.GetValue(common.Json), "join", parsed.GetValue(common.Seed), request);
             using SessionRunner runner = new(session, carrier, request, printer, console.Stop);
             return runner.Run();

@@ -1,9 +1,7 @@
 using System;
-using System.Buffers.Binary;
 using System.Collections.Concurrent;
 using System.Collections.Generic;
 using System.Linq;
-using System.Security.Cryptography;
 using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Cli.Output;
@@ -83,14 +81,6 @@ internal sealed class SessionRunner : IDisposable
 
         thread = new PeerThread(session, port, "LagSim session");
         onStop = stop.Register(Wake);
-    }
-
-    /// <summary>A number that nobody can guess.</summary>
-    internal static ulong RandomNumber()
-    {
-        Span<byte> bytes = stackalloc byte[sizeof(ulong)];
-        RandomNumberGenerator.Fill(bytes);
-        return BinaryPrimitives.ReadUInt64LittleEndian(bytes);
     }
 
     /// <summary>What a session that ended so is to the shell. That states differ is told whatever else there is.</summary>

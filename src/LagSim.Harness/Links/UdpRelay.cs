@@ -1,7 +1,6 @@
 using System;
 using System.IO;
 using System.Net;
-using System.Net.Sockets;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Time;
@@ -46,14 +45,13 @@ public sealed class UdpRelay : IDisposable
         ArgumentNullException.ThrowIfNull(profile);
         ArgumentNullException.ThrowIfNull(clock);
         PeerAddress address = PeerAddress.From(host);
-        IPAddress machine = address.ToEndPoint().Address;
-        if (host.Port == 0 || machine.Equals(IPAddress.Any) || machine.Equals(IPAddress.IPv6Any))
+        if (!UdpDestination.IsOneMachine(host, "relay to", out string? error))
         {
-            throw new ArgumentException($"'{host}' is no host to relay to: it takes the address of one machine and a port from 1 to 65535.", nameof(host));
+            throw new ArgumentException(error, nameof(host));
         }
 
         this.clock = clock;
-        towardsHost = new IPEndPoint(FacingAddress(machine), 0);
+        towardsHost = UdpDestination.Facing(address.ToEndPoint().Address);
         UdpPort front = new(listen);
         LocalAddress = front.LocalAddress;
         core = new RelayCore(front, address, profile, seed, MaxClients, OpenPort);
@@ -81,15 +79,6 @@ public sealed class UdpRelay : IDisposable
     {
         thread.Dispose();
         core.Dispose();
-    }
-
-    /// <summary>Of this machine's addresses the one from which that machine is reached: loopback reaches loopback only.</summary>
-    private static IPAddress FacingAddress(IPAddress machine)
-    {
-        bool v6 = machine.AddressFamily == AddressFamily.InterNetworkV6;
-        return IPAddress.IsLoopback(machine)
-            ? (v6 ? IPAddress.IPv6Loopback : IPAddress.Loopback)
-            : (v6 ? IPAddress.IPv6Any : IPAddress.Any);
     }
 
     private SimDuration Step() => core.Poll(clock.Now) is SimTime next ? next - clock.Now : SimDuration.MaxValue;

@@ -178,7 +178,7 @@ public sealed partial class HostSession
     {
         if (joiners.Find(j => j.Peer == number) is Joiner before)
         {
-            SayGoodbye(before, LeaveReason.Replaced);
+            SayGoodbye(before.Link, LeaveReason.Replaced);
             LetGo(j => j == before);
         }
     }

@@ -177,7 +177,7 @@ public sealed partial class HostSession : Session
             bool isSilent = now - joiners[i].Link.Heard > PatienceWith(joiners[i]);
             if (isSilent || log.Count - joiners[i].Acknowledged > MaxUnacknowledged)
             {
-                SayGoodbye(joiners[i], isSilent ? LeaveReason.TimedOut : LeaveReason.FellBehind);
+                SayGoodbye(joiners[i].Link, isSilent ? LeaveReason.TimedOut : LeaveReason.FellBehind);
                 LetGo(i);
             }
         }
@@ -185,7 +185,7 @@ public sealed partial class HostSession : Session
         if (now > MaxClock)
         {
             Farewell();
-            End(SessionEnd.Failed, $"The session has lasted {MaxClock.ToSeconds():F0} s, the longest there is; host a new one.");
+            End(SessionEnd.Failed, FormattableString.Invariant($"The session has lasted {MaxClock.ToSeconds():F0} s, the longest there is; host a new one."));
             return;
         }
 
@@ -235,7 +235,7 @@ public sealed partial class HostSession : Session
         {
             foreach (Joiner joiner in joiners)
             {
-                SayGoodbye(joiner, LeaveReason.HostEnded);
+                SayGoodbye(joiner.Link, LeaveReason.HostEnded);
             }
         }
     }
@@ -257,12 +257,6 @@ public sealed partial class HostSession : Session
         LinkTraffic link = joiners[index].Link.Traffic;
         joiners.RemoveAt(index);
         JoinerGone?.Invoke(link);
-    }
-
-    private void SayGoodbye(Joiner joiner, LeaveReason reason)
-    {
-        Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];
-        Send(bytes.Slice(0, new LeaveDatagram(joiner.Link.SessionId, 0, reason).Encode(bytes)), joiner.Link);
     }
 
     private void SayGoodbye(PeerAddress to, ulong itsSession, LeaveReason reason)

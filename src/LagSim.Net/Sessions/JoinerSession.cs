@@ -114,7 +114,7 @@ public sealed partial class JoinerSession : Session
             Counters.DatagramsIgnored++;
             if (link is not null && sender == host && update.SessionId == link.SessionId && State == SessionState.Ended)
             {
-                SayGoodbye(link); // it has not heard the first one
+                SayGoodbye(link, LeaveReason.Left); // it has not heard the first one
             }
 
             return;
@@ -132,7 +132,7 @@ public sealed partial class JoinerSession : Session
             && ClockSync.Add(update.EchoSent, update.EchoReceived, update.Sent, now) && ClockSync.IsReady)
         {
             SharedTime.Adjust(ClockSync.Estimate);
-            SimDuration off = SharedTime.Remaining < SimDuration.Zero ? SimDuration.Zero - SharedTime.Remaining : SharedTime.Remaining;
+            SimDuration off = SharedTime.Remaining < SimDuration.Zero ? -SharedTime.Remaining : SharedTime.Remaining;
             if (World is not null && off > History && off > LeastJump)
             {
                 // To bend it back at 5 % takes twenty times as long, and until then all that is done here would be refused.
@@ -227,14 +227,8 @@ public sealed partial class JoinerSession : Session
     {
         for (int n = 0; link is not null && n < Goodbyes; n++)
         {
-            SayGoodbye(link);
+            SayGoodbye(link, LeaveReason.Left);
         }
-    }
-
-    private void SayGoodbye(UpdateLink to)
-    {
-        Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];
-        Send(bytes.Slice(0, new LeaveDatagram(to.SessionId, Peer, LeaveReason.Left).Encode(bytes)), to);
     }
 
     private void OnLeave(in LeaveDatagram leave)

@@ -1,8 +1,6 @@
 using System;
 using System.Collections.Concurrent;
 using System.Net;
-using System.Net.Sockets;
-using System.Security.Cryptography;
 using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Events;
@@ -54,7 +52,7 @@ public sealed class PeerThread : IDisposable
         }
 
         UdpPort port = new(new IPEndPoint(bind ?? IPAddress.Any, udpPort));
-        return Begin(port, () => new HostSession(scene, port, new StopwatchClock(), options ?? new SessionOptions(), Draw()), "LagSim host");
+        return Begin(port, () => new HostSession(scene, port, new StopwatchClock(), options ?? new SessionOptions(), Session.DrawNumber()), "LagSim host");
     }
 
     /// <summary>Joins a session over UDP on a thread that is started already. Disposing it leaves the session and closes the port.</summary>
@@ -65,19 +63,14 @@ public sealed class PeerThread : IDisposable
     /// <exception cref="ArgumentException">That is no machine's address, or an option is out of its range.</exception>
     public static PeerThread Join(IPEndPoint host, SessionOptions? options = null, Scene? scene = null)
     {
-        if (host is null)
+        if (!UdpDestination.IsOneMachine(host, "join", out string? error))
         {
-            throw new ArgumentNullException(nameof(host));
-        }
-
-        if (host.Port == 0 || host.Address.Equals(IPAddress.Any) || host.Address.Equals(IPAddress.IPv6Any) || host.Address.Equals(IPAddress.Broadcast))
-        {
-            throw new ArgumentException($"'{host}' is no host to join: it takes the address of one machine and a port from 1 to {IPEndPoint.MaxPort}.", nameof(host));
+            throw new ArgumentException(error, nameof(host));
         }
 
         PeerAddress address = PeerAddress.From(host);
-        UdpPort port = new(new IPEndPoint(host.AddressFamily == AddressFamily.InterNetwork ? IPAddress.Any : IPAddress.IPv6Any, 0));
-        return Begin(port, () => new JoinerSession(scene, port, new StopwatchClock(), options ?? new SessionOptions(), address, Draw()), "LagSim joiner");
+        UdpPort port = new(UdpDestination.Facing(address.ToEndPoint().Address));
+        return Begin(port, () => new JoinerSession(scene, port, new StopwatchClock(), options ?? new SessionOptions(), address, Session.DrawNumber()), "LagSim joiner");
     }
 
     /// <summary>Where this peer's port is reached, from this machine only if it listens at every address there is: then others use one of the machine's own.</summary>
@@ -201,14 +194,6 @@ public sealed class PeerThread : IDisposable
             port.Dispose();
             throw;
         }
-    }
-
-    /// <summary>A number nobody else has.</summary>
-    private static ulong Draw()
-    {
-        Span<byte> bytes = stackalloc byte[sizeof(ulong)];
-        RandomNumberGenerator.Fill(bytes);
-        return BitConverter.ToUInt64(bytes);
     }
 
     private void AnswerAll()

@@ -1,5 +1,7 @@
 using System;
+using System.Buffers.Binary;
 using System.Collections.Generic;
+using System.Security.Cryptography;
 using System.Threading;
 using LagSim.Events;
 using LagSim.Hosting;
@@ -19,13 +21,16 @@ namespace LagSim.Net.Sessions;
 /// be read: <see cref="Scene"/>, <see cref="SharedTime"/>, <see cref="State"/>, <see cref="EndReason"/>, <see cref="Committed"/>, and which
 /// <see cref="World"/> it is; of the world itself only its pictures, its counts of late steps, and when it started.
 /// </remarks>
-public abstract class Session
+public abstract partial class Session
 {
     /// <summary>As many datagrams are taken in at a time at most: whoever floods this peer does not keep it from its own work.</summary>
     private const int MaxDatagramsAStep = 256;
 
     /// <summary>As often a goodbye is said at once; who has not heard it hears it again in answer to what it sends, for as long as the port is there.</summary>
     private protected const int Goodbyes = 3;
+
+    /// <summary>The furthest that a clock may have run, 23 days: so long a session can last.</summary>
+    internal static readonly SimTime MaxClock = SimTime.FromSeconds(2_000_000); // the estimate of another clock takes readings of up to 24 days
 
     private readonly byte[] buffer = new byte[IDatagramPort.MaxDatagramBytes];
     private readonly ILateEventStrategy strategy;
@@ -37,12 +42,6 @@ public abstract class Session
     private volatile SessionEnd endedBy;
     private volatile LiveWorld? world;
     private volatile Scene? scene;
-    private volatile object? committed; // a boxed state: other threads read it whole
-    private SimTime settled = SimTime.MinValue; // the watermark that was last committed to
-    private CommitSchedule? schedule;
-
-    /// <summary>The furthest that a clock may have run, 23 days: so long a session can last.</summary>
-    internal static readonly SimTime MaxClock = SimTime.FromSeconds(2_000_000); // the estimate of another clock takes readings of up to 24 days
 
     private protected Session(Scene? scene, IDatagramPort port, IClock clock, SessionOptions options)
     {
@@ -53,7 +52,9 @@ public abstract class Session
         options.Check();
         if (clock.Now > MaxClock)
         {
-            throw new ArgumentException($"The clock reads {clock.Now.ToSeconds():F0} s; a session takes one that reads less than {MaxClock.ToSeconds():F0} s. Make a new one.", nameof(clock));
+            throw new ArgumentException(
+                FormattableString.Invariant($"The clock reads {clock.Now.ToSeconds():F0} s; a session takes one that reads less than {MaxClock.ToSeconds():F0} s. Make a new one."),
+                nameof(clock));
         }
 
         Limits = new PlayerLimits(options);
@@ -70,19 +71,12 @@ public abstract class Session
     /// <summary>Raised on the session's thread for every line of the log, in order, once it has taken effect here. Handlers must not throw.</summary>
     public event Action<LogEntry>? Logged;
 
-    /// <summary>Raised on the session's thread for every committed state, in order; see <see cref="SessionOptions.CommitInterval"/>. Handlers must not throw.</summary>
-    /// <remarks>A world that is behind commits later; where it had to forget an instant before that could be committed, none is raised for it.</remarks>
-    public event Action<CommittedState>? StateCommitted;
-
     /// <summary>The scene that all peers share; null for a joiner that has not heard of it. From any thread.</summary>
     public Scene? Scene
     {
         get => scene;
         private protected set => scene = value;
     }
-
-    /// <summary>The newest committed state; null before there is one. From any thread.</summary>
-    public CommittedState? Committed => (CommittedState?)committed;
 
     /// <summary>The session's time; readable once <see cref="SharedClock.IsSet"/>, from any thread.</summary>
     public SharedClock SharedTime { get; }
@@ -138,6 +132,14 @@ public abstract class Session
 
     /// <summary>The number of this peer's newest event.</summary>
     private protected uint LastSequence { get; set; }
+
+    /// <summary>A number that nobody can guess, for a host's session or a joiner's nonce. From any thread.</summary>
+    public static ulong DrawNumber()
+    {
+        Span<byte> bytes = stackalloc byte[sizeof(ulong)];
+        RandomNumberGenerator.Fill(bytes);
+        return BinaryPrimitives.ReadUInt64LittleEndian(bytes);
+    }
 
     /// <summary>Does what is due: takes in datagrams, sends, brings the world ahead, by a bounded number of events; see <see cref="LiveWorld.IsBehind"/>.</summary>
     /// <returns>How long until something is due again, unless a datagram or an action comes first.</returns>
@@ -280,20 +282,7 @@ public abstract class Session
     // The session itself decides what is forgotten, by the watermark; the simulation's own limit would go by its look-ahead.
     private SimulationOptions WorldOptions(SimTime start) => new(start, SimDuration.MaxValue, cancellation: interruption.Token);
 
-    /// <summary>When the next state can be committed, if the watermark follows the clock by that much.</summary>
-    private protected SimTime NextCommit(SimDuration behind) =>
-        schedule is null ? SimTime.MaxValue : schedule.Next + behind + SimDuration.OneTick;
-
     private protected void Tell(in LogEntry entry) => Logged?.Invoke(entry);
-
-    /// <summary>Notes the state that the host says it has committed.</summary>
-    private protected void CompareCommitted(SimTime time, ulong stateHash)
-    {
-        if (schedule is not null && schedule.TryCompare(time, stateHash, out bool agrees))
-        {
-            Counters.Count(agrees, time);
-        }
-    }
 
     /// <summary>Brings another peer's accepted event into the world.</summary>
     private protected void Apply(in ExternalEvent external)
@@ -332,47 +321,6 @@ public abstract class Session
         }
     }
 
-    /// <summary>Nothing before the watermark will change any more; hash what is due, and forget it, but for what the options want kept.</summary>
-    private protected void Commit(SimTime watermark)
-    {
-        if (World is null || schedule is null)
-        {
-            return;
-        }
-
-        settled = SimTime.Max(settled, watermark);
-        while (schedule.Next < watermark && schedule.Next <= World.Simulation.Horizon)
-        {
-            CommittedState state = schedule.Take(World.Simulation);
-            committed = state;
-            if (schedule.TryCompare(state, out bool agrees))
-            {
-                Counters.Count(agrees, state.Time);
-            }
-
-            StateCommitted?.Invoke(state);
-        }
-
-        // What is still to be hashed is kept.
-        World.Simulation.DropHistoryBefore(SimTime.Min(watermark - Options.ExtraHistory, schedule.Next));
-    }
-
-    /// <summary>
-    /// A world that has long to go takes no more memory for it than one that is there: what has been committed to is hashed as the world gets there, and
-    /// what is older than any event that can still come is forgotten, committed or not.
-    /// </summary>
-    private void ForgetWhileBehind(SimTime shared)
-    {
-        Commit(settled);
-        Simulation simulation = World!.Simulation;
-        SimTime oldest = SimTime.Min(shared - SessionOptions.MaxHistory - Options.Timeout - Options.ExtraHistory, simulation.SimulatedTo);
-        if (oldest > simulation.HistoryEdge)
-        {
-            schedule!.SkipTo(oldest);
-            simulation.DropHistoryBefore(oldest);
-        }
-    }
-
     /// <summary>
     /// Whether one end of a link has not heard of the other when it should have. They then write as if something were unacknowledged: else a
     /// burst of losses, which is counted in datagrams, would last as long as the timeout.
@@ -403,6 +351,12 @@ public abstract class Session
     {
         Send(datagram, link.Other);
         link.CountSent(datagram.Length);
+    }
+
+    private protected void SayGoodbye(UpdateLink link, LeaveReason reason)
+    {
+        Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];
+        Send(bytes.Slice(0, new LeaveDatagram(link.SessionId, Peer, reason).Encode(bytes)), link);
     }
 
     private SimDuration StepOnce()

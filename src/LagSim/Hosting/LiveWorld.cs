@@ -100,50 +100,23 @@ public sealed class LiveWorld
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult Submit(in ExternalEvent external)
     {
-        SimTime front = BeginChange();
-        try
-        {
-            SubmitResult result = Simulation.Submit(external);
-            Return(front);
-            return result;
-        }
-        finally
-        {
-            Simulation.DefersAgain = false;
-        }
+        using Change change = new(this);
+        return change.Finish(Simulation.Submit(external));
     }
 
     /// <summary>Submits an event that takes effect at its arrival; see <see cref="Simulation.SubmitForwarded"/>.</summary>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult SubmitForwarded(in ExternalEvent external, SimTime arrival)
     {
-        SimTime front = BeginChange();
-        try
-        {
-            SubmitResult result = Simulation.SubmitForwarded(external, arrival);
-            Return(front);
-            return result;
-        }
-        finally
-        {
-            Simulation.DefersAgain = false;
-        }
+        using Change change = new(this);
+        return change.Finish(Simulation.SubmitForwarded(external, arrival));
     }
 
     /// <summary>Takes an event back; see <see cref="Simulation.Retract"/>.</summary>
     public bool Retract(in ExternalEvent external)
     {
-        SimTime front = BeginChange();
-        try
-        {
-            bool wasThere = Simulation.Retract(external);
-            Return(front);
-            return wasThere;
-        }
-        finally
-        {
-            Simulation.DefersAgain = false;
-        }
+        using Change change = new(this);
+        return change.Finish(Simulation.Retract(external));
     }
 
     /// <summary>Brings the world ahead of <paramref name="now"/>, without publishing, as far as this step's work goes; see <see cref="IsBehind"/>.</summary>
@@ -182,22 +155,6 @@ public sealed class LiveWorld
         return isBehind ? now : Simulation.Horizon == SimTime.MaxValue ? SimTime.MaxValue : Simulation.Horizon - (LookAhead / 2);
     }
 
-    private SimTime BeginChange()
-    {
-        changed = true;
-        Simulation.DefersAgain = true; // what is simulated again counts as this step's work
-        return Simulation.SimulatedTo;
-    }
-
-    /// <summary>Simulates again what a late event took back.</summary>
-    private void Return(SimTime front)
-    {
-        if (Simulation.SimulatedTo < front)
-        {
-            isBehind |= !Simulation.TryAdvanceTo(front, ref events);
-        }
-    }
-
     /// <summary>The options, if they and the spans go together.</summary>
     private static SimulationOptions Checked(SimulationOptions options, SimDuration? lookAhead, SimDuration? picturePast)
     {
@@ -220,5 +177,32 @@ public sealed class LiveWorld
         return options.History > ahead
             ? options
             : throw new ArgumentOutOfRangeException(nameof(options), options.History, $"The history must exceed the look-ahead, {ahead}.");
+    }
+
+    /// <summary>A change of the world: what a late event takes back is simulated again as part of the step's work, which may end before it is done.</summary>
+    private readonly ref struct Change
+    {
+        private readonly LiveWorld world;
+        private readonly SimTime front;
+
+        internal Change(LiveWorld world)
+        {
+            this.world = world;
+            front = world.Simulation.SimulatedTo;
+            world.changed = true;
+            world.Simulation.DefersAgain = true;
+        }
+
+        public void Dispose() => world.Simulation.DefersAgain = false;
+
+        internal T Finish<T>(T result)
+        {
+            if (world.Simulation.SimulatedTo < front)
+            {
+                world.isBehind |= !world.Simulation.TryAdvanceTo(front, ref world.events);
+            }
+
+            return result;
+        }
     }
 }

@@ -187,6 +187,21 @@ public sealed class GettingInTests
     }
 
     [Fact]
+    public void Join_CookieThatWasOfNoUseForLong_IsUsedAgainOnceTheHostGivesItAgain()
+    {
+        // Every join is lost for so long that the cookie is asked for anew; in its half minute the host gives the same one.
+        SessionGroup group = new SessionGroup(Deeds.Box(), 1, LinkProfiles.PureDelay(1)).Connect();
+        group.Run(30.001 - (group.Clock.Now.ToSeconds() % 30)); // a half minute begins
+        bool isLost = true;
+        group.Network.Lose((from, _, datagram) => isLost && from == 7 && datagram.Span[3] == (byte)DatagramType.Join);
+        JoinerSession joiner = group.Join(7, 99, new SessionOptions { Timeout = SimDuration.FromSeconds(60) });
+        group.Run(20.5);
+        Assert.Equal(SessionState.Joining, joiner.State);
+        isLost = false;
+        Assert.True(group.RunUntil(() => joiner.State == SessionState.Running, 1), joiner.EndReason);
+    }
+
+    [Fact]
     public void Join_HostUpTooLong_IsAnErrorAndEndsWithASentence()
     {
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);

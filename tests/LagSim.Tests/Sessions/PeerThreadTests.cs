@@ -2,11 +2,13 @@ using System;
 using System.Net;
 using System.Threading;
 using System.Threading.Tasks;
+using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Harness.Scenes;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
+using LagSim.Scenes;
 using Xunit;
 
 namespace LagSim.Tests.Sessions;
@@ -45,6 +47,61 @@ public sealed class PeerThreadTests
         thread.Dispose();
 
         Assert.Throws<ObjectDisposedException>(() => { _ = thread.Ask(_ => 1); });
+    }
+
+    [Theory]
+    [InlineData("0.0.0.0", 5000)]
+    [InlineData("::", 5000)]
+    [InlineData("::ffff:0.0.0.0", 5000)]
+    [InlineData("255.255.255.255", 5000)]
+    [InlineData("127.0.0.1", 0)]
+    public void Join_WhatIsNoMachine_IsRefusedAtOnce(string address, int port)
+    {
+        ArgumentException refused = Assert.Throws<ArgumentException>(() => PeerThread.Join(new IPEndPoint(IPAddress.Parse(address), port)));
+        Assert.Contains("is no host to join: it takes the address of one machine and a port from 1 to 65535.", refused.Message, StringComparison.Ordinal);
+        Assert.Equal("host", refused.ParamName);
+    }
+
+    [Theory]
+    [InlineData(-1)]
+    [InlineData(65_536)]
+    public void Host_PortOutOfRange_IsRefusedWithTheRange(int port)
+    {
+        ArgumentOutOfRangeException refused = Assert.Throws<ArgumentOutOfRangeException>(() => PeerThread.Host(BuiltInScenes.Pair(), port));
+        Assert.Equal(("udpPort", port), (refused.ParamName, refused.ActualValue));
+        Assert.Contains("a number from 1 to 65535, or 0", refused.Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Start_AgainOrAfterDispose_IsAnErrorThatSaysSo()
+    {
+        using UdpPort port = new(new IPEndPoint(IPAddress.Loopback, 0));
+        PeerThread thread = Host(port);
+        thread.Start();
+        Assert.Contains("has been started already", Assert.Throws<InvalidOperationException>(thread.Start).Message, StringComparison.Ordinal);
+        Assert.Throws<ArgumentNullException>(() => { _ = thread.Ask<int>(null!); });
+        thread.Dispose();
+        Assert.Throws<ObjectDisposedException>(thread.Start);
+    }
+
+    [Fact]
+    public async Task Step_ThatThrows_TellsTheOthersAtOnceAndThenTheProgram()
+    {
+        using PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), bind: IPAddress.Loopback);
+        using PeerThread joiner = PeerThread.Join(new IPEndPoint(IPAddress.Loopback, host.LocalAddress.ToEndPoint().Port));
+        Assert.True(joiner.WaitUntilRunning(Deadline), joiner.Session.EndReason);
+        using ManualResetEventSlim ended = new();
+        joiner.Session.Ended += ended.Set;
+        await host.Ask(session =>
+        {
+            session.Logged += _ => throw new FormatException("a handler that breaks its promise");
+            return true;
+        });
+        _ = joiner.Do(PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, 1, 0)));
+
+        Assert.True(ended.Wait(Deadline, TestContext.Current.CancellationToken)); // long before the time-out, whose sentence is another
+        Assert.EndsWith(" ended the session.", joiner.Session.EndReason, StringComparison.Ordinal);
+        Assert.IsType<FormatException>(Assert.Throws<InvalidOperationException>(() => host.Latest()).InnerException);
     }
 
     [Fact]

@@ -126,17 +126,7 @@ public sealed class SnapshotFormatTests
         int accepted = 0, refused = 0;
         for (int i = 0; i < Trials; i++)
         {
-            byte[] bytes = (byte[])valid[random.Next(valid.Length)].Clone();
-            for (int change = random.Next(1, 4); change > 0; change--)
-            {
-                int at = random.Next(bytes.Length);
-                bytes[at] = random.Next(3) switch
-                {
-                    0 => (byte)random.Next(256),
-                    1 => (byte)(bytes[at] ^ (1 << random.Next(8))),
-                    _ => new byte[] { 0, 1, 0x7F, 0x80, 0xF0, 0xFF }[random.Next(6)],
-                };
-            }
+            byte[] bytes = Mutation.Of(valid[random.Next(valid.Length)], random);
 
             bool isAccepted = OneForm(random.Next(4) > 0 ? bytes : bytes.AsSpan(0, random.Next(bytes.Length)));
             accepted += isAccepted ? 1 : 0;

@@ -1,0 +1,42 @@
+using System;
+using System.Diagnostics.CodeAnalysis;
+using System.Net;
+using System.Net.Sockets;
+
+namespace LagSim.Net.Carriers;
+
+/// <summary>What can be sent to, and from where: the rules for who takes an address from a user.</summary>
+public static class UdpDestination
+{
+    /// <summary>Whether it is the address of one machine, and a port from 1 on; what listens at "all addresses" can be reached at each of them, but not at that.</summary>
+    /// <param name="endpoint">The address and port.</param>
+    /// <param name="purpose">What for, as a verb; part of the sentence.</param>
+    /// <param name="error">If not, a sentence that names it and says what is allowed.</param>
+    /// <exception cref="ArgumentNullException">There is no endpoint.</exception>
+    public static bool IsOneMachine(IPEndPoint endpoint, string purpose, [NotNullWhen(false)] out string? error)
+    {
+        if (endpoint is null)
+        {
+            throw new ArgumentNullException(nameof(endpoint));
+        }
+
+        IPAddress address = endpoint.Address.IsIPv4MappedToIPv6 ? endpoint.Address.MapToIPv4() : endpoint.Address;
+        bool isNone = endpoint.Port == 0 || address.Equals(IPAddress.Any) || address.Equals(IPAddress.IPv6Any) || address.Equals(IPAddress.Broadcast);
+        error = isNone ? $"'{endpoint}' is no host to {purpose}: it takes the address of one machine and a port from 1 to {IPEndPoint.MaxPort}." : null;
+        return !isNone;
+    }
+
+    /// <summary>Of this machine's addresses the one, with any free port, from which that machine is reached: loopback reaches loopback only.</summary>
+    /// <exception cref="ArgumentNullException">There is no address.</exception>
+    public static IPEndPoint Facing(IPAddress machine)
+    {
+        if (machine is null)
+        {
+            throw new ArgumentNullException(nameof(machine));
+        }
+
+        bool v6 = machine.AddressFamily == AddressFamily.InterNetworkV6;
+        return new IPEndPoint(
+            IPAddress.IsLoopback(machine) ? (v6 ? IPAddress.IPv6Loopback : IPAddress.Loopback) : (v6 ? IPAddress.IPv6Any : IPAddress.Any), 0);
+    }
+}
