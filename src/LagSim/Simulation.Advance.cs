@@ -48,7 +48,7 @@ public sealed partial class Simulation
         bool isThere = true;
         try
         {
-            while (queue.Count > 0 && queue.LeastKey.Time <= time)
+            while (TakeBackBrushed() && queue.Count > 0 && queue.LeastKey.Time <= time)
             {
                 if (queue.LeastKey.Time > reached)
                 {
@@ -64,6 +64,7 @@ public sealed partial class Simulation
                 }
 
                 events--;
+                clock = queue.LeastKey;
                 Process(queue.LeastSlot, queue.LeastKey);
             }
         }
@@ -80,6 +81,11 @@ public sealed partial class Simulation
         }
 
         SimulatedTo = isCancelled || !isThere ? reached : time;
+        if (SimulatedTo >= front)
+        {
+            front = SimTime.MinValue; // healed
+        }
+
         ForgetUpTo(SimulatedTo);
         if (isCancelled)
         {
@@ -104,13 +110,17 @@ public sealed partial class Simulation
         switch (key.Kind)
         {
             case EventKind.Impact:
-                if (IsStale(slot))
+                if (IsStale(slot, key))
                 {
                     Predict(slot);
                     return;
                 }
 
-                HandleImpact(slot, key);
+                if (!TryHandleImpact(slot, key))
+                {
+                    return; // somebody was ahead of it; he has been taken back, and it is due again
+                }
+
                 ImpactsProcessed++;
                 break;
             case EventKind.StepEnd:
@@ -126,8 +136,8 @@ public sealed partial class Simulation
         EventsProcessed++;
     }
 
-    /// <summary>Whether the partner's segment that the pending impact was found with is no longer the newest.</summary>
-    private bool IsStale(int slot)
+    /// <summary>Whether the piece of the partner's path that the pending impact was found with is no longer what the partner is on then.</summary>
+    private bool IsStale(int slot, in EventKey key)
     {
         int partner = bodies[slot].Partner;
         if (partner == NoPartner)
@@ -135,8 +145,8 @@ public sealed partial class Simulation
             return false;
         }
 
-        int last = timelines.Last(partner);
-        return last == TimelineStore.None || timelines.Serial(last) != bodies[slot].PartnerSerial; // or forgotten meanwhile
+        int piece = PieceAt(partner, key);
+        return piece == TimelineStore.None || timelines.Serial(piece) != bodies[slot].PartnerSerial; // or forgotten meanwhile
     }
 
     private void HandleStepEnd(int slot, in EventKey key)
@@ -168,9 +178,11 @@ public sealed partial class Simulation
     }
 
     /// <summary>The round of something at <paramref name="time"/> on the body's newest segment: what a tick's own event causes at it comes a round later.</summary>
-    private uint RoundAt(SimTime time, int slot)
+    private uint RoundAt(SimTime time, int slot) => RoundAfter(timelines.Last(slot), time);
+
+    private uint RoundAfter(int segment, SimTime time)
     {
-        ref readonly EventKey opened = ref timelines.Key(timelines.Last(slot));
+        ref readonly EventKey opened = ref timelines.Key(segment);
         return opened.Time == time ? opened.Round + 1 : 0;
     }
 }

@@ -54,12 +54,13 @@ public sealed partial class Simulation
     /// How many impacts in succession a body will have had with one at <paramref name="time"/>, each soon after the one before; no
     /// further than to <see cref="SqueezedAfter"/>. A function of its newest segment, so that a timeline that was cut counts again as it did.
     /// </summary>
-    private int CrowdingAt(int slot, SimTime time)
+    private int CrowdingAt(int slot, SimTime time) => CrowdingAfter(timelines.Last(slot), time);
+
+    private int CrowdingAfter(int segment, SimTime time)
     {
-        int last = timelines.Last(slot);
-        ref readonly EventKey opened = ref timelines.Key(last);
+        ref readonly EventKey opened = ref timelines.Key(segment);
         bool isSoon = opened.Kind == EventKind.Impact && time - opened.Time <= CrowdedWithin;
-        return isSoon ? Math.Min(timelines.Segment(last).Crowding + 1, SqueezedAfter) : 0;
+        return isSoon ? Math.Min(timelines.Segment(segment).Crowding + 1, SqueezedAfter) : 0;
     }
 
     /// <summary>Whether a crowded body is so near to a static surface that it does not strike now that the surface takes part.</summary>
@@ -84,16 +85,15 @@ public sealed partial class Simulation
     }
 
     /// <summary>Whether two bodies of which one is crowded are so near that the other takes part, though they do not strike now.</summary>
-    private bool IsNearBody(int slot, int count, int other, SimTime time)
+    private bool IsNearBody(int slot, int count, int other, int piece, SimTime time)
     {
-        bool isCrowded = slot != other && (count >= nearFrom || CrowdingAt(other, time) >= nearFrom);
-        return isCrowded && Gap(slot, other, time) <= reach;
+        bool isCrowded = count >= nearFrom || CrowdingAfter(piece, time) >= nearFrom;
+        return isCrowded && Gap(slot, timelines.Last(slot), other, piece, time) <= reach;
     }
 
-    /// <summary>The distance between two bodies' surfaces at a tick; the same bits whoever asks.</summary>
-    private double Gap(int slot, int other, SimTime time) =>
-        (PositionAt(timelines.Last(slot), time) - PositionAt(timelines.Last(other), time)).Length
-        - (bodies[slot].Spec.Radius + bodies[other].Spec.Radius);
+    /// <summary>The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits whoever asks.</summary>
+    private double Gap(int slot, int piece, int other, int otherPiece, SimTime time) =>
+        (PositionAt(piece, time) - PositionAt(otherPiece, time)).Length - (bodies[slot].Spec.Radius + bodies[other].Spec.Radius);
 
     /// <summary>
     /// Whether the parties are in lasting contact: a plastic impact would change their velocities, in the mean by mass, by no more than a few

@@ -54,18 +54,24 @@ public sealed partial class Simulation
         }
 
         log.DropBefore(slot, HistoryEdge); // what is older can no longer be changed
+        int next = bodies[slot].NextExternal;
+        EventKey due = next == EventLog.None ? EventKey.Before(Start) : log.Key(next);
         if (!log.TryRemove(slot, external.Peer, external.Sequence, out EventKey key))
         {
             return false;
         }
 
-        if (key.Time <= SimulatedTo)
+        if (key == due)
         {
-            Rollback(key);
+            bodies[slot].NextExternal = log.FirstFrom(slot, key);
         }
-        else
+
+        if (key.Time <= SimTime.Max(SimulatedTo, front))
         {
-            bodies[slot].NextExternal = log.FirstFrom(slot, EventKey.Before(SimulatedTo + SimDuration.OneTick));
+            Rewrite(slot, key);
+        }
+        else if (key == due)
+        {
             Predict(slot);
         }
 
@@ -93,9 +99,9 @@ public sealed partial class Simulation
             return SubmitResult.Duplicate;
         }
 
-        if (key.Time <= SimulatedTo)
+        if (key.Time <= SimTime.Max(SimulatedTo, front))
         {
-            Rollback(key);
+            Rewrite(slot, key);
             return SubmitResult.RolledBack;
         }
 

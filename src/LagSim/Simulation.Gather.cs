@@ -18,6 +18,11 @@ public sealed partial class Simulation
         nearFrom = fromCount;
         reach = gap;
         Follow(slot, key);
+        if (ahead.Count > 0)
+        {
+            return 0;
+        }
+
         SortParties();
         SortContacts();
 
@@ -38,8 +43,9 @@ public sealed partial class Simulation
         partyCount = 0;
         contactCount = 0;
         hasNear = false;
+        ahead.Clear();
         AddParty(slot);
-        for (int i = 0; i < partyCount && !IsTooCrowded; i++)
+        for (int i = 0; i < partyCount && !IsTooCrowded && ahead.Count == 0; i++)
         {
             int party = parties[i];
             int count = CrowdingAt(party, key.Time);
@@ -55,17 +61,29 @@ public sealed partial class Simulation
 
             foreach (int other in index.Candidates(party))
             {
+                if (other == party)
+                {
+                    continue;
+                }
+
                 bool isNear = false;
-                bool now = TryTouchBody(party, other, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
-                if (!now && RoundAt(key.Time, other) <= key.Round)
+                int then = PieceAt(other, key);
+                bool now = TryTouchBody(party, other, then, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
+                if (!now && RoundAfter(then, key.Time) <= key.Round && timelines.Segment(then).IsPresent)
                 {
                     // What was struck in this very round already is not struck in it again.
-                    now = key.Round >= CollapseRound && IsTouching(party, other, key.Time, out contact);
-                    isNear = !now && IsNearBody(party, count, other, key.Time);
+                    now = key.Round >= CollapseRound && IsTouching(party, other, then, key.Time, out contact);
+                    isNear = !now && IsNearBody(party, count, other, then, key.Time);
                 }
 
                 if (now || isNear)
                 {
+                    if (then != timelines.Last(other))
+                    {
+                        ahead.Add(other);
+                        continue;
+                    }
+
                     hasNear |= !now;
                     int j = PartyOf(other);
                     if (j < 0 || j > i)
@@ -79,10 +97,10 @@ public sealed partial class Simulation
         }
     }
 
-    private bool IsTouching(int slot, int other, SimTime time, out ContactTime contact)
+    private bool IsTouching(int slot, int other, int piece, SimTime time, out ContactTime contact)
     {
         ContactTime.TryMake(time, time, 0, out contact);
-        return slot != other && Gap(slot, other, time) <= Scene.Resolution;
+        return Gap(slot, timelines.Last(slot), other, piece, time) <= Scene.Resolution;
     }
 
     private int PartyOf(int slot) => Array.IndexOf(parties, slot, 0, partyCount);

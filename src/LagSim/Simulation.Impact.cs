@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
@@ -31,18 +32,34 @@ public sealed partial class Simulation
     private Vector3D[] partyAccelerations = new Vector3D[4];
     private ContactPoint[] contacts = new ContactPoint[8];
     private int[] touched = new int[8];
+    private readonly List<int> lookedAt = new(); // of the impact at hand, if it looks at what is near
     private int partyCount;
     private int contactCount;
 
     /// <summary>Takes the operands of a contact the wrong way round: only a test's negative control sets it.</summary>
     internal bool SwapsOperands { get; set; }
 
-    private void HandleImpact(int slot, in EventKey key)
+    private bool TryHandleImpact(int slot, in EventKey key)
     {
         double residual = Gather(slot, key, IgnoresCrowding ? int.MaxValue : CrowdedAfter, NearGap);
+        if (TryTakeBack(key))
+        {
+            return false;
+        }
+
+        lookedAt.Clear();
+        for (int i = 0; i < partyCount && hasNear; i++)
+        {
+            lookedAt.Add(parties[i]);
+        }
+
         if (IsTooCrowded || (hasNear && !IsLasting()))
         {
             residual = Gather(slot, key, SqueezedAfter, Scene.Resolution);
+            if (TryTakeBack(key))
+            {
+                return false;
+            }
         }
 
         SetTargets(key.Round);
@@ -63,10 +80,18 @@ public sealed partial class Simulation
             OpenAfterImpact(i, canonical, residual);
         }
 
+        timelines.Join(parties.AsSpan(0, partyCount));
+        foreach (int seen in lookedAt)
+        {
+            witnesses.Add(seen, canonical, parties[0], HistoryEdge);
+        }
+
         for (int i = 0; i < partyCount; i++)
         {
             Predict(parties[i]);
         }
+
+        return true;
     }
 
     /// <summary>

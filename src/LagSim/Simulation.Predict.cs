@@ -28,6 +28,7 @@ public sealed partial class Simulation
         bool any = false;
         EventKey least = default;
         int partner = NoPartner;
+        int with = TimelineStore.None;
         BodyId id = bodies[slot].Id;
         int external = bodies[slot].NextExternal;
         if (external != EventLog.None)
@@ -54,13 +55,16 @@ public sealed partial class Simulation
 
             foreach (int other in index.Candidates(slot))
             {
-                if (TryTouchBody(slot, other, out ContactTime contact, out uint round))
+                if (TryMeet(slot, other, out int piece, out ContactTime contact, out uint round))
                 {
                     BodyId otherId = bodies[other].Id;
                     EventKey key = id < otherId
                         ? new EventKey(contact.Tick, round, EventKind.Impact, id, otherId, 0, 0)
                         : new EventKey(contact.Tick, round, EventKind.Impact, otherId, id, 0, 0);
-                    Consider(key, other, ref any, ref least, ref partner);
+                    if (Consider(key, other, ref any, ref least, ref partner))
+                    {
+                        with = piece;
+                    }
                 }
             }
         }
@@ -72,27 +76,30 @@ public sealed partial class Simulation
             return;
         }
 
-        Pend(slot, least, partner);
-        if (partner != NoPartner && (!queue.TryGet(partner, out EventKey theirs) || EventKey.Compare(least, theirs) < 0))
+        Pend(slot, least, partner, with);
+        if (partner != NoPartner && with == timelines.Last(partner) && (!queue.TryGet(partner, out EventKey theirs) || EventKey.Compare(least, theirs) < 0))
         {
-            Pend(partner, least, slot);
+            Pend(partner, least, slot, last);
         }
     }
 
-    private static void Consider(in EventKey key, int with, ref bool any, ref EventKey least, ref int partner)
+    private static bool Consider(in EventKey key, int with, ref bool any, ref EventKey least, ref int partner)
     {
-        if (!any || EventKey.Compare(key, least) < 0)
+        if (any && EventKey.Compare(key, least) >= 0)
         {
-            any = true;
-            least = key;
-            partner = with;
+            return false;
         }
+
+        any = true;
+        least = key;
+        partner = with;
+        return true;
     }
 
-    private void Pend(int slot, in EventKey key, int partner)
+    private void Pend(int slot, in EventKey key, int partner, int piece)
     {
         bodies[slot].Partner = partner;
-        bodies[slot].PartnerSerial = partner == NoPartner ? 0 : timelines.Serial(timelines.Last(partner));
+        bodies[slot].PartnerSerial = partner == NoPartner ? 0 : timelines.Serial(piece);
         queue.Set(slot, key);
     }
 
@@ -152,12 +159,61 @@ public sealed partial class Simulation
             from, segment.End, out contact);
     }
 
-    /// <summary>The next contact of the newest segments of two bodies; a pure function of the two, ordered by identity.</summary>
-    private bool TryTouchBody(int slot, int other, out ContactTime contact, out uint round)
+    /// <summary>
+    /// The next contact of a body's newest segment with another body's path: with its newest piece, or, where that body is ahead of what is being
+    /// healed, with the first piece that is touched before what ended it.
+    /// </summary>
+    private bool TryMeet(int slot, int other, out int piece, out ContactTime contact, out uint round)
+    {
+        piece = timelines.Last(other);
+        if (MayBeAhead(clock) && slot != other)
+        {
+            piece = PieceFrom(slot, other);
+            Brush(slot, other, piece);
+        }
+
+        while (true)
+        {
+            int next = timelines.Next(piece);
+            if (TryTouchBody(slot, other, piece, out contact, out round)
+                && (next == TimelineStore.None || EventKey.Compare(timelines.Key(next), RoundOfImpacts(contact.Tick, round)) >= 0))
+            {
+                return true;
+            }
+
+            if (next == TimelineStore.None)
+            {
+                return false;
+            }
+
+            piece = next;
+        }
+    }
+
+    /// <summary>The first piece of another's path that a body's newest segment can still meet: the newest, but for one who is ahead.</summary>
+    private int PieceFrom(int slot, int other)
+    {
+        int piece = timelines.Last(other);
+        ref readonly EventKey opened = ref timelines.Key(timelines.Last(slot));
+        EventKey from = EventKey.Compare(opened, clock) > 0 ? opened : clock;
+        while (timelines.Serial(piece) <= oldSerial && EventKey.Compare(timelines.Key(piece), from) > 0 && timelines.Previous(piece) != TimelineStore.None)
+        {
+            piece = timelines.Previous(piece);
+        }
+
+        return piece;
+    }
+
+    /// <summary>The key before all impacts of a tick and round.</summary>
+    private static EventKey RoundOfImpacts(SimTime time, uint round) => new(time, round, EventKind.Impact, default, default, 0, 0);
+
+    /// <summary>The next contact of a body's newest segment with a piece of another's path; a pure function of the two, ordered by identity.</summary>
+    private bool TryTouchBody(int slot, int other, int piece, out ContactTime contact, out uint round)
     {
         contact = default;
         round = 0;
-        if (slot == other)
+        int mine = timelines.Last(slot);
+        if (slot == other || !timelines.Segment(piece).IsPresent || !timelines.Segment(mine).IsPresent)
         {
             return false;
         }
@@ -165,8 +221,8 @@ public sealed partial class Simulation
         bool ordered = bodies[slot].Id < bodies[other].Id;
         int a = ordered ? slot : other;
         int b = ordered ? other : slot;
-        int lastA = timelines.Last(a);
-        int lastB = timelines.Last(b);
+        int lastA = ordered ? mine : piece;
+        int lastB = ordered ? piece : mine;
         ref readonly MotionSegment segmentA = ref timelines.Segment(lastA);
         ref readonly MotionSegment segmentB = ref timelines.Segment(lastB);
         if (segmentA.Law == MotionLaw.Resting && segmentB.Law == MotionLaw.Resting)
@@ -181,7 +237,7 @@ public sealed partial class Simulation
         while (from <= until && ContactFinder.WithSphere(
             segmentA, timelines.Dense(lastA), segmentB, timelines.Dense(lastB), reach, from, until, out contact))
         {
-            round = Math.Max(RoundAt(contact.Tick, a), RoundAt(contact.Tick, b));
+            round = Math.Max(RoundAfter(lastA, contact.Tick), RoundAfter(lastB, contact.Tick));
             if (contact.Tick != opened)
             {
                 return true;

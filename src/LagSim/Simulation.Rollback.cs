@@ -11,15 +11,17 @@ public sealed partial class Simulation
     internal bool CutsByTime { get; set; }
 
     /// <summary>
-    /// Whether a rollback simulates again only the instant of its event, so that <see cref="SimulatedTo"/> goes back; whoever advances does the rest, in pieces
+    /// Whether a late event has only its own instant simulated again, so that <see cref="SimulatedTo"/> goes back; whoever advances does the rest, in pieces
     /// if need be, and for several late events once.
     /// </summary>
     internal bool DefersAgain { get; set; }
 
     /// <summary>Cuts every timeline at the key, not at its time, and simulates again up to where the world was.</summary>
-    private void Rollback(in EventKey key)
+    private void RollBack(in EventKey key)
     {
         Rollbacks++;
+        SimTime to = SimulatedTo;
+        SimulatedTo = key.Time - SimDuration.OneTick;
         EventKey cut = CutsByTime ? new EventKey(key.Time, 0, EventKind.Spawn, default, default, 0, 0) : key;
         for (int slot = 0; slot < slotCount; slot++)
         {
@@ -29,10 +31,7 @@ public sealed partial class Simulation
             {
                 index.Place(slot, timelines.Segment(timelines.Last(slot)));
             }
-        }
 
-        for (int slot = 0; slot < slotCount; slot++)
-        {
             queue.Remove(slot);
         }
 
@@ -41,8 +40,6 @@ public sealed partial class Simulation
             Predict(slot);
         }
 
-        SimTime front = SimulatedTo;
-        SimulatedTo = key.Time - SimDuration.OneTick;
-        AdvanceTo(DefersAgain ? key.Time : front);
+        AdvanceTo(DefersAgain ? key.Time : to);
     }
 }

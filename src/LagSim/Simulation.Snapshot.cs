@@ -25,6 +25,7 @@ public sealed partial class Simulation
         Start = snapshot.Start;
         history = options.History;
         cancellation = options.Cancellation;
+        healing = options.Healing;
         SimulatedTo = snapshot.Time - SimDuration.OneTick;
         HistoryEdge = snapshot.Time;
         timelines = new TimelineStore(Start, options.MaxSegments);

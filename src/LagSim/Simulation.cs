@@ -28,6 +28,7 @@ public sealed partial class Simulation
     private readonly Forces forces;
     private readonly SimDuration history;
     private readonly CancellationToken cancellation;
+    private readonly HealingMode healing;
     private readonly List<int> order = new(); // slots by ascending identity
     private Body[] bodies = new Body[16];
     private readonly Stack<int> freeSlots = new();
@@ -44,6 +45,7 @@ public sealed partial class Simulation
         Start = options.Start;
         history = options.History;
         cancellation = options.Cancellation;
+        healing = options.Healing;
         SimulatedTo = Start - SimDuration.OneTick;
         HistoryEdge = Start;
         timelines = new TimelineStore(Start, options.MaxSegments);
@@ -115,6 +117,7 @@ public sealed partial class Simulation
         bodies[slot] = new Body { Id = id, NextExternal = EventLog.None, Partner = NoPartner };
         timelines.AddSlot(slot);
         log.AddSlot(slot);
+        witnesses.AddSlot(slot);
         order.Insert(~FindInOrder(id), slot);
         OrderVersion++;
         return slot;
@@ -132,6 +135,7 @@ public sealed partial class Simulation
             if (isGone)
             {
                 timelines.Forget(slot);
+                index.Forget(slot);
                 freeSlots.Push(slot);
                 OrderVersion++;
             }

@@ -24,9 +24,10 @@ public sealed class SimulationOptions
     /// bytes. A simulation that would need more ends with a <see cref="SimulationException"/>.
     /// </param>
     /// <param name="cancellation">Ends whatever the simulation is at, from any thread, between two instants, with an <see cref="System.OperationCanceledException"/>.</param>
+    /// <param name="healing">How an event is brought in that lies before the simulated time. It has no influence on the result, to the bit.</param>
     /// <exception cref="System.ArgumentOutOfRangeException">The history or the most segments are not above zero, or the start more than 72 days from the origin.</exception>
     public SimulationOptions(
-        SimTime start = default, SimDuration? history = null, int maxSegments = DefaultMaxSegments, CancellationToken cancellation = default)
+        SimTime start = default, SimDuration? history = null, int maxSegments = DefaultMaxSegments, CancellationToken cancellation = default, HealingMode healing = HealingMode.CausalCone)
     {
         if (history is SimDuration given && given <= SimDuration.Zero)
         {
@@ -46,6 +47,7 @@ public sealed class SimulationOptions
         Start = start;
         MaxSegments = maxSegments;
         Cancellation = cancellation;
+        Healing = healing;
         History = history ?? DefaultHistory;
     }
 
@@ -57,6 +59,9 @@ public sealed class SimulationOptions
 
     /// <summary>How many pieces of path all timelines together may hold.</summary>
     public int MaxSegments { get; }
+
+    /// <summary>How an event is brought in that lies before the simulated time.</summary>
+    public HealingMode Healing { get; }
 
     /// <summary>Ends whatever the simulation is at.</summary>
     public CancellationToken Cancellation { get; }

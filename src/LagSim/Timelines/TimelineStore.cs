@@ -24,9 +24,10 @@ internal sealed class TimelineStore
     private long[] serials = new long[32];
     private int[] previous = new int[32];
     private int[] next = new int[32];
+    private int[] owners = new int[32];
+    private int[] together = new int[32]; // a ring through the segments that one impact opened
     private int free = None;
     private int used;
-    private long lastSerial;
     private int[] first = Array.Empty<int>();
     private int[] last = Array.Empty<int>();
 
@@ -39,6 +40,9 @@ internal sealed class TimelineStore
 
     /// <summary>The sum of the hashes of all segments ever opened and not cut off again, dropped ones included.</summary>
     internal ulong EventHash { get; private set; }
+
+    /// <summary>The serial of the segment that was opened last.</summary>
+    internal long LastSerial { get; private set; }
 
     /// <summary>How many segments may be kept.</summary>
     internal int Most { get; }
@@ -80,6 +84,33 @@ internal sealed class TimelineStore
     /// <summary>A number no other segment of this store ever has; tells whether a remembered segment is still the one.</summary>
     internal long Serial(int segment) => serials[segment];
 
+    /// <summary>The slot of the body whose path the segment is part of.</summary>
+    internal int Owner(int segment) => owners[segment];
+
+    /// <summary>The next in the ring of segments that one impact opened; itself if it has no other.</summary>
+    internal int Together(int segment) => together[segment];
+
+    /// <summary>The body's newest segment keyed before <paramref name="key"/>; <see cref="None"/> if none that is kept is.</summary>
+    internal int Before(int slot, in EventKey key)
+    {
+        int at = last[slot];
+        while (at != None && EventKey.Compare(keys[at], key) >= 0)
+        {
+            at = previous[at];
+        }
+
+        return at;
+    }
+
+    /// <summary>The newest segments of these bodies were opened by one impact.</summary>
+    internal void Join(Span<int> slots)
+    {
+        for (int i = 0; i < slots.Length; i++)
+        {
+            together[last[slots[i]]] = last[slots[i + 1 == slots.Length ? 0 : i + 1]];
+        }
+    }
+
     /// <summary>Opens the body's next segment.</summary>
     /// <exception cref="SimulationException">There are as many as may be.</exception>
     internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output)
@@ -116,9 +147,11 @@ internal sealed class TimelineStore
         }
 
         keys[at] = key;
-        serials[at] = ++lastSerial;
+        serials[at] = ++LastSerial;
         previous[at] = last[slot];
         next[at] = None;
+        owners[at] = slot;
+        together[at] = at;
         if (last[slot] == None)
         {
             first[slot] = at;
@@ -139,23 +172,36 @@ internal sealed class TimelineStore
         int cut = 0;
         while (last[slot] != None && EventKey.Compare(keys[last[slot]], key) >= 0)
         {
-            int at = last[slot];
-            EventHash -= HashOf(at, body);
-            last[slot] = previous[at];
-            if (last[slot] == None)
-            {
-                first[slot] = None;
-            }
-            else
-            {
-                next[last[slot]] = None;
-            }
-
-            Release(at);
+            CutLast(slot, body);
             cut++;
         }
 
         return cut;
+    }
+
+    /// <summary>Removes the body's newest segment, and it from its ring.</summary>
+    internal void CutLast(int slot, BodyId body)
+    {
+        int at = last[slot];
+        EventHash -= HashOf(at, body);
+        last[slot] = previous[at];
+        if (last[slot] == None)
+        {
+            first[slot] = None;
+        }
+        else
+        {
+            next[last[slot]] = None;
+        }
+
+        int before = at;
+        while (together[before] != at)
+        {
+            before = together[before];
+        }
+
+        together[before] = together[at];
+        Release(at);
     }
 
     /// <summary>Drops what is no longer needed for instants from <paramref name="edge"/> on; the last segment opened before the edge stays.</summary>
@@ -231,6 +277,8 @@ internal sealed class TimelineStore
         Array.Resize(ref serials, size);
         Array.Resize(ref previous, size);
         Array.Resize(ref next, size);
+        Array.Resize(ref owners, size);
+        Array.Resize(ref together, size);
         if (dense.Length > 0)
         {
             Array.Resize(ref dense, size);

@@ -51,9 +51,10 @@ internal sealed class RandomWorld
 
     /// <summary>
     /// A world that hears of everything in some order, at any moment of its progress, some of it twice, and of some things that are taken back
-    /// again. With a history, never later than that allows.
+    /// again. With a history, never later than that allows. In pieces, it goes on by a few events at a time, and more news may come before what
+    /// late news takes back is simulated again.
     /// </summary>
-    internal Simulation Shuffled(int seed, SimDuration? history = null, Action<Simulation>? prepare = null)
+    internal Simulation Shuffled(int seed, SimDuration? history = null, Action<Simulation>? prepare = null, bool inPieces = false)
     {
         Random arrivals = new(seed);
         Simulation simulation = new(Scene, new SimulationOptions(default, history ?? SimDuration.MaxValue));
@@ -84,7 +85,9 @@ internal sealed class RandomWorld
         foreach ((double when, ExternalEvent external, bool retracts) in news.OrderBy(n => n.When))
         {
             SimTime now = At(Math.Min(when, End));
-            simulation.AdvanceTo(SimTime.Max(now, simulation.SimulatedTo));
+            long most = inPieces ? arrivals.Next(8) : long.MaxValue;
+            simulation.DefersAgain = inPieces;
+            simulation.TryAdvanceTo(SimTime.Max(now, simulation.SimulatedTo), ref most);
             if (retracts)
             {
                 simulation.Retract(external);

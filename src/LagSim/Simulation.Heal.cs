@@ -1,0 +1,211 @@
+using System.Collections.Generic;
+using LagSim.Events;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <content>Healing: late news rewrites only what it can have touched.</content>
+public sealed partial class Simulation
+{
+    /// <summary>Bodies that the impact at hand reaches, though their paths are known beyond it.</summary>
+    private readonly List<int> ahead = new();
+
+    /// <summary>What is still to be cut: a body, and the key from which on.</summary>
+    private readonly Stack<(int Slot, EventKey Key)> cuts = new();
+
+    /// <summary>Impacts that what is being predicted comes near to: one that takes part, and the impact's key.</summary>
+    private readonly List<(int Slot, EventKey Key)> brushed = new();
+
+    private readonly WitnessLog witnesses = new();
+
+    /// <summary>Who was cut since anything was predicted anew.</summary>
+    private readonly List<int> taken = new();
+
+    /// <summary>How far the paths of bodies that nothing late has touched are known, while something is being healed; a heal may be finished in several advances.</summary>
+    private SimTime front = SimTime.MinValue;
+
+    /// <summary>The event at hand, or the key to which was taken back.</summary>
+    private EventKey clock;
+
+    /// <summary>Of the heal at hand: segments up to this one were there before.</summary>
+    private long oldSerial;
+
+    /// <summary>Whether bodies' paths may be known beyond this key: a heal is under way.</summary>
+    private bool MayBeAhead(in EventKey key) => key.Time <= front;
+
+    /// <summary>Takes the body back to the key, and with it what the news can have touched, as it comes to light; and simulates that again.</summary>
+    private void Heal(int slot, in EventKey key)
+    {
+        Rollbacks++;
+        SimTime to = SimulatedTo;
+        front = SimTime.Max(front, to);
+        clock = key;
+        if (key.Time <= to)
+        {
+            oldSerial = timelines.LastSerial; // what an unfinished heal has made anew may be ahead of this one
+            SimulatedTo = key.Time - SimDuration.OneTick;
+        }
+
+        TakeBack(slot, key);
+        AdvanceTo(DefersAgain ? SimTime.Max(key.Time, SimulatedTo) : to);
+    }
+
+    private void Rewrite(int slot, in EventKey key)
+    {
+        if (healing == HealingMode.FullRollback)
+        {
+            RollBack(key);
+        }
+        else
+        {
+            Heal(slot, key);
+        }
+    }
+
+    /// <summary>
+    /// The piece of its path on which a body meets an impact of this tick and round: its newest, unless it is ahead, with what it did before the heal
+    /// from there on still standing.
+    /// </summary>
+    private int PieceAt(int slot, in EventKey key)
+    {
+        int last = timelines.Last(slot);
+        if (!MayBeAhead(key) || timelines.Serial(last) > oldSerial)
+        {
+            return last;
+        }
+
+        return timelines.Before(slot, RoundOfImpacts(key.Time, key.Round));
+    }
+
+    /// <summary>Cuts a body at the key; whoever shared an impact that is gone is cut there too. All of them are predicted anew.</summary>
+    private void TakeBack(int slot, in EventKey key)
+    {
+        taken.Clear();
+        cuts.Push((slot, key));
+        HasDueFrom(slot, key);
+        taken.Add(slot);
+        while (cuts.Count > 0)
+        {
+            (int body, EventKey from) = cuts.Pop();
+            for (int seen = witnesses.First(body); seen != WitnessLog.None; seen = witnesses.Next(seen))
+            {
+                if (EventKey.Compare(witnesses.Key(seen), from) >= 0 && StillHappens(seen))
+                {
+                    cuts.Push((witnesses.Party(seen), witnesses.Key(seen)));
+                }
+            }
+
+            witnesses.CutFrom(body, from);
+            bool any = false;
+            for (int at = timelines.Last(body); at != TimelineStore.None && EventKey.Compare(timelines.Key(at), from) >= 0; at = timelines.Last(body))
+            {
+                for (int other = timelines.Together(at); other != at; other = timelines.Together(other))
+                {
+                    cuts.Push((timelines.Owner(other), timelines.Key(other)));
+                }
+
+                timelines.CutLast(body, bodies[body].Id);
+                SegmentsCut++;
+                any = true;
+            }
+
+            if (any)
+            {
+                index.Place(body, timelines.Segment(timelines.Last(body)));
+                HasDueFrom(body, from);
+                taken.Add(body);
+            }
+        }
+
+        foreach (int body in taken)
+        {
+            Predict(body);
+        }
+    }
+
+    /// <summary>The body's external events from the key on are still to be applied, or again; those before it that are still due stay so.</summary>
+    private void HasDueFrom(int slot, in EventKey key)
+    {
+        int first = log.FirstFrom(slot, key);
+        int due = bodies[slot].NextExternal;
+        if (first != EventLog.None && (due == EventLog.None || EventKey.Compare(log.Key(first), log.Key(due)) < 0))
+        {
+            bodies[slot].NextExternal = first;
+        }
+    }
+
+    /// <summary>Takes back, to the round at hand, whom <see cref="Gather"/> found ahead of it; false if nobody was.</summary>
+    private bool TryTakeBack(in EventKey key)
+    {
+        if (ahead.Count == 0)
+        {
+            return false;
+        }
+
+        EventKey round = RoundOfImpacts(key.Time, key.Round);
+        while (ahead.Count > 0)
+        {
+            int slot = ahead[ahead.Count - 1];
+            ahead.RemoveAt(ahead.Count - 1);
+            TakeBack(slot, round);
+        }
+
+        return true;
+    }
+
+    /// <summary>
+    /// Finds the impacts ahead that a body's newest segment does not strike but comes so near to that it could take part: those of crowded
+    /// bodies, and those that have looked at somebody for being near.
+    /// </summary>
+    private void Brush(int slot, int other, int piece)
+    {
+        int mine = timelines.Last(slot);
+        SimTime end = timelines.Segment(mine).End;
+        for (int next = timelines.Next(piece); next != TimelineStore.None && timelines.Key(next).Time <= end; piece = next, next = timelines.Next(next))
+        {
+            ref readonly EventKey key = ref timelines.Key(next);
+            bool looks = key.Kind == EventKind.Impact && (key.Round >= CollapseRound || timelines.Segment(next).Crowding >= CrowdedAfter
+                || CrowdingAfter(mine, key.Time) >= CrowdedAfter);
+            if (looks && timelines.Segment(piece).IsPresent && Gap(slot, mine, other, piece, key.Time) <= NearGap)
+            {
+                brushed.Add((other, RoundOfImpacts(key.Time, key.Round)));
+            }
+        }
+
+        for (int seen = witnesses.First(other); seen != WitnessLog.None; seen = witnesses.Next(seen))
+        {
+            EventKey key = witnesses.Key(seen);
+            if (EventKey.Compare(key, clock) > 0 && key.Time <= end && StillHappens(seen, oldSerial))
+            {
+                int then = timelines.Before(other, key);
+                if (then != TimelineStore.None && timelines.Segment(then).IsPresent && Gap(slot, mine, other, then, key.Time) <= NearGap)
+                {
+                    brushed.Add((witnesses.Party(seen), RoundOfImpacts(key.Time, key.Round)));
+                }
+            }
+        }
+    }
+
+    /// <summary>Whether the impact that a body was looked at for has not been taken back since.</summary>
+    private bool StillHappens(int witness, long mostSerial = long.MaxValue)
+    {
+        int party = witnesses.Party(witness);
+        int before = timelines.Before(party, witnesses.Key(witness));
+        int at = before == TimelineStore.None ? timelines.First(party) : timelines.Next(before);
+        return at != TimelineStore.None && timelines.Key(at) == witnesses.Key(witness) && timelines.Serial(at) <= mostSerial;
+    }
+
+    /// <summary>Takes back what was brushed since; true.</summary>
+    private bool TakeBackBrushed()
+    {
+        while (brushed.Count > 0)
+        {
+            (int slot, EventKey key) = brushed[brushed.Count - 1];
+            brushed.RemoveAt(brushed.Count - 1);
+            TakeBack(slot, key);
+        }
+
+        return true;
+    }
+}
