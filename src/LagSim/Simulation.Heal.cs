@@ -40,9 +40,10 @@ public sealed partial class Simulation
         Rollbacks++;
         SimTime to = SimulatedTo;
         front = SimTime.Max(front, to);
-        clock = key;
+        clock = EventKey.Before(to + SimDuration.OneTick);
         if (key.Time <= to)
         {
+            clock = key;
             oldSerial = timelines.LastSerial; // what an unfinished heal has made anew may be ahead of this one
             SimulatedTo = key.Time - SimDuration.OneTick;
         }

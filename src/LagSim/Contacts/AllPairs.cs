@@ -33,7 +33,12 @@ internal sealed class AllPairs : IPairIndex
 
     public void Forget(int slot)
     {
-        int hole = place[slot] - 1;
+        int hole = slot < place.Length ? place[slot] - 1 : -1;
+        if (hole < 0)
+        {
+            return; // heard of, but never there
+        }
+
         int last = known[--count];
         known[hole] = last;
         place[last] = hole + 1;
