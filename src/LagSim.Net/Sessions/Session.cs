@@ -280,7 +280,7 @@ public abstract partial class Session
     }
 
     // The session itself decides what is forgotten, by the watermark; the simulation's own limit would go by its look-ahead.
-    private SimulationOptions WorldOptions(SimTime start) => new(start, SimDuration.MaxValue, cancellation: interruption.Token);
+    private SimulationOptions WorldOptions(SimTime start) => new(start, SimDuration.MaxValue, cancellation: interruption.Token, healing: strategy.Mode);
 
     private protected void Tell(in LogEntry entry) => Logged?.Invoke(entry);
 

@@ -17,6 +17,9 @@ public sealed class ApplyOnArrival : ILateEventStrategy
     public bool RewritesPast => false;
 
     /// <inheritdoc/>
+    public HealingMode Mode => HealingMode.CausalCone;
+
+    /// <inheritdoc/>
     public SubmitResult Apply(LiveWorld world, in ExternalEvent external, SimTime arrival) =>
         world.Submit(external.Time >= arrival ? external : external.At(arrival));
 }

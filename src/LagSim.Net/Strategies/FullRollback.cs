@@ -17,5 +17,8 @@ public sealed class FullRollback : ILateEventStrategy
     public bool RewritesPast => true;
 
     /// <inheritdoc/>
+    public HealingMode Mode => HealingMode.FullRollback;
+
+    /// <inheritdoc/>
     public SubmitResult Apply(LiveWorld world, in ExternalEvent external, SimTime arrival) => world.Submit(external);
 }

@@ -17,6 +17,9 @@ public interface ILateEventStrategy
     /// <summary>Whether a late event takes effect at its own time, so that what was there since is rewritten.</summary>
     bool RewritesPast { get; }
 
+    /// <summary>How the world rewrites what an event before its time has changed; also one's own events, which lie in what is simulated ahead.</summary>
+    HealingMode Mode { get; }
+
     /// <summary>Brings the event into the world.</summary>
     /// <param name="world">The world, simulated to beyond <paramref name="arrival"/> unless it is behind.</param>
     /// <param name="external">The event as its sender stamped it.</param>

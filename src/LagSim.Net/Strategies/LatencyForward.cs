@@ -20,6 +20,9 @@ public sealed class LatencyForward : ILateEventStrategy
     public bool RewritesPast => false;
 
     /// <inheritdoc/>
+    public HealingMode Mode => HealingMode.CausalCone;
+
+    /// <inheritdoc/>
     public SubmitResult Apply(LiveWorld world, in ExternalEvent external, SimTime arrival) =>
         external.Time >= arrival ? world.Submit(external) : world.SubmitForwarded(external, arrival);
 }

@@ -39,7 +39,7 @@ public sealed class DropCommandTests
         foreach (JsonElement run in runs)
         {
             Assert.Equal(RunKeys, Keys(run));
-            Assert.Equal(("full-rollback", "rk4", "virtual", "virtual"), (Text(run, "strategy"), Text(run, "motion"), Text(run, "time"), Text(run, "transport")));
+            Assert.Equal(("healing", "rk4", "virtual", "virtual"), (Text(run, "strategy"), Text(run, "motion"), Text(run, "time"), Text(run, "transport")));
             Assert.Equal(JsonValueKind.Null, run.GetProperty("profile").ValueKind);
             Assert.Equal(25, run.GetProperty("delay_ms").GetDouble());
             Assert.Equal(2, run.GetProperty("peers").GetInt32());
@@ -81,9 +81,9 @@ public sealed class DropCommandTests
     public void Json_OfAllStrategies_HasARunOfEachOnTheTeleportCase()
     {
         JsonElement[] runs = Json("drop", "--time", "virtual", "--motion", "ballistic", "--strategy", "all", "--json").GetProperty("runs").EnumerateArray().ToArray();
-        Assert.Equal(["none", "latency-forward", "full-rollback"], runs.Skip(2).Select(run => Text(run, "strategy")));
+        Assert.Equal(["none", "latency-forward", "full-rollback", "healing"], runs.Skip(2).Select(run => Text(run, "strategy")));
         Assert.All(runs.Skip(2), run => Assert.Equal("teleport", Text(run, "case")));
-        Assert.Equal([true, false, false], runs.Skip(2).Select(run => Differing(run) > 0));
+        Assert.Equal([true, false, false, false], runs.Skip(2).Select(run => Differing(run) > 0));
     }
 
     [Theory]
@@ -167,7 +167,7 @@ public sealed class DropCommandTests
         Tool.Run("drop", "--time", "virtual", "--case", "teleport", "--motion", "ballistic", "--out", folder.Path).Done();
         string chart = File.ReadAllText(folder["drop-strategies.svg"]);
         Assert.Contains("class=\"line c1\"", chart, StringComparison.Ordinal);
-        Assert.Contains("class=\"line c2 dashed\"", chart, StringComparison.Ordinal);
+        Assert.Contains("class=\"line c3 dashed\"", chart, StringComparison.Ordinal);
     }
 
     [Fact]

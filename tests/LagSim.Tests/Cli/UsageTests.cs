@@ -40,7 +40,7 @@ public sealed class UsageTests
 
     [Theory]
     [InlineData("--case", "both", "same-start")]
-    [InlineData("--strategy", "healin", "full-rollback")]
+    [InlineData("--strategy", "healin", "healing")]
     [InlineData("--motion", "euler", "ballistic")]
     [InlineData("--time", "now", "virtual")]
     [InlineData("--transport", "tcp", "udp")]

@@ -17,11 +17,33 @@ public sealed class InvariantTests
     /// <summary>Seeds in blocks, so that a failure names a block and the message the seed.</summary>
     public static TheoryData<int> Blocks => [.. Enumerable.Range(0, 8)];
 
-    [Theory]
-    [MemberData(nameof(Blocks))]
-    public void State_EventsInAnyOrderLateTwiceOrTakenBack_IsThatOfAWorldThatHadThemBefore(int block)
+    /// <summary>Every block with every way to rewrite the past.</summary>
+    public static TheoryData<int, HealingMode> Modes
     {
-        AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed));
+        get
+        {
+            TheoryData<int, HealingMode> modes = [];
+            foreach (HealingMode mode in Enum.GetValues<HealingMode>())
+            {
+                Enumerable.Range(0, 8).ToList().ForEach(block => modes.Add(block, mode));
+            }
+
+            return modes;
+        }
+    }
+
+    [Theory]
+    [MemberData(nameof(Modes))]
+    public void State_EventsInAnyOrderLateTwiceOrTakenBack_IsThatOfAWorldThatHadThemBefore(int block, HealingMode mode)
+    {
+        AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed, mode: mode));
+    }
+
+    [Theory]
+    [MemberData(nameof(Modes))]
+    public void State_RewrittenInPiecesWhileMoreNewsComes_IsTheSameToo(int block, HealingMode mode)
+    {
+        AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed, mode: mode, inPieces: true));
     }
 
     [Theory]
@@ -139,7 +161,7 @@ public sealed class InvariantTests
     [Fact]
     public void Check_TimelinesCutByTimeInsteadOfByKey_IsSeenToFail()
     {
-        Assert.True(Differences(simulation => simulation.CutsByTime = true) > 20);
+        Assert.True(Differences(simulation => simulation.CutsByTime = true, HealingMode.FullRollback) > 20);
     }
 
     [Fact]
@@ -186,10 +208,10 @@ public sealed class InvariantTests
         }
     }
 
-    private static int Differences(Action<Simulation> breaks) => Enumerable.Range(0, 80).Count(seed =>
+    private static int Differences(Action<Simulation> breaks, HealingMode mode = HealingMode.CausalCone) => Enumerable.Range(0, 80).Count(seed =>
     {
         RandomWorld world = new(seed);
-        return RandomWorld.Difference(world.OnTime(), world.Shuffled(seed, prepare: breaks)) is not null;
+        return RandomWorld.Difference(world.OnTime(), world.Shuffled(seed, prepare: breaks, mode: mode)) is not null;
     });
 
     private static Scene Perturbed(Scene scene)

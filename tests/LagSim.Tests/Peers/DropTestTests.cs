@@ -60,6 +60,8 @@ public sealed class DropTestTests
     }
 
     [Theory]
+    [InlineData("healing", MotionLaw.RungeKutta4, 2)]
+    [InlineData("healing", MotionLaw.Ballistic, 5)]
     [InlineData("full-rollback", MotionLaw.RungeKutta4, 2)]
     [InlineData("full-rollback", MotionLaw.Ballistic, 2)]
     [InlineData("full-rollback", MotionLaw.RungeKutta4, 3)]
@@ -76,12 +78,13 @@ public sealed class DropTestTests
         Assert.Equal(0, run.Seen.After.ToStatistics().DifferingBits);
         Assert.Equal(peers, run.StateHashes.Count);
         Assert.Single(run.StateHashes.Distinct());
-        Assert.Equal(strategy == "full-rollback" ? peers - 1 : 0, run.Heals); // all but the one who lifted it
+        bool rewrites = strategy is "full-rollback" or "healing";
+        Assert.Equal(rewrites ? peers - 1 : 0, run.Heals); // all but the one who lifted it
         Assert.InRange(run.Seen.During.ToStatistics().MaxMetres, 14.49, 14.5);
 
-        // Only full rollback rewrites what was before the news as well.
-        Assert.Equal(strategy == "full-rollback", run.Agrees);
-        Assert.Equal(strategy == "full-rollback", Differing(run.Settled.During) == (0, 0));
+        // Only those rewrite what was before the news as well.
+        Assert.Equal(rewrites, run.Agrees);
+        Assert.Equal(rewrites, Differing(run.Settled.During) == (0, 0));
 
         // One hop to the host, a second one to the others.
         Assert.InRange(run.Lateness.Max, peers == 2 ? 24.9 : 49.9, peers == 2 ? 25.1 : 50.1);

@@ -23,7 +23,7 @@ public sealed class AgreementTests
 
     [Theory]
     [MemberData(nameof(Links))]
-    public void Worlds_FullRollbackWhateverTheLink_AreThatOfOneWhoHadAllAcceptedEventsAtOnce(string link, int peers)
+    public void Worlds_WhateverTheLink_AreThatOfOneWhoHadAllAcceptedEventsAtOnce(string link, int peers)
     {
         long heals = 0, lost = 0;
         for (ulong seed = 1; seed <= 6; seed++)

@@ -1,0 +1,24 @@
+using LagSim.Events;
+using LagSim.Hosting;
+using LagSim.Time;
+
+namespace LagSim.Net.Strategies;
+
+/// <summary>The event happens at its own time: what it can have touched since, and only that, is taken back and simulated again. Right bit for bit.</summary>
+public sealed class Healing : ILateEventStrategy
+{
+    /// <inheritdoc/>
+    public string Name => "healing";
+
+    /// <inheritdoc/>
+    public bool PromisesAgreement => true;
+
+    /// <inheritdoc/>
+    public bool RewritesPast => true;
+
+    /// <inheritdoc/>
+    public HealingMode Mode => HealingMode.CausalCone;
+
+    /// <inheritdoc/>
+    public SubmitResult Apply(LiveWorld world, in ExternalEvent external, SimTime arrival) => world.Submit(external);
+}
