@@ -81,9 +81,9 @@ public sealed partial class Simulation
         }
 
         SimulatedTo = isCancelled || !isThere ? reached : time;
-        if (SimulatedTo >= front)
+        if (front != SimTime.MinValue && SimulatedTo >= front)
         {
-            front = SimTime.MinValue; // healed
+            EndHeal();
         }
 
         ForgetUpTo(SimulatedTo);

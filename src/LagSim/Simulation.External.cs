@@ -66,7 +66,7 @@ public sealed partial class Simulation
             bodies[slot].NextExternal = log.FirstFrom(slot, key);
         }
 
-        if (key.Time <= SimTime.Max(SimulatedTo, front))
+        if (key.Time <= KnownTo)
         {
             Rewrite(slot, key);
         }
@@ -99,7 +99,7 @@ public sealed partial class Simulation
             return SubmitResult.Duplicate;
         }
 
-        if (key.Time <= SimTime.Max(SimulatedTo, front))
+        if (key.Time <= KnownTo)
         {
             Rewrite(slot, key);
             return SubmitResult.RolledBack;

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Time;
@@ -19,10 +20,21 @@ public sealed partial class Simulation
 
     private readonly WitnessLog witnesses = new();
 
+    /// <summary>Of the heal at hand what it began with, and how many bodies it has predicted anew.</summary>
+    private HealReport healed;
+
+    /// <summary>The number of the heal at hand, from one.</summary>
+    private uint healNumber;
+
+    private int healedBodies;
+
     /// <summary>Who was cut since anything was predicted anew.</summary>
     private readonly List<int> taken = new();
 
-    /// <summary>How far the paths of bodies that nothing late has touched are known, while something is being healed; a heal may be finished in several advances.</summary>
+    /// <summary>
+    /// How far the world was simulated before the heal at hand, and so how far the paths of bodies that nothing late has touched are known. The least time
+    /// there is where nothing is being healed. A heal may be finished in several advances.
+    /// </summary>
     private SimTime front = SimTime.MinValue;
 
     /// <summary>The event at hand, or the key to which was taken back.</summary>
@@ -34,12 +46,44 @@ public sealed partial class Simulation
     /// <summary>Whether bodies' paths may be known beyond this key: a heal is under way.</summary>
     private bool MayBeAhead(in EventKey key) => key.Time <= front;
 
+    /// <summary>Raised on the thread that advances, once per heal, when the world is again where it was. Handlers must not throw, and not change the world.</summary>
+    public event Action<HealReport>? Healed;
+
+    /// <summary>Up to when what bodies do is known of some, and so would have to be rewritten.</summary>
+    private SimTime KnownTo => healing == HealingMode.FullRollback ? SimulatedTo : SimTime.Max(SimulatedTo, front);
+
+    private void BeginHeal(SimTime time)
+    {
+        Rollbacks++;
+        if (front == SimTime.MinValue)
+        {
+            front = SimulatedTo;
+            healNumber++;
+            healedBodies = 0;
+            healed = new HealReport(time, front, 1, 0, SegmentsCut, EventsProcessed);
+        }
+        else
+        {
+            healed = new HealReport(SimTime.Min(healed.From, time), healed.To, healed.News + 1, 0, healed.SegmentsCut, healed.Events);
+        }
+    }
+
+    private void EndHeal()
+    {
+        front = SimTime.MinValue;
+        Healed?.Invoke(new HealReport(healed.From, healed.To, healed.News, healedBodies, SegmentsCut - healed.SegmentsCut, EventsProcessed - healed.Events));
+    }
+
+    private void CountHealed(int slot)
+    {
+        healedBodies += bodies[slot].HealedIn == healNumber ? 0 : 1;
+        bodies[slot].HealedIn = healNumber;
+    }
+
     /// <summary>Takes the body back to the key, and with it what the news can have touched, as it comes to light; and simulates that again.</summary>
     private void Heal(int slot, in EventKey key)
     {
-        Rollbacks++;
         SimTime to = SimulatedTo;
-        front = SimTime.Max(front, to);
         clock = EventKey.Before(to + SimDuration.OneTick);
         if (key.Time <= to)
         {
@@ -54,6 +98,7 @@ public sealed partial class Simulation
 
     private void Rewrite(int slot, in EventKey key)
     {
+        BeginHeal(key.Time);
         if (healing == HealingMode.FullRollback)
         {
             RollBack(key);
@@ -121,6 +166,7 @@ public sealed partial class Simulation
 
         foreach (int body in taken)
         {
+            CountHealed(body);
             Predict(body);
         }
     }

@@ -19,9 +19,9 @@ public sealed partial class Simulation
     /// <summary>Cuts every timeline at the key, not at its time, and simulates again up to where the world was.</summary>
     private void RollBack(in EventKey key)
     {
-        Rollbacks++;
         SimTime to = SimulatedTo;
         SimulatedTo = key.Time - SimDuration.OneTick;
+        oldSerial = -1; // nobody is ahead of anybody
         EventKey cut = CutsByTime ? new EventKey(key.Time, 0, EventKind.Spawn, default, default, 0, 0) : key;
         for (int slot = 0; slot < slotCount; slot++)
         {
@@ -37,6 +37,7 @@ public sealed partial class Simulation
 
         for (int slot = 0; slot < slotCount; slot++)
         {
+            CountHealed(slot);
             Predict(slot);
         }
 

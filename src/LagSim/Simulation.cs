@@ -199,5 +199,8 @@ public sealed partial class Simulation
 
         /// <summary>The partner's segment that the pending impact was found with.</summary>
         internal long PartnerSerial;
+
+        /// <summary>The number of the last heal that predicted it anew.</summary>
+        internal uint HealedIn;
     }
 }

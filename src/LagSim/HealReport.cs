@@ -1,0 +1,54 @@
+using System;
+using LagSim.Time;
+
+namespace LagSim;
+
+/// <summary>What a heal did: the rewriting of the past for one late event, or for several that came before it was finished.</summary>
+/// <remarks>Immutable. The counts follow from the world and the news alone, not from the machine.</remarks>
+public readonly struct HealReport : IEquatable<HealReport>
+{
+    /// <summary>A report of these.</summary>
+    public HealReport(SimTime from, SimTime to, int news, int bodies, long segmentsCut, long events)
+    {
+        From = from;
+        To = to;
+        News = news;
+        Bodies = bodies;
+        SegmentsCut = segmentsCut;
+        Events = events;
+    }
+
+    /// <summary>The time of the earliest news in it.</summary>
+    public SimTime From { get; }
+
+    /// <summary>How far the world was simulated when the first of the news came, and is again.</summary>
+    public SimTime To { get; }
+
+    /// <summary>How many late events, or events taken back, it served; at least one.</summary>
+    public int News { get; }
+
+    /// <summary>How many bodies were predicted anew because of it: the causal cone; of a full rollback all there are.</summary>
+    public int Bodies { get; }
+
+    /// <summary>How many segments were cut off.</summary>
+    public long SegmentsCut { get; }
+
+    /// <summary>How many events were run again, and the late ones.</summary>
+    public long Events { get; }
+
+    /// <inheritdoc/>
+    public bool Equals(HealReport other) =>
+        (From, To, News, Bodies, SegmentsCut, Events) == (other.From, other.To, other.News, other.Bodies, other.SegmentsCut, other.Events);
+
+    /// <inheritdoc/>
+    public override bool Equals(object? obj) => obj is HealReport other && Equals(other);
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => (From, To, News, Bodies, SegmentsCut, Events).GetHashCode();
+
+    /// <summary>Same in every part.</summary>
+    public static bool operator ==(in HealReport a, in HealReport b) => a.Equals(b);
+
+    /// <summary>Different in some part.</summary>
+    public static bool operator !=(in HealReport a, in HealReport b) => !a.Equals(b);
+}
