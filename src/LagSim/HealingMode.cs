@@ -8,4 +8,10 @@ public enum HealingMode
 
     /// <summary>Rewrites everything since the event's time, for all bodies.</summary>
     FullRollback,
+
+    /// <summary>
+    /// As <see cref="CausalCone"/>, and a second world is kept that is fully rolled back; after every heal all timelines are compared bit by bit. The first
+    /// difference ends the simulation with a <see cref="SimulationException"/> that names it. To test one's own scene; costs more than twice as much.
+    /// </summary>
+    SyncTest,
 }

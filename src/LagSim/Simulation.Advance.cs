@@ -92,6 +92,7 @@ public sealed partial class Simulation
             throw new OperationCanceledException(cancellation);
         }
 
+        FollowWithTwin();
         return isThere;
     }
 
@@ -102,6 +103,7 @@ public sealed partial class Simulation
         if ((ulong)now.Ticks - (ulong)Start.Ticks > (ulong)history.Ticks)
         {
             HistoryEdge = SimTime.Max(HistoryEdge, now - history);
+            index.DropBefore(HistoryEdge);
         }
     }
 
@@ -109,10 +111,13 @@ public sealed partial class Simulation
     {
         switch (key.Kind)
         {
+            case EventKind.None:
+                Predict(slot); // the window for which the index was asked has ended
+                return;
             case EventKind.Impact:
                 if (IsStale(slot, key))
                 {
-                    Predict(slot);
+                    Predict(slot, alone: Has(HealingFault.GivesUpByBody) && MayBeAhead(key));
                     return;
                 }
 
@@ -145,7 +150,7 @@ public sealed partial class Simulation
             return false;
         }
 
-        int piece = PieceAt(partner, key);
+        int piece = Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : PieceAt(partner, key);
         return piece == TimelineStore.None || timelines.Serial(piece) != bodies[slot].PartnerSerial; // or forgotten meanwhile
     }
 
@@ -157,6 +162,10 @@ public sealed partial class Simulation
         {
             RungeKutta4.End(segment, timelines.Dense(last), out Vector3D position, out Vector3D velocity);
             OpenFlight(slot, key, position, velocity);
+        }
+        else if (segment.Law == MotionLaw.Ballistic && Scene.Box.Exists)
+        {
+            OpenFlight(slot, key, PositionAt(last, key.Time), segment.Velocity);
         }
         else if (segment.Acceleration != Vector3D.Zero)
         {
@@ -174,7 +183,6 @@ public sealed partial class Simulation
     {
         timelines.DropBefore(slot, HistoryEdge);
         timelines.Append(slot, bodies[slot].Id, key, segment, dense);
-        index.Place(slot, segment);
     }
 
     /// <summary>The round of something at <paramref name="time"/> on the body's newest segment: what a tick's own event causes at it comes a round later.</summary>

@@ -19,7 +19,8 @@ public sealed partial class Simulation
     {
         ThrowIfFaulted();
         ExternalEventCheck.Throw(external, Scene);
-        return Insert(external, external.Key, forwarded: false);
+        twin?.Submit(external);
+        return Followed(Insert(external, external.Key, forwarded: false));
     }
 
     /// <summary>
@@ -39,7 +40,8 @@ public sealed partial class Simulation
 
         ThrowIfFaulted();
         ExternalEventCheck.Throw(external, Scene);
-        return external.Time < HistoryEdge ? SubmitResult.TooOld : Insert(external, external.At(arrival).Key, forwarded: true);
+        twin?.SubmitForwarded(external, arrival);
+        return external.Time < HistoryEdge ? SubmitResult.TooOld : Followed(Insert(external, external.At(arrival).Key, forwarded: true));
     }
 
     /// <summary>Takes an event back, as if it had never been; false if it is not there (any more).</summary>
@@ -53,6 +55,7 @@ public sealed partial class Simulation
             return false;
         }
 
+        twin?.Retract(external);
         log.DropBefore(slot, HistoryEdge); // what is older can no longer be changed
         int next = bodies[slot].NextExternal;
         EventKey due = next == EventLog.None ? EventKey.Before(Start) : log.Key(next);
@@ -75,7 +78,13 @@ public sealed partial class Simulation
             Predict(slot);
         }
 
-        return true;
+        return Followed(true);
+    }
+
+    private T Followed<T>(T result)
+    {
+        FollowWithTwin();
+        return result;
     }
 
     private SubmitResult Insert(in ExternalEvent external, in EventKey key, bool forwarded)
@@ -91,6 +100,7 @@ public sealed partial class Simulation
             slot = AddBody(external.Body);
             EventKey birth = EventKey.Before(Start);
             timelines.Append(slot, external.Body, birth, MotionSegment.Nothing(Start), default);
+            FitIndex();
         }
 
         log.DropBefore(slot, HistoryEdge);

@@ -59,7 +59,7 @@ public sealed partial class Simulation
                 }
             }
 
-            foreach (int other in index.Candidates(party))
+            foreach (int other in index.CandidatesAt(party, bodies[party].Spec.Radius, key.Time))
             {
                 if (other == party)
                 {

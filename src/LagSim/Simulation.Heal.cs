@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using LagSim.Events;
+using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
 
@@ -43,6 +44,11 @@ public sealed partial class Simulation
     /// <summary>Of the heal at hand: segments up to this one were there before.</summary>
     private long oldSerial;
 
+    /// <summary>What is done wrongly on purpose: only a test's negative control sets it.</summary>
+    internal HealingFault Fault { get; set; }
+
+    private bool Has(HealingFault wrong) => (Fault & wrong) != 0;
+
     /// <summary>Whether bodies' paths may be known beyond this key: a heal is under way.</summary>
     private bool MayBeAhead(in EventKey key) => key.Time <= front;
 
@@ -70,6 +76,7 @@ public sealed partial class Simulation
 
     private void EndHeal()
     {
+        isTwinDue = true;
         front = SimTime.MinValue;
         Healed?.Invoke(new HealReport(healed.From, healed.To, healed.News, healedBodies, SegmentsCut - healed.SegmentsCut, EventsProcessed - healed.Events));
     }
@@ -98,6 +105,11 @@ public sealed partial class Simulation
 
     private void Rewrite(int slot, in EventKey key)
     {
+        if (Has(HealingFault.LeavesWhoRests) && timelines.Segment(timelines.Last(slot)).Law == MotionLaw.Resting)
+        {
+            return;
+        }
+
         BeginHeal(key.Time);
         if (healing == HealingMode.FullRollback)
         {
@@ -116,7 +128,7 @@ public sealed partial class Simulation
     private int PieceAt(int slot, in EventKey key)
     {
         int last = timelines.Last(slot);
-        if (!MayBeAhead(key) || timelines.Serial(last) > oldSerial)
+        if (!MayBeAhead(key) || timelines.Serial(last) > oldSerial || IsOverlooked(slot))
         {
             return last;
         }
@@ -124,11 +136,14 @@ public sealed partial class Simulation
         return timelines.Before(slot, RoundOfImpacts(key.Time, key.Round));
     }
 
+    private bool IsOverlooked(int slot) => Has(HealingFault.OverlooksWhoIsAhead) && bodies[slot].HealedIn == healNumber;
+
     /// <summary>Cuts a body at the key; whoever shared an impact that is gone is cut there too. All of them are predicted anew.</summary>
     private void TakeBack(int slot, in EventKey key)
     {
         taken.Clear();
-        cuts.Push((slot, key));
+        bool cutsByTime = Has(HealingFault.CutsByTime) && key == clock && key.Time > HistoryEdge;
+        cuts.Push((slot, cutsByTime ? EventKey.Before(key.Time) : key));
         HasDueFrom(slot, key);
         taken.Add(slot);
         while (cuts.Count > 0)
@@ -158,8 +173,11 @@ public sealed partial class Simulation
 
             if (any)
             {
-                index.Place(body, timelines.Segment(timelines.Last(body)));
-                HasDueFrom(body, from);
+                if (!Has(HealingFault.DropsEvents) && !cutsByTime)
+                {
+                    HasDueFrom(body, from);
+                }
+
                 taken.Add(body);
             }
         }
@@ -205,10 +223,10 @@ public sealed partial class Simulation
     /// Finds the impacts ahead that a body's newest segment does not strike but comes so near to that it could take part: those of crowded
     /// bodies, and those that have looked at somebody for being near.
     /// </summary>
-    private void Brush(int slot, int other, int piece)
+    private void Brush(int slot, int other, int piece, SimTime until)
     {
         int mine = timelines.Last(slot);
-        SimTime end = timelines.Segment(mine).End;
+        SimTime end = SimTime.Min(timelines.Segment(mine).End, until);
         for (int next = timelines.Next(piece); next != TimelineStore.None && timelines.Key(next).Time <= end; piece = next, next = timelines.Next(next))
         {
             ref readonly EventKey key = ref timelines.Key(next);

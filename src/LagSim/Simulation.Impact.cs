@@ -164,7 +164,7 @@ public sealed partial class Simulation
 
     private Vector3D NormalOf(in ContactPoint c) => c.Second == ContactPoint.Static
         ? SurfaceNormal(c.Surface, partyPositions[c.First])
-        : Direction(partyPositions[c.First] - partyPositions[c.Second]);
+        : Direction(Scene.Box.Nearest(partyPositions[c.First] - partyPositions[c.Second]));
 
     /// <summary>The least speed in m/s at which the two of a struck contact part: that of a hop, where no support can cover it.</summary>
     private double LeastTarget(in ContactPoint c)

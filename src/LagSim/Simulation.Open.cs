@@ -38,7 +38,7 @@ public sealed partial class Simulation
 
     private void OpenFlight(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, int crowding = 0)
     {
-        Vector3D x = position.WithoutNegativeZero();
+        Vector3D x = Scene.Box.Wrap(position.WithoutNegativeZero());
         Vector3D v = velocity.WithoutNegativeZero();
         ref readonly BodySpec spec = ref bodies[slot].Spec;
         CheckState(slot, key, x, v);
@@ -55,7 +55,7 @@ public sealed partial class Simulation
         }
         else
         {
-            SimTime end = EndOfRange(key.Time, v, Scene.Gravity);
+            SimTime end = Scene.Box.Exists ? EndOfFlight(key.Time, v) : EndOfRange(key.Time, v, Scene.Gravity);
             Append(slot, key, new MotionSegment(MotionLaw.Ballistic, key.Time, end, x, v, Scene.Gravity, crowding: crowding), default);
         }
     }
@@ -169,6 +169,18 @@ public sealed partial class Simulation
         double c = velocity.LengthSquared - (limit * limit);
         double root = Math.Sqrt((b * b) - (a * c));
         double seconds = b > 0 ? -c / (b + root) : (root - b) / a; // 0 / 0 without acceleration
+        return TickConversion.TryFromSeconds(seconds, out long ticks) && ticks <= SimTime.MaxValue.Ticks - Math.Max(0, from.Ticks)
+            ? from + SimDuration.FromTicks(ticks)
+            : SimTime.MaxValue;
+    }
+
+    /// <summary>
+    /// When a flight in a periodic box is opened anew: after an eighth of the least side. Two bodies come nearer by at most a quarter of it then, and touch at
+    /// less than another quarter, so that whichever image is nearest when both paths are open is the one that they can meet.
+    /// </summary>
+    private SimTime EndOfFlight(SimTime from, in Vector3D velocity)
+    {
+        double seconds = PeriodicBox.FlightPart * Scene.Box.LeastSide / velocity.Length;
         return TickConversion.TryFromSeconds(seconds, out long ticks) && ticks <= SimTime.MaxValue.Ticks - Math.Max(0, from.Ticks)
             ? from + SimDuration.FromTicks(ticks)
             : SimTime.MaxValue;

@@ -23,7 +23,9 @@ public sealed partial class Simulation
     private static readonly SimDuration CollapseWait = SimDuration.FromTicks(1L << 20);
 
     /// <summary>Finds the body's next event, the least of step or law end, external event and contact, and queues it in place of any other.</summary>
-    private void Predict(int slot)
+    /// <param name="slot">The body.</param>
+    /// <param name="alone">Meets no other body, whatever the paths say: only a fault put in on purpose asks for it.</param>
+    private void Predict(int slot, bool alone = false)
     {
         bool any = false;
         EventKey least = default;
@@ -53,9 +55,11 @@ public sealed partial class Simulation
                 }
             }
 
-            foreach (int other in index.Candidates(slot))
+            SimTime from = SimTime.Max(timelines.Key(last).Time, clock.Time);
+            Span<int> candidates = index.Candidates(slot, bodies[slot].Spec.Radius, from, out SimTime until);
+            foreach (int other in candidates)
             {
-                if (TryMeet(slot, other, out int piece, out ContactTime contact, out uint round))
+                if (!alone && TryMeet(slot, other, until, out int piece, out ContactTime contact, out uint round))
                 {
                     BodyId otherId = bodies[other].Id;
                     EventKey key = id < otherId
@@ -66,6 +70,11 @@ public sealed partial class Simulation
                         with = piece;
                     }
                 }
+            }
+
+            if (until < end)
+            {
+                Consider(new EventKey(until, 0, EventKind.None, id, id, 0, 0), NoPartner, ref any, ref least, ref partner);
             }
         }
 
@@ -161,15 +170,15 @@ public sealed partial class Simulation
 
     /// <summary>
     /// The next contact of a body's newest segment with another body's path: with its newest piece, or, where that body is ahead of what is being
-    /// healed, with the first piece that is touched before what ended it.
+    /// healed, with the first piece until then that is touched before what ended it.
     /// </summary>
-    private bool TryMeet(int slot, int other, out int piece, out ContactTime contact, out uint round)
+    private bool TryMeet(int slot, int other, SimTime until, out int piece, out ContactTime contact, out uint round)
     {
         piece = timelines.Last(other);
         if (MayBeAhead(clock) && slot != other)
         {
             piece = PieceFrom(slot, other);
-            Brush(slot, other, piece);
+            Brush(slot, other, piece, until);
         }
 
         while (true)
@@ -181,7 +190,7 @@ public sealed partial class Simulation
                 return true;
             }
 
-            if (next == TimelineStore.None)
+            if (next == TimelineStore.None || timelines.Key(next).Time > until)
             {
                 return false;
             }
@@ -194,6 +203,11 @@ public sealed partial class Simulation
     private int PieceFrom(int slot, int other)
     {
         int piece = timelines.Last(other);
+        if (Has(HealingFault.ForgetsThePast) || IsOverlooked(other))
+        {
+            return piece;
+        }
+
         ref readonly EventKey opened = ref timelines.Key(timelines.Last(slot));
         EventKey from = EventKey.Compare(opened, clock) > 0 ? opened : clock;
         while (timelines.Serial(piece) <= oldSerial && EventKey.Compare(timelines.Key(piece), from) > 0 && timelines.Previous(piece) != TimelineStore.None)
@@ -224,7 +238,7 @@ public sealed partial class Simulation
         int lastA = ordered ? mine : piece;
         int lastB = ordered ? piece : mine;
         ref readonly MotionSegment segmentA = ref timelines.Segment(lastA);
-        ref readonly MotionSegment segmentB = ref timelines.Segment(lastB);
+        scoped ref readonly MotionSegment segmentB = ref timelines.Segment(lastB);
         if (segmentA.Law == MotionLaw.Resting && segmentB.Law == MotionLaw.Resting)
         {
             return false;
@@ -232,6 +246,13 @@ public sealed partial class Simulation
 
         SimTime opened = SimTime.Max(timelines.Key(lastA).Time, timelines.Key(lastB).Time);
         SimTime until = SimTime.Min(segmentA.End, segmentB.End);
+        MotionSegment image;
+        if (Scene.Box.Exists)
+        {
+            image = NearestImage(segmentB, PositionAt(lastA, opened), PositionAt(lastB, opened));
+            segmentB = ref image;
+        }
+
         double reach = bodies[a].Spec.Radius + bodies[b].Spec.Radius;
         SimTime from = opened;
         while (from <= until && ContactFinder.WithSphere(
@@ -243,7 +264,7 @@ public sealed partial class Simulation
                 return true;
             }
 
-            Vector3D normal = Direction(PositionAt(lastA, contact) - PositionAt(lastB, contact));
+            Vector3D normal = Direction(Scene.Box.Nearest(PositionAt(lastA, contact) - PositionAt(lastB, contact)));
             double closing = -Vector3D.Dot(normal, VelocityAt(lastA, contact) - VelocityAt(lastB, contact));
             double pressing = -Vector3D.Dot(normal, AccelerationAt(lastA, contact) - AccelerationAt(lastB, contact));
             from = LookAgain(opened, round, closing, pressing, until);
@@ -255,6 +276,9 @@ public sealed partial class Simulation
 
         return false;
     }
+
+    /// <summary>The image of a path in a periodic box that is nearest to a point when the path is at <paramref name="at"/>.</summary>
+    private MotionSegment NearestImage(in MotionSegment path, in Vector3D point, in Vector3D at) => path.At(path.Position + (Scene.Box.Nearest(at - point) - (at - point)));
 
     /// <summary>
     /// From when on a contact that closes from the opening of its segments on is to be looked for again: so slow, as rounding leaves it, that it

@@ -83,7 +83,7 @@ public sealed partial class Simulation
         {
             MotionSegment segment = timelines.Segment(at);
             double seconds = SecondsInto(at, timelines.Key(at).Time);
-            entries.Add(new TimelineEntry(timelines.Key(at), StateOf(segment, seconds, timelines.Dense(at))));
+            entries.Add(new TimelineEntry(timelines.Key(at), StateOf(segment, seconds, timelines.Dense(at), Scene.Box)));
         }
 
         return entries;
@@ -97,7 +97,12 @@ public sealed partial class Simulation
     }
 
     /// <summary>Forgets what lies before <paramref name="time"/>: nothing there can be read or changed any more. Earlier than now is kept, later is not forgotten.</summary>
-    public void DropHistoryBefore(SimTime time) => HistoryEdge = SimTime.Max(HistoryEdge, SimTime.Min(time, SimulatedTo));
+    public void DropHistoryBefore(SimTime time)
+    {
+        HistoryEdge = SimTime.Max(HistoryEdge, SimTime.Min(time, SimulatedTo));
+        index.DropBefore(HistoryEdge);
+        twin?.DropHistoryBefore(time);
+    }
 
     internal TimelineStore Timelines => timelines;
 
@@ -110,15 +115,15 @@ public sealed partial class Simulation
 
     internal BodyId IdOfSlot(int slot) => bodies[slot].Id;
 
-    internal static BodyState StateOf(in MotionSegment segment, double seconds, in DenseOutput dense) =>
+    internal static BodyState StateOf(in MotionSegment segment, double seconds, in DenseOutput dense, in PeriodicBox box) =>
         segment.IsPresent
-            ? new BodyState(segment.PositionAt(seconds, dense), segment.VelocityAt(seconds, dense), segment.Law)
+            ? new BodyState(box.Wrap(segment.PositionAt(seconds, dense)), segment.VelocityAt(seconds, dense), segment.Law)
             : default;
 
     private BodyState StateAt(int slot, SimTime time)
     {
         int at = timelines.At(slot, time);
-        return at == TimelineStore.None ? default : StateOf(timelines.Segment(at), SecondsInto(at, time), timelines.Dense(at));
+        return at == TimelineStore.None ? default : StateOf(timelines.Segment(at), SecondsInto(at, time), timelines.Dense(at), Scene.Box);
     }
 
     private void CheckReadable(SimTime time)

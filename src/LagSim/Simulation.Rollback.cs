@@ -1,6 +1,5 @@
 using LagSim.Events;
 using LagSim.Time;
-using LagSim.Timelines;
 
 namespace LagSim;
 
@@ -21,17 +20,13 @@ public sealed partial class Simulation
     {
         SimTime to = SimulatedTo;
         SimulatedTo = key.Time - SimDuration.OneTick;
+        clock = key;
         oldSerial = -1; // nobody is ahead of anybody
         EventKey cut = CutsByTime ? new EventKey(key.Time, 0, EventKind.Spawn, default, default, 0, 0) : key;
         for (int slot = 0; slot < slotCount; slot++)
         {
             SegmentsCut += timelines.CutFrom(slot, bodies[slot].Id, cut);
             bodies[slot].NextExternal = log.FirstFrom(slot, key);
-            if (timelines.Last(slot) != TimelineStore.None)
-            {
-                index.Place(slot, timelines.Segment(timelines.Last(slot)));
-            }
-
             queue.Remove(slot);
         }
 

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -26,6 +27,8 @@ public sealed partial class Simulation
         history = options.History;
         cancellation = options.Cancellation;
         healing = options.Healing;
+        mostPairs = options.MostPairs;
+        clock = EventKey.Before(snapshot.Time);
         SimulatedTo = snapshot.Time - SimDuration.OneTick;
         HistoryEdge = snapshot.Time;
         timelines = new TimelineStore(Start, options.MaxSegments);
@@ -35,17 +38,12 @@ public sealed partial class Simulation
             int slot = AddBody(body.Id);
             bodies[slot].Spec = body.Spec;
             timelines.Append(slot, body.Id, body.Opened, body.Segment, body.Dense);
-            index.Place(slot, body.Segment);
         }
 
         timelines.ContinueFrom(snapshot.EventHash);
-        for (int slot = 0; slot < slotCount; slot++)
-        {
-            cancellation.ThrowIfCancellationRequested();
-            Predict(slot);
-        }
-
+        PredictAll();
         AdvanceTo(snapshot.Time);
+        twin = healing == HealingMode.SyncTest ? new Simulation(scene, snapshot, options.FullyRolledBack()) : null;
     }
 
     /// <summary>The world after everything before <paramref name="time"/>. Changes nothing. Cost: the segments of all bodies since then.</summary>

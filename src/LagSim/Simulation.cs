@@ -1,7 +1,6 @@
 using System;
 using System.Collections.Generic;
 using System.Threading;
-using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
@@ -24,7 +23,6 @@ public sealed partial class Simulation
     private readonly TimelineStore timelines;
     private readonly EventLog log = new();
     private readonly EventQueue queue = new();
-    private readonly IPairIndex index = new AllPairs();
     private readonly Forces forces;
     private readonly SimDuration history;
     private readonly CancellationToken cancellation;
@@ -46,6 +44,8 @@ public sealed partial class Simulation
         history = options.History;
         cancellation = options.Cancellation;
         healing = options.Healing;
+        mostPairs = options.MostPairs;
+        clock = EventKey.Before(Start);
         SimulatedTo = Start - SimDuration.OneTick;
         HistoryEdge = Start;
         timelines = new TimelineStore(Start, options.MaxSegments);
@@ -59,13 +59,9 @@ public sealed partial class Simulation
             OpenFlight(slot, key, body.Position, body.Velocity);
         }
 
-        for (int slot = 0; slot < slotCount; slot++)
-        {
-            cancellation.ThrowIfCancellationRequested();
-            Predict(slot);
-        }
-
+        PredictAll();
         AdvanceTo(Start);
+        twin = healing == HealingMode.SyncTest ? new Simulation(scene, options.FullyRolledBack()) : null;
     }
 
     /// <summary>What was there at the start.</summary>
@@ -100,6 +96,16 @@ public sealed partial class Simulation
 
     /// <summary>The identity of the n-th body in canonical order, 0 &lt;= n &lt; <see cref="BodyCount"/>. Later spawns may shift n.</summary>
     public BodyId BodyAt(int n) => bodies[order[n]].Id;
+
+    private void PredictAll()
+    {
+        index = order.Count > mostPairs ? NewGrid() : index;
+        for (int slot = 0; slot < slotCount; slot++)
+        {
+            cancellation.ThrowIfCancellationRequested();
+            Predict(slot);
+        }
+    }
 
     private int AddBody(BodyId id)
     {

@@ -13,6 +13,9 @@ public sealed class SimulationOptions
     /// <summary>The most segments where nothing else is said: 8,388,608, some 2 GB.</summary>
     public const int DefaultMaxSegments = 1 << 23;
 
+    /// <summary>Above this an index of the paths costs less than to look at everybody.</summary>
+    internal const int DefaultMostPairs = 64;
+
     /// <summary>Options, each with its default.</summary>
     /// <param name="start">The instant at which the scene begins; default the origin. It has no influence on the motion, to the bit.</param>
     /// <param name="history">
@@ -63,6 +66,12 @@ public sealed class SimulationOptions
     /// <summary>How an event is brought in that lies before the simulated time.</summary>
     public HealingMode Healing { get; }
 
+    /// <summary>Up to how many bodies all pairs are looked at; a test sets it to have an index in small worlds.</summary>
+    internal int MostPairs { get; set; } = DefaultMostPairs;
+
     /// <summary>Ends whatever the simulation is at.</summary>
     public CancellationToken Cancellation { get; }
+
+    /// <summary>The same, for the twin of a sync test: no cancellation, so that it is never behind.</summary>
+    internal SimulationOptions FullyRolledBack() => new(Start, History, MaxSegments, default, HealingMode.FullRollback) { MostPairs = MostPairs };
 }

@@ -109,6 +109,24 @@ public static class BuiltInScenes
             ? CrowdScene.Build(CrowdScene.NameOf(bodies), bodies)
             : throw new ArgumentOutOfRangeException(nameof(bodies), bodies, $"A crowd has 1 to {MaxCrowd} balls.");
 
+    /// <summary>Equal elastic balls of 0.05 m in a periodic box, at a mean speed of 0.17 m/s: what is measured in it does not depend on walls.</summary>
+    /// <remarks>The same for the same numbers, always. Cost: O(n log n).</remarks>
+    /// <param name="bodies">How many, 65 to <see cref="MaxCrowd"/>; fewer do not fill a box that is wide enough for them.</param>
+    /// <param name="fraction">Which part of the box they fill, above 0 and at most 0.5, where only a cube of a whole number, from 125 on, fits the lattice they start on.</param>
+    /// <exception cref="ArgumentOutOfRangeException">A value is out of range.</exception>
+    /// <exception cref="SceneException">The box would be too small for its bodies, or the lattice too narrow.</exception>
+    public static Scene Gas(int bodies, double fraction = 0.2)
+    {
+        if (bodies is < 65 or > MaxCrowd)
+        {
+            throw new ArgumentOutOfRangeException(nameof(bodies), bodies, $"A gas has 65 to {MaxCrowd} balls.");
+        }
+
+        return fraction is > 0 and <= GasScene.HighestFraction
+            ? GasScene.Build(bodies, fraction)
+            : throw new ArgumentOutOfRangeException(nameof(fraction), fraction, "The balls of a gas fill above 0 and at most 0.5 of their box.");
+    }
+
     /// <summary>The same scene with every body on another law of flight; of places, sizes and materials no bit changes.</summary>
     /// <param name="scene">The scene.</param>
     /// <param name="law">The law for all bodies.</param>
@@ -121,7 +139,8 @@ public static class BuiltInScenes
             .WithGravity(scene.Gravity)
             .WithResolution(scene.Resolution)
             .WithSmallestRadius(scene.SmallestRadius)
-            .WithSpawners(scene.Spawners);
+            .WithSpawners(scene.Spawners)
+            .WithPeriodicBox(scene.Box.Size);
         foreach (StaticPlane plane in scene.Planes)
         {
             builder.AddPlane(plane.Name, plane.Normal, plane.Offset, plane.Restitution);

@@ -9,7 +9,7 @@ namespace LagSim.Harness.Scenes;
 internal ref partial struct SceneJsonReader
 {
     private static readonly JsonKeys SceneKeys =
-        new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "smallest_radius_m", "spawners", "planes", "static_spheres", "bodies"]);
+        new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "smallest_radius_m", "spawners", "periodic_box_m", "planes", "static_spheres", "bodies"]);
 
     private static readonly JsonKeys PlaneKeys = new(["name", "normal"], ["point_m", "offset_m", "restitution"]);
 
@@ -68,6 +68,10 @@ internal ref partial struct SceneJsonReader
                 case "spawners":
                     PeerSet spawners = Peers();
                     Add(b => b.WithSpawners(spawners));
+                    break;
+                case "periodic_box_m":
+                    Vector3D box = cursor.Vector();
+                    Add(b => b.WithPeriodicBox(box));
                     break;
                 default:
                     ReadList(key);

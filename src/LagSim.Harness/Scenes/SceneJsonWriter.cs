@@ -37,6 +37,11 @@ internal static class SceneJsonWriter
         }
 
         Peers(json, "spawners", scene.Spawners);
+        if (scene.Box.Exists)
+        {
+            Vector(json, "periodic_box_m", scene.Box.Size);
+        }
+
         List(json, "planes", scene.Planes, plane =>
         {
             json.WriteString("name", plane.Name);

@@ -65,6 +65,7 @@ internal ref struct SceneDecoder
         ReadPlanes(builder);
         ReadSpheres(builder);
         ReadBodies(builder);
+        ReadBox(builder);
         if (!reader.Finish(out _))
         {
             return null;
@@ -142,6 +143,24 @@ internal ref struct SceneDecoder
         }
     }
 
+    private void ReadBox(SceneBuilder builder)
+    {
+        if (!IsSound || reader.Remaining == 0)
+        {
+            return;
+        }
+
+        part = "periodic box";
+        number = 0;
+        Vector3D size = reader.ReadVector();
+        if (IsSound && size == Vector3D.Zero)
+        {
+            Refuse("The scene's periodic box has no size; a scene without one ends with its bodies.");
+        }
+
+        builder.WithPeriodicBox(size);
+    }
+
     /// <summary>Begins the parts of one kind. More than are allowed, or than the bytes that are left can hold, are refused at once.</summary>
     private int Begin(string what, int most, int leastBytes)
     {
@@ -217,12 +236,12 @@ internal ref struct SceneDecoder
 
     private readonly string Sentence()
     {
-        string what = number == 0 ? $"the scene's {part}{(part == "head" ? "" : " count")}" : FormattableString.Invariant($"{part} {number} of the scene");
+        string what = number == 0 ? $"the scene's {part}{(part is "head" or "periodic box" ? "" : " count")}" : FormattableString.Invariant($"{part} {number} of the scene");
         return reader.Refusal switch
         {
             WireRefusal.TooLong => $"The scene takes {length} bytes; at most {SceneFormat.MaxBytes} are allowed.",
             WireRefusal.TooShort => $"The {length} bytes of the scene end within {what}.",
-            WireRefusal.TrailingBytes => $"Of the scene's {length} bytes {reader.Remaining} follow its last body.",
+            WireRefusal.TrailingBytes => $"Of the scene's {length} bytes {reader.Remaining} follow its last part.",
             _ => $"In {what} a number is not finite, a step is zero, or a name is not UTF-8.",
         };
     }

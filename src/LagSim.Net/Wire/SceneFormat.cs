@@ -26,7 +26,7 @@ public static class SceneFormat
     public const int MaxBytes = 1 + MaxTextBytes + HeadBytes
         + (byte.MaxValue * (MaxTextBytes + AccelerationBytes))
         + (2 * MaxStaticParts * (MaxTextBytes + StaticPartBytes))
-        + (MaxBodies * (MaxTextBytes + BodyBytes));
+        + (MaxBodies * (MaxTextBytes + BodyBytes)) + EventFormat.VectorBytes;
 
     internal const int AccelerationBytes = 4;
     internal const int StaticPartBytes = EventFormat.VectorBytes + 16; // both kinds: a vector and two numbers
@@ -84,6 +84,11 @@ public static class SceneFormat
             writer.WriteUInt16(body.Players.Mask);
         }
 
+        if (scene.Box.Exists)
+        {
+            writer.WriteVector(scene.Box.Size);
+        }
+
         return bytes;
     }
 
@@ -130,7 +135,7 @@ public static class SceneFormat
             length += WireText.EncodedLength(body.Name, "A body's name") + BodyBytes;
         }
 
-        return length;
+        return length + (scene.Box.Exists ? EventFormat.VectorBytes : 0);
     }
 
     private static void Require(Scene scene, int count, int most, string what)

@@ -79,10 +79,15 @@ public static class ExternalEventCheck
         }
 
         CheckPlace(external.Position, external.Spec.Radius, scene, whose);
+        if (scene.Box.Exists)
+        {
+            Limits.CheckInBox(external.Spec, external.Position, scene.Box, whose);
+        }
     }
 
     private static void CheckPlace(in Vector3D position, double radius, Scene scene, Subject whose)
     {
+        Limits.CheckPlaceInBox(position, scene.Box, whose);
         double slack = scene.Resolution + (1e-15 * (position.Length + radius));
         foreach (StaticPlane plane in scene.PlaneArray)
         {

@@ -88,12 +88,12 @@ public sealed class LiveWorld
     public bool IsBehind => isBehind;
 
     /// <summary>
-    /// What a step may cost, as looks of one body at another: an event of a body looks at all others. Counted, not timed, so that where a step stops depends
+    /// What a step may cost, as looks of one body at another: an event of a body looks at all others, or at those that the index names. Counted, not timed, so that where a step stops depends
     /// on the world alone.
     /// </summary>
     internal long Effort { get; set; } = DefaultEffort;
 
-    private long EventsAStep => Math.Max(LeastEvents, Effort / (Simulation.BodyCount + 8));
+    private long EventsAStep => Math.Max(LeastEvents, Effort / (Math.Min(Simulation.BodyCount, Simulation.MostLooks) + 8));
 
     /// <summary>Submits an event at its own time.</summary>
     /// <remarks>What a late event has simulated again counts as this step's work: if it is too much, the next step goes on, and the world is behind meanwhile.</remarks>

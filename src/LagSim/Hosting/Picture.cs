@@ -15,6 +15,7 @@ public sealed class Picture
     private ulong[] identities = Array.Empty<ulong>();
     private int[] slots = Array.Empty<int>();
     private long orderVersion = -1;
+    private PeriodicBox box;
 
     internal Picture()
     {
@@ -43,7 +44,7 @@ public sealed class Picture
     public bool TryRead(BodyId body, SimTime time, out BodyState state)
     {
         int at = Covers(time) ? Array.BinarySearch(identities, 0, BodyCount, body.Packed) : -1;
-        state = at < 0 ? default : timelines[slots[at]].At(time);
+        state = at < 0 ? default : timelines[slots[at]].At(time, box);
         return state.Motion != MotionLaw.Absent;
     }
 
@@ -76,6 +77,7 @@ public sealed class Picture
             timelines[slot].Follow(simulation.Timelines, slot, from);
         }
 
+        box = simulation.Scene.Box;
         Number = number;
         From = from;
         To = simulation.Horizon;

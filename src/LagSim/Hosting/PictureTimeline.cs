@@ -1,5 +1,6 @@
 using System;
 using LagSim.Motion;
+using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
 
@@ -56,7 +57,7 @@ internal sealed class PictureTimeline
         }
     }
 
-    internal BodyState At(SimTime time)
+    internal BodyState At(SimTime time, in PeriodicBox box)
     {
         int low = first;
         int high = end; // the last entry opened at or before the time lies below
@@ -79,7 +80,7 @@ internal sealed class PictureTimeline
         }
 
         ref readonly Entry entry = ref entries[low - 1];
-        return Simulation.StateOf(entry.Segment, time.SecondsSince(entry.Segment.Epoch), entry.Dense);
+        return Simulation.StateOf(entry.Segment, time.SecondsSince(entry.Segment.Epoch), entry.Dense, box);
     }
 
     private void Reserve(int fresh)

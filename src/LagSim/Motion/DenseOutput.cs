@@ -17,4 +17,7 @@ internal readonly struct DenseOutput
     internal Vector3D Quartic { get; }
 
     internal Vector3D Quintic { get; }
+
+    /// <summary>Whether every coefficient is the same, to the bit.</summary>
+    internal bool IsSameAs(in DenseOutput other) => Cubic.Equals(other.Cubic) && Quartic.Equals(other.Quartic) && Quintic.Equals(other.Quintic);
 }

@@ -55,6 +55,14 @@ internal readonly struct MotionSegment
     /// <summary>The same piece of path, opened by the last of so many impacts on the spot.</summary>
     internal MotionSegment WithCrowding(int crowding) => new(Law, Epoch, End, Position, Velocity, Acceleration, Supports, crowding);
 
+    /// <summary>Whether every part is the same, to the bit.</summary>
+    internal bool IsSameAs(in MotionSegment other) =>
+        (Law, Epoch, End, Crowding) == (other.Law, other.Epoch, other.End, other.Crowding)
+        && Position.Equals(other.Position) && Velocity.Equals(other.Velocity) && Acceleration.Equals(other.Acceleration) && Supports.Equals(other.Supports);
+
+    /// <summary>The same motion from another place.</summary>
+    internal MotionSegment At(in Vector3D position) => new(Law, Epoch, End, position, Velocity, Acceleration, Supports, Crowding);
+
     /// <summary>No body.</summary>
     internal static MotionSegment Nothing(SimTime epoch) =>
         new(MotionLaw.Absent, epoch, SimTime.MaxValue, Vector3D.Zero, Vector3D.Zero, Vector3D.Zero);

@@ -57,6 +57,37 @@ internal static class Limits
     /// </summary>
     internal static double MaxReboundSpeed(double smallestRadius) => 1.5 * MaxGivenSpeed(smallestRadius);
 
+    /// <summary>A box holds at least what its smallest bodies ask for.</summary>
+    internal static void CheckBox<T>(in PeriodicBox box, double smallestRadius, T whose)
+    {
+        if (!(box.LeastSide > 0) || box.LeastSide < 2 * PeriodicBox.LeastSides * smallestRadius)
+        {
+            throw new SceneException(
+                $"The periodic box of {whose} is {box.Size} m; every side must be above zero, and at least {PeriodicBox.LeastSides} times the diameter of any body in it.");
+        }
+    }
+
+    /// <summary>What is put into a box is small enough for it, flies as it must there, and lies in it.</summary>
+    internal static void CheckInBox<T>(in BodySpec spec, in Vector3D position, in PeriodicBox box, T whose)
+    {
+        if (spec.Flight != MotionLaw.Ballistic)
+        {
+            throw new SceneException($"The motion law of {whose} is {spec.Flight}; in a periodic box a body flies by Ballistic.");
+        }
+
+        CheckBox(box, spec.Radius, whose);
+        CheckPlaceInBox(position, box, whose);
+    }
+
+    /// <summary>A place lies in the box, if there is one.</summary>
+    internal static void CheckPlaceInBox<T>(in Vector3D position, in PeriodicBox box, T whose)
+    {
+        if (box.Exists && !box.Contains(position))
+        {
+            throw new SceneException($"The position of {whose} is {position} m; in the periodic box each component is at least 0 and less than that of {box.Size}.");
+        }
+    }
+
     internal static void CheckPosition<T>(in Vector3D position, T whose) => Components(position, MaxCoordinate, whose, "position", "m");
 
     internal static void CheckVelocity<T>(in Vector3D velocity, double smallestRadius, T whose)

@@ -16,7 +16,8 @@ public sealed class Scene
         SceneBody[] bodies,
         IAcceleration[] accelerations,
         double smallestRadius,
-        PeerSet spawners)
+        PeerSet spawners,
+        PeriodicBox box)
     {
         Name = name;
         Gravity = gravity;
@@ -27,6 +28,7 @@ public sealed class Scene
         AccelerationArray = accelerations;
         SmallestRadius = smallestRadius;
         Spawners = spawners;
+        Box = box;
         Hash = ComputeHash();
     }
 
@@ -57,6 +59,9 @@ public sealed class Scene
     /// <summary>Which peers may spawn bodies, in a session.</summary>
     public PeerSet Spawners { get; }
 
+    /// <summary>The box without walls that everything is in; none unless the scene says so.</summary>
+    public PeriodicBox Box { get; }
+
     /// <summary>A hash of everything above but the name: equal on two peers exactly if they mean the same world (to 64 bits).</summary>
     public ulong Hash { get; }
 
@@ -85,7 +90,7 @@ public sealed class Scene
 
     /// <summary>The same world with its static geometry only.</summary>
     internal Scene WithoutBodies() =>
-        new(Name, Gravity, Resolution, PlaneArray, SphereArray, Array.Empty<SceneBody>(), AccelerationArray, SmallestRadius, Spawners);
+        new(Name, Gravity, Resolution, PlaneArray, SphereArray, Array.Empty<SceneBody>(), AccelerationArray, SmallestRadius, Spawners, Box);
 
     private ulong ComputeHash()
     {
@@ -125,6 +130,11 @@ public sealed class Scene
         }
 
         AddRights(ref hash);
+        if (Box.Exists)
+        {
+            hash.Add(Box.Size); // as above: a scene without has the hash it always had
+        }
+
         return hash.Value;
     }
 

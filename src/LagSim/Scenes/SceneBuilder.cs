@@ -23,6 +23,7 @@ public sealed class SceneBuilder
     private readonly List<IAcceleration> accelerations = new();
     private Vector3D gravity = DefaultGravity;
     private PeerSet spawners;
+    private PeriodicBox box;
     private double resolution = DefaultResolution;
     private double? smallestSpawn;
 
@@ -95,6 +96,18 @@ public sealed class SceneBuilder
         return this;
     }
 
+    /// <summary>Puts everything in a box from the origin to <paramref name="size"/> whose opposite sides meet: what leaves it on one side comes in on the other.</summary>
+    /// <remarks>
+    /// It goes with free flight alone: no gravity, planes, static spheres or supplied accelerations, and bodies that fly by Ballistic. Each side is at least
+    /// five times the largest diameter; bodies start, and are spawned or put, inside. Their paths are opened anew after an eighth of the least side, so
+    /// that no body meets two images of another at once.
+    /// </remarks>
+    public SceneBuilder WithPeriodicBox(Vector3D size)
+    {
+        box = new PeriodicBox(size);
+        return this;
+    }
+
     /// <summary>Supplies an acceleration; the n-th supplied, counted from 1, is what a <see cref="BodySpec"/> names as n.</summary>
     public SceneBuilder AddAcceleration(IAcceleration acceleration)
     {
@@ -115,6 +128,7 @@ public sealed class SceneBuilder
         }
 
         smallest = smallest == double.MaxValue ? Limits.MaxRadius : smallest;
+        CheckBox();
         foreach (SceneBody body in bodies)
         {
             Limits.CheckPosition(body.Position, Whose(body));
@@ -122,9 +136,9 @@ public sealed class SceneBuilder
         }
 
         CheckNames();
-        StartOverlap.Check(bodies, planes, spheres, resolution);
+        StartOverlap.Check(bodies, planes, spheres, box, resolution);
         return new Scene(
-            name, gravity.WithoutNegativeZero(), resolution, planes.ToArray(), spheres.ToArray(), bodies.ToArray(), accelerations.ToArray(), smallest, spawners);
+            name, gravity.WithoutNegativeZero(), resolution, planes.ToArray(), spheres.ToArray(), bodies.ToArray(), accelerations.ToArray(), smallest, spawners, box);
     }
 
     internal static string Whose(in SceneBody body) => $"body '{body.Name}'";
@@ -181,6 +195,27 @@ public sealed class SceneBuilder
             Limits.CheckPosition(sphere.Centre, $"static sphere '{sphere.Name}'");
             Limits.InRange(sphere.Radius, Limits.MinRadius, Limits.MaxRadius, $"static sphere '{sphere.Name}'", "radius", "m");
             Limits.InRange(sphere.Restitution, 0, 1, $"static sphere '{sphere.Name}'", "restitution", "(no unit)");
+        }
+    }
+
+    private void CheckBox()
+    {
+        if (!box.Exists)
+        {
+            return;
+        }
+
+        Limits.CheckPosition(box.Size, $"scene '{name}' (its periodic box)");
+        if (gravity != Vector3D.Zero || planes.Count + spheres.Count + accelerations.Count > 0)
+        {
+            throw new SceneException(
+                $"Scene '{name}' has a periodic box, gravity {gravity} m/s^2, {planes.Count} planes, {spheres.Count} static spheres and {accelerations.Count} supplied accelerations; a periodic box goes with none of those.");
+        }
+
+        Limits.CheckBox(box, smallestSpawn ?? 0, $"scene '{name}'");
+        foreach (SceneBody body in bodies)
+        {
+            Limits.CheckInBox(body.Spec, body.Position, box, Whose(body));
         }
     }
 

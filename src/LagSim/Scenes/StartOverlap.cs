@@ -6,7 +6,7 @@ namespace LagSim.Scenes;
 /// <summary>Refuses a scene whose bodies start inside one another, a plane or a static sphere.</summary>
 internal static class StartOverlap
 {
-    internal static void Check(List<SceneBody> bodies, List<StaticPlane> planes, List<StaticSphere> spheres, double tolerance)
+    internal static void Check(List<SceneBody> bodies, List<StaticPlane> planes, List<StaticSphere> spheres, PeriodicBox box, double tolerance)
     {
         foreach (SceneBody body in bodies)
         {
@@ -31,30 +31,32 @@ internal static class StartOverlap
             }
         }
 
-        CheckPairs(bodies, tolerance);
+        CheckPairs(bodies, box, tolerance);
     }
 
     // Sort and sweep along the axis on which the bodies are spread most: only bodies whose extents along it overlap are compared.
-    private static void CheckPairs(List<SceneBody> bodies, double tolerance)
+    private static void CheckPairs(List<SceneBody> bodies, PeriodicBox box, double tolerance)
     {
         int axis = WidestAxis(bodies);
-        double[] left = new double[bodies.Count];
-        int[] order = new int[bodies.Count];
+        int images = box.Exists ? 2 : 1; // in a periodic box everybody is there a second time, a side further
+        double[] left = new double[bodies.Count * images];
+        int[] order = new int[left.Length];
         for (int i = 0; i < order.Length; i++)
         {
-            left[i] = Along(bodies[i].Position, axis) - bodies[i].Spec.Radius;
-            order[i] = i;
+            int body = i % bodies.Count;
+            left[i] = Along(bodies[body].Position, axis) - bodies[body].Spec.Radius + (i < bodies.Count ? 0 : Along(box.Size, axis));
+            order[i] = body;
         }
 
         Array.Sort(left, order);
         for (int i = 0; i < order.Length; i++)
         {
             SceneBody a = bodies[order[i]];
-            double right = Along(a.Position, axis) + a.Spec.Radius;
+            double right = left[i] + (2 * a.Spec.Radius);
             for (int j = i + 1; j < order.Length && left[j] <= right; j++)
             {
                 SceneBody b = bodies[order[j]];
-                double gap = (a.Position - b.Position).Length - a.Spec.Radius - b.Spec.Radius;
+                double gap = box.Nearest(a.Position - b.Position).Length - a.Spec.Radius - b.Spec.Radius;
                 double slack = tolerance + (1e-15 * (Size(a.Position) + Size(b.Position) + a.Spec.Radius + b.Spec.Radius));
                 if (gap < -slack)
                 {

@@ -42,6 +42,11 @@ internal static class SnapshotCheck
         }
 
         CheckTimes(body, snapshot, whose);
+        if (scene.Box.Exists)
+        {
+            Limits.CheckInBox(body.Spec, body.Position, scene.Box, whose);
+        }
+
         Limits.Components(body.Position, double.MaxValue, whose, "position", "m");
         Limits.Components(body.Velocity, Limits.MaxSpeed(scene.SmallestRadius), whose, "velocity", "m/s");
         Limits.Components(body.Acceleration, double.MaxValue, whose, "acceleration", "m/s^2");

@@ -55,9 +55,12 @@ internal sealed class TimelineStore
     {
         if (slot >= first.Length)
         {
-            int size = Math.Max(slot + 1, Math.Max(16, first.Length * 2));
+            int known = first.Length;
+            int size = Math.Max(slot + 1, Math.Max(16, known * 2));
             Array.Resize(ref first, size);
             Array.Resize(ref last, size);
+            Array.Fill(first, None, known, size - known);
+            Array.Fill(last, None, known, size - known);
         }
 
         first[slot] = None;
@@ -81,7 +84,10 @@ internal sealed class TimelineStore
     /// <summary>The key of the event that opened the segment.</summary>
     internal ref readonly EventKey Key(int segment) => ref keys[segment];
 
-    /// <summary>A number no other segment of this store ever has; tells whether a remembered segment is still the one.</summary>
+    /// <summary>Whether the slot is some body's.</summary>
+    internal bool IsKnown(int slot) => slot < last.Length && last[slot] != None;
+
+    /// <summary>A number no other segment of this store ever has, 0 for one that is no more; tells whether a remembered segment is still the one.</summary>
     internal long Serial(int segment) => serials[segment];
 
     /// <summary>The slot of the body whose path the segment is part of.</summary>
@@ -264,6 +270,7 @@ internal sealed class TimelineStore
 
     private void Release(int at)
     {
+        serials[at] = 0;
         next[at] = free;
         free = at;
         Alive--;

@@ -111,9 +111,11 @@ public sealed class SceneFormatTests
         Refused(whole.AsSpan(0, PlanesAt), "The 46 bytes of the scene end within the scene's plane count.");
         Refused(whole.AsSpan(0, Length - 1), "The 221 bytes of the scene end within body 1 of the scene.");
         Refused(whole.AsSpan(0, Length - 2), "announces 1 parts of the kind 'body', of 85 bytes or more, and has 84 bytes left");
+        Refused([.. whole, .. new byte[24]], "The scene's periodic box has no size");
+        Refused([.. whole, .. new byte[25]], "The scene's periodic box has no size");
         for (int value = 0; value <= 255; value++)
         {
-            Refused([.. whole, (byte)value], "Of the scene's 223 bytes 1 follow its last body.");
+            Refused([.. whole, (byte)value], "The 223 bytes of the scene end within the scene's periodic box.");
         }
     }
 

@@ -1,0 +1,109 @@
+using System;
+
+namespace LagSim.Contacts;
+
+/// <summary>What lies in each cell of a grid: lists of values by the cell's number, in a hash table that is emptied as a whole.</summary>
+/// <typeparam name="T">What is listed.</typeparam>
+internal sealed class CellTable<T>
+    where T : struct
+{
+    internal const int None = -1;
+
+    private int[] heads;
+    private Entry[] entries;
+    private int count;
+    private int free = None;
+
+    internal CellTable(int capacity)
+    {
+        int size = 64;
+        while (size < capacity)
+        {
+            size *= 2;
+        }
+
+        heads = new int[size];
+        entries = new Entry[size];
+        Array.Fill(heads, None);
+    }
+
+    /// <summary>How many entries there are room for.</summary>
+    internal int Capacity => entries.Length;
+
+    /// <summary>The first entry that may be of the cell, or <see cref="None"/>; entries of other cells may be in between.</summary>
+    internal int First(ulong cell) => heads[Bucket(cell)];
+
+    internal int Next(int entry) => entries[entry].Next;
+
+    internal ulong Cell(int entry) => entries[entry].Cell;
+
+    internal ref readonly T Value(int entry) => ref entries[entry].Value;
+
+    internal void Add(ulong cell, in T value)
+    {
+        int at = free;
+        if (at != None)
+        {
+            free = entries[at].Next;
+        }
+        else
+        {
+            if (count == entries.Length)
+            {
+                Grow();
+            }
+
+            at = count++;
+        }
+
+        ref int head = ref heads[Bucket(cell)];
+        entries[at] = new Entry { Cell = cell, Value = value, Next = head };
+        head = at;
+    }
+
+    /// <summary>Takes an entry out; <paramref name="before"/> precedes it in its list, or is <see cref="None"/>.</summary>
+    internal void Remove(int before, int entry)
+    {
+        if (before == None)
+        {
+            heads[Bucket(entries[entry].Cell)] = entries[entry].Next;
+        }
+        else
+        {
+            entries[before].Next = entries[entry].Next;
+        }
+
+        entries[entry].Next = free;
+        free = entry;
+    }
+
+    internal void Clear()
+    {
+        Array.Fill(heads, None);
+        count = 0;
+        free = None;
+    }
+
+    private int Bucket(ulong cell) => (int)((cell * 0x9E3779B97F4A7C15UL) >> 32) & (heads.Length - 1);
+
+    private void Grow()
+    {
+        // Only when no entry is free, so all of them are in a list.
+        Array.Resize(ref entries, count * 2);
+        heads = new int[count * 2];
+        Array.Fill(heads, None);
+        for (int at = 0; at < count; at++)
+        {
+            ref int head = ref heads[Bucket(entries[at].Cell)];
+            entries[at].Next = head;
+            head = at;
+        }
+    }
+
+    private struct Entry
+    {
+        internal ulong Cell;
+        internal T Value;
+        internal int Next;
+    }
+}

@@ -1,0 +1,70 @@
+using System;
+using LagSim.Contacts;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <content>Which bodies are asked whether they meet: all of them while they are few, those that come near once they are many.</content>
+public sealed partial class Simulation
+{
+    /// <summary>The size of a cell in radii of a body that nine tenths are not larger than: two diameters.</summary>
+    private const double CellInRadii = 4;
+
+    /// <summary>At about so many others a body looks, however many there are.</summary>
+    internal const int MostLooks = 64;
+
+    private readonly int mostPairs;
+    private IPairIndex index = new AllPairs();
+    private int outgrownAt; // number of bodies too wide or fast for the cells at which other cells are tried
+
+    /// <summary>Looks whether the bodies have become so many, or so much larger, that another index serves them better.</summary>
+    private void FitIndex()
+    {
+        bool outgrown = index is SweptGrid grid && grid.EverywhereCount > Math.Max(outgrownAt, order.Count / 8);
+        if (!outgrown && (index is SweptGrid || order.Count <= mostPairs))
+        {
+            return;
+        }
+
+        index = NewGrid();
+        for (int n = 0; n < order.Count; n++)
+        {
+            int slot = order[n];
+            for (int at = timelines.First(slot); at != TimelineStore.None; at = timelines.Next(at))
+            {
+                int next = timelines.Next(at);
+                SimTime from = SimTime.Max(HistoryEdge, timelines.Key(at).Time);
+                SimTime until = next == TimelineStore.None ? SimTime.Max(from, clock.Time) : timelines.Key(next).Time;
+                if (timelines.Segment(at).IsPresent && until >= from)
+                {
+                    index.Add(slot, bodies[slot].Spec.Radius, at, from, until);
+                }
+            }
+        }
+
+        for (int n = 0; n < order.Count; n++)
+        {
+            Predict(order[n]);
+        }
+
+        outgrownAt = 2 * Math.Max(32, ((SweptGrid)index).EverywhereCount);
+    }
+
+    private SweptGrid NewGrid()
+    {
+        double[] radii = new double[order.Count];
+        int count = 0;
+        foreach (int slot in order)
+        {
+            double radius = bodies[slot].Spec.Radius;
+            radii[count] = radius;
+            count += radius > 0 ? 1 : 0; // none yet: a body of which nothing but its name was heard
+        }
+
+        Array.Sort(radii, 0, count);
+        double usual = count == 0 ? Scene.SmallestRadius : radii[count * 9 / 10];
+        return new SweptGrid(timelines, CellInRadii * usual, NearGap, Limits.MaxSpeed(Scene.SmallestRadius) * TickConversion.SecondsPerTick, Scene.Box);
+    }
+}

@@ -1,0 +1,29 @@
+using System;
+
+namespace LagSim.Timelines;
+
+/// <summary>Ways to heal that are known to be wrong: negative controls, which only a test sets.</summary>
+[Flags]
+internal enum HealingFault
+{
+    /// <summary>Heals right.</summary>
+    None = 0,
+
+    /// <summary>A new path is held against what others are doing last, not against what they did before.</summary>
+    ForgetsThePast = 1,
+
+    /// <summary>Of a body that was taken back, but to later than the heal's clock, only the newest piece of path is looked at.</summary>
+    OverlooksWhoIsAhead = 2,
+
+    /// <summary>A pending contact is given up when its partner has changed at all, though the piece that it was found with still stands.</summary>
+    GivesUpByBody = 4,
+
+    /// <summary>The events from outside of whom a heal takes back with others are not applied again.</summary>
+    DropsEvents = 8,
+
+    /// <summary>Timelines are cut at the time of a key, not at the key.</summary>
+    CutsByTime = 16,
+
+    /// <summary>Who has come to rest meanwhile is left there by news of before.</summary>
+    LeavesWhoRests = 32,
+}
