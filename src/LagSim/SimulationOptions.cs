@@ -1,5 +1,6 @@
 using System.Threading;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim;
 
@@ -65,4 +66,10 @@ public sealed class SimulationOptions
 
     /// <summary>Ends whatever the simulation is at.</summary>
     public CancellationToken Cancellation { get; }
+
+    /// <summary>Is told of impacts, those of the very first instant included; null for nobody.</summary>
+    internal IImpactObserver? Observer { get; private set; }
+
+    /// <summary>The same with an observer.</summary>
+    internal SimulationOptions WithObserver(IImpactObserver? observer) => new(Start, History, MaxSegments, Cancellation, Healing) { Observer = observer };
 }
