@@ -15,6 +15,7 @@ internal static class CheckJson
             json.WriteNumber("sessions", report.Outcomes.Count);
             json.WriteNumber("events", report.Events);
             json.WriteNumber("external_events", report.ExternalEvents);
+            json.WriteNumber("tied_events", report.Outcomes.Sum(o => (long)o.TiedEvents));
             json.WriteNumber("late_events", report.LateEvents);
             json.WriteNumber("heals", report.Heals);
             json.WriteNumber("heals_that_changed_an_impact", report.HealsThatChangedAnImpact);

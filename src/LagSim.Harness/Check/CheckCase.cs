@@ -15,7 +15,7 @@ internal sealed class CheckCase
     /// <summary>For so long of shared time things are done, in seconds.</summary>
     internal const double Length = 10;
 
-    private const int FewestDeeds = 24;
+    private const int FewestDeeds = 27;
     private const int MostSpawns = 6;
     private const int MostRemovals = 3;
 
@@ -189,10 +189,10 @@ internal sealed class CheckCase
         int removals = 0;
         for (int i = 0; i < count; i++)
         {
-            // In the same instant as the one before, by the same player, and often to the same body.
+            // In the same instant as the one before, by the same player or another, and often to the same body.
             bool isTogether = i > 0 && random.IsLucky(25);
             double at = isTogether ? deeds[i - 1].AtSeconds : times[i];
-            int peer = isTogether ? deeds[i - 1].Peer : random.NextInt(players.Count);
+            int peer = isTogether && random.IsLucky(60) ? deeds[i - 1].Peer : random.NextInt(players.Count);
             int spawn = spawns.Count > 0 && random.IsLucky(20) ? spawns[random.NextInt(spawns.Count)] : -1;
             int body = spawn >= 0 ? -1 : random.NextInt(room.BodyCount);
             if (isTogether && deeds[i - 1].Kind != EventKind.Spawn && random.IsLucky(50))

@@ -17,6 +17,9 @@ public sealed record CheckOutcome
     /// <summary>Accepted events of players.</summary>
     public long ExternalEvents { get; init; }
 
+    /// <summary>How many of them have the stamp of another, to the tick.</summary>
+    public int TiedEvents { get; init; }
+
     /// <summary>How often such an event came to another peer after its stamp.</summary>
     public long LateEvents { get; init; }
 

@@ -22,6 +22,9 @@ internal sealed class CheckSession
     /// <summary>How long peers may take to get in, and the news to get everywhere, in seconds; much longer than on the worst of links.</summary>
     private const double Patience = 120;
 
+    /// <summary>Clocks of one session are not further apart, but on slow and uneven ways.</summary>
+    private static readonly SimDuration LongestWait = SimDuration.FromMilliseconds(50);
+
     private readonly CheckCase drawn;
     private readonly CheckOptions options;
     private readonly VirtualClock clock = new(SimTime.FromSeconds(Origin));
@@ -30,6 +33,7 @@ internal sealed class CheckSession
     private readonly List<Member> members = []; // by address; joiners that come late are added when they ask
     private readonly List<ExternalEvent> accepted = [];
     private readonly BodyId?[] spawned;
+    private (double AtSeconds, SimTime Stamp) last = (-1, SimTime.MinValue); // what was done last
     private long tooLate;
     private long refused;
 
@@ -222,9 +226,32 @@ internal sealed class CheckSession
             return; // it has not heard of the body, or of another of that name: who spawned it went before anybody heard of it
         }
 
+        if (deed.AtSeconds == last.AtSeconds)
+        {
+            WaitFor(actor, last.Stamp);
+        }
+
         ExternalEvent external = actor.Session.Do(deed.On(target));
+        last = (deed.AtSeconds, external.Time);
         steps.Wake(actor.Number);
         spawned[index] = deed.Kind == EventKind.Spawn ? external.Body : null;
+    }
+
+    /// <summary>Lets time pass until a peer's clock reads that, to the tick; not if that is far off, or past.</summary>
+    private void WaitFor(Member actor, SimTime reading)
+    {
+        SimDuration left = reading - actor.Session.SharedTime.Now;
+        while (left > SimDuration.Zero && left < LongestWait && actor.Session.State == SessionState.Running)
+        {
+            // By less than what is left: the clock may run fast.
+            SimTime next = clock.Now + (left - (left / 16) > SimDuration.OneTick ? left - (left / 16) : SimDuration.OneTick);
+            while (clock.Now < next)
+            {
+                steps.Advance(next);
+            }
+
+            left = reading - actor.Session.SharedTime.Now;
+        }
     }
 
     private bool IsSettled()
@@ -290,6 +317,7 @@ internal sealed class CheckSession
             Peers = members.Count,
             Events = members.Sum(m => m.Session.World?.Simulation.EventsProcessed ?? 0),
             ExternalEvents = accepted.Count,
+            TiedEvents = Tied(),
             LateEvents = members.Sum(m => m.Session.Counters.Lateness.Count(late => late > SimDuration.Zero)),
             Heals = members.Sum(m => m.Heals?.Heals ?? 0),
             HealsThatChangedAnImpact = members.Sum(m => m.Heals?.Changed ?? 0),
@@ -305,6 +333,9 @@ internal sealed class CheckSession
             Difference = comparison.First,
         };
     }
+
+    /// <summary>How many accepted events have the stamp of another.</summary>
+    private int Tied() => accepted.GroupBy(e => e.Time).Where(g => g.Skip(1).Any()).Sum(g => g.Count());
 
     private string States() => string.Join("; ", members.Select(m => $"peer {m.Peer} {m.Session.State} {m.Session.EndReason} log {m.Session.LogLength}"));
 
