@@ -1,0 +1,297 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Threading;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Hosting;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Tests.Determinism;
+using LagSim.Tests.Sessions;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Hosting;
+
+/// <summary>Contacts as a game hears of them: predicted, and then either confirmed or retracted, each once.</summary>
+public sealed class ContactNoticesTests
+{
+    [Theory]
+    [InlineData(HealingMode.CausalCone, false)]
+    [InlineData(HealingMode.CausalCone, true)]
+    [InlineData(HealingMode.FullRollback, false)]
+    [InlineData(HealingMode.FullRollback, true)]
+    public void Notices_OfRandomWorldsWithLateNews_ConfirmEachContactOnceInOrderAndNoOther(HealingMode mode, bool inPieces)
+    {
+        int confirmed = 0, retracted = 0;
+        for (int seed = 0; seed < 60; seed++)
+        {
+            RandomWorld world = new(seed);
+            Ledger onTime = new(), late = new();
+            world.OnTime(options: KeepAll.WithObserver(onTime.Notices));
+            Simulation simulation = world.Shuffled(seed * 7, seed % 2 == 0 ? SimDuration.FromSeconds(0.4) : null, s => s.Healed += _ => late.Notices.Tell(s), mode, inPieces, late.Notices);
+            onTime.End(world.OnTime());
+            late.End(simulation);
+            Assert.Equal(onTime.Confirmed.Select(n => n.ToString()), late.Confirmed.Select(n => n.ToString()));
+            Assert.True(onTime.Confirmed.Zip(late.Confirmed).All(pair => pair.First.IsSameContact(pair.Second)), $"seed {seed}");
+            Assert.Equal(late.Predicted - late.Retracted, late.Confirmed.Count + late.Notices.Pending);
+            Assert.All(late.Confirmed, n => Assert.Contains(world.OnTime().Timeline(n.First), entry => entry.Key == n.Key));
+            confirmed += late.Confirmed.Count;
+            retracted += late.Retracted;
+        }
+
+        Assert.True(confirmed > 1000 && retracted > 100, $"{confirmed} confirmed, {retracted} retracted"); // else little was shown
+    }
+
+    [Fact]
+    public void Notices_OfAWorldThatCutsByTime_AreSeenToDiffer()
+    {
+        int different = 0;
+        for (int seed = 0; seed < 60; seed++)
+        {
+            RandomWorld world = new(seed);
+            Ledger onTime = new(), late = new();
+            world.OnTime(options: KeepAll.WithObserver(onTime.Notices));
+            Simulation simulation = world.Shuffled(seed * 7, null, s => s.CutsByTime = true, HealingMode.FullRollback, observer: late.Notices);
+            onTime.End(world.OnTime());
+            late.End(simulation);
+            different += onTime.Confirmed.Select(n => n.ToString()).SequenceEqual(late.Confirmed.Select(n => n.ToString())) ? 0 : 1;
+        }
+
+        Assert.True(different > 0);
+    }
+
+    [Theory]
+    [InlineData("awful", 1, "healing", true)]
+    [InlineData("loss-20", 2, "healing", true)]
+    [InlineData("delay-500ms", 3, "full-rollback", true)]
+    [InlineData("delay-500ms", 4, "none", false)]
+    public void Notices_OfASessionOnABadLink_AreTheSameOnAllPeers(string link, int seed, string strategy, bool agrees)
+    {
+        Ledger[] ledgers = [.. Enumerable.Range(0, 3).Select(_ => new Ledger(0.2))];
+        LinkProfile profile = link == "loss-20" ? new LinkProfile(link, new LinkLeg(30, 0, 20)) : LinkProfiles.TryGet(link, out LinkProfile? found, out _) ? found : throw new ArgumentException(link);
+        SessionGroup group = new SessionGroup(
+            Deeds.Box(), 3, profile, (ulong)seed,
+            peer => new SessionOptions { History = SimDuration.FromSeconds(3), Strategy = strategy, Contacts = ledgers[peer].Notices }).Connect();
+        new Deeds(seed, mostSpawns: 4).DoIn(group, 24, 0.2);
+        group.Run(12);
+        int count = ledgers.Min(l => l.Confirmed.Count);
+        Assert.True(count > 20, $"{count}");
+        bool isSame = ledgers.All(l => l.Confirmed.Take(count).Zip(ledgers[0].Confirmed).All(pair => pair.First.IsSameContact(pair.Second)));
+        Assert.Equal(agrees, isSame);
+        if (agrees)
+        {
+            Assert.All(ledgers, l => Assert.Equal(l.Predicted - l.Retracted, l.Confirmed.Count + l.Notices.Pending));
+            Assert.True(ledgers.Sum(l => l.Retracted) > 0);
+        }
+    }
+
+    [Fact]
+    public void Notices_OfOneWhoJoinsLater_AreThoseOfTheOthersFromThereOn()
+    {
+        Ledger early = new(), late = new();
+        SessionGroup group = new SessionGroup(Deeds.Box(), 1, LinkProfiles.PureDelay(20), 5, _ => new SessionOptions { Contacts = early.Notices }).Connect();
+        new Deeds(1, mostSpawns: 2).DoIn(group, 10, 0.2);
+        JoinerSession joiner = group.Join(7, 77, new SessionOptions { Contacts = late.Notices });
+        Assert.True(group.RunUntil(() => joiner.State == SessionState.Running), joiner.EndReason);
+        new Deeds(2, mostSpawns: 2).DoIn(group, 20, 0.2);
+        group.Run(5);
+        Assert.True(late.Confirmed.Count > 10 && late.Confirmed.Count < early.Confirmed.Count);
+        ContactNotice[] since = [.. early.Confirmed.SkipWhile(n => n.Key < late.Confirmed[0].Key)];
+        Assert.All(since.Zip(late.Confirmed), pair => Assert.True(pair.First.IsSameContact(pair.Second)));
+    }
+
+    [Fact]
+    public void Notices_ImpactCutAndMadeAgainJustSo_AreNotTold()
+    {
+        Ledger ledger = new();
+        LiveWorld world = new(Drop(2, 0.9), new SimulationOptions(default, SimDuration.FromSeconds(2)), contacts: ledger.Notices);
+        Advance(world, 1);
+        Assert.True(ledger.Predicted > 0);
+        int before = ledger.Predicted;
+        long cut = world.Simulation.SegmentsCut;
+        BodyState state = Read(world.Simulation, First, 0.3);
+        world.Submit(ExternalEvent.Teleport(At(0.3), 1, 1, First, state.Position, state.Velocity)); // to where it is
+        world.Step(At(1));
+        Assert.True(world.Simulation.SegmentsCut > cut);
+        Assert.Equal((before, 0), (ledger.Predicted, ledger.Retracted));
+
+        world.Submit(ExternalEvent.Teleport(At(0.3), 1, 2, First, V(0, 50)));
+        world.Step(At(1));
+        Assert.Equal((before, before), (ledger.Predicted, ledger.Retracted));
+    }
+
+    [Fact]
+    public void Step_WorldComeToRest_IsDueUntilAllIsConfirmed()
+    {
+        Ledger ledger = new();
+        LiveWorld world = new(Drop(1, 0.5), new SimulationOptions(default, SimDuration.FromSeconds(2)), contacts: ledger.Notices);
+        SimTime due = At(0), last = At(0);
+        for (int steps = 0; due != SimTime.MaxValue; steps++)
+        {
+            Assert.True(steps < 1000);
+            last = due;
+            due = world.Step(due);
+            Assert.True(due > last);
+        }
+
+        Assert.Equal((0, 0), (ledger.Notices.Pending, ledger.Retracted));
+        Assert.InRange(ledger.Confirmed.Count, 3, 20);
+        Assert.True(last > At(2));
+        Assert.All(ledger.Confirmed, n => Assert.Equal(("floor", 0), (n.SurfaceName(world.Simulation.Scene), n.Surface)));
+        Near(V(0, 0), ledger.Confirmed[0].Position, 1e-9);
+        Near(Math.Sqrt(2 * Gravity), ledger.Confirmed[0].ClosingSpeed, 1e-9);
+    }
+
+    [Theory]
+    [InlineData(0, 400, int.MaxValue)] // hops, some thousand a second
+    [InlineData(ContactNotices.DefaultMinClosingSpeed, 1, 40)]
+    public void MinClosingSpeed_BodyThatLiesOnAnother_KeepsItsHopsAway(double least, int fewest, int most)
+    {
+        Scene scene = new SceneBuilder("lying").AddStaticSphere("dome", V(0), 5, 0.3).AddBody("ball", Ball(0.5, e: 0.3), V(0, 5.6)).Build();
+        Ledger ledger = new(least);
+        LiveWorld world = new(scene, new SimulationOptions(default, SimDuration.FromSeconds(0.5)), contacts: ledger.Notices);
+        Advance(world, 2);
+        Assert.InRange(ledger.Confirmed.Count, fewest, most);
+        Assert.Equal("dome", ledger.Confirmed[0].SurfaceName(scene));
+    }
+
+    [Fact]
+    public void TryRead_QueueThatNobodyReads_LosesNothingSilently()
+    {
+        ContactNotices notices = new(0, 16);
+        Scene scene = new SceneBuilder("box").WithGravity(Floating).AddPlane("west", V(1), V(-1)).AddPlane("east", V(-1), V(1)).AddBody("ball", Ball(0.5), V(0), V(20)).Build();
+        List<ContactNotice> told = [];
+        notices.Noticed += told.Add;
+        LiveWorld world = new(scene, new SimulationOptions(default, SimDuration.FromSeconds(0.2)), contacts: notices);
+        Advance(world, 5);
+        List<ContactNotice> read = ReadAll(notices);
+        Assert.True(notices.Lost > 50);
+        Assert.Equal(told.Count, read.Count + notices.Lost);
+        Assert.Equal(told.Take(8), read.Take(8)); // predictions leave half of the room to what is certain
+        Assert.Equal(16, read.Count);
+        Assert.All(read.Skip(8), n => Assert.Equal(ContactNoticeKind.Confirmed, n.Kind));
+        Assert.Equal(Enumerable.Range(1, told.Count).Select(n => (long)n), told.Select(n => n.Number));
+
+        // Once there is room again it goes on, and the gap shows.
+        Advance(world, 6, 5);
+        Assert.True(ReadAll(notices)[0].Number > read[^1].Number + 1);
+    }
+
+    [Fact]
+    public void TryRead_OnAnotherThread_GetsEveryNoticeOnceInOrder()
+    {
+        ContactNotices notices = new(0, 64);
+        Scene scene = new SceneBuilder("box").WithGravity(Floating).AddPlane("west", V(1), V(-1)).AddPlane("east", V(-1), V(1)).AddBody("ball", Ball(0.5), V(0), V(200)).Build();
+        long told = 0;
+        bool isDone = false;
+        notices.Noticed += _ => told++;
+        Thread thread = new(() =>
+        {
+            LiveWorld world = new(scene, new SimulationOptions(default, SimDuration.FromSeconds(0.2)), contacts: notices);
+            Advance(world, 20);
+            Volatile.Write(ref isDone, true);
+        });
+        thread.Start();
+        long read = 0, newest = 0;
+        bool ended;
+        do
+        {
+            ended = Volatile.Read(ref isDone);
+            while (notices.TryRead(out ContactNotice notice))
+            {
+                Assert.True(notice.Number > newest);
+                newest = notice.Number;
+                read++;
+            }
+        }
+        while (!ended);
+        thread.Join();
+        Assert.True(read > 0);
+        Assert.Equal(told, read + notices.Lost);
+    }
+
+    [Fact]
+    public void Constructor_BadValues_AreRefusedByName()
+    {
+        Assert.Contains("-1", Assert.Throws<ArgumentOutOfRangeException>(() => new ContactNotices(-1)).Message, StringComparison.Ordinal);
+        Assert.Throws<ArgumentOutOfRangeException>(() => new ContactNotices(double.NaN));
+        Assert.Contains("16 to", Assert.Throws<ArgumentOutOfRangeException>(() => new ContactNotices(0, 15)).Message, StringComparison.Ordinal);
+        ContactNotices used = new();
+        _ = new LiveWorld(Drop(1, 0.5), new SimulationOptions(), contacts: used);
+        Assert.Throws<InvalidOperationException>(() => new LiveWorld(Drop(1, 0.5), new SimulationOptions(), contacts: used));
+    }
+
+    private static void Advance(LiveWorld world, double to, double from = 0)
+    {
+        for (int n = 0; n <= (to - from) * 50; n++)
+        {
+            while (world.Step(At(from + (n / 50.0))) == At(from + (n / 50.0)) && world.IsBehind)
+            {
+            }
+        }
+    }
+
+    private static List<ContactNotice> ReadAll(ContactNotices notices)
+    {
+        List<ContactNotice> all = [];
+        while (notices.TryRead(out ContactNotice notice))
+        {
+            all.Add(notice);
+        }
+
+        return all;
+    }
+
+    /// <summary>Keeps account of notices, and holds them to their rules as they come.</summary>
+    private sealed class Ledger
+    {
+        private readonly List<ContactNotice> open = [];
+
+        internal Ledger(double least = 0)
+        {
+            Notices = new ContactNotices(least);
+            Notices.Noticed += Take;
+        }
+
+        internal ContactNotices Notices { get; }
+
+        internal List<ContactNotice> Confirmed { get; } = [];
+
+        internal int Predicted { get; private set; }
+
+        internal int Retracted { get; private set; }
+
+        /// <summary>The last word: what lies before the end is committed.</summary>
+        internal void End(Simulation simulation)
+        {
+            simulation.DropHistoryBefore(simulation.SimulatedTo);
+            Notices.Tell(simulation);
+        }
+
+        private void Take(ContactNotice notice)
+        {
+            if (notice.Kind == ContactNoticeKind.Predicted)
+            {
+                Predicted++;
+                Assert.DoesNotContain(open, o => ContactNotice.Compare(o, notice) == 0);
+                open.Add(notice);
+                return;
+            }
+
+            int at = open.FindIndex(o => o.IsSameContact(notice));
+            Assert.True(at >= 0, $"{notice} was not predicted, or came before");
+            open.RemoveAt(at);
+            if (notice.Kind == ContactNoticeKind.Retracted)
+            {
+                Retracted++;
+                return;
+            }
+
+            Assert.True(Confirmed.Count == 0 || ContactNotice.Compare(Confirmed[^1], notice) < 0, $"{notice} comes after {(Confirmed.Count == 0 ? default : Confirmed[^1])}");
+            Confirmed.Add(notice);
+        }
+    }
+}
