@@ -225,6 +225,33 @@ public sealed class ContactNoticesTests
         Assert.Throws<InvalidOperationException>(() => new LiveWorld(Drop(1, 0.5), new SimulationOptions(), contacts: used));
     }
 
+    [Fact]
+    public void SimulationHost_GivenContactNotices_IsReadAsTheReadmeShows()
+    {
+        Scene scene = Drop(1, 0.5);
+        List<ContactNotice> sounds = [], scores = [];
+        ContactNotices contacts = new(minClosingSpeed: 0.2);
+        using SimulationHost host = new(scene, new VirtualClock(), contacts: contacts);
+        Assert.Same(contacts, host.Contacts);
+        while (contacts.TryRead(out ContactNotice contact))
+        {
+            switch (contact.Kind)
+            {
+                case ContactNoticeKind.Predicted:
+                    sounds.Add(contact);
+                    break;
+                case ContactNoticeKind.Retracted:
+                    sounds.RemoveAll(sound => sound.IsSameContact(contact));
+                    break;
+                case ContactNoticeKind.Confirmed:
+                    scores.Add(contact);
+                    break;
+            }
+        }
+
+        Assert.Equal((0, 0), (sounds.Count, scores.Count)); // its thread has not been started
+    }
+
     private static void Advance(LiveWorld world, double to, double from = 0)
     {
         for (int n = 0; n <= (to - from) * 50; n++)
