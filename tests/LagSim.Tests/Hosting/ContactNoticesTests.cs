@@ -43,7 +43,8 @@ public sealed class ContactNoticesTests
             retracted += late.Retracted;
         }
 
-        Assert.True(confirmed > 1000 && retracted > 100, $"{confirmed} confirmed, {retracted} retracted"); // else little was shown
+        // Else little was shown. In pieces most heals end with the run, so little is told before.
+        Assert.True(confirmed > 1000 && retracted > (inPieces ? 0 : 100), $"{confirmed} confirmed, {retracted} retracted");
     }
 
     [Fact]
@@ -95,11 +96,13 @@ public sealed class ContactNoticesTests
         Ledger early = new(), late = new();
         SessionGroup group = new SessionGroup(Deeds.Box(), 1, LinkProfiles.PureDelay(20), 5, _ => new SessionOptions { Contacts = early.Notices }).Connect();
         new Deeds(1, mostSpawns: 2).DoIn(group, 10, 0.2);
+        group.Run(3);
         JoinerSession joiner = group.Join(7, 77, new SessionOptions { Contacts = late.Notices });
         Assert.True(group.RunUntil(() => joiner.State == SessionState.Running), joiner.EndReason);
         new Deeds(2, mostSpawns: 2).DoIn(group, 20, 0.2);
         group.Run(5);
-        Assert.True(late.Confirmed.Count > 10 && late.Confirmed.Count < early.Confirmed.Count);
+        Assert.NotNull(joiner.BegunFrom);
+        Assert.True(late.Confirmed.Count > 10 && late.Confirmed.Count < early.Confirmed.Count, $"{late.Confirmed.Count} of {early.Confirmed.Count}");
         ContactNotice[] since = [.. early.Confirmed.SkipWhile(n => n.Key < late.Confirmed[0].Key)];
         Assert.All(since.Zip(late.Confirmed), pair => Assert.True(pair.First.IsSameContact(pair.Second)));
     }
@@ -107,21 +110,16 @@ public sealed class ContactNoticesTests
     [Fact]
     public void Notices_ImpactCutAndMadeAgainJustSo_AreNotTold()
     {
+        // Everything is rolled back for a ball far away; what the other one does is cut and made again.
         Ledger ledger = new();
-        LiveWorld world = new(Drop(2, 0.9), new SimulationOptions(default, SimDuration.FromSeconds(2)), contacts: ledger.Notices);
+        Scene scene = new SceneBuilder("apart").AddPlane("floor", Vector3D.Up, V(0)).AddBody("near", Ball(0.5), V(0, 2.5)).AddBody("far", Ball(0.5), V(100, 2.5)).Build();
+        LiveWorld world = new(scene, new SimulationOptions(default, SimDuration.FromSeconds(2), healing: HealingMode.FullRollback), contacts: ledger.Notices);
         Advance(world, 1);
-        Assert.True(ledger.Predicted > 0);
-        int before = ledger.Predicted;
-        long cut = world.Simulation.SegmentsCut;
-        BodyState state = Read(world.Simulation, First, 0.3);
-        world.Submit(ExternalEvent.Teleport(At(0.3), 1, 1, First, state.Position, state.Velocity)); // to where it is
+        Assert.Equal((2, 0), (ledger.Predicted, ledger.Retracted));
+        world.Submit(ExternalEvent.Teleport(At(0.3), 1, 1, Second, V(100, 50)));
         world.Step(At(1));
-        Assert.True(world.Simulation.SegmentsCut > cut);
-        Assert.Equal((before, 0), (ledger.Predicted, ledger.Retracted));
-
-        world.Submit(ExternalEvent.Teleport(At(0.3), 1, 2, First, V(0, 50)));
-        world.Step(At(1));
-        Assert.Equal((before, before), (ledger.Predicted, ledger.Retracted));
+        Assert.Equal(2, world.Simulation.SegmentsCut);
+        Assert.Equal((2, 1), (ledger.Predicted, ledger.Retracted));
     }
 
     [Fact]
