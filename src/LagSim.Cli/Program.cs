@@ -32,6 +32,7 @@ internal static class Program
         {
             new HelpOption(),
             new VersionOption(),
+            CheckCommand.Create(console),
             DropCommand.Create(console),
             FuzzCommand.Create(console),
             RunCommand.Create(console),

@@ -63,6 +63,7 @@ public sealed partial class Simulation
         }
 
         SetTargets(key.Round);
+        TellContacts(key);
         int struck = contactCount;
         AddSupports();
         solver.Solve(contacts.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount), partyVelocities.AsSpan(0, partyCount));

@@ -31,7 +31,7 @@ public sealed partial class Simulation
         clock = EventKey.Before(snapshot.Time);
         SimulatedTo = snapshot.Time - SimDuration.OneTick;
         HistoryEdge = snapshot.Time;
-        timelines = new TimelineStore(Start, options.MaxSegments);
+        timelines = new TimelineStore(Start, options.MaxSegments) { Observer = options.Observer };
         forces = new Forces(scene, Start);
         foreach (ref readonly BodySnapshot body in snapshot.BodyArray.AsSpan())
         {

@@ -48,7 +48,7 @@ public sealed partial class Simulation
         clock = EventKey.Before(Start);
         SimulatedTo = Start - SimDuration.OneTick;
         HistoryEdge = Start;
-        timelines = new TimelineStore(Start, options.MaxSegments);
+        timelines = new TimelineStore(Start, options.MaxSegments) { Observer = options.Observer };
         forces = new Forces(scene, Start);
         for (int i = 0; i < scene.BodyArray.Length; i++)
         {

@@ -1,5 +1,6 @@
 using System.Threading;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim;
 
@@ -74,4 +75,10 @@ public sealed class SimulationOptions
 
     /// <summary>The same, for the twin of a sync test: no cancellation, so that it is never behind.</summary>
     internal SimulationOptions FullyRolledBack() => new(Start, History, MaxSegments, default, HealingMode.FullRollback) { MostPairs = MostPairs };
+
+    /// <summary>Is told of impacts, those of the very first instant included; null for nobody.</summary>
+    internal IImpactObserver? Observer { get; private set; }
+
+    /// <summary>The same with an observer.</summary>
+    internal SimulationOptions WithObserver(IImpactObserver? observer) => new(Start, History, MaxSegments, Cancellation, Healing) { Observer = observer, MostPairs = MostPairs };
 }

@@ -100,6 +100,9 @@ public sealed class PeerThread : IDisposable
         return State == SessionState.Running;
     }
 
+    /// <summary>What tells of contacts, as the session's options gave it; null for nobody, and before there is a world.</summary>
+    public ContactNotices? Contacts => Session.World?.Contacts;
+
     /// <summary>How many steps the thread has done.</summary>
     public long Steps => thread.Steps;
 

@@ -34,6 +34,7 @@ public abstract partial class Session
 
     private readonly byte[] buffer = new byte[IDatagramPort.MaxDatagramBytes];
     private readonly ILateEventStrategy strategy;
+    private readonly ContactNotices? contacts;
     private readonly UpdateDatagram received = new();
     private readonly CancellationTokenSource interruption = new();
     private bool hasUnshown;
@@ -59,6 +60,7 @@ public abstract partial class Session
 
         Limits = new PlayerLimits(options);
         strategy = LateEventStrategies.Create(options.Strategy);
+        contacts = options.Contacts;
         SharedTime = new SharedClock(clock);
     }
 
@@ -263,7 +265,7 @@ public abstract partial class Session
     {
         if (world is null)
         {
-            world = new LiveWorld(Scene!, WorldOptions(start), Options.LookAhead, Options.PicturePast);
+            world = new LiveWorld(Scene!, WorldOptions(start), Options.LookAhead, Options.PicturePast, contacts);
             schedule = new CommitSchedule(start, start, Options.CommitInterval);
             Begun?.Invoke();
         }
@@ -273,7 +275,7 @@ public abstract partial class Session
     /// <exception cref="SceneException">It is no world of the scene.</exception>
     private protected void Begin(WorldSnapshot snapshot)
     {
-        world = new LiveWorld(Scene!, snapshot, WorldOptions(snapshot.Start), Options.LookAhead, Options.PicturePast);
+        world = new LiveWorld(Scene!, snapshot, WorldOptions(snapshot.Start), Options.LookAhead, Options.PicturePast, contacts);
         schedule = new CommitSchedule(snapshot.Start, snapshot.Time, Options.CommitInterval);
         BegunFrom = snapshot;
         Begun?.Invoke();

@@ -99,6 +99,12 @@ public sealed class SessionOptions
         set => keepAlive = value;
     }
 
+    /// <summary>
+    /// What is told of contacts, for a sound or a score; null, the default: nobody. Of one session alone. Contacts are confirmed once the watermark has passed, later by
+    /// <see cref="ExtraHistory"/>.
+    /// </summary>
+    public ContactNotices? Contacts { get; set; }
+
     /// <summary>The name of what to do with late events, one of <see cref="LateEventStrategies.Names"/>.</summary>
     public string Strategy { get; set; } = LateEventStrategies.Default;
 

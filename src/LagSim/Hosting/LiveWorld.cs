@@ -10,7 +10,7 @@ namespace LagSim.Hosting;
 /// <summary>A simulation kept ahead of a clock: it is advanced to now plus the look-ahead, and its picture published.</summary>
 /// <remarks>
 /// For the simulation's thread, in real or virtual time alike, except <see cref="Pictures"/>, which is how another thread reads, and
-/// <see cref="LateSteps"/> and <see cref="MaxLateness"/>, which any thread may read, each for itself. What changes the world goes through this
+/// <see cref="LateSteps"/> and <see cref="MaxLateness"/>, which any thread may read, each for itself, and what <see cref="Contacts"/> says of itself. What changes the world goes through this
 /// type, so that the next <see cref="Step"/> publishes it.
 /// </remarks>
 public sealed class LiveWorld
@@ -39,9 +39,11 @@ public sealed class LiveWorld
     /// <param name="options">Start and history; the history must exceed the look-ahead.</param>
     /// <param name="lookAhead">How far ahead of the clock, above zero and at most 1 s; default two frames.</param>
     /// <param name="picturePast">How much of the past pictures show, at least zero; default 250 ms.</param>
+    /// <param name="contacts">What tells of its contacts, of this world alone; null, the default, for nobody.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
-    public LiveWorld(Scene scene, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? picturePast = null)
-        : this(new Simulation(scene, Checked(options, lookAhead, picturePast)), lookAhead, picturePast)
+    /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
+    public LiveWorld(Scene scene, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? picturePast = null, ContactNotices? contacts = null)
+        : this(new Simulation(scene, Checked(options, lookAhead, picturePast, contacts)), lookAhead, picturePast, contacts)
     {
     }
 
@@ -51,16 +53,20 @@ public sealed class LiveWorld
     /// <param name="options">The history, which must exceed the look-ahead.</param>
     /// <param name="lookAhead">How far ahead of the clock, above zero and at most 1 s; default two frames.</param>
     /// <param name="picturePast">How much of the past pictures show, at least zero; default 250 ms.</param>
+    /// <param name="contacts">What tells of its contacts, of this world alone; null, the default, for nobody.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
+    /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
     /// <exception cref="SceneException">The snapshot is of no world of the scene.</exception>
-    public LiveWorld(Scene scene, WorldSnapshot snapshot, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? picturePast = null)
-        : this(new Simulation(scene, snapshot, Checked(options, lookAhead, picturePast)), lookAhead, picturePast)
+    public LiveWorld(
+        Scene scene, WorldSnapshot snapshot, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? picturePast = null, ContactNotices? contacts = null)
+        : this(new Simulation(scene, snapshot, Checked(options, lookAhead, picturePast, contacts)), lookAhead, picturePast, contacts)
     {
     }
 
-    private LiveWorld(Simulation simulation, SimDuration? lookAhead, SimDuration? picturePast)
+    private LiveWorld(Simulation simulation, SimDuration? lookAhead, SimDuration? picturePast, ContactNotices? contacts)
     {
         Simulation = simulation;
+        Contacts = contacts;
         events = EventsAStep;
         LookAhead = lookAhead ?? DefaultLookAhead;
         this.picturePast = picturePast ?? DefaultPicturePast;
@@ -71,6 +77,9 @@ public sealed class LiveWorld
 
     /// <summary>How far ahead of the clock it is simulated.</summary>
     public SimDuration LookAhead { get; }
+
+    /// <summary>What tells of its contacts; null for nobody.</summary>
+    public ContactNotices? Contacts { get; }
 
     /// <summary>Where another thread, one only, gets its picture.</summary>
     public PictureExchange Pictures { get; } = new();
@@ -130,7 +139,7 @@ public sealed class LiveWorld
     /// <summary>Brings the world ahead of <paramref name="now"/> again and publishes it if it changed.</summary>
     /// <returns>
     /// When the next step is due if nothing changes before: <paramref name="now"/> while the world <see cref="IsBehind"/>, and
-    /// <see cref="SimTime.MaxValue"/> for a world in which nothing will happen.
+    /// <see cref="SimTime.MaxValue"/> for a world in which nothing will happen, and of which no contact is to be confirmed.
     /// </returns>
     /// <remarks>It does a bounded number of events, so that whoever calls it gets to other things in between. Half of the look-ahead may be used up before the next step is due, so a moving world steps about once a frame, one at rest never.</remarks>
     public SimTime Step(SimTime now)
@@ -152,11 +161,13 @@ public sealed class LiveWorld
             changed = false;
         }
 
-        return isBehind ? now : Simulation.Horizon == SimTime.MaxValue ? SimTime.MaxValue : Simulation.Horizon - (LookAhead / 2);
+        Contacts?.Tell(Simulation);
+        SimTime confirmation = Contacts?.NextDue(Simulation.History, LookAhead) ?? SimTime.MaxValue;
+        return isBehind ? now : SimTime.Min(confirmation, Simulation.Horizon == SimTime.MaxValue ? SimTime.MaxValue : Simulation.Horizon - (LookAhead / 2));
     }
 
     /// <summary>The options, if they and the spans go together.</summary>
-    private static SimulationOptions Checked(SimulationOptions options, SimDuration? lookAhead, SimDuration? picturePast)
+    private static SimulationOptions Checked(SimulationOptions options, SimDuration? lookAhead, SimDuration? picturePast, ContactNotices? contacts)
     {
         if (options is null)
         {
@@ -174,9 +185,13 @@ public sealed class LiveWorld
             throw new ArgumentOutOfRangeException(nameof(picturePast), picturePast, "A picture cannot show less than no past.");
         }
 
-        return options.History > ahead
-            ? options
-            : throw new ArgumentOutOfRangeException(nameof(options), options.History, $"The history must exceed the look-ahead, {ahead}.");
+        if (options.History <= ahead)
+        {
+            throw new ArgumentOutOfRangeException(nameof(options), options.History, $"The history must exceed the look-ahead, {ahead}.");
+        }
+
+        contacts?.Follow();
+        return contacts is null ? options : options.WithObserver(contacts);
     }
 
     /// <summary>A change of the world: what a late event takes back is simulated again as part of the step's work, which may end before it is done.</summary>

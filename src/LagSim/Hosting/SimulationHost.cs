@@ -27,10 +27,12 @@ public sealed class SimulationHost : IDisposable
     /// <param name="scene">What is simulated.</param>
     /// <param name="clock">Tells the time; usually a <see cref="StopwatchClock"/>.</param>
     /// <param name="lookAhead">How far ahead of the clock the world is simulated; default two frames.</param>
-    public SimulationHost(Scene scene, IClock clock, SimDuration? lookAhead = null)
+    /// <param name="contacts">What tells of contacts, of this world alone; null, the default, for nobody. They are confirmed after 2 s.</param>
+    /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
+    public SimulationHost(Scene scene, IClock clock, SimDuration? lookAhead = null, ContactNotices? contacts = null)
     {
         this.clock = clock ?? throw new ArgumentNullException(nameof(clock));
-        world = new LiveWorld(scene, new SimulationOptions(clock.Now, SimDuration.FromSeconds(2), cancellation: stop.Token), lookAhead);
+        world = new LiveWorld(scene, new SimulationOptions(clock.Now, SimDuration.FromSeconds(2), cancellation: stop.Token), lookAhead, contacts: contacts);
         thread = new WorldThread("LagSim world", Step, stop.Cancel);
     }
 
@@ -47,6 +49,9 @@ public sealed class SimulationHost : IDisposable
             return world.Pictures.Latest();
         }
     }
+
+    /// <summary>What tells of contacts; null for nobody. For the game's thread <see cref="ContactNotices.TryRead"/>.</summary>
+    public ContactNotices? Contacts => world.Contacts;
 
     /// <summary>How often the clock was beyond what was simulated when a step began.</summary>
     public long LateSteps => world.LateSteps;

@@ -44,6 +44,9 @@ internal sealed class TimelineStore
     /// <summary>The serial of the segment that was opened last.</summary>
     internal long LastSerial { get; private set; }
 
+    /// <summary>Is told of impacts that are cut; null for nobody.</summary>
+    internal IImpactObserver? Observer { get; set; }
+
     /// <summary>How many segments may be kept.</summary>
     internal int Most { get; }
 
@@ -190,6 +193,11 @@ internal sealed class TimelineStore
     {
         int at = last[slot];
         EventHash -= HashOf(at, body);
+        if (Observer is not null && keys[at].Kind == EventKind.Impact)
+        {
+            Observer.OnCut(keys[at]);
+        }
+
         last[slot] = previous[at];
         if (last[slot] == None)
         {

@@ -4,6 +4,7 @@ using System.Linq;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Determinism;
@@ -54,10 +55,18 @@ internal sealed class RandomWorld
     /// again. With a history, never later than that allows. In pieces, it goes on by a few events at a time, and more news may come before what
     /// late news takes back is simulated again.
     /// </summary>
-    internal Simulation Shuffled(int seed, SimDuration? history = null, Action<Simulation>? prepare = null, HealingMode mode = HealingMode.CausalCone, bool inPieces = false, int mostPairs = SimulationOptions.DefaultMostPairs)
+    internal Simulation Shuffled(
+        int seed,
+        SimDuration? history = null,
+        Action<Simulation>? prepare = null,
+        HealingMode mode = HealingMode.CausalCone,
+        bool inPieces = false,
+        int mostPairs = SimulationOptions.DefaultMostPairs,
+        IImpactObserver? observer = null)
     {
         Random arrivals = new(seed);
-        Simulation simulation = new(Scene, new SimulationOptions(default, history ?? SimDuration.MaxValue, healing: mode) { MostPairs = mostPairs });
+        SimulationOptions options = new(default, history ?? SimDuration.MaxValue, healing: mode) { MostPairs = mostPairs };
+        Simulation simulation = new(Scene, options.WithObserver(observer));
         prepare?.Invoke(simulation);
         double latest = history is SimDuration kept ? kept.ToSeconds() * 0.999 : End;
         List<(double When, ExternalEvent Event, bool Retracts)> news = [];

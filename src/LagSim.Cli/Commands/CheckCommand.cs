@@ -1,0 +1,127 @@
+using System;
+using System.Collections.Generic;
+using System.CommandLine;
+using System.Globalization;
+using System.Linq;
+using LagSim.Cli.Output;
+using LagSim.Harness.Check;
+using LagSim.Harness.Links;
+using LagSim.Net.Strategies;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary><c>lagsim check</c>: random sessions against the one invariant.</summary>
+internal static class CheckCommand
+{
+    private const string All = "all";
+    private const string None = "none";
+
+    internal static Command Create(ToolConsole console)
+    {
+        CommonOptions common = new();
+        Option<int> sessions = CommonOptions.Whole("--sessions", "How many sessions; each has the next seed", 1000, 1, 10_000_000);
+        Option<string> peers = new("--peers")
+        {
+            Description = $"How many peers a session has, the host included: a number, or a range ({CheckOptions.FewestPeers} to {CheckOptions.MostPeers}).",
+            HelpName = "N|N-M",
+            DefaultValueFactory = _ => $"{CheckOptions.FewestPeers}-{CheckOptions.MostPeers}",
+        };
+        Option<string> profile = new("--profile")
+        {
+            Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, {LinkProfiles.AnyDelay}; or {All}: each joiner another.",
+            HelpName = "NAME",
+            DefaultValueFactory = _ => All,
+        };
+        Option<string> strategy = CommonOptions.Word("--strategy", "What a peer does with an event that comes late.", LateEventStrategies.Default, [.. LateEventStrategies.Names]);
+        Option<string?> bodies = new("--bodies") { Description = "Of one session alone: the bodies of its scene that take part, by number.", HelpName = "N,N,..." };
+        Option<string?> events = new("--events") { Description = $"Of one session alone: what is done of all that was drawn, by number, or {None}.", HelpName = "N,N,..." };
+        Command command = new("check", "Random seeded sessions, each peer held against one that never had a delay; a failing seed is shrunk and replays.")
+        {
+            sessions, peers, profile, strategy, bodies, events,
+        };
+        common.AddTo(command);
+        command.SetAction(parsed =>
+        {
+            (int from, int to) = Peers(parsed.GetValue(peers)!);
+            CheckOptions options = new()
+            {
+                Sessions = parsed.GetValue(sessions),
+                Seed = parsed.GetValue(common.Seed),
+                FromPeers = from,
+                ToPeers = to,
+                Profile = Profile(parsed.GetValue(profile)!),
+                Strategy = parsed.GetValue(strategy)!,
+                Bodies = Indices("--bodies", parsed.GetValue(bodies)),
+                Events = Indices("--events", parsed.GetValue(events)),
+            };
+            if (options.Sessions > 1 && (options.Bodies ?? options.Events) is not null)
+            {
+                throw new UsageException($"--bodies and --events are of one session alone: give its --seed, and --sessions 1 instead of {options.Sessions}.");
+            }
+
+            return Run(console, options, parsed.GetValue(common.Out), parsed.GetValue(common.Json));
+        });
+        return command;
+    }
+
+    private static int Run(ToolConsole console, CheckOptions options, string? folder, bool json)
+    {
+        if (folder is not null)
+        {
+            OutputFolder.ThrowIfNotWritable(folder);
+        }
+
+        CheckReport report;
+        try
+        {
+            report = console.WithProgress("check", options.Sessions, progress => InvariantCheck.Run(options, done => progress(done), console.Stop));
+        }
+        catch (ArgumentException mistake)
+        {
+            throw new UsageException(mistake.Message); // numbers that the session does not have
+        }
+
+        if (folder is not null)
+        {
+            CheckFiles.Write(folder, options, report);
+        }
+
+        if (json)
+        {
+            CheckJson.Write(console.Output, options, report);
+        }
+        else
+        {
+            CheckText.Write(console.Output, options, report, folder);
+        }
+
+        return report.Failures.Count > 0 ? ExitCode.CheckFailed
+            : console.Stop.IsCancellationRequested ? ExitCode.Interrupted
+            : ExitCode.Done;
+    }
+
+    private static (int From, int To) Peers(string text)
+    {
+        string[] parts = text.Split('-');
+        int[] numbers = [.. parts.Select(part => int.TryParse(part, NumberStyles.None, CultureInfo.InvariantCulture, out int number) ? number : -1)];
+        return parts.Length <= 2 && numbers[0] >= CheckOptions.FewestPeers && numbers[^1] <= CheckOptions.MostPeers && numbers[0] <= numbers[^1]
+            ? (numbers[0], numbers[^1])
+            : throw new UsageException($"--peers is '{text}'; it must be a number from {CheckOptions.FewestPeers} to {CheckOptions.MostPeers}, or a range of them such as 2-8.");
+    }
+
+    private static LinkProfile? Profile(string name) =>
+        name == All ? null : LinkProfiles.TryGet(name, out LinkProfile? found, out string? error) ? found : throw new UsageException(error);
+
+    private static IReadOnlyList<int>? Indices(string option, string? text)
+    {
+        if (text is null || text == None)
+        {
+            return text is null ? null : [];
+        }
+
+        int[] numbers = [.. text.Split(',').Select(part => int.TryParse(part, NumberStyles.None, CultureInfo.InvariantCulture, out int number) ? number : -1)];
+        return Array.IndexOf(numbers, -1) < 0
+            ? numbers
+            : throw new UsageException($"{option} is '{text}'; it must be whole numbers with commas between them, such as 0,3.");
+    }
+}

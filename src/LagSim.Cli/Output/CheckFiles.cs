@@ -1,0 +1,60 @@
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using LagSim.Harness.Check;
+using LagSim.Harness.Reports;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>A check as files: a CSV with a row a session, and a page with the sums and the failures.</summary>
+internal static class CheckFiles
+{
+    private static readonly string[] Columns =
+    [
+        "seed", "peers", "late_joiners", "leavers", "external_events", "late_events", "heals", "heals_that_changed_an_impact", "events", "events_rerun", "impacts",
+        "too_late_events", "refused_events", "compared", "differing_bits", "failure",
+    ];
+
+    internal static void Write(string folder, CheckOptions options, CheckReport report)
+    {
+        Directory.CreateDirectory(folder);
+        using (StreamWriter file = new(Path.Combine(folder, "check.csv")))
+        {
+            CsvFile csv = new(file, Columns);
+            foreach (CheckOutcome o in report.Outcomes)
+            {
+                csv.WriteRow(
+                    o.Seed.ToString(CultureInfo.InvariantCulture), o.Peers, o.LateJoiners, o.Leavers, o.ExternalEvents, o.LateEvents, o.Heals, o.HealsThatChangedAnImpact,
+                    o.Events, o.EventsRerun, o.Impacts, o.TooLateEvents, o.RefusedEvents, o.Compared, o.DifferingBits, o.Failure);
+            }
+        }
+
+        IReadOnlyList<string>[] sums =
+        [
+            ["sessions", Text(report.Outcomes.Count)],
+            ["external events", Text(report.ExternalEvents)],
+            ["late events", Text(report.LateEvents)],
+            ["heals", Text(report.Heals)],
+            ["heals that changed an impact", Text(report.HealsThatChangedAnImpact)],
+            ["events of too late a stamp", Text(report.TooLateEvents)],
+            ["differing bits", Text(report.DifferingBits)],
+            ["failing seeds", Text(report.Failures.Count)],
+        ];
+        HtmlReport page = new(
+            "LagSim check",
+            $"Random sessions from seed {options.Seed}, {options.FromPeers} to {options.ToPeers} peers, link {options.Profile?.Name ?? "all"}, strategy {options.Strategy}.",
+            new ReportFooter("lagsim", ToolVersion.Text, options.Seed, null));
+        page.AddTable(new ReportTable("All sessions", ["what", "number"], sums));
+        if (report.Failures.Count > 0)
+        {
+            page.AddTable(new ReportTable(
+                "Failures", ["seed", "what", "first difference", "replay"],
+                [.. report.Failures.Select(IReadOnlyList<string> (f) => [$"{f.Whole.Seed}", f.Whole.Failure ?? "", f.Least.Difference?.ToString() ?? "", f.Command])]));
+        }
+
+        page.Save(Path.Combine(folder, "report.html"));
+    }
+
+    private static string Text(long number) => number.ToString(CultureInfo.InvariantCulture);
+}

@@ -1,0 +1,221 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Harness.Check;
+
+/// <summary>One session as a seed draws it: scene, players, links, clocks, who comes and goes when, and what is done.</summary>
+/// <remarks>Depends on the seed and on the options' peers and profile only. What is left out of it afterwards shifts nothing of the rest.</remarks>
+internal sealed class CheckCase
+{
+    /// <summary>For so long of shared time things are done, in seconds.</summary>
+    internal const double Length = 10;
+
+    private const int FewestDeeds = 27;
+    private const int MostSpawns = 6;
+    private const int MostRemovals = 3;
+
+    /// <summary>Who needs longer than this for a round trip is there from the start as a rule: to get in takes several.</summary>
+    private const double SlowMilliseconds = 500;
+
+    private const ulong FirstRoom = 100;
+    private const ulong MostAttempts = 20;
+
+    /// <summary>
+    /// What a scene may cost, as events that it takes alone: lasting contact takes some thousand a second, and a few heaps would take all the time there is.
+    /// A scene that takes more is drawn again; so contacts last for a second or two in all, but for a few sessions.
+    /// </summary>
+    private const long UsualEvents = 1_500;
+    private const long HeavyEvents = 6_000;
+    private const double HeavyPercent = 1;
+
+    private readonly CheckScene room;
+    private readonly List<CheckPlayer> players = [];
+    private readonly List<CheckDeed> deeds = [];
+
+    internal CheckCase(ulong seed, CheckOptions options)
+    {
+        Seed = seed;
+        SeededRandom random = new(seed);
+        DrawPlayers(random.Fork(1), options);
+        SeededRandom rest = random.Fork(2);
+        long budget = rest.IsLucky(HeavyPercent) ? HeavyEvents : UsualEvents;
+        for (ulong attempt = 0; ; attempt++)
+        {
+            room = new CheckScene(random.Fork(FirstRoom + (2 * attempt)));
+            DrawDeeds(random.Fork(FirstRoom + (2 * attempt) + 1));
+            if (attempt == MostAttempts || IsWithin(budget))
+            {
+                break;
+            }
+        }
+
+        LookAhead = SimDuration.FromMilliseconds(rest.Pick(1000.0 / 30, 100, 250));
+
+        // What is compared at the end is all since the start, or only what a session keeps of itself.
+        ExtraHistory = rest.IsLucky(50) ? SimDuration.FromSeconds(60) : SimDuration.Zero;
+        BodyIndices = options.Bodies ?? Enumerable.Range(0, room.BodyCount).ToArray();
+        DeedIndices = options.Events ?? Enumerable.Range(0, deeds.Count).ToArray();
+        Throw(BodyIndices, room.BodyCount, "bodies", seed);
+        Throw(DeedIndices, deeds.Count, "events", seed);
+        Scene = room.Build(BodyIndices);
+        Accelerations = CheckScene.Accelerations;
+        double worst = players.Max(p => WorstMilliseconds(p.Link.ToHost));
+
+        // A hop, what a burst of losses adds to it, the error of a clock that is set by a slow or uneven way.
+        History = SimDuration.FromMilliseconds(Math.Min(5000, 1000 + (2 * worst)));
+    }
+
+    internal ulong Seed { get; }
+
+    internal Scene Scene { get; }
+
+    internal IReadOnlyList<IAcceleration> Accelerations { get; }
+
+    /// <summary>The host, and the joiners in the order of their addresses.</summary>
+    internal IReadOnlyList<CheckPlayer> Players => players;
+
+    /// <summary>All that was drawn, by ascending time.</summary>
+    internal IReadOnlyList<CheckDeed> Deeds => deeds;
+
+    /// <summary>Which of the scene's bodies there are.</summary>
+    internal IReadOnlyList<int> BodyIndices { get; }
+
+    /// <summary>Which of the deeds are done.</summary>
+    internal IReadOnlyList<int> DeedIndices { get; }
+
+    internal SimDuration History { get; }
+
+    internal SimDuration ExtraHistory { get; }
+
+    internal SimDuration LookAhead { get; }
+
+    /// <summary>The body of the scene that had that index when it was drawn; null if it is left out.</summary>
+    internal BodyId? BodyDrawnAs(int index)
+    {
+        for (int i = 0; i < BodyIndices.Count; i++)
+        {
+            if (BodyIndices[i] == index)
+            {
+                return BodyId.OfScene(i);
+            }
+        }
+
+        return null;
+    }
+
+    private static double WorstMilliseconds(LinkLeg leg) =>
+        leg.DelayMilliseconds + (4 * leg.JitterMilliseconds) + (leg.Tail?.AboveMilliseconds ?? 0) + ((leg.Outage?.Length.ToMilliseconds() ?? 0) * 1.1);
+
+    private static void Throw(IReadOnlyList<int> indices, int count, string what, ulong seed)
+    {
+        for (int i = 0; i < indices.Count; i++)
+        {
+            if (indices[i] < 0 || indices[i] >= count || (i > 0 && indices[i] <= indices[i - 1]))
+            {
+                throw new ArgumentException($"The {what} '{string.Join(',', indices)}' must be ascending numbers from 0 to {count - 1}: session {seed} has {count}.");
+            }
+        }
+    }
+
+    private void DrawPlayers(SeededRandom random, CheckOptions options)
+    {
+        int peers = options.FromPeers + random.NextInt(options.ToPeers - options.FromPeers + 1);
+        players.Add(Player(random, LinkProfiles.PureDelay(0), null, null, false));
+        for (int peer = 1; peer < peers; peer++)
+        {
+            LinkProfile link = DrawLink(random, options);
+            double slowest = link.RoundTripMilliseconds;
+            bool isLate = random.IsLucky(slowest > SlowMilliseconds ? 10 : 35);
+            double? asks = isLate ? random.NextDouble() * (slowest > SlowMilliseconds ? 1 : 6) : null;
+            double? leaves = random.IsLucky(15) ? random.NextDouble(Math.Min(9, 2 + (asks ?? 0)), 9.5) : null;
+            players.Add(Player(random, link, asks, leaves, random.IsLucky(40)));
+        }
+
+        // Who left in order gives the number free, and somebody else may get it.
+        if (players.FirstOrDefault(p => p.LeavesAtSeconds is not null && !p.IsKilled) is CheckPlayer left)
+        {
+            LinkProfile link = DrawLink(random, options);
+            if (link.RoundTripMilliseconds <= SlowMilliseconds)
+            {
+                players.Add(Player(random, link, left.LeavesAtSeconds + random.NextDouble(), null, false));
+            }
+        }
+    }
+
+    private static CheckPlayer Player(SeededRandom random, LinkProfile link, double? asks, double? leaves, bool isKilled) =>
+        new(link, random.NextDouble(-30, 30), random.NextDouble(0, 3600) + link.ReceiverClockOffset.ToSeconds(), asks, leaves, isKilled);
+
+    private static LinkProfile DrawLink(SeededRandom random, CheckOptions options)
+    {
+        // Of the pure delays short ones are more frequent: three quarters below a second.
+        double delay = Math.Round(2000 * random.NextDouble() * Math.Sqrt(random.NextDouble()));
+        LinkProfile drawn = random.IsLucky(30) ? LinkProfiles.PureDelay(delay) : random.Pick([.. LinkProfiles.All]);
+        return options.Profile ?? drawn;
+    }
+
+    /// <summary>Whether the scene, with all that is to be done in it, takes no more events than that.</summary>
+    private bool IsWithin(long budget)
+    {
+        Simulation alone = new(room.Build([.. Enumerable.Range(0, room.BodyCount)]), new SimulationOptions());
+        BodyId[] bodies = new BodyId[deeds.Count];
+        for (int i = 0; i < deeds.Count; i++)
+        {
+            CheckDeed deed = deeds[i];
+            SimTime time = SimTime.FromSeconds(deed.AtSeconds);
+            if (!alone.TryAdvanceTo(SimTime.Max(time - SimDuration.OneTick, alone.SimulatedTo), ref budget))
+            {
+                return false;
+            }
+
+            ExternalEvent external = deed.On(deed.Spawn >= 0 ? bodies[deed.Spawn] : BodyId.OfScene(Math.Max(0, deed.Body))).Stamp(time, 0, (uint)i + 1);
+            bodies[i] = external.Body;
+            alone.Submit(external);
+        }
+
+        return alone.TryAdvanceTo(SimTime.FromSeconds(Length), ref budget);
+    }
+
+    private void DrawDeeds(SeededRandom random)
+    {
+        deeds.Clear();
+        int count = FewestDeeds + random.NextInt(17);
+        List<int> spawns = [];
+        double[] times = Enumerable.Range(0, count).Select(_ => random.NextDouble() * Length).Order().ToArray();
+        int removals = 0;
+        for (int i = 0; i < count; i++)
+        {
+            // In the same instant as the one before, by the same player or another, and often to the same body.
+            bool isTogether = i > 0 && random.IsLucky(25);
+            double at = isTogether ? deeds[i - 1].AtSeconds : times[i];
+            int peer = isTogether && random.IsLucky(60) ? deeds[i - 1].Peer : random.NextInt(players.Count);
+            int spawn = spawns.Count > 0 && random.IsLucky(20) ? spawns[random.NextInt(spawns.Count)] : -1;
+            int body = spawn >= 0 ? -1 : random.NextInt(room.BodyCount);
+            if (isTogether && deeds[i - 1].Kind != EventKind.Spawn && random.IsLucky(50))
+            {
+                (body, spawn) = (deeds[i - 1].Body, deeds[i - 1].Spawn);
+            }
+
+            EventKind kind = random.Pick(
+                EventKind.SetVelocity, EventKind.SetVelocity, EventKind.SetVelocity, EventKind.Impulse, EventKind.Impulse,
+                EventKind.Teleport, EventKind.Teleport, EventKind.Spawn, EventKind.Remove);
+            if ((kind == EventKind.Spawn && spawns.Count == MostSpawns) || (kind == EventKind.Remove && removals == MostRemovals))
+            {
+                kind = EventKind.SetVelocity;
+            }
+
+            BodySpec spec = kind == EventKind.Spawn ? room.DrawSpec() : spawn >= 0 ? deeds[spawn].Spec : room.SpecOf(body);
+            deeds.Add(new CheckDeed(
+                at, peer, kind, kind == EventKind.Spawn ? -1 : body, kind == EventKind.Spawn ? -1 : spawn, room.DrawPosition(), room.DrawVelocity(6), spec));
+            removals += kind == EventKind.Remove ? 1 : 0;
+            if (kind == EventKind.Spawn)
+            {
+                spawns.Add(i);
+            }
+        }
+    }
+}

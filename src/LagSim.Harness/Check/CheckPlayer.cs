@@ -1,0 +1,13 @@
+using LagSim.Harness.Links;
+
+namespace LagSim.Harness.Check;
+
+/// <summary>One peer of a drawn session.</summary>
+/// <param name="Link">Its link to the host; of the host itself without meaning.</param>
+/// <param name="ClockPartsPerMillion">How much too fast its clock runs.</param>
+/// <param name="ClockOffsetSeconds">How far it is ahead.</param>
+/// <param name="AsksAtSeconds">When it asks to be let in, from the session's start on; null: before the start, which waits for it.</param>
+/// <param name="LeavesAtSeconds">When it goes; null: not before the end.</param>
+/// <param name="IsKilled">Whether it goes without a word: nobody hears of it any more, nor it of anybody.</param>
+internal sealed record CheckPlayer(
+    LinkProfile Link, double ClockPartsPerMillion, double ClockOffsetSeconds, double? AsksAtSeconds, double? LeavesAtSeconds, bool IsKilled);

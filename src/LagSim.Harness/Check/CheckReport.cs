@@ -1,0 +1,32 @@
+using System.Collections.Generic;
+using System.Linq;
+
+namespace LagSim.Harness.Check;
+
+/// <summary>What all sessions came to.</summary>
+/// <param name="Outcomes">One a session, by ascending seed; fewer than were asked for if the check was ended early.</param>
+/// <param name="Failures">Those that failed; the first few of them shrunk.</param>
+/// <param name="WallSeconds">How long it took, without the shrinking.</param>
+public sealed record CheckReport(IReadOnlyList<CheckOutcome> Outcomes, IReadOnlyList<CheckFailure> Failures, double WallSeconds)
+{
+    /// <summary>Events that all worlds ran, those run again included.</summary>
+    public long Events => Outcomes.Sum(o => o.Events);
+
+    /// <summary>Accepted events of players.</summary>
+    public long ExternalEvents => Outcomes.Sum(o => o.ExternalEvents);
+
+    /// <summary>How often such an event came to another peer after its stamp.</summary>
+    public long LateEvents => Outcomes.Sum(o => o.LateEvents);
+
+    /// <summary>How often a world rewrote its past for such events.</summary>
+    public long Heals => Outcomes.Sum(o => o.Heals);
+
+    /// <summary>How many of these cut off or put in an impact.</summary>
+    public long HealsThatChangedAnImpact => Outcomes.Sum(o => o.HealsThatChangedAnImpact);
+
+    /// <summary>Events of players that were too late; each is a failure.</summary>
+    public long TooLateEvents => Outcomes.Sum(o => o.TooLateEvents);
+
+    /// <summary>States, hashes and timeline entries that differ in any bit.</summary>
+    public long DifferingBits => Outcomes.Sum(o => o.DifferingBits);
+}

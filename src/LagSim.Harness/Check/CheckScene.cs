@@ -1,0 +1,101 @@
+using System.Collections.Generic;
+using LagSim.Harness.Links;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Harness.Check;
+
+/// <summary>A random scene: a closed room in which 8 to 12 balls meet each other all the time.</summary>
+/// <remarks>With and without gravity, often flat, with any restitution and mass ratio, on either law of flight, sometimes around static spheres.</remarks>
+internal sealed class CheckScene
+{
+    private static readonly double[] Restitutions = [0, 0.3, 0.5, 0.8, 0.9, 1, 1];
+    private static readonly double[] Masses = [0.5, 1, 1, 1, 3, 20];
+    private static readonly double[] ExtremeMasses = [1e-6, 1e-2, 1, 1, 1e3, 1e9];
+
+    private readonly SeededRandom random;
+    private readonly double[] masses;
+    private readonly double[] restitutions;
+    private readonly double half;
+    private readonly bool isFlat;
+    private readonly int integratedPercent;
+    private readonly bool hasForce;
+    private readonly bool hasGravity;
+    private readonly bool hasDome;
+    private readonly double wall;
+    private readonly double floor;
+    private readonly List<(BodySpec Spec, Vector3D Position, Vector3D Velocity)> bodies = [];
+
+    internal CheckScene(SeededRandom random)
+    {
+        this.random = random;
+        masses = random.IsLucky(20) ? ExtremeMasses : Masses;
+        hasGravity = random.IsLucky(35);
+        restitutions = random.IsLucky(hasGravity ? 85 : 30) ? [0.9, 1, 1] : Restitutions; // what falls and loses speed piles up
+        half = random.NextDouble(1.6, 2.1);
+        isFlat = random.IsLucky(60);
+        integratedPercent = random.IsLucky(20) ? 12 : 0;
+        hasForce = random.IsLucky(40);
+        hasDome = random.IsLucky(30);
+        wall = random.Pick(restitutions);
+        floor = random.Pick(restitutions);
+        int count = 8 + random.NextInt(5);
+        double fastest = random.Pick(3.0, 6, 9);
+        for (int i = 0; i < count; i++)
+        {
+            // On a grid, so that none overlap; four in a row, the first row above the dome.
+            Vector3D position = new((0.75 * (i % 4)) - 1.125, 1 + (0.75 * (i / 4)), isFlat ? 0 : random.NextDouble(-1, 1));
+            bodies.Add((DrawSpec(), position, DrawVelocity(fastest)));
+        }
+    }
+
+    internal int BodyCount => bodies.Count;
+
+    /// <summary>The accelerations that a peer must supply.</summary>
+    internal static IReadOnlyList<IAcceleration> Accelerations { get; } = [new CentralPull()];
+
+    internal BodySpec SpecOf(int body) => bodies[body].Spec;
+
+    /// <summary>The scene with these of its bodies alone.</summary>
+    internal Scene Build(IReadOnlyList<int> kept)
+    {
+        SceneBuilder builder = new SceneBuilder("check").WithSmallestRadius(0.15)
+            .AddPlane("floor", Vector3D.Up, Vector3D.Zero, floor)
+            .AddPlane("west", new Vector3D(1, 0, 0), new Vector3D(-half, 0, 0), wall)
+            .AddPlane("east", new Vector3D(-1, 0, 0), new Vector3D(half, 0, 0), wall)
+            .AddPlane("north", new Vector3D(0, 0, 1), new Vector3D(0, 0, -half), wall)
+            .AddPlane("south", new Vector3D(0, 0, -1), new Vector3D(0, 0, half), wall)
+            .AddPlane("ceiling", new Vector3D(0, -1, 0), new Vector3D(0, 2 * half, 0), wall)
+            .AddAcceleration(Accelerations[0]);
+        if (!hasGravity)
+        {
+            builder.WithGravity(Vector3D.Zero);
+        }
+
+        if (hasDome)
+        {
+            builder.AddStaticSphere("dome", new Vector3D(0.3, -0.6, 0), 1, wall);
+        }
+
+        foreach (int i in kept)
+        {
+            builder.AddBody($"ball {i}", bodies[i].Spec, bodies[i].Position, bodies[i].Velocity);
+        }
+
+        return builder.Build();
+    }
+
+    internal BodySpec DrawSpec()
+    {
+        bool isIntegrated = random.IsLucky(integratedPercent);
+        return new BodySpec(
+            random.Pick(0.2, 0.2, 0.25, 0.3), random.Pick(masses), random.Pick(restitutions), isIntegrated ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic,
+            isIntegrated ? SimDuration.FromSeconds(random.Pick(0.03125, 0.05)) : default, (byte)(isIntegrated && hasForce ? 1 : 0));
+    }
+
+    internal Vector3D DrawPosition() => new(
+        random.NextDouble(-1, 1) * (half - 0.3), random.NextDouble(0.7, (2 * half) - 0.3), isFlat ? 0 : random.NextDouble(-1, 1) * (half - 0.3));
+
+    internal Vector3D DrawVelocity(double most) =>
+        new(random.NextDouble(-1, 1) * most, random.NextDouble(-1, 1) * most, isFlat ? 0 : random.NextDouble(-1, 1) * most);
+}

@@ -1,0 +1,47 @@
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <content>Telling of impacts, to whoever wants to hear of them.</content>
+public sealed partial class Simulation
+{
+    /// <summary>Is told of impacts made and cut; null, the default, costs nothing.</summary>
+    internal IImpactObserver? Observer
+    {
+        get => timelines.Observer;
+        set => timelines.Observer = value;
+    }
+
+    /// <summary>Whether a heal is under way: what stands ahead of <see cref="SimulatedTo"/> may still be taken back by it.</summary>
+    internal bool IsHealing => front != SimTime.MinValue;
+
+    /// <summary>How far behind the simulated time timelines are kept.</summary>
+    internal SimDuration History => history;
+
+    /// <summary>Tells of the contacts of the impact at hand that close, as they are before it is solved.</summary>
+    private void TellContacts(in EventKey key)
+    {
+        if (timelines.Observer is not IImpactObserver observer)
+        {
+            return;
+        }
+
+        EventKey canonical = CanonicalKey(key);
+        for (int i = 0; i < contactCount; i++)
+        {
+            ref readonly ContactPoint c = ref contacts[i];
+            double closing = -ImpactSolver.Opening(c, partyVelocities);
+            if (c.IsStruck && closing > 0)
+            {
+                BodyId first = bodies[parties[c.First]].Id;
+                BodyId second = c.Second == ContactPoint.Static ? first : bodies[parties[c.Second]].Id;
+                Vector3D position = partyPositions[c.First] - (c.Normal * bodies[parties[c.First]].Spec.Radius);
+                observer.OnContact(canonical, new ImpactContact(first, second, c.Second == ContactPoint.Static ? c.Surface : ImpactContact.NoSurface, position, closing));
+            }
+        }
+    }
+}

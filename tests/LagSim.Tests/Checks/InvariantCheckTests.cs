@@ -1,0 +1,159 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Threading;
+using LagSim.Events;
+using LagSim.Harness.Check;
+using LagSim.Harness.Links;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Checks;
+
+/// <summary>Random sessions against the one invariant, and that the check catches what breaks it.</summary>
+public sealed class InvariantCheckTests
+{
+    [Fact]
+    public void Run_RandomSessions_NoBitDiffersAndNothingIsTooLate()
+    {
+        CheckOptions options = new() { Sessions = 150, Seed = 1_000_001 };
+        CheckReport report = Run(options);
+
+        Assert.True(report.Failures.Count == 0, string.Join(Environment.NewLine, report.Failures.Select(f => $"{f.Whole.Failure} {f.Least.Difference} {f.Command}")));
+        Assert.Equal((150, 0L, 0L), (report.Outcomes.Count, report.DifferingBits, report.TooLateEvents));
+
+        // Else little was shown.
+        Assert.True(report.HealsThatChangedAnImpact >= 0.3 * report.Heals && report.Heals > 5_000, $"{report.HealsThatChangedAnImpact} of {report.Heals}");
+        Assert.All(report.Outcomes, o => Assert.True(o.ExternalEvents >= 20, $"seed {o.Seed}: {o.ExternalEvents} events"));
+        Assert.All(report.Outcomes, o => Assert.True(o.Compared > 100, $"seed {o.Seed}: {o.Compared} compared"));
+        Assert.True(report.Outcomes.Sum(o => o.LateJoiners) > 50 && report.Outcomes.Sum(o => o.Leavers) > 20);
+        Assert.True(report.Outcomes.Sum(o => o.TiedEvents) > 500);
+        Assert.Superset(Enumerable.Range(2, 7).ToHashSet(), report.Outcomes.Select(o => o.Peers).ToHashSet());
+    }
+
+    [Fact]
+    public void Draw_ManySeeds_EverySortOfSceneLinkAndDeed()
+    {
+        CheckCase[] cases = [.. Enumerable.Range(1, 60).Select(seed => new CheckCase((ulong)seed, new CheckOptions()))];
+        Assert.All(cases, c => Assert.InRange(c.Scene.Bodies.Count, 8, 12));
+        Assert.All(cases, c => Assert.True(c.Deeds.Count >= 20 && c.Deeds.Zip(c.Deeds.Skip(1)).All(pair => pair.First.AtSeconds <= pair.Second.AtSeconds)));
+        Assert.Equal(2, cases.Select(c => c.Scene.Gravity == Vector3D.Zero).Distinct().Count());
+        Assert.Contains(cases, c => c.Scene.StaticSpheres.Count > 0);
+        Assert.Contains(cases, c => c.Scene.Bodies.Any(b => b.Spec.Flight == MotionLaw.RungeKutta4));
+        Assert.Contains(cases, c => c.Scene.Bodies.Any(b => b.Spec.Restitution == 0));
+        Assert.Contains(cases, c => c.Scene.Bodies.Max(b => b.Spec.Mass) >= 1e6 * c.Scene.Bodies.Min(b => b.Spec.Mass));
+        Assert.Equal(5, cases.SelectMany(c => c.Deeds).Select(d => d.Kind).Distinct().Count());
+        HashSet<string> links = [.. cases.SelectMany(c => c.Players.Skip(1)).Select(p => p.Link.Name)];
+        Assert.Superset(LinkProfiles.All.Where(p => !p.Name.StartsWith("delay-", StringComparison.Ordinal)).Select(p => p.Name).ToHashSet(), links);
+        Assert.Contains(cases.SelectMany(c => c.Players), p => p.Link.RoundTripMilliseconds > 3_000);
+        Assert.Contains(cases.SelectMany(c => c.Players), p => p.IsKilled && p.LeavesAtSeconds is not null);
+        Assert.All(cases, c => Assert.True(c.History <= SimDuration.FromSeconds(5)));
+    }
+
+    [Fact]
+    public void Run_OneAtATimeOrTwo_IsTheSame()
+    {
+        CheckOptions options = new() { Sessions = 6, Seed = 40 };
+        string[] once = Texts(options with { Workers = 1 });
+        Assert.Equal(once, Texts(options with { Workers = 2 }));
+        Assert.Equal(6, once.Distinct().Count());
+
+        static string[] Texts(CheckOptions options) => [.. Run(options).Outcomes.Select(
+            o => $"{o.Seed} {o.Peers} {o.Events} {o.ExternalEvents} {o.LateEvents} {o.Heals} {o.HealsThatChangedAnImpact} {o.Impacts} {o.Compared} {o.Failure}")];
+    }
+
+    [Fact]
+    public void Run_CutsByTime_IsCaughtAndShrunkToTwoDeedsOfOneTick()
+    {
+        CheckOptions options = new() { Sessions = 4, Strategy = "full-rollback", Prepare = static (_, simulation) => simulation.CutsByTime = true };
+        CheckReport report = Run(options);
+        CheckFailure failure = report.Failures[0];
+        Assert.Equal(1UL, failure.Whole.Seed);
+        Assert.True(failure.Least.Deeds.Count == 2 && failure.Least.Bodies.Count <= 2, failure.Command);
+        Assert.StartsWith("lagsim check --seed 1 --sessions 1 --strategy full-rollback --bodies ", failure.Command, StringComparison.Ordinal);
+        CheckCase least = new(1, options with { Bodies = failure.Least.Bodies, Events = failure.Least.Deeds });
+        Assert.Single(least.DeedIndices.Select(i => least.Deeds[i].AtSeconds).Distinct());
+
+        // What it names plays again to the same; without the fault it does not fail.
+        CheckOptions again = options with { Sessions = 1, Seed = 1, Bodies = failure.Least.Bodies, Events = failure.Least.Deeds, ShrinkingPlays = 0 };
+        Assert.Equal(failure.Least.Difference, Run(again).Failures.Single().Whole.Difference);
+        Assert.Empty(Run(again with { Prepare = null }).Failures);
+    }
+
+    [Fact]
+    public void Run_OperandsSwappedOnOnePeer_IsCaughtThere()
+    {
+        CheckOptions options = new() { Sessions = 4, ShrinkingPlays = 0, Prepare = static (peer, simulation) => simulation.SwapsOperands = peer == 1 };
+        CheckReport report = Run(options);
+        Assert.NotEmpty(report.Failures);
+        Assert.All(report.Failures, f => Assert.True(f.Whole.Difference is null || f.Whole.Difference.Peer == 1));
+        FirstDifference first = report.Failures.Select(f => f.Whole.Difference).First(d => d is not null)!;
+        Assert.Equal(EventKind.Impact, first.ExpectedKey!.Value.Kind);
+        Assert.NotEqual((first.ExpectedKey, first.Expected.Position), (first.ActualKey, first.Actual.Position));
+    }
+
+    [Theory]
+    [InlineData("none")]
+    [InlineData("latency-forward")]
+    public void Run_StrategyThatDoesNotAgree_FailsEverywhere(string strategy)
+    {
+        CheckReport report = Run(new CheckOptions { Sessions = 4, Strategy = strategy, ShrinkingPlays = 0 });
+        Assert.Equal([1UL, 2, 3, 4], report.Failures.Select(f => f.Whole.Seed));
+        Assert.True(report.DifferingBits > 1_000);
+    }
+
+    [Fact]
+    public void Run_HistoryTooShort_TooLateIsAFailure()
+    {
+        // The window is measured, not believed: a peer whose history is cut off under it loses events, and that is seen.
+        CheckOptions options = new()
+        {
+            Sessions = 3,
+            Profile = LinkProfiles.PureDelay(500),
+            ShrinkingPlays = 0,
+            Prepare = static (_, simulation) => simulation.Healed += _ => simulation.DropHistoryBefore(simulation.SimulatedTo),
+        };
+        CheckReport report = Run(options);
+        Assert.NotEmpty(report.Failures);
+    }
+
+    [Fact]
+    public void Run_AskedToStop_ReportsWhatIsDone()
+    {
+        using CancellationTokenSource stop = new();
+        CheckReport report = InvariantCheck.Run(new CheckOptions { Sessions = 100_000, Workers = 1 }, _ => stop.Cancel(), stop.Token);
+        Assert.InRange(report.Outcomes.Count, 0, 99_999);
+        Assert.Empty(report.Failures);
+    }
+
+    [Fact]
+    public void Run_OptionsOutOfRange_AreRefusedByName()
+    {
+        Assert.Contains("0 to", Assert.Throws<ArgumentException>(() => Run(new CheckOptions { Sessions = 1, Bodies = [0, 99] })).Message, StringComparison.Ordinal);
+        Assert.Contains("2 to 8", Assert.Throws<ArgumentOutOfRangeException>(() => Run(new CheckOptions { FromPeers = 5, ToPeers = 4 })).Message, StringComparison.Ordinal);
+        Assert.Contains("one session", Assert.Throws<ArgumentException>(() => Run(new CheckOptions { Events = [1] })).Message, StringComparison.Ordinal);
+    }
+
+    private static CheckReport Run(CheckOptions options) => InvariantCheck.Run(options, null, TestContext.Current.CancellationToken);
+
+    [Theory]
+    [InlineData(0.4, true)] // it is not where the other one comes to: the impact at 0.5 s is gone
+    [InlineData(0.6, false)] // the impact was before
+    public void HealImpacts_OneLateEvent_CountsWhetherAnImpactIsGone(double stamp, bool changes)
+    {
+        Scene scene = new SceneBuilder("two").WithGravity(Floating)
+            .AddBody("left", Ball(0.5), V(-1)).AddBody("right", Ball(0.5), V(1), V(-2)).Build();
+        Simulation simulation = new(scene, KeepAll);
+        HealImpacts heals = new(simulation, _ => true);
+        simulation.AdvanceTo(At(1));
+        Assert.Equal(0, heals.Heals);
+        simulation.Submit(ExternalEvent.Teleport(At(stamp), 1, 1, First, V(-1, 5)));
+        Assert.Equal((1L, changes ? 1L : 0L), (heals.Heals, heals.Changed));
+
+        // The same impact made again is no change: the body that was to be hit only turns out to have had its velocity set to what it was.
+        simulation.Submit(ExternalEvent.SetVelocity(At(0.2), 1, 2, Second, V(-2)));
+        Assert.Equal((2L, changes ? 1L : 0L), (heals.Heals, heals.Changed));
+    }
+}
