@@ -14,7 +14,7 @@ namespace LagSim.Net.Display;
 /// <para>What to expect: on generated hand motion the rms error stays within 1.15 of that of the best of them in hindsight. Nothing can promise an error below
 /// A L^2 / 2 for a hand that may accelerate by A (m/s^2) after what is known of it, L seconds ago: see <see cref="LeastWorstError"/>.</para>
 /// <para>It remembers 512 samples and so can learn for spans up to what those cover. Memory is fixed; nothing is allocated after construction. A sample costs
-/// some microseconds, a prediction less; when the span changes for good by a quarter or more, one prediction goes through all it remembers anew. Not
+/// some ten microseconds, a prediction far less; when the span changes for good by a quarter or more, one prediction goes through all it remembers anew. Not
 /// thread-safe.</para>
 /// </remarks>
 public sealed class AdaptivePredictor

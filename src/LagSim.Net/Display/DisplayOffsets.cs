@@ -16,7 +16,7 @@ namespace LagSim.Net.Display;
 /// exponentially, small ones faster (<see cref="DisplayOptions"/>), in the same curve whatever the frame rate.</para>
 /// <para>An offset is given up at once where it would have the body drawn inside a plane, a static sphere or another body as that is drawn; where it is too large to be
 /// smoothed; where the body is put elsewhere; and as far as a bounce hides it.</para>
-/// <para>A frame costs two readings of the picture a body, and for each body with an offset one look at every other. Memory grows with the bodies of the picture;
+/// <para>For one world: who joins another makes another. A frame costs two readings of the picture a body, and for each body with an offset one look at every other. Memory grows with the bodies of the picture;
 /// otherwise nothing is allocated. Not thread-safe: for the thread that reads pictures.</para>
 /// </remarks>
 public sealed class DisplayOffsets
@@ -48,7 +48,7 @@ public sealed class DisplayOffsets
 
     /// <summary>Begins a frame.</summary>
     /// <param name="picture">The newest picture.</param>
-    /// <param name="now">The time to show. If it is before that of the last frame, or the picture is of another world, all begins anew without offsets.</param>
+    /// <param name="now">The time to show. If it is before that of the last frame, or the picture is an older one, all begins anew without offsets.</param>
     /// <returns>False if the picture does not cover that time; then nothing changed and bodies are read as in the last frame.</returns>
     /// <exception cref="ArgumentNullException"><paramref name="picture"/> is null.</exception>
     public bool Update(Picture picture, SimTime now)
