@@ -16,8 +16,8 @@ namespace LagSim.Net.Display;
 /// exponentially, small ones faster (<see cref="DisplayOptions"/>), in the same curve whatever the frame rate.</para>
 /// <para>An offset is given up at once where it would have the body drawn inside a plane, a static sphere or another body as that is drawn; where it is too large to be
 /// smoothed; where the body is put elsewhere; and as far as a bounce hides it.</para>
-/// <para>For one world: who joins another makes another. A frame costs two readings of the picture a body, and for each body with an offset one look at every other. Memory grows with the bodies of the picture;
-/// otherwise nothing is allocated. Not thread-safe: for the thread that reads pictures.</para>
+/// <para>For one world: who joins another makes another. A frame costs two readings of the picture a body, and for each body with an offset one look at every other. Memory
+/// grows with the bodies of the picture; otherwise nothing is allocated. Not thread-safe: for the thread that reads pictures.</para>
 /// </remarks>
 public sealed class DisplayOffsets
 {

@@ -144,7 +144,8 @@ public sealed class PredictionTests(ITestOutputHelper output)
         .SelectMany(name => horizons.Select(horizon =>
         {
             PredictionError error = PredictionTest.Run(HandMotions.Generate(name, seed), horizon);
-            output.WriteLine($"{name} {seed} {horizon} ms: {error.AdaptiveMetres * 1000:0.00} mm, {error.RatioToBest:0.000} of {AdaptivePredictor.Candidates[error.BestCandidate]}, linear {error.LinearMetres * 1000:0.00} mm");
+            string best = AdaptivePredictor.Candidates[error.BestCandidate];
+            output.WriteLine($"{name} {seed} {horizon} ms: {error.AdaptiveMetres * 1000:0.00} mm, {error.RatioToBest:0.000} of {best}, linear {error.LinearMetres * 1000:0.00} mm");
             return error;
         })).ToArray();
 
