@@ -16,7 +16,7 @@ internal static class HoldTables
         console.Output.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
             $"{motion.Name} motion of a hand, {motion.Seconds:0.#} s, at most {NumberText.Short(motion.LargestAcceleration())} m/s^2"));
-        Table table = new Table { Border = TableBorder.Horizontal }.Title("where the hand is, told from samples as old as the delay in ms: rms error in mm").LeftAligned();
+        Table table = new Table { Border = TableBorder.Horizontal }.Title("where the hand is, by delay in ms: rms error in mm").LeftAligned();
         IReadOnlyList<string> headings = Headings;
         for (int i = 0; i < headings.Count; i++)
         {
