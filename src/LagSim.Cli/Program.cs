@@ -6,6 +6,7 @@ using System.Text;
 using System.Threading;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
+using LagSim.Harness.Hands;
 using LagSim.Harness.Peers;
 using LagSim.Harness.Scenes;
 using LagSim.Scenes;
@@ -34,6 +35,7 @@ internal static class Program
             new VersionOption(),
             CheckCommand.Create(console),
             DropCommand.Create(console),
+            HoldCommand.Create(console),
             FuzzCommand.Create(console),
             RunCommand.Create(console),
             ScenesCommand.Create(console),
@@ -77,7 +79,7 @@ internal static class Program
             return ExitCode.Usage;
         }
         catch (Exception failure) when (failure is SceneFileException or SceneException or SimulationException or PeerGroupException
-            or InputException or IOException or UnauthorizedAccessException)
+            or HandMotionException or InputException or IOException or UnauthorizedAccessException)
         {
             error.WriteLine(failure.Message);
             return ExitCode.Input;

@@ -115,6 +115,8 @@ public sealed partial class Simulation
 
     internal BodyId IdOfSlot(int slot) => bodies[slot].Id;
 
+    internal double RadiusOfSlot(int slot) => bodies[slot].Spec.Radius;
+
     internal static BodyState StateOf(in MotionSegment segment, double seconds, in DenseOutput dense, in PeriodicBox box) =>
         segment.IsPresent
             ? new BodyState(box.Wrap(segment.PositionAt(seconds, dense)), segment.VelocityAt(seconds, dense), segment.Law)

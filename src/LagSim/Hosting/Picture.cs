@@ -12,6 +12,7 @@ namespace LagSim.Hosting;
 public sealed class Picture
 {
     private PictureTimeline[] timelines = Array.Empty<PictureTimeline>();
+    private double[] radii = Array.Empty<double>();
     private ulong[] identities = Array.Empty<ulong>();
     private int[] slots = Array.Empty<int>();
     private long orderVersion = -1;
@@ -48,6 +49,28 @@ public sealed class Picture
         return state.Motion != MotionLaw.Absent;
     }
 
+    /// <summary>The radius of a body, in metres; 0 for one that is unknown or was never there.</summary>
+    public double RadiusOf(BodyId body)
+    {
+        int at = Array.BinarySearch(identities, 0, BodyCount, body.Packed);
+        return at < 0 ? 0 : radii[slots[at]];
+    }
+
+    /// <summary>By how much a body's velocity changed at one stroke, after one instant and up to another: a bounce, an impulse.</summary>
+    /// <param name="body">The body.</param>
+    /// <param name="after">The earlier instant, itself left out.</param>
+    /// <param name="upTo">The later one.</param>
+    /// <param name="speed">
+    /// The largest such change in m/s, 0 if there was none; <see cref="double.PositiveInfinity"/> if the body was put elsewhere, came or went in between.
+    /// </param>
+    /// <returns>False if an instant is not covered or the body is unknown; the change is then 0.</returns>
+    public bool TryReadSuddenChange(BodyId body, SimTime after, SimTime upTo, out double speed)
+    {
+        int at = Covers(after) && Covers(upTo) ? Array.BinarySearch(identities, 0, BodyCount, body.Packed) : -1;
+        speed = at < 0 ? 0 : timelines[slots[at]].SuddenChange(after, upTo, box);
+        return at >= 0;
+    }
+
     /// <summary>Takes over what changed in the simulation since this picture last showed it.</summary>
     internal void Follow(Simulation simulation, SimTime from, long number)
     {
@@ -56,6 +79,7 @@ public sealed class Picture
         {
             int size = Math.Max(count, timelines.Length * 2);
             Array.Resize(ref timelines, size);
+            Array.Resize(ref radii, size);
             Array.Resize(ref identities, size);
             Array.Resize(ref slots, size);
         }
@@ -75,6 +99,7 @@ public sealed class Picture
         {
             timelines[slot] ??= new PictureTimeline();
             timelines[slot].Follow(simulation.Timelines, slot, from);
+            radii[slot] = simulation.RadiusOfSlot(slot);
         }
 
         box = simulation.Scene.Box;

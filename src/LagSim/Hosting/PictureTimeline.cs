@@ -9,6 +9,8 @@ namespace LagSim.Hosting;
 /// <summary>One body's timeline inside a picture: a copy that follows the simulation's by taking over only what changed.</summary>
 internal sealed class PictureTimeline
 {
+    private const double LeastStep = 1e-6; // m; less between two pieces of a path is rounding, or a hop's height
+
     private Entry[] entries = Array.Empty<Entry>(); // a body that is only heard of never needs one
     private int first;
     private int end;
@@ -79,9 +81,36 @@ internal sealed class PictureTimeline
             return default;
         }
 
-        ref readonly Entry entry = ref entries[low - 1];
-        return Simulation.StateOf(entry.Segment, time.SecondsSince(entry.Segment.Epoch), entry.Dense, box);
+        return State(entries[low - 1], time, box);
     }
+
+    /// <summary>The largest change of velocity at one stroke after one instant and up to another, in m/s; infinite if the body was put elsewhere, came or went.</summary>
+    internal double SuddenChange(SimTime after, SimTime upTo, in PeriodicBox box)
+    {
+        double largest = 0;
+        for (int i = end - 1; i >= first && entries[i].Opened > after; i--)
+        {
+            if (entries[i].Opened > upTo)
+            {
+                continue;
+            }
+
+            SimTime time = entries[i].Opened;
+            BodyState now = State(entries[i], time, box);
+            BodyState before = i > first ? State(entries[i - 1], time, box) : default;
+            bool wasThere = before.Motion != MotionLaw.Absent, isThere = now.Motion != MotionLaw.Absent;
+            if (wasThere || isThere)
+            {
+                bool stays = wasThere && isThere && box.Nearest(now.Position - before.Position).Length <= LeastStep;
+                largest = Math.Max(largest, stays ? (now.Velocity - before.Velocity).Length : double.PositiveInfinity);
+            }
+        }
+
+        return largest;
+    }
+
+    private static BodyState State(in Entry entry, SimTime time, in PeriodicBox box) =>
+        Simulation.StateOf(entry.Segment, time.SecondsSince(entry.Segment.Epoch), entry.Dense, box);
 
     private void Reserve(int fresh)
     {

@@ -24,15 +24,15 @@ public readonly struct PeriodicBox : IEquatable<PeriodicBox>
     internal double LeastSide => Math.Min(Size.X, Math.Min(Size.Y, Size.Z));
 
     /// <summary>Whether a point lies in the box: each coordinate at least 0 and less than the side.</summary>
-    internal bool Contains(in Vector3D point) =>
+    public bool Contains(in Vector3D point) =>
         point.X >= 0 && point.X < Size.X && point.Y >= 0 && point.Y < Size.Y && point.Z >= 0 && point.Z < Size.Z;
 
     /// <summary>The image in the box of a point at most a few sides away.</summary>
-    internal Vector3D Wrap(in Vector3D point) =>
+    public Vector3D Wrap(in Vector3D point) =>
         Exists ? new Vector3D(Wrap(point.X, Size.X), Wrap(point.Y, Size.Y), Wrap(point.Z, Size.Z)) : point;
 
     /// <summary>How far apart two points are by the shortest way, given their difference.</summary>
-    internal Vector3D Nearest(in Vector3D apart) =>
+    public Vector3D Nearest(in Vector3D apart) =>
         Exists ? new Vector3D(Nearest(apart.X, Size.X), Nearest(apart.Y, Size.Y), Nearest(apart.Z, Size.Z)) : apart;
 
     /// <inheritdoc/>

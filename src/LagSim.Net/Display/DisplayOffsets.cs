@@ -1,0 +1,301 @@
+using System;
+using LagSim.Hosting;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Net.Display;
+
+/// <summary>
+/// Hides from the eye that late news has moved a body: the world is always where it is, and what is drawn is off by what news has changed, less and less so.
+/// </summary>
+/// <remarks>
+/// <para>Call <see cref="Update"/> once a frame with the newest picture and the frame's time, then <see cref="TryRead"/> for each body to draw. For display only:
+/// what is drawn differs from peer to peer and must never enter a simulation.</para>
+/// <para>A correction is the difference between where the body was shown at the time of the frame before and where the new picture has it at that same time.
+/// So motion is none, however fast, nor is what a player does now; only a rewritten past is. It is added to the body's offset, and the offset decays
+/// exponentially, small ones faster (<see cref="DisplayOptions"/>), in the same curve whatever the frame rate.</para>
+/// <para>An offset is given up at once where it would have the body drawn inside a plane, a static sphere or another body as that is drawn; where it is too large to be
+/// smoothed; where the body is put elsewhere; and as far as a bounce hides it.</para>
+/// <para>For one world: who joins another makes another. A frame costs two readings of the picture a body, and for each body with an offset one look at every other. Memory
+/// grows with the bodies of the picture; otherwise nothing is allocated. Not thread-safe: for the thread that reads pictures.</para>
+/// </remarks>
+public sealed class DisplayOffsets
+{
+    private readonly Scene scene;
+    private readonly DisplayOptions options;
+    private Entry[] entries = Array.Empty<Entry>();
+    private Entry[] spare = Array.Empty<Entry>();
+    private int count;
+    private Picture? lastPicture;
+    private long lastNumber;
+    private SimTime lastTime;
+
+    /// <summary>Offsets for pictures of a world of the scene; all zero to begin with.</summary>
+    /// <param name="scene">Has what bodies must not be drawn inside of.</param>
+    /// <param name="options">How corrections are hidden; null takes the defaults.</param>
+    /// <exception cref="ArgumentNullException"><paramref name="scene"/> is null.</exception>
+    public DisplayOffsets(Scene scene, DisplayOptions? options = null)
+    {
+        this.scene = scene ?? throw new ArgumentNullException(nameof(scene));
+        this.options = options ?? new DisplayOptions();
+    }
+
+    /// <summary>How often news has moved what was shown, each body counted.</summary>
+    public long Corrections { get; private set; }
+
+    /// <summary>The largest of these, in metres.</summary>
+    public double LargestJump { get; private set; }
+
+    /// <summary>Begins a frame.</summary>
+    /// <param name="picture">The newest picture.</param>
+    /// <param name="now">The time to show. If it is before that of the last frame, or the picture is an older one, all begins anew without offsets.</param>
+    /// <returns>False if the picture does not cover that time; then nothing changed and bodies are read as in the last frame.</returns>
+    /// <exception cref="ArgumentNullException"><paramref name="picture"/> is null.</exception>
+    public bool Update(Picture picture, SimTime now)
+    {
+        if (picture is null)
+        {
+            throw new ArgumentNullException(nameof(picture));
+        }
+
+        if (!picture.Covers(now))
+        {
+            return false;
+        }
+
+        if (lastPicture is null || now < lastTime || picture.Number < lastNumber)
+        {
+            count = 0;
+            lastTime = now;
+        }
+
+        bool isRewritten = picture != lastPicture || picture.Number != lastNumber;
+        Follow(picture);
+        for (int n = 0; n < count; n++)
+        {
+            Move(ref entries[n], picture, now, isRewritten);
+        }
+
+        while (DropWhatIsInside())
+        {
+            // What is dropped is drawn elsewhere, where another's offset may now be too much.
+        }
+
+        lastPicture = picture;
+        lastNumber = picture.Number;
+        lastTime = now;
+        return true;
+    }
+
+    /// <summary>How a body is to be drawn in this frame.</summary>
+    /// <returns>False if the body is unknown or not there.</returns>
+    public bool TryRead(BodyId body, out DrawnBody drawn)
+    {
+        int low = 0;
+        int high = count;
+        while (low < high)
+        {
+            int middle = (low + high) >> 1;
+            if (entries[middle].Body < body)
+            {
+                low = middle + 1;
+            }
+            else
+            {
+                high = middle;
+            }
+        }
+
+        bool isThere = low < count && entries[low].Body == body && entries[low].IsThere;
+        drawn = isThere ? entries[low].ToDrawn() : default;
+        return isThere;
+    }
+
+    /// <summary>Has an entry for each body of the picture, in its order.</summary>
+    private void Follow(Picture picture)
+    {
+        int known = 0;
+        while (known < count && known < picture.BodyCount && entries[known].Body == picture.BodyAt(known))
+        {
+            known++;
+        }
+
+        if (known == count && known == picture.BodyCount)
+        {
+            return;
+        }
+
+        if (spare.Length < picture.BodyCount)
+        {
+            spare = new Entry[Math.Max(picture.BodyCount, 2 * spare.Length)];
+        }
+
+        int old = 0;
+        for (int n = 0; n < picture.BodyCount; n++)
+        {
+            BodyId body = picture.BodyAt(n);
+            while (old < count && entries[old].Body < body)
+            {
+                old++;
+            }
+
+            spare[n] = old < count && entries[old].Body == body ? entries[old] : new Entry { Body = body };
+        }
+
+        (entries, spare) = (spare, entries);
+        count = picture.BodyCount;
+    }
+
+    private void Move(ref Entry entry, Picture picture, SimTime now, bool isRewritten)
+    {
+        entry.Jump = entry.Decay = entry.Dropped = 0;
+        bool isThere = picture.TryRead(entry.Body, now, out BodyState state);
+        if (entry.IsThere && isThere)
+        {
+            if (isRewritten)
+            {
+                Correct(ref entry, picture);
+            }
+
+            if (entry.Size > 0)
+            {
+                Shrink(ref entry, picture, now);
+            }
+        }
+        else
+        {
+            entry.Drop();
+        }
+
+        entry.IsThere = isThere;
+        entry.State = state;
+        entry.Radius = isThere ? picture.RadiusOf(entry.Body) : 0;
+    }
+
+    /// <summary>What the new picture says of the last frame's time, held against what was shown then.</summary>
+    private void Correct(ref Entry entry, Picture picture)
+    {
+        if (!picture.TryRead(entry.Body, lastTime, out BodyState then))
+        {
+            entry.Drop(); // it was not there after all, or frames are further apart than pictures reach back
+            return;
+        }
+
+        Vector3D change = scene.Box.Nearest(entry.State.Position - then.Position);
+        entry.Jump = change.Length;
+        if (entry.Jump == 0)
+        {
+            return;
+        }
+
+        Corrections++;
+        LargestJump = Math.Max(LargestJump, entry.Jump);
+        entry.Offset += change;
+        entry.Size = entry.Offset.Length;
+        entry.TimeConstant = OffsetDecay.TimeConstant(options, entry.Size);
+        if (entry.Size > options.SnapDistance)
+        {
+            entry.Drop();
+        }
+    }
+
+    private void Shrink(ref Entry entry, Picture picture, SimTime now)
+    {
+        double left = OffsetDecay.After(entry.Size, entry.TimeConstant, options.MaxSpeed, (now - lastTime).ToSeconds());
+        entry.Decay = entry.Size - left;
+        entry.ShrinkTo(left);
+        picture.TryReadSuddenChange(entry.Body, lastTime, now, out double change);
+        double hidden = change < double.PositiveInfinity ? Math.Min(change * options.Hiding.ToSeconds(), entry.Size) : entry.Size;
+        entry.Dropped += hidden;
+        entry.ShrinkTo(entry.Size - hidden);
+    }
+
+    private bool DropWhatIsInside()
+    {
+        bool isDropped = false;
+        for (int n = 0; n < count; n++)
+        {
+            if (entries[n].Size > 0 && (IsInsideStatic(entries[n]) || IsInsideBody(n)))
+            {
+                entries[n].Drop();
+                isDropped = true;
+            }
+        }
+
+        return isDropped;
+    }
+
+    private bool IsInsideStatic(in Entry entry)
+    {
+        Vector3D drawn = entry.State.Position + entry.Offset;
+        for (int i = 0; i < scene.Planes.Count; i++)
+        {
+            StaticPlane plane = scene.Planes[i];
+            if (IsDeeper(plane.Gap(drawn, entry.Radius), plane.Gap(entry.State.Position, entry.Radius)))
+            {
+                return true;
+            }
+        }
+
+        for (int i = 0; i < scene.StaticSpheres.Count; i++)
+        {
+            StaticSphere sphere = scene.StaticSpheres[i];
+            double touching = sphere.Radius + entry.Radius;
+            if (IsDeeper((drawn - sphere.Centre).Length - touching, (entry.State.Position - sphere.Centre).Length - touching))
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    private bool IsInsideBody(int n)
+    {
+        ref readonly Entry entry = ref entries[n];
+        Vector3D drawn = entry.State.Position + entry.Offset;
+        for (int other = 0; other < count; other++)
+        {
+            ref readonly Entry partner = ref entries[other];
+            double touching = entry.Radius + partner.Radius;
+            if (other != n && partner.IsThere
+                && IsDeeper(scene.Box.Nearest(drawn - partner.State.Position - partner.Offset).Length - touching, scene.Box.Nearest(entry.State.Position - partner.State.Position).Length - touching))
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    /// <summary>Whether a gap is one that the offset is to blame for.</summary>
+    private bool IsDeeper(double drawn, double real) => drawn < Math.Min(real, 0) - options.Penetration;
+
+    private struct Entry
+    {
+        internal BodyId Body;
+        internal bool IsThere;
+        internal BodyState State;
+        internal double Radius;
+        internal Vector3D Offset;
+        internal double Size; // of the offset
+        internal double TimeConstant;
+        internal double Jump;
+        internal double Decay;
+        internal double Dropped;
+
+        internal readonly DrawnBody ToDrawn() => new(State, Offset, Jump, Decay, Dropped);
+
+        internal void ShrinkTo(double size)
+        {
+            Offset = size > 0 ? Offset * (size / Size) : Vector3D.Zero;
+            Size = size;
+        }
+
+        internal void Drop()
+        {
+            Dropped += Size;
+            ShrinkTo(0);
+        }
+    }
+}
