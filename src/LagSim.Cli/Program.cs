@@ -33,6 +33,7 @@ internal static class Program
             new HelpOption(),
             new VersionOption(),
             DropCommand.Create(console),
+            CompareCommand.Create(console),
             FuzzCommand.Create(console),
             RunCommand.Create(console),
             ScenesCommand.Create(console),

@@ -129,7 +129,7 @@ internal static class DropTables
     }
 
     /// <summary>A table that fits a terminal of 80 columns: no frame, the first column a text, the others numbers.</summary>
-    private static Table NewTable(string title, params string[] columns)
+    internal static Table NewTable(string title, params string[] columns)
     {
         Table table = new Table { Border = TableBorder.Horizontal }.Title(title).LeftAligned();
         for (int i = 0; i < columns.Length; i++)

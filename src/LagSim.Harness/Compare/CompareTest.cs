@@ -44,8 +44,9 @@ public static class CompareTest
         foreach (PlannedDeed deed in options.Plan)
         {
             peers.RunUntil(deed.Time, progress);
-            Action<SimTime> noted = inputs.Expect(deed.Peer, deed.Body);
-            ExternalEvent external = heals.Own(() => peers.Do(deed.Peer, deed.ToAction()));
+            int peer = PlaceOf(peers, deed.Peer);
+            Action<SimTime> noted = inputs.Expect(peer, deed.Body);
+            ExternalEvent external = heals.Own(() => peers.Do(peer, deed.ToAction()));
             noted(external.Time);
             news.Did(external);
         }
@@ -56,6 +57,9 @@ public static class CompareTest
         double seconds = CompareOptions.Length.ToSeconds();
         return Measure(options, peers, news, heals, inputs, GroupFigures.BytesPerSecond(before, after, seconds));
     }
+
+    /// <summary>Where in the group the player with that number is: joiners have their numbers in the order in which they came.</summary>
+    private static int PlaceOf(PeerGroup peers, int number) => Enumerable.Range(0, peers.PeerCount).Single(p => peers.Session(p).Peer == number);
 
     private static CompareRun Measure(CompareOptions options, VirtualPeers peers, NewsWatch news, HealWatch heals, InputWatch inputs, double[] bytes)
     {

@@ -24,8 +24,7 @@ internal sealed class NewsWatch
         for (int peer = 0; peer < peers.PeerCount; peer++)
         {
             Session session = peers.Session(peer);
-            int number = peer;
-            session.Logged += entry => Hear(number, entry, session.SharedTime.Now);
+            session.Logged += entry => Hear(session.Peer, entry, session.SharedTime.Now);
         }
     }
 

@@ -7,7 +7,7 @@ namespace LagSim.Harness.Compare;
 
 /// <summary>What a player will do, and when.</summary>
 /// <param name="Time">After the start of the scene, by the host's shared clock.</param>
-/// <param name="Peer">Who.</param>
+/// <param name="Peer">Who, by the number that he has in the session.</param>
 /// <param name="Kind">What: an impulse, a velocity, a teleport or a spawn.</param>
 /// <param name="Body">To which body; of a spawn the new one.</param>
 /// <param name="Position">Where it is put, in metres, by a teleport or a spawn.</param>
