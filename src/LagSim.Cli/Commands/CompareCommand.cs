@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.CommandLine;
 using System.Linq;
@@ -75,7 +76,11 @@ internal static class CompareCommand
         List<CompareRun> runs = console.WithProgress(
             $"compare, {options[0].Scene.Name}, virtual time",
             each * options.Length,
-            progress => options.Select((run, n) => CompareTest.Run(run, done => progress((n * each) + done.ToSeconds()))).ToList());
+            progress =>
+            {
+                WarmUp(options, progress);
+                return options.Select((run, n) => CompareTest.Run(run, done => progress((n * each) + done.ToSeconds()))).ToList();
+            });
         if (folder is not null)
         {
             CompareFiles.Write(folder, runs);
@@ -91,6 +96,16 @@ internal static class CompareCommand
         }
 
         return ExitCodeOf(runs);
+    }
+
+    /// <summary>Something small with each strategy first, so that what is compiled when it first runs is not in the time that heals take.</summary>
+    private static void WarmUp(CompareOptions[] options, Action<double> progress)
+    {
+        Scene small = BuiltInScenes.Pair();
+        foreach (string strategy in options.Select(run => run.Strategy).Distinct())
+        {
+            CompareTest.Run(new CompareOptions(small, PlayerPlan.Draw(small, 2, 1), strategy, LinkProfiles.Awful) { Peers = 2 }, _ => progress(0));
+        }
     }
 
     private static LinkProfile[] Links(string profile) =>

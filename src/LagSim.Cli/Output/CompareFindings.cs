@@ -12,6 +12,9 @@ internal sealed class CompareFindings
     private const string Healing = "healing";
     private const string Interpolation = "interpolation";
 
+    /// <summary>What is less than 1 % smaller is not called better.</summary>
+    private const double Noticeable = 0.99;
+
     private readonly bool hasBoth;
     private readonly bool hasHealing;
     private readonly CompareRun[] interpolated;
@@ -23,8 +26,8 @@ internal sealed class CompareFindings
         healed = runs.Where(run => run.Options.Strategy == Healing).ToArray();
         hasBoth = interpolated.Length > 0 && healed.Length > 0;
         hasHealing = healed.Length > 0 && runs.Count > healed.Length;
-        BetterDuring = Where(interpolated, (other, healing) => Worst(other.Seen.During) < Worst(healing.Seen.During)).Select(run => run.Options.Link.Name).ToArray();
-        SmootherThanHealing = Where(interpolated, (other, healing) => other.Corrections.Max < healing.Corrections.Max).Select(run => run.Options.Link.Name).ToArray();
+        BetterDuring = Where(interpolated, (other, healing) => Worst(other.Seen.During) < Noticeable * Worst(healing.Seen.During)).Select(run => run.Options.Link.Name).ToArray();
+        SmootherThanHealing = Where(interpolated, (other, healing) => other.Corrections.Max < Noticeable * healing.Corrections.Max).Select(run => run.Options.Link.Name).ToArray();
         HealingWorseAfter = Where(runs, (other, healing) => IsWorse(healing.Seen.After.ToStatistics(), other.Seen.After.ToStatistics()))
             .Select(run => (run.Options.Link.Name, run.Options.Strategy)).ToArray();
 
@@ -32,10 +35,10 @@ internal sealed class CompareFindings
             others.Where(other => healed.Any(healing => healing.Options.Link.Name == other.Options.Link.Name && isSo(other, healing)));
     }
 
-    /// <summary>The links on which interpolation has the smaller largest error as seen while an event is on its way.</summary>
+    /// <summary>The links on which interpolation has the smaller largest error as seen while an event is on its way, by 1 % or more.</summary>
     internal IReadOnlyList<string> BetterDuring { get; }
 
-    /// <summary>The links on which the largest jump that interpolation shows is smaller.</summary>
+    /// <summary>The links on which the largest jump that interpolation shows is smaller, by 1 % or more.</summary>
     internal IReadOnlyList<string> SmootherThanHealing { get; }
 
     /// <summary>Where healing shows larger or more errors than another strategy once no event is on its way any more.</summary>

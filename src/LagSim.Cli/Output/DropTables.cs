@@ -6,6 +6,8 @@ using LagSim.Harness.Drop;
 using LagSim.Harness.Metrics;
 using LagSim.Harness.Reports;
 using LagSim.Harness.Scenes;
+using LagSim.Net.Strategies;
+using LagSim.Time;
 using Spectre.Console;
 
 namespace LagSim.Cli.Output;
@@ -27,6 +29,11 @@ internal static class DropTables
         }
 
         console.Rich.Write(Strategies(strategies));
+        foreach (DropRun late in strategies.Where(run => DelayOf(run) > SimDuration.Zero))
+        {
+            console.Output.WriteLine($"{late.Options.Strategy} shows everything {NumberText.Short(DelayOf(late).ToMilliseconds())} ms late, what a player does itself included.");
+        }
+
         if (folder is not null)
         {
             console.Output.WriteLine($"Charts, CSV and report.html are in {folder}.");
@@ -109,6 +116,8 @@ internal static class DropTables
         console.Output.WriteLine($"event hashes {string.Join(" ", run.EventHashes.Select(h => JsonDocumentWriter.Hash(h)))} {(run.Agrees ? "(equal)" : "(NOT equal)")}");
         console.Output.WriteLine();
     }
+
+    private static SimDuration DelayOf(DropRun run) => LateEventStrategies.Create(run.Options.Strategy, run.Options.DisplayDelay).DisplayDelay;
 
     private static Table Strategies(IReadOnlyList<DropRun> runs)
     {
