@@ -28,7 +28,10 @@ internal static class CompareChart
                     new ChartSeries("from the world that had all on time", run.Trace.Seconds, run.Trace.SeenFromTruth, SeriesStyle.Dashed, 1),
                 ])
             {
-                Scale = ChartScale.Log10, LogFloor = ErrorFloor, Reaches = [ErrorFloor, .. all], PlotHeight = PanelHeight,
+                Scale = ChartScale.Log10,
+                LogFloor = ErrorFloor,
+                Reaches = [ErrorFloor, .. all],
+                PlotHeight = PanelHeight,
                 Markers = run.Trace.Events.Select(e => new ChartMarker(e.Stamp, "event", MarkerKind.Tick)).ToArray(),
             }).ToArray())
         {
@@ -57,7 +60,10 @@ internal static class CompareChart
                         new ChartSeries("furthest jump", late, Array.ConvertAll(own, run => run.Corrections.Max), SeriesStyle.Dashed, 2),
                     ])
                 {
-                    Scale = ChartScale.Log10, LogFloor = ErrorFloor, Reaches = [ErrorFloor, .. all], PlotHeight = PanelHeight,
+                    Scale = ChartScale.Log10,
+                    LogFloor = ErrorFloor,
+                    Reaches = [ErrorFloor, .. all],
+                    PlotHeight = PanelHeight,
                 };
             }).ToArray())
         {

@@ -49,8 +49,12 @@ internal static class DropChart
             runs.Select((run, n) => new ChartPanel(
                 run.Options.Strategy, "error (m)", [new ChartSeries("between the peers, as seen", run.Trace.Seconds, run.Trace.SeenError, SeriesStyle.Line, n)])
             {
-                Scale = ChartScale.Log10, LogFloor = ErrorFloor, PlotHeight = 96, Reaches = [ErrorFloor, most],
-                ReferenceLines = Thesis(run), Markers = Known(run),
+                Scale = ChartScale.Log10,
+                LogFloor = ErrorFloor,
+                PlotHeight = 96,
+                Reaches = [ErrorFloor, most],
+                ReferenceLines = Thesis(run),
+                Markers = Known(run),
             }).ToArray())
         {
             XLabel = "shared time since the start of the scene (s)",

@@ -33,7 +33,9 @@ public static class CompareTest
 
         PeerGroupOptions group = new(options.Peers, options.Link, options.Strategy, options.Seed, CompareOptions.Length)
         {
-            DisplayDelay = options.DisplayDelay, StartLead = StartLead, Spawned = spawned,
+            DisplayDelay = options.DisplayDelay,
+            StartLead = StartLead,
+            Spawned = spawned,
         };
         using VirtualPeers peers = new(options.Scene, group);
         peers.Connect();

@@ -27,7 +27,8 @@ public static class DropTest
         Scene scene = options.BuildScene();
         PeerGroupOptions group = new(options.Peers, options.Link, options.Strategy, options.Seed, options.Length)
         {
-            Carrier = options.Carrier, DisplayDelay = options.DisplayDelay,
+            Carrier = options.Carrier,
+            DisplayDelay = options.DisplayDelay,
         };
         using PeerGroup peers = options.IsVirtual ? new VirtualPeers(scene, group) : new RealPeers(scene, group);
         peers.Connect();
