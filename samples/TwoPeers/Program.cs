@@ -42,8 +42,8 @@ ulong[] hashes = [await Hash(host), await Hash(joiner)];
 Console.WriteLine($"event hashes {hashes[0]:x16} {hashes[1]:x16}");
 return hashes[0] == hashes[1] ? 0 : 1;
 
-// A frame draws the instant it is at: here the shared time, which both peers' clocks agree on.
+// A frame draws the instant that the session displays: the shared time, which both peers' clocks agree on, or with the strategy interpolation a little before.
 double Height(PeerThread peer) =>
-    peer.Latest() is { } picture && picture.TryRead(ball, peer.Session.SharedTime.Now, out BodyState state) ? state.Position.Y : double.NaN;
+    peer.Latest() is { } picture && picture.TryRead(ball, peer.Session.DisplayTime, out BodyState state) ? state.Position.Y : double.NaN;
 
 Task<ulong> Hash(PeerThread peer) => peer.Ask(session => session.World!.Simulation.EventHash(then));

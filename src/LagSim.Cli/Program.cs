@@ -35,6 +35,7 @@ internal static class Program
             new VersionOption(),
             CheckCommand.Create(console),
             DropCommand.Create(console),
+            CompareCommand.Create(console),
             HoldCommand.Create(console),
             FuzzCommand.Create(console),
             RunCommand.Create(console),

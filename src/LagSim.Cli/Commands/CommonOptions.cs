@@ -3,6 +3,7 @@ using System.CommandLine;
 using System.CommandLine.Parsing;
 using System.Globalization;
 using System.Linq;
+using LagSim.Net.Strategies;
 
 namespace LagSim.Cli.Commands;
 
@@ -51,6 +52,10 @@ internal sealed class CommonOptions
 
         return option;
     }
+
+    /// <summary>How far behind <c>interpolation</c> shows the world.</summary>
+    internal static Option<double> DisplayDelay() => Number(
+        "--display-delay-ms", "How far behind shared time the strategy interpolation shows the world", Interpolation.DefaultDelay.ToMilliseconds(), 0, Interpolation.MaxDelay.ToMilliseconds());
 
     private static Option<string?> Folder(string name, string description)
     {

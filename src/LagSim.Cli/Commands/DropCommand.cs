@@ -7,6 +7,7 @@ using LagSim.Harness.Links;
 using LagSim.Harness.Peers;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
+using LagSim.Time;
 
 namespace LagSim.Cli.Commands;
 
@@ -21,6 +22,7 @@ internal static class DropCommand
         CommonOptions common = new();
         Option<string> which = CommonOptions.Word("--case", "Which half of the test: both start equal (Fig 2), or one side lifts its ball (Fig 3).", All, "same-start", "teleport", All);
         Option<string> strategy = CommonOptions.Word("--strategy", "What a peer does with an event that comes late.", LateEventStrategies.Default, [.. LateEventStrategies.Names, All]);
+        Option<double> displayDelay = CommonOptions.DisplayDelay();
         Option<string> motion = CommonOptions.Word("--motion", "How the ball flies: integrated in steps as in the thesis, or in closed form.", "rk4", "rk4", "ballistic");
         Option<double> rate = CommonOptions.Number("--rate-hz", "Steps a second of rk4", 200, 1, 1e4);
         Option<double?> delay = new("--delay-ms")
@@ -43,7 +45,7 @@ internal static class DropCommand
 
         Command command = new("drop", "The thesis's drop test: two instances of a world, a ball that falls, and one side that lifts it.")
         {
-            which, strategy, motion, rate, delay, profile, peers, time, transport, height, second, restitution,
+            which, strategy, displayDelay, motion, rate, delay, profile, peers, time, transport, height, second, restitution,
         };
         common.AddTo(command);
         command.SetAction(parsed =>
@@ -54,6 +56,7 @@ internal static class DropCommand
             {
                 Cases = Cases(parsed.GetValue(which)!),
                 Strategy = chosen == All ? LateEventStrategies.Default : chosen,
+                DisplayDelay = SimDuration.FromMilliseconds(parsed.GetValue(displayDelay)),
                 Motion = parsed.GetValue(motion) == "rk4" ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic,
                 RateHertz = parsed.GetValue(rate),
                 Link = link,

@@ -14,13 +14,7 @@ internal static class DropChart
     {
         DropTrace trace = run.Trace;
         List<ChartMarker> markers = trace.Impacts.Select(at => new ChartMarker(at, "impact", MarkerKind.Tick)).ToList();
-        List<ChartMarker> lift = [];
-        if (trace.Lift is double lifted && trace.Dealt is double dealt)
-        {
-            lift.Add(new ChartMarker(lifted, "lifted here"));
-            lift.Add(new ChartMarker(dealt, "known to all"));
-        }
-
+        List<ChartMarker> lift = Known(run);
         ChartSeries[] heights = trace.Heights
             .Select((h, peer) => new ChartSeries(peer == 0 ? "host" : $"joiner {peer}", trace.Seconds, h, peer == 0 ? SeriesStyle.Line : SeriesStyle.Dashed, peer))
             .ToArray();
@@ -45,26 +39,33 @@ internal static class DropChart
         };
     }
 
+    /// <summary>A panel a strategy, all of one scale: strategies that agree have the same curve, and in one panel all but the last drawn would be hidden.</summary>
     internal static LineChart OfStrategies(IReadOnlyList<DropRun> runs)
     {
-        ChartSeries[] errors = runs
-            .Select((run, n) => new ChartSeries(
-                run.Options.Strategy, run.Trace.Seconds, run.Trace.SeenError, n == runs.Count - 1 ? SeriesStyle.Dashed : SeriesStyle.Line, n)) // the last lies over others
-            .ToArray();
+        double most = runs.SelectMany(run => run.Trace.SeenError).Where(error => !double.IsNaN(error)).DefaultIfEmpty().Max();
         return new LineChart(
             "Drop test, teleport: every strategy",
             "How far apart the peers were, as seen, with each strategy for late events.",
-            [
-                new ChartPanel("Distance between the peers, as seen", "error (m)", errors)
-                {
-                    Scale = ChartScale.Log10, LogFloor = ErrorFloor, PlotHeight = 260,
-                    ReferenceLines = Thesis(runs[0]),
-                },
-            ])
+            runs.Select((run, n) => new ChartPanel(
+                run.Options.Strategy, "error (m)", [new ChartSeries("between the peers, as seen", run.Trace.Seconds, run.Trace.SeenError, SeriesStyle.Line, n)])
+            {
+                Scale = ChartScale.Log10,
+                LogFloor = ErrorFloor,
+                PlotHeight = 96,
+                Reaches = [ErrorFloor, most],
+                ReferenceLines = Thesis(run),
+                Markers = Known(run),
+            }).ToArray())
         {
             XLabel = "shared time since the start of the scene (s)",
         };
     }
+
+    /// <summary>When the ball was lifted, and when the last peer showed it; none where it was not.</summary>
+    private static List<ChartMarker> Known(DropRun run) => run.Trace.Lift is double lifted && run.Trace.Dealt is double dealt
+        ? [new ChartMarker(lifted, "lifted here"), new ChartMarker(dealt, "known to all")]
+        : [];
+
     /// <summary>The thesis's figure, where it compares.</summary>
     private static ReferenceLine[] Thesis(DropRun run) =>
         run.Case == DropCase.Teleport && run.Options.IsThesisSetting ? [new ReferenceLine(ThesisFigures.TeleportRms, "thesis, rms 0.029 m")] : [];

@@ -6,6 +6,8 @@ using LagSim.Harness.Drop;
 using LagSim.Harness.Metrics;
 using LagSim.Harness.Reports;
 using LagSim.Harness.Scenes;
+using LagSim.Net.Strategies;
+using LagSim.Time;
 using Spectre.Console;
 
 namespace LagSim.Cli.Output;
@@ -27,6 +29,11 @@ internal static class DropTables
         }
 
         console.Rich.Write(Strategies(strategies));
+        foreach (DropRun late in strategies.Where(run => DelayOf(run) > SimDuration.Zero))
+        {
+            console.Output.WriteLine($"{late.Options.Strategy} shows everything {NumberText.Short(DelayOf(late).ToMilliseconds())} ms late, what a player does itself included.");
+        }
+
         if (folder is not null)
         {
             console.Output.WriteLine($"Charts, CSV and report.html are in {folder}.");
@@ -110,6 +117,8 @@ internal static class DropTables
         console.Output.WriteLine();
     }
 
+    private static SimDuration DelayOf(DropRun run) => LateEventStrategies.Create(run.Options.Strategy, run.Options.DisplayDelay).DisplayDelay;
+
     private static Table Strategies(IReadOnlyList<DropRun> runs)
     {
         Table table = NewTable(
@@ -129,7 +138,7 @@ internal static class DropTables
     }
 
     /// <summary>A table that fits a terminal of 80 columns: no frame, the first column a text, the others numbers.</summary>
-    private static Table NewTable(string title, params string[] columns)
+    internal static Table NewTable(string title, params string[] columns)
     {
         Table table = new Table { Border = TableBorder.Horizontal }.Title(title).LeftAligned();
         for (int i = 0; i < columns.Length; i++)

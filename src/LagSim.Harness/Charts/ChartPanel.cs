@@ -51,6 +51,9 @@ public sealed class ChartPanel
     /// <summary>Horizontal lines to compare with.</summary>
     public IReadOnlyList<ReferenceLine> ReferenceLines { get; init; } = [];
 
+    /// <summary>Values that the y axis reaches besides its own, so that several panels can have one scale.</summary>
+    public IReadOnlyList<double> Reaches { get; init; } = [];
+
     /// <summary>The height of the plot itself in pixels, without title, legend and axis: 80 to 2000.</summary>
     public double PlotHeight { get; init; } = 200;
 
@@ -70,7 +73,7 @@ public sealed class ChartPanel
         if (Scale == ChartScale.Log10)
         {
             foreach ((string name, double value) in Series.SelectMany(s => s.Y.Select(y => (s.Name, y)))
-                         .Concat(ReferenceLines.Select(r => (r.Label, r.Y))))
+                         .Concat(ReferenceLines.Select(r => (r.Label, r.Y))).Concat(Reaches.Select(y => ("reaches", y))))
             {
                 if (value < 0.0)
                 {

@@ -127,6 +127,7 @@ public sealed class LineChart
         ValueRange range = new();
         range.Include(panel.Series.SelectMany(series => series.Y));
         range.Include(panel.ReferenceLines.Select(line => line.Y));
+        range.Include(panel.Reaches);
         return Axis.Fit(panel.Scale, range, panel.PlotHeight, pixelsPerTick: 34.0, roundOut: true, panel.LogFloor);
     }
 

@@ -25,6 +25,9 @@ public sealed record DropOptions
     /// <summary>What the peers do with late events.</summary>
     public string Strategy { get; init; } = LateEventStrategies.Default;
 
+    /// <summary>How far behind shared time <c>interpolation</c> shows the world.</summary>
+    public SimDuration DisplayDelay { get; init; } = Interpolation.DefaultDelay;
+
     /// <summary>How the ball flies.</summary>
     public MotionLaw Motion { get; init; } = MotionLaw.RungeKutta4;
 

@@ -7,7 +7,6 @@ using LagSim.Harness.Metrics;
 using LagSim.Harness.Peers;
 using LagSim.Scenes;
 using LagSim.Time;
-using LagSim.Timelines;
 
 namespace LagSim.Harness.Drop;
 
@@ -26,22 +25,26 @@ public static class DropTest
     {
         ArgumentNullException.ThrowIfNull(options);
         Scene scene = options.BuildScene();
-        PeerGroupOptions group = new(options.Peers, options.Link, options.Strategy, options.Seed, options.Length) { Carrier = options.Carrier };
+        PeerGroupOptions group = new(options.Peers, options.Link, options.Strategy, options.Seed, options.Length)
+        {
+            Carrier = options.Carrier,
+            DisplayDelay = options.DisplayDelay,
+        };
         using PeerGroup peers = options.IsVirtual ? new VirtualPeers(scene, group) : new RealPeers(scene, group);
         peers.Connect();
 
-        PortTraffic[] atStart = Traffic(peers);
+        PortTraffic[] atStart = GroupFigures.Traffic(peers);
         PortTraffic[] atLift = atStart;
         ExternalEvent lifted = default;
         if (options.Lift is SimDuration lift)
         {
             peers.RunUntil(lift, progress);
-            atLift = Traffic(peers);
+            atLift = GroupFigures.Traffic(peers);
             lifted = peers.Do(Lifter, PlayerAction.Teleport(BodyId.OfScene(0), new Vector3D(0, options.SecondHeightMetres, 0)));
         }
 
         peers.RunQuietlyUntil(options.Length, progress);
-        PortTraffic[] atEnd = Traffic(peers);
+        PortTraffic[] atEnd = GroupFigures.Traffic(peers);
         peers.Finish();
 
         List<DropRun> runs = [];
@@ -73,20 +76,17 @@ public static class DropTest
             Errors(peers.Seen),
             Errors(peers.SeenTrueTime),
             Errors(peers.Settled),
-            Hashes((simulation, time) => simulation.StateHash(time)),
-            Hashes((simulation, time) => simulation.EventHash(time)),
+            GroupFigures.StateHashes(peers, end - 1),
+            GroupFigures.EventHashes(peers, end - 1),
             peers.Scene.Hash,
             end > first ? peers.ClockErrorMilliseconds[first..end].Max() : 0,
-            HostEvents(peers, first, end).Count(),
-            isTeleport ? Enumerable.Range(0, peers.PeerCount).Sum(p => peers.Session(p).Counters.Heals) : 0,
-            trafficBefore.Zip(trafficAfter, (a, b) => (b.BytesSent - a.BytesSent) / seconds).ToArray(),
-            Percentiles.Of(isTeleport ? Latenesses(peers) : []),
+            GroupFigures.HostEvents(peers, first, end).Count(),
+            isTeleport ? GroupFigures.Heals(peers) : 0,
+            GroupFigures.BytesPerSecond(trafficBefore, trafficAfter, seconds),
+            Percentiles.Of(isTeleport ? GroupFigures.Latenesses(peers) : []),
             which == options.Cases[^1] ? peers.CpuCoresAtRest : null,
             stamp is not SimTime lift || WasAtRest(peers, lift),
             Trace(peers, first, end, stamp, dealt));
-
-        ulong[] Hashes(Func<Simulation, SimTime, ulong> hash) =>
-            Enumerable.Range(0, peers.PeerCount).Select(p => hash(peers.Session(p).World!.Simulation, peers.Grid.At(end - 1))).ToArray();
 
         PhaseErrors Errors(IReadOnlyList<PeerSamples> samples) =>
             PeerComparison.Errors(samples, peers.Grid, peers.Bodies.Length, first, end, stamp, dealt);
@@ -102,23 +102,9 @@ public static class DropTest
         return before.Motion == MotionLaw.Resting;
     }
 
-    private static PortTraffic[] Traffic(PeerGroup peers) => Enumerable.Range(0, peers.PeerCount).Select(peers.Traffic).ToArray();
-
-    private static IEnumerable<double> Latenesses(PeerGroup peers) =>
-        Enumerable.Range(0, peers.PeerCount).SelectMany(p => peers.Session(p).Counters.Lateness).Select(late => late.ToMilliseconds());
-
     /// <summary>When the last peer showed the event, by its own shared clock; a peer that never heard of it is not waited for.</summary>
-    private static SimTime LastDealt(PeerGroup peers, SimTime stamp) =>
-        Enumerable.Range(0, peers.PeerCount).Select(p => peers.Session(p).Counters.LastShown).Append(stamp).Max();
-
-    private static IEnumerable<TimelineEntry> HostEvents(PeerGroup peers, int first, int end)
-    {
-        SimTime from = peers.Grid.At(first) - PeerGroupOptions.SampleInterval;
-        SimTime to = peers.Grid.At(end - 1);
-        return peers.Bodies
-            .SelectMany(body => peers.Session(0).World!.Simulation.Timeline(body))
-            .Where(entry => entry.Key.Time > from && entry.Key.Time <= to);
-    }
+    private static SimTime LastDealt(PeerGroup peers, SimTime stamp) => Enumerable.Range(0, peers.PeerCount)
+        .Select(p => peers.Session(p).Counters.LastShown).Append(stamp + peers.DisplayDelay).Max();
 
     private static DropTrace Trace(PeerGroup peers, int first, int end, SimTime? stamp, SimTime dealt)
     {
@@ -131,7 +117,7 @@ public static class DropTest
             Distances(peers.Seen),
             Distances(peers.SeenTrueTime),
             Distances(peers.Settled),
-            HostEvents(peers, first, end).Where(e => e.Key.Kind == EventKind.Impact).Select(e => (e.Key.Time - peers.Start).ToSeconds()).ToArray(),
+            GroupFigures.HostEvents(peers, first, end).Where(e => e.Key.Kind == EventKind.Impact).Select(e => (e.Key.Time - peers.Start).ToSeconds()).ToArray(),
             stamp is SimTime lift ? (lift - peers.Start).ToSeconds() : null,
             stamp is null ? null : (dealt - peers.Start).ToSeconds());
 

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using LagSim.Harness.Metrics;
+using LagSim.Scenes;
 using LagSim.Time;
 
 namespace LagSim.Harness.Peers;
@@ -26,7 +27,10 @@ public static class PeerComparison
                 BodyState here = peers[0].State(n, body);
                 BodyState there = peer.State(n, body);
                 differs |= !here.IsSameBits(there);
-                most = Math.Max(most, (here.Position - there.Position).Length);
+
+                // What one of them has and the other has not is no distance apart, it differs.
+                bool areThere = here.Motion != MotionLaw.Absent && there.Motion != MotionLaw.Absent;
+                most = areThere ? Math.Max(most, (here.Position - there.Position).Length) : most;
             }
         }
 
@@ -42,13 +46,22 @@ public static class PeerComparison
     /// <param name="stamp">When the event happened; null: none, and all is before it.</param>
     /// <param name="dealt">When the last peer had dealt with it.</param>
     public static PhaseErrors Errors(
-        IReadOnlyList<PeerSamples> peers, SampleGrid grid, int bodies, int first, int end, SimTime? stamp, SimTime dealt)
+        IReadOnlyList<PeerSamples> peers, SampleGrid grid, int bodies, int first, int end, SimTime? stamp, SimTime dealt) =>
+        Errors(peers, bodies, first, end, n => stamp is not SimTime happened || grid.At(n) < happened ? Phase.Before : grid.At(n) < dealt ? Phase.During : Phase.After);
+
+    /// <summary>The same, where the phase of each instant is known.</summary>
+    /// <param name="peers">One entry a peer; all are compared with the first.</param>
+    /// <param name="bodies">How many bodies there are.</param>
+    /// <param name="first">The number of the first instant.</param>
+    /// <param name="end">The number after the last.</param>
+    /// <param name="phaseOf">The phase of an instant, by its number.</param>
+    public static PhaseErrors Errors(IReadOnlyList<PeerSamples> peers, int bodies, int first, int end, Func<int, Phase> phaseOf)
     {
+        ArgumentNullException.ThrowIfNull(phaseOf);
         PhaseErrors errors = new();
         for (int n = first; n < end; n++)
         {
-            SimTime time = grid.At(n);
-            Phase phase = stamp is not SimTime happened || time < happened ? Phase.Before : time < dealt ? Phase.During : Phase.After;
+            Phase phase = phaseOf(n);
             double distance = Distance(peers, bodies, n, out bool differs);
             if (double.IsNaN(distance))
             {

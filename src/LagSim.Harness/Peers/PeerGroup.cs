@@ -4,6 +4,7 @@ using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Net.Sessions;
+using LagSim.Net.Strategies;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -16,11 +17,12 @@ public abstract class PeerGroup : IDisposable
     /// <summary>How long before a run ends it is left unwatched, to see what a world at rest costs.</summary>
     public static readonly SimDuration QuietTime = SimDuration.FromSeconds(1);
 
-    private protected PeerGroup(Scene scene, int peers)
+    private protected PeerGroup(Scene scene, PeerGroupOptions options)
     {
         Scene = scene;
-        PeerCount = peers;
-        Bodies = Enumerable.Range(0, scene.Bodies.Count).Select(BodyId.OfScene).ToArray();
+        PeerCount = options.Peers;
+        Bodies = [.. Enumerable.Range(0, scene.Bodies.Count).Select(BodyId.OfScene), .. options.Spawned];
+        DisplayDelay = LateEventStrategies.Create(options.Strategy, options.DisplayDelay).DisplayDelay;
     }
 
     /// <summary>What all share.</summary>
@@ -29,8 +31,11 @@ public abstract class PeerGroup : IDisposable
     /// <summary>How many peers there are, the host included.</summary>
     public int PeerCount { get; }
 
-    /// <summary>The bodies that are compared: the scene's own.</summary>
+    /// <summary>The bodies that are compared: the scene's own, then those that will be spawned.</summary>
     public BodyId[] Bodies { get; }
+
+    /// <summary>How far behind their shared clocks the peers show the world.</summary>
+    public SimDuration DisplayDelay { get; }
 
     /// <summary>When the scene began, in shared time; known once connected.</summary>
     public SimTime Start { get; private protected set; }
@@ -94,9 +99,9 @@ public abstract class PeerGroup : IDisposable
     private protected void PrepareSamples(SimDuration length, SimDuration interval)
     {
         Grid = new SampleGrid(Start, interval, (int)(length.Ticks / interval.Ticks));
-        Seen = NewSamples();
-        SeenTrueTime = NewSamples();
-        Settled = NewSamples();
+        Seen = NewSamples(DisplayDelay);
+        SeenTrueTime = NewSamples(DisplayDelay);
+        Settled = NewSamples(SimDuration.Zero);
         ClockErrorMilliseconds = new double[Grid.Count];
     }
 
@@ -111,5 +116,5 @@ public abstract class PeerGroup : IDisposable
         }
     }
 
-    private PeerSamples[] NewSamples() => Enumerable.Range(0, PeerCount).Select(_ => new PeerSamples(Grid, Bodies)).ToArray();
+    private PeerSamples[] NewSamples(SimDuration delay) => Enumerable.Range(0, PeerCount).Select(_ => new PeerSamples(Grid, Bodies, delay)).ToArray();
 }

@@ -1,5 +1,7 @@
+using System.Collections.Generic;
 using LagSim.Harness.Links;
 using LagSim.Net.Strategies;
+using LagSim.Scenes;
 using LagSim.Time;
 
 namespace LagSim.Harness.Peers;
@@ -16,6 +18,15 @@ public sealed record PeerGroupOptions(
     /// <summary>How far apart samples are: 5 ms, the thesis's step.</summary>
     public static readonly SimDuration SampleInterval = SimDuration.FromMilliseconds(5);
 
+    /// <summary>How far behind shared time <c>interpolation</c> shows the world.</summary>
+    public SimDuration DisplayDelay { get; init; } = Interpolation.DefaultDelay;
+
+    /// <summary>How long after everybody is ready the scene starts: who hears of the start in time misses nothing.</summary>
+    public SimDuration StartLead { get; init; } = SimDuration.FromMilliseconds(500);
+
+    /// <summary>Bodies that players will spawn, to be compared beside the scene's own.</summary>
+    public IReadOnlyList<BodyId> Spawned { get; init; } = [];
+
     /// <summary>What carries datagrams in real time.</summary>
     public Carrier Carrier { get; init; } = Carrier.Udp;
 
@@ -23,6 +34,8 @@ public sealed record PeerGroupOptions(
     internal Net.Sessions.SessionOptions ToSessionOptions() => new()
     {
         Strategy = Strategy,
+        DisplayDelay = DisplayDelay,
+        StartLead = StartLead,
         ExpectedJoiners = Peers - 1,
         History = Net.Sessions.SessionOptions.MaxHistory,
         ExtraHistory = SimDuration.FromSeconds(60),

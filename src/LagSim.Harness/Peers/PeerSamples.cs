@@ -11,14 +11,19 @@ public sealed class PeerSamples
 {
     private readonly SampleGrid grid;
     private readonly BodyId[] bodies;
+    private readonly SimDuration displayDelay;
     private readonly BodyState[] states;
     private readonly bool[] shown;
     private long lastNumber;
 
     /// <summary>No sample taken yet.</summary>
-    public PeerSamples(SampleGrid grid, BodyId[] bodies)
+    /// <param name="grid">The instants.</param>
+    /// <param name="bodies">Who is looked at.</param>
+    /// <param name="displayDelay">How far behind its shared clock the peer shows the world; default not at all.</param>
+    public PeerSamples(SampleGrid grid, BodyId[] bodies, SimDuration displayDelay = default)
     {
         ArgumentNullException.ThrowIfNull(bodies);
+        this.displayDelay = displayDelay;
         this.grid = grid;
         this.bodies = bodies;
         states = new BodyState[grid.Count * bodies.Length];
@@ -33,6 +38,9 @@ public sealed class PeerSamples
 
     /// <summary>The next instant; only while not complete.</summary>
     public SimTime NextTime => grid.At(Next);
+
+    /// <summary>The instant of the world that the peer shows when its shared clock reads that; never one before the scene began. See <see cref="Net.Sessions.Session.DisplayTime"/>.</summary>
+    public SimTime ShownAt(SimTime shared) => SimTime.Max(shared - displayDelay, SimTime.Min(shared, grid.Start));
 
     /// <summary>Whether the peer's picture covered the n-th instant at the time; if not it stalled.</summary>
     public bool IsShown(int n) => shown[n];
@@ -53,9 +61,9 @@ public sealed class PeerSamples
         lastNumber = picture?.Number ?? 0;
         while (!IsComplete && NextTime <= now)
         {
-            if ((unchanged || now - NextTime <= patience) && picture is not null && picture.Covers(NextTime))
+            if ((unchanged || now - NextTime <= patience) && picture is not null && picture.Covers(ShownAt(NextTime)))
             {
-                Read(picture, NextTime, Next);
+                Read(picture, ShownAt(NextTime), Next);
             }
 
             Next++;
@@ -65,15 +73,15 @@ public sealed class PeerSamples
     /// <summary>Samples the n-th instant as the picture shows another one; what is seen at one true instant differs by the clocks' error.</summary>
     public void TakeAt(int n, Picture? picture, SimTime now)
     {
-        if (picture is not null && picture.Covers(now))
+        if (picture is not null && picture.Covers(ShownAt(now)))
         {
-            Read(picture, now, n);
+            Read(picture, ShownAt(now), n);
         }
 
         Next = Math.Max(Next, n + 1);
     }
 
-    /// <summary>Samples all that the simulation still has, whatever was shown then.</summary>
+    /// <summary>Samples all that the simulation still has of each instant, whatever was shown then, and whenever it was shown.</summary>
     public void TakeSettled(Simulation simulation)
     {
         ArgumentNullException.ThrowIfNull(simulation);

@@ -36,7 +36,7 @@ public sealed class RealPeers : PeerGroup
 
     /// <summary>Makes the peers and binds their carriers to free ports of the loopback interface; nobody is connected yet.</summary>
     public RealPeers(Scene scene, PeerGroupOptions options)
-        : base(scene, options.Peers)
+        : base(scene, options)
     {
         this.options = options;
         ports = new CountingPort[PeerCount];

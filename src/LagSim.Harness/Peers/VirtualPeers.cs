@@ -29,7 +29,7 @@ public sealed class VirtualPeers : PeerGroup
 
     /// <summary>Makes the peers; nobody is connected yet.</summary>
     public VirtualPeers(Scene scene, PeerGroupOptions options)
-        : base(scene, options.Peers)
+        : base(scene, options)
     {
         this.options = options;
         network = new VirtualNetwork(clock, options.Seed, options.Link);
@@ -51,6 +51,9 @@ public sealed class VirtualPeers : PeerGroup
 
     /// <summary>The network, for those who want to lose a datagram or read what was lost.</summary>
     public VirtualNetwork Network => network;
+
+    /// <summary>The steps, for those who want to look at each.</summary>
+    public VirtualSteps Steps => steps;
 
     /// <inheritdoc/>
     public override Session Session(int peer) => sessions[peer];

@@ -31,6 +31,9 @@ public sealed class VirtualSteps
     /// <summary>Called with a session's number before each of its steps.</summary>
     public Action<int>? BeforeStep { get; set; }
 
+    /// <summary>Called with a session's number after each of its steps, once its world is where it should be, or given up for now.</summary>
+    public Action<int>? AfterStep { get; set; }
+
     /// <summary>
     /// How much virtual time a step takes that leaves a world behind; default none: the machines are as fast as they need be, and such a session is stepped until
     /// its world is there. With a machine that is too slow its port is served meanwhile.
@@ -86,6 +89,7 @@ public sealed class VirtualSteps
                     wait = sessions[number].Step();
                 }
 
+                AfterStep?.Invoke(number);
                 wait = IsBehind(sessions[number]) ? BusyStep : wait;
                 due[number] = wait > Never ? SimTime.MaxValue : network.Clock.Now + (wait > SimDuration.Zero ? wait : SimDuration.OneTick);
             }

@@ -109,7 +109,7 @@ public sealed class PeerThread : IDisposable
     /// <summary>Starts the thread; once.</summary>
     public void Start() => thread.Start();
 
-    /// <summary>The newest picture of the world, for the one thread that draws; null before there is a world.</summary>
+    /// <summary>The newest picture of the world, for the one thread that draws; null before there is a world. A frame reads it at <see cref="Session.DisplayTime"/>.</summary>
     /// <exception cref="InvalidOperationException">The thread ended by an exception, the inner one.</exception>
     public Picture? Latest()
     {

@@ -51,8 +51,10 @@ public abstract partial class Session
             StateCommitted?.Invoke(state);
         }
 
-        // What is still to be hashed is kept.
-        World.Simulation.DropHistoryBefore(SimTime.Min(watermark - Options.ExtraHistory, schedule.Next));
+        // What is still to be hashed is kept, and what is still to be shown.
+        SimDuration kept = Options.ExtraHistory + DisplayDelay;
+        SimTime oldest = SimTime.Max(watermark, World.Simulation.HistoryEdge + kept) - kept;
+        World.Simulation.DropHistoryBefore(SimTime.Min(oldest, schedule.Next));
     }
 
     /// <summary>

@@ -38,6 +38,7 @@ public abstract partial class Session
     private readonly UpdateDatagram received = new();
     private readonly CancellationTokenSource interruption = new();
     private bool hasUnshown;
+    private SimTime begunAt = SimTime.MaxValue; // the earliest instant of the world; there before the world is
     private volatile SessionState state;
     private volatile string? endReason;
     private volatile SessionEnd endedBy;
@@ -59,7 +60,7 @@ public abstract partial class Session
         }
 
         Limits = new PlayerLimits(options);
-        strategy = LateEventStrategies.Create(options.Strategy);
+        strategy = LateEventStrategies.Create(options.Strategy, options.DisplayDelay);
         contacts = options.Contacts;
         SharedTime = new SharedClock(clock);
     }
@@ -82,6 +83,22 @@ public abstract partial class Session
 
     /// <summary>The session's time; readable once <see cref="SharedClock.IsSet"/>, from any thread.</summary>
     public SharedClock SharedTime { get; }
+
+    /// <summary>How far behind the shared time this peer shows the world: <see cref="SessionOptions.DisplayDelay"/> with <c>interpolation</c>, else zero. From any thread.</summary>
+    public SimDuration DisplayDelay => strategy.DisplayDelay;
+
+    /// <summary>
+    /// What a frame that is drawn now reads of a picture: shared time less <see cref="DisplayDelay"/>. In the first moments, when that lies before the world this peer
+    /// has, the earliest instant of it, so that the world stands still until it can be shown on its way. From any thread, once there is a <see cref="World"/>.
+    /// </summary>
+    public SimTime DisplayTime
+    {
+        get
+        {
+            SimTime shared = SharedTime.Now;
+            return SimTime.Max(shared - DisplayDelay, SimTime.Min(shared, begunAt));
+        }
+    }
 
     /// <summary>Where the peer stands. From any thread.</summary>
     public SessionState State
@@ -265,7 +282,8 @@ public abstract partial class Session
     {
         if (world is null)
         {
-            world = new LiveWorld(Scene!, WorldOptions(start), Options.LookAhead, Options.PicturePast, contacts);
+            begunAt = start;
+            world = new LiveWorld(Scene!, WorldOptions(start), Options.LookAhead, Options.PicturePast + DisplayDelay, contacts);
             schedule = new CommitSchedule(start, start, Options.CommitInterval);
             Begun?.Invoke();
         }
@@ -275,7 +293,9 @@ public abstract partial class Session
     /// <exception cref="SceneException">It is no world of the scene.</exception>
     private protected void Begin(WorldSnapshot snapshot)
     {
-        world = new LiveWorld(Scene!, snapshot, WorldOptions(snapshot.Start), Options.LookAhead, Options.PicturePast, contacts);
+        LiveWorld copied = new(Scene!, snapshot, WorldOptions(snapshot.Start), Options.LookAhead, Options.PicturePast + DisplayDelay, contacts);
+        begunAt = copied.Simulation.HistoryEdge;
+        world = copied;
         schedule = new CommitSchedule(snapshot.Start, snapshot.Time, Options.CommitInterval);
         BegunFrom = snapshot;
         Begun?.Invoke();

@@ -77,7 +77,10 @@ public sealed class SessionOptions
     /// <summary>How far ahead of the shared time the world is simulated, above 0 to 1 s; default two frames.</summary>
     public SimDuration LookAhead { get; set; } = LiveWorld.DefaultLookAhead;
 
-    /// <summary>How much of the past pictures show, 0 to 60 s; default 250 ms.</summary>
+    /// <summary>
+    /// How much of the past pictures show, 0 to 60 s; default 250 ms. It is counted from what is displayed: with <c>interpolation</c> pictures go back by
+    /// <see cref="DisplayDelay"/> more, and as much more of the timelines is kept.
+    /// </summary>
     public SimDuration PicturePast { get; set; } = LiveWorld.DefaultPicturePast;
 
     /// <summary>Host only: how many joiners the start waits for, 0 to 8; default 0. Before the start there is no world, and nothing can be done.</summary>
@@ -108,11 +111,18 @@ public sealed class SessionOptions
     /// <summary>The name of what to do with late events, one of <see cref="LateEventStrategies.Names"/>.</summary>
     public string Strategy { get; set; } = LateEventStrategies.Default;
 
+    /// <summary>
+    /// How far behind shared time <c>interpolation</c> shows the world, 0 to 5 s; default 100 ms. No other strategy looks at it. News that comes within that time is seen
+    /// without a jump, and what this peer does itself is seen that much later. A frame reads at <see cref="Session.DisplayTime"/>. Each peer may have another.
+    /// </summary>
+    public SimDuration DisplayDelay { get; set; } = Interpolation.DefaultDelay;
+
     internal void Check()
     {
         Range(History, 0.05, 5, nameof(History));
         Range(ExtraHistory, 0, 60, nameof(ExtraHistory));
         Range(PicturePast, 0, 60, nameof(PicturePast));
+        Range(DisplayDelay, 0, Interpolation.MaxDelay.ToSeconds(), nameof(DisplayDelay));
         Range(StartLead, 0, 60, nameof(StartLead));
         Range(Timeout, 0.1, 600, nameof(Timeout));
         Range(ResendInterval, 0.001, 1, nameof(ResendInterval));

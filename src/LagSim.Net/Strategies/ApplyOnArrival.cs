@@ -19,6 +19,9 @@ public sealed class ApplyOnArrival : ILateEventStrategy
     /// <inheritdoc/>
     public HealingMode Mode => HealingMode.CausalCone;
 
+    /// <summary>Zero: the present is shown.</summary>
+    public SimDuration DisplayDelay => SimDuration.Zero;
+
     /// <inheritdoc/>
     public SubmitResult Apply(LiveWorld world, in ExternalEvent external, SimTime arrival) =>
         world.Submit(external.Time >= arrival ? external : external.At(arrival));

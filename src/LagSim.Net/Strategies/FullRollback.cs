@@ -19,6 +19,9 @@ public sealed class FullRollback : ILateEventStrategy
     /// <inheritdoc/>
     public HealingMode Mode => HealingMode.FullRollback;
 
+    /// <summary>Zero: the present is shown.</summary>
+    public SimDuration DisplayDelay => SimDuration.Zero;
+
     /// <inheritdoc/>
     public SubmitResult Apply(LiveWorld world, in ExternalEvent external, SimTime arrival) => world.Submit(external);
 }

@@ -19,6 +19,9 @@ public sealed class Healing : ILateEventStrategy
     /// <inheritdoc/>
     public HealingMode Mode => HealingMode.CausalCone;
 
+    /// <summary>Zero: the present is shown.</summary>
+    public SimDuration DisplayDelay => SimDuration.Zero;
+
     /// <inheritdoc/>
     public SubmitResult Apply(LiveWorld world, in ExternalEvent external, SimTime arrival) => world.Submit(external);
 }

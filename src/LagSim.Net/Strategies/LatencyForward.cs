@@ -22,6 +22,9 @@ public sealed class LatencyForward : ILateEventStrategy
     /// <inheritdoc/>
     public HealingMode Mode => HealingMode.CausalCone;
 
+    /// <summary>Zero: the present is shown.</summary>
+    public SimDuration DisplayDelay => SimDuration.Zero;
+
     /// <inheritdoc/>
     public SubmitResult Apply(LiveWorld world, in ExternalEvent external, SimTime arrival) =>
         external.Time >= arrival ? world.Submit(external) : world.SubmitForwarded(external, arrival);

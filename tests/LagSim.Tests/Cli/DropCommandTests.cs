@@ -81,9 +81,9 @@ public sealed class DropCommandTests
     public void Json_OfAllStrategies_HasARunOfEachOnTheTeleportCase()
     {
         JsonElement[] runs = Json("drop", "--time", "virtual", "--motion", "ballistic", "--strategy", "all", "--json").GetProperty("runs").EnumerateArray().ToArray();
-        Assert.Equal(["none", "latency-forward", "full-rollback", "healing"], runs.Skip(2).Select(run => Text(run, "strategy")));
+        Assert.Equal(["none", "latency-forward", "interpolation", "full-rollback", "healing"], runs.Skip(2).Select(run => Text(run, "strategy")));
         Assert.All(runs.Skip(2), run => Assert.Equal("teleport", Text(run, "case")));
-        Assert.Equal([true, false, false, false], runs.Skip(2).Select(run => Differing(run) > 0));
+        Assert.Equal([true, false, false, false, false], runs.Skip(2).Select(run => Differing(run) > 0));
     }
 
     [Theory]
@@ -123,7 +123,7 @@ public sealed class DropCommandTests
     {
         Tool tool = Tool.Run("drop", "--time", "virtual").Done();
         Assert.DoesNotContain("  metres", tool.Output, StringComparison.Ordinal); // no title is broken in two
-        foreach (string expected in new[] { "same-start", "teleport", "at true time", "as settled, after", "none", "latency-forward", "(equal)" })
+        foreach (string expected in new[] { "same-start", "teleport", "at true time", "as settled, after", "none", "latency-forward", "interpolation shows everything 100 ms late", "(equal)" })
         {
             Assert.Contains(expected, tool.Output, StringComparison.Ordinal);
         }
@@ -161,13 +161,14 @@ public sealed class DropCommandTests
     }
 
     [Fact]
-    public void Out_OfStrategiesThatGiveTheSameCurve_ShowsBoth()
+    public void Out_OfStrategiesThatGiveTheSameCurve_ShowsEachInAPanelOfItsOwn()
     {
         using TemporaryFolder folder = new();
         Tool.Run("drop", "--time", "virtual", "--case", "teleport", "--motion", "ballistic", "--out", folder.Path).Done();
         string chart = File.ReadAllText(folder["drop-strategies.svg"]);
-        Assert.Contains("class=\"line c1\"", chart, StringComparison.Ordinal);
-        Assert.Contains("class=\"line c3 dashed\"", chart, StringComparison.Ordinal);
+        Assert.All(Enumerable.Range(0, 5), n => Assert.Equal(2, chart.Split($"class=\"line c{n}\"").Length - 1)); // the curve, and its place in the legend
+        Assert.Equal(5, chart.Split(">between the peers, as seen<").Length - 1);
+        Assert.Equal(5, chart.Split(">10\u2070<").Length - 1); // all of one scale
     }
 
     [Fact]

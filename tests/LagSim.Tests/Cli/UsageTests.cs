@@ -32,6 +32,7 @@ public sealed class UsageTests
     [InlineData("--restitution", "1.0001", "between 0 and 1")]
     [InlineData("--restitution", "-0.1", "between 0 and 1")]
     [InlineData("--restitution", "", "between 0 and 1")]
+    [InlineData("--display-delay-ms", "5000.1", "between 0 and 5000")]
     [InlineData("--seed", "-1", "between 0 and 18446744073709551615")]
     [InlineData("--seed", "1.5", "between 0 and 18446744073709551615")]
     [InlineData("--seed", "18446744073709551616", "between 0 and 18446744073709551615")]
@@ -152,6 +153,7 @@ public sealed class UsageTests
     [Theory]
     [InlineData("--help")]
     [InlineData("drop --help")]
+    [InlineData("compare --help")]
     [InlineData("run --help")]
     [InlineData("scenes --help")]
     public void Help_OfEveryCommand_GoesToStdout(string line)
@@ -182,6 +184,7 @@ public sealed class UsageTests
 
     [Theory]
     [InlineData("drop --time virtual --case same-start --motion ballistic --out")]
+    [InlineData("compare --profile lan --strategy none --out")]
     [InlineData("run drop --until-s 1 --out")]
     [InlineData("run drop --until-s 1 --events")]
     [InlineData("run drop --until-s 1 --samples")]

@@ -30,6 +30,14 @@ public sealed class PercentilesTests
     }
 
     [Fact]
+    public void MeanAndTail_OfOneToHundred_MatchesNumPy()
+    {
+        MeanAndTail of = MeanAndTail.Of(Enumerable.Range(1, 100).Select(i => (double)i).ToArray());
+        Assert.Equal((50.5, 99.01), (of.Mean, of.P99));
+        Assert.Equal(default, MeanAndTail.Of([]));
+    }
+
+    [Fact]
     public void Of_NaN_Throws()
     {
         Assert.Throws<ArgumentOutOfRangeException>(() => Percentiles.Of([1.0, double.NaN]));

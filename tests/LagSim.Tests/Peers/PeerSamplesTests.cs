@@ -85,6 +85,24 @@ public sealed class PeerSamplesTests
     }
 
     [Fact]
+    public void Take_OfAPeerThatShowsThePast_IsWhatWasThatMuchEarlierAndTheStartAtFirst()
+    {
+        SimDuration delay = SimDuration.FromMilliseconds(25);
+        PeerSamples past = new(new SampleGrid(At(0), Interval, 10), [First], delay);
+        world.Step(At(0.05));
+        past.Take(world.Pictures.Latest(), At(0.0501), SimDuration.FromSeconds(1));
+        for (int n = 0; n < 5; n++)
+        {
+            SimTime shown = SimTime.Max(At(0), At(0) + (Interval * (n + 1)) - delay);
+            Assert.Equal(shown, past.ShownAt(At(0) + (Interval * (n + 1))));
+            SameBits(Read(world.Simulation, First, shown), past.State(n, 0));
+        }
+
+        past.TakeAt(5, world.Pictures.Latest(), At(0.055));
+        SameBits(Read(world.Simulation, First, At(0.055) - delay), past.State(5, 0));
+    }
+
+    [Fact]
     public void TakeSettled_AfterTheRun_ShowsWhatTheHistoryStillHas()
     {
         world.Step(At(0.2));
@@ -121,6 +139,19 @@ public sealed class PeerSamplesTests
         Assert.InRange(PeerComparison.Distance([a, b], 1, 2, out bool differs), 0, 1e-300);
         Assert.True(differs);
         Assert.Equal(0, PeerComparison.Distance([a, a], 1, 2, out differs));
+        Assert.False(differs);
+    }
+
+    [Fact]
+    public void Distance_OfABodyThatOneDoesNotHave_DiffersAndIsNoDistance()
+    {
+        Simulation empty = Run(new SceneBuilder("empty").AddPlane("floor", Vector3D.Up, V(0), 1).Build(), 0.2);
+        PeerSamples a = new(new SampleGrid(At(0), Interval, 3), [First]), b = new(new SampleGrid(At(0), Interval, 3), [First]);
+        a.TakeSettled(Run(TestWorlds.Drop(5, 0.8), 0.2));
+        b.TakeSettled(empty);
+        Assert.Equal(0, PeerComparison.Distance([a, b], 1, 2, out bool differs));
+        Assert.True(differs);
+        Assert.Equal(0, PeerComparison.Distance([b, b], 1, 2, out differs));
         Assert.False(differs);
     }
 

@@ -169,7 +169,7 @@ public sealed class JoiningTests
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
         ArgumentException refused = Assert.Throws<ArgumentException>(
             () => new HostSession(Deeds.Box(), port, new VirtualClock(), new SessionOptions { Strategy = "guess" }, 1));
-        Assert.Contains("'guess'; there are none, latency-forward, full-rollback, healing", refused.Message, StringComparison.Ordinal);
+        Assert.Contains("'guess'; there are none, latency-forward, interpolation, full-rollback, healing", refused.Message, StringComparison.Ordinal);
     }
 
     private static LinkProfile Profile(string name) => LinkProfiles.TryGet(name, out LinkProfile? known, out _) ? known : throw new ArgumentException(name);

@@ -1,0 +1,115 @@
+using System;
+using System.Collections.Generic;
+using System.CommandLine;
+using System.Linq;
+using LagSim.Cli.Output;
+using LagSim.Harness.Compare;
+using LagSim.Harness.Links;
+using LagSim.Harness.Scenes;
+using LagSim.Net.Strategies;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary><c>lagsim compare</c>: every strategy on every link.</summary>
+internal static class CompareCommand
+{
+    private const string All = "all";
+
+    internal static Command Create(ToolConsole console)
+    {
+        CommonOptions common = new();
+        Option<string> scene = new("--scene")
+        {
+            Description = $"What is played in: {string.Join(", ", BuiltInScenes.Names)}, or any other scene by name or file, of at most {CompareOptions.MaxBodies} bodies; default pair.",
+            DefaultValueFactory = _ => "pair",
+            HelpName = "NAME",
+        };
+        Option<string> profile = new("--profile")
+        {
+            Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, {LinkProfiles.AnyDelay}, or all of the named.",
+            DefaultValueFactory = _ => All,
+            HelpName = "NAME",
+        };
+        Option<string> strategy = CommonOptions.Word("--strategy", "What a peer does with an event that comes late.", All, [.. LateEventStrategies.Names, All]);
+        Option<int> peers = CommonOptions.Whole("--peers", "How many peers, the host included", 4, 2, 9);
+        Option<double> delay = CommonOptions.DisplayDelay();
+        Command command = new("compare", "Every strategy for late events on every link, in virtual time, side by side.") { scene, profile, strategy, peers, delay };
+        common.AddTo(command);
+        command.SetAction(parsed =>
+        {
+            LinkProfile[] links = Links(parsed.GetValue(profile)!);
+            string chosen = parsed.GetValue(strategy)!;
+            IReadOnlyList<string> strategies = chosen == All ? LateEventStrategies.Names : [chosen];
+            Scene played = SceneSource.Load(parsed.GetValue(scene)!);
+            ulong seed = parsed.GetValue(common.Seed);
+            int count = parsed.GetValue(peers);
+            if (played.Bodies.Count > CompareOptions.MaxBodies)
+            {
+                throw new UsageException($"--scene is '{played.Name}' with {played.Bodies.Count} bodies; at most {CompareOptions.MaxBodies} can be watched.");
+            }
+
+            IReadOnlyList<PlannedDeed> plan = PlayerPlan.Draw(played, count, seed);
+            CompareOptions[] runs = links.SelectMany(link => strategies.Select(name => new CompareOptions(played, plan, name, link)
+            {
+                Peers = count,
+                Seed = seed,
+                DisplayDelay = SimDuration.FromMilliseconds(parsed.GetValue(delay)),
+            })).ToArray();
+            return Run(console, runs, parsed.GetValue(common.Out), parsed.GetValue(common.Json));
+        });
+        return command;
+    }
+
+    /// <summary>What promises agreement must agree, on every link.</summary>
+    internal static int ExitCodeOf(IEnumerable<CompareRun> runs) => runs.Any(CompareTables.IsBroken) ? ExitCode.CheckFailed : ExitCode.Done;
+
+    private static int Run(ToolConsole console, CompareOptions[] options, string? folder, bool json)
+    {
+        if (folder is not null)
+        {
+            OutputFolder.ThrowIfNotWritable(folder); // to be said before some minutes have gone by
+        }
+
+        double each = CompareOptions.Length.ToSeconds();
+        List<CompareRun> runs = console.WithProgress(
+            $"compare, {options[0].Scene.Name}, virtual time",
+            each * options.Length,
+            progress =>
+            {
+                WarmUp(options, progress);
+                return options.Select((run, n) => CompareTest.Run(run, done => progress((n * each) + done.ToSeconds()))).ToList();
+            });
+        if (folder is not null)
+        {
+            CompareFiles.Write(folder, runs);
+        }
+
+        if (json)
+        {
+            CompareJson.Write(console.Output, runs);
+        }
+        else
+        {
+            CompareTables.Write(console, runs, folder);
+        }
+
+        return ExitCodeOf(runs);
+    }
+
+    /// <summary>Something small with each strategy first, so that what is compiled when it first runs is not in the time that heals take.</summary>
+    private static void WarmUp(CompareOptions[] options, Action<double> progress)
+    {
+        Scene small = BuiltInScenes.Pair();
+        foreach (string strategy in options.Select(run => run.Strategy).Distinct())
+        {
+            CompareTest.Run(new CompareOptions(small, PlayerPlan.Draw(small, 2, 1), strategy, LinkProfiles.Awful) { Peers = 2 }, _ => progress(0));
+        }
+    }
+
+    private static LinkProfile[] Links(string profile) =>
+        profile == All ? [.. LinkProfiles.All]
+        : LinkProfiles.TryGet(profile, out LinkProfile? found, out string? error) ? [found]
+        : throw new UsageException(error);
+}

@@ -1,0 +1,105 @@
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using System.Text.Json;
+using LagSim.Harness.Compare;
+using LagSim.Harness.Scenes;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>Every strategy on every link as JSON.</summary>
+internal static class CompareJson
+{
+    internal static void Write(TextWriter output, IReadOnlyList<CompareRun> runs)
+    {
+        CompareOptions options = runs[0].Options;
+        ulong? state = RunJson.Common(runs.SelectMany(run => run.StateHashes));
+        JsonDocumentWriter.Write(output, "compare", options.Seed, options.Scene.Name, options.Scene.Hash, state, json =>
+        {
+            json.WriteStartArray("plan");
+            foreach (PlannedDeed deed in options.Plan)
+            {
+                json.WriteStartObject();
+                json.WriteNumber("time_s", deed.Time.ToSeconds());
+                json.WriteNumber("peer", deed.Peer);
+                json.WriteString("kind", KindOf(deed));
+                json.WriteString("body", BodyOf(options.Scene, deed));
+                json.WriteEndObject();
+            }
+
+            json.WriteEndArray();
+            json.WriteStartArray("runs");
+            foreach (CompareRun run in runs)
+            {
+                Run(json, run);
+            }
+
+            json.WriteEndArray();
+            CompareFindings findings = new(runs);
+            Words(json, "interpolation_better_during", findings.BetterDuring);
+            Words(json, "healing_worse_after", findings.HealingWorseAfter.Select(w => $"{w.Profile} {w.Strategy}"));
+        });
+    }
+
+    /// <summary>A deed's kind, as on the command line of <c>join --do</c>.</summary>
+    internal static string KindOf(PlannedDeed deed) => deed.Kind switch
+    {
+        Events.EventKind.SetVelocity => "set-velocity",
+        _ => deed.Kind.ToString().ToLowerInvariant(),
+    };
+
+    /// <summary>The name of the body that a deed is about; of a new one its identity.</summary>
+    internal static string BodyOf(Scene scene, PlannedDeed deed) =>
+        deed.Kind == Events.EventKind.Spawn ? deed.Body.ToString() : scene.Bodies[deed.Body.Index].Name;
+
+    private static void Run(Utf8JsonWriter json, CompareRun run)
+    {
+        MotionLaw[] laws = run.Options.Scene.Bodies.Select(body => body.Spec.Flight).Distinct().ToArray();
+        json.WriteStartObject();
+        json.WriteString("case", "plan");
+        json.WriteString("strategy", run.Options.Strategy);
+        json.WriteString("motion", laws.Length == 1 ? MotionNames.Of(laws[0]) : null);
+        json.WriteString("time", "virtual");
+        json.WriteString("transport", "virtual");
+        json.WriteString("profile", run.Options.Link.Name);
+        json.WriteNull("delay_ms");
+        json.WriteNumber("peers", run.Options.Peers);
+        RunJson.Phases(json, "seen", run.Seen);
+        RunJson.Phases(json, "seen_true_time", run.SeenTrueTime);
+        RunJson.Phases(json, "settled", run.Settled);
+        RunJson.Hashes(json, "state_hashes", run.StateHashes);
+        RunJson.Hashes(json, "event_hashes", run.EventHashes);
+        json.WriteNumber("clock_error_ms", run.ClockErrorMilliseconds);
+        json.WriteNumber("events", run.Events);
+        json.WriteNumber("heals", run.Heals);
+        RunJson.Numbers(json, "bytes_sent_per_s", run.BytesSentPerSecond);
+        RunJson.Percentiles(json, "event_lateness_ms", run.Lateness);
+        json.WriteNull("cpu_cores_at_rest");
+        RunJson.Percentiles(json, "time_to_heal_ms", run.TimeToHeal);
+        RunJson.MeanAndTail(json, "events_rerun", run.EventsRerun);
+        RunJson.MeanAndTail(json, "cone_bodies", run.ConeBodies);
+        RunJson.Percentiles(json, "corrections_seen_m", run.Corrections);
+        json.WriteNumber("corrections_seen", run.CorrectionsSeen);
+        RunJson.Phases(json, "seen_from_truth", run.SeenFromTruth);
+        json.WriteString("truth_state_hash", JsonDocumentWriter.Hash(run.TruthStateHash));
+        json.WriteString("truth_event_hash", JsonDocumentWriter.Hash(run.TruthEventHash));
+        RunJson.Percentiles(json, "divergence_ms", run.Divergence);
+        RunJson.Percentiles(json, "input_latency_ms", run.InputLatency);
+        SimDuration delay = Net.Strategies.LateEventStrategies.Create(run.Options.Strategy, run.Options.DisplayDelay).DisplayDelay;
+        json.WriteNumber("display_delay_ms", delay.ToMilliseconds());
+        json.WriteEndObject();
+    }
+
+    private static void Words(Utf8JsonWriter json, string key, IEnumerable<string> words)
+    {
+        json.WriteStartArray(key);
+        foreach (string word in words)
+        {
+            json.WriteStringValue(word);
+        }
+
+        json.WriteEndArray();
+    }
+}
