@@ -32,7 +32,7 @@ public sealed class ContactNoticesTests
             Ledger onTime = new(), late = new();
             Simulation expected = world.OnTime(options: KeepAll.WithObserver(onTime.Notices));
             HashSet<(BodyId, EventKey)> happened = [.. Bodies(expected).SelectMany(body => expected.Timeline(body).Select(entry => (body, entry.Key)))];
-            Simulation simulation = world.Shuffled(seed * 7, seed % 2 == 0 ? SimDuration.FromSeconds(0.4) : null, s => s.Healed += _ => late.Notices.Tell(s), mode, inPieces, late.Notices);
+            Simulation simulation = world.Shuffled(seed * 7, seed % 2 == 0 ? SimDuration.FromSeconds(0.4) : null, s => s.Healed += _ => late.Notices.Tell(s), mode, inPieces, observer: late.Notices);
             onTime.End(expected);
             late.End(simulation);
             Assert.Equal(onTime.Confirmed.Select(n => n.Key), late.Confirmed.Select(n => n.Key));
