@@ -14,8 +14,11 @@ namespace LagSim;
 /// </remarks>
 public sealed partial class Simulation
 {
-    /// <summary>As often a body that was pressed by a hand against what cannot give way, and has been let through it, is to be looked at again: every 5 ms.</summary>
+    /// <summary>How long a body that a hand presses against what cannot give way, or into which it creeps, is left alone: 5 ms.</summary>
     private static readonly SimDuration PressedWait = SimDuration.FromMilliseconds(5);
+
+    /// <summary>Half as many of the scene's resolutions deep a hand may creep into a body before that is looked at again: 5 nm, at 1 micrometre a second in 5 ms.</summary>
+    private const double PressedDepth = 10;
 
     /// <summary>So often what is let go inside static geometry is put out of one surface after the other.</summary>
     private const int MostPuttingOut = 16;
@@ -68,11 +71,11 @@ public sealed partial class Simulation
         }
     }
 
-    /// <summary>Converges on what a knot foretells; where the body is there already it just follows.</summary>
+    /// <summary>Converges on what a knot foretells; where the body is there already, as far as the scene resolves, it just follows: so keeps who only says that he holds it still.</summary>
     private void Converge(
         int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D target, in Vector3D targetVelocity, in Hold hold)
     {
-        if (position == target && velocity == targetVelocity)
+        if ((position - target).Length < Scene.Resolution && (velocity - targetVelocity).Length * HandPath.Stops.ToSeconds() < Scene.Resolution)
         {
             Follow(slot, key, position, velocity, hold);
             return;

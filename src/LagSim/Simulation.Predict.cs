@@ -264,10 +264,13 @@ public sealed partial class Simulation
     /// </summary>
     private SimTime LookAgain(SimTime opened, uint round, double closing, double pressing, SimTime end, bool isPushed)
     {
-        // The root of u t + a t^2 / 2 = depth; if it eases off by itself, as if it did not.
-        double depth = 2e-3 * Scene.Resolution;
-        double seconds = depth / (closing + Math.Sqrt((closing * closing) + (Math.Max(0, pressing) * depth)));
+        double seconds = UntilDeep(2e-3 * Scene.Resolution, closing, pressing);
         SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
+        if (isPushed && wait < PressedWait && UntilDeep(PressedDepth * Scene.Resolution, closing, pressing) >= PressedWait.ToSeconds())
+        {
+            wait = PressedWait; // a hand that creeps
+        }
+
         if (wait < CollapseWait)
         {
             if (round <= CollapseRound || (closing > CollapseSpeed && !isPushed))
@@ -280,6 +283,10 @@ public sealed partial class Simulation
 
         return end.SecondsSince(opened) < wait.ToSeconds() ? SimTime.MaxValue : opened + wait;
     }
+
+    /// <summary>The root of u t + a t^2 / 2 = depth / 2; if it eases off by itself, as if it did not.</summary>
+    private static double UntilDeep(double depth, double closing, double pressing) =>
+        depth / (closing + Math.Sqrt((closing * closing) + (Math.Max(0, pressing) * depth)));
 
     private Vector3D SurfaceNormal(int surface, in Vector3D position)
     {

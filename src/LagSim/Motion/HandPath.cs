@@ -17,8 +17,11 @@ public static class HandPath
     /// </summary>
     public static readonly SimDuration Settles = SimDuration.FromMilliseconds(50);
 
-    /// <summary>How long a hand of which nothing more is heard takes to come to rest: 200 ms, about as long as one movement of a hand goes on one way.</summary>
-    public static readonly SimDuration Stops = SimDuration.FromMilliseconds(200);
+    /// <summary>
+    /// How long a hand of which nothing more is heard takes to come to rest: 300 ms, about as long as one movement of a hand goes on one way. A shorter braking
+    /// needs more knots for the same error, and a longer one hardly fewer, but goes further astray where a hand turns back.
+    /// </summary>
+    public static readonly SimDuration Stops = SimDuration.FromMilliseconds(300);
 
     /// <summary>How long a hold lasts after its last knot, or its grab: 1 s. Whoever holds a body still has to say so more often.</summary>
     public static readonly SimDuration Lasts = SimDuration.FromSeconds(1);

@@ -99,7 +99,7 @@ public sealed class HandSenderTests
     }
 
     [Theory]
-    [InlineData(true, 3_000)]
+    [InlineData(true, 3_500)]
     [InlineData(false, 4_812)]
     public void Traffic_OfOneHandAtAHundredMilliseconds_IsBelowTheAim(bool isSlow, double bytesASecond)
     {
@@ -132,7 +132,7 @@ public sealed class HandSenderTests
         string figures = FormattableString.Invariant(
             $"{(isSlow ? "slow" : "random")}: {sender.Knots / (double)seconds:F1} knots/s, up {up:F0} B/s, down {down:F0} B/s, error mean {errors.Average():F4} m, worst {worst:F3} m");
         TestContext.Current.TestOutputHelper?.WriteLine(figures);
-        Assert.True(up < bytesASecond && down < bytesASecond, figures);
+        Assert.True(up + down < bytesASecond, figures); // 4.7 KiB, both ways together
         Assert.True(up > 300, figures);
         Assert.True(errors.Average() < 0.1, figures);
         Assert.True(group.Host.World!.Simulation.TryReadHold(First, group.Host.SharedTime.Now, out _)); // it lasted
