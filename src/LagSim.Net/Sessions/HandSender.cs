@@ -9,7 +9,7 @@ namespace LagSim.Net.Sessions;
 /// <summary>Says when the others must hear of a hand that holds a body: when what they foretell of it from the last knot is off by more than a set distance.</summary>
 /// <remarks>
 /// <para>It replays <see cref="HandPath"/>, by which every peer extrapolates, so bandwidth follows surprise. The same samples give the same knots. For one
-/// hand from one grab to its release, on one thread.</para>
+/// hand from one grab to its release, on one thread. What is done is stamped when it is done, so a knot is to be done at once.</para>
 /// <para>As <c>if (sender.TrySample(now, hand, speed, out PlayerAction knot)) { session.Do(knot); }</c>, each frame, from the grab on.</para>
 /// </remarks>
 public sealed class HandSender
@@ -38,15 +38,15 @@ public sealed class HandSender
     public double GreatestError { get; private set; }
 
     /// <summary>Takes where the hand is, and says whether the others must hear of it.</summary>
-    /// <param name="time">When, in shared time; later than of the sample before.</param>
+    /// <param name="time">When, in shared time; not before the sample before.</param>
     /// <param name="position">The hand's point, in metres.</param>
     /// <param name="velocity">Its velocity, in m/s, as well as it is known: the better, the fewer knots.</param>
     /// <param name="knot">What to do in the session now, if it is due; else the default.</param>
     /// <returns>Whether a knot is due: for the first sample always.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">The time is not after that of the sample for which a knot was due last.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The time is before that of the sample for which a knot was due last.</exception>
     public bool TrySample(SimTime time, in Vector3D position, in Vector3D velocity, out PlayerAction knot)
     {
-        if (hasSent && time <= sent)
+        if (hasSent && time < sent)
         {
             throw new ArgumentOutOfRangeException(nameof(time), time, $"A knot of {sent} was sent already; samples come in the order of their times.");
         }

@@ -168,7 +168,7 @@ public sealed class HeldTests
     [InlineData(1, 0.0)]
     [InlineData(1, 1.0)]
     [InlineData(3, 0.5)]
-    [InlineData(6, 0.9)]
+    [InlineData(2, 0.9)]
     public void Pressed_AgainstWhatCannotGiveWay_LetsTheHandThroughAtABoundedCost(int balls, double e)
     {
         // A row, exactly between the hand and a wall, on a floor without friction; and the same without a wall, which the hand just pushes along.

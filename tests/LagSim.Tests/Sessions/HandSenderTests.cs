@@ -92,7 +92,8 @@ public sealed class HandSenderTests
         Refused("least", new HandSenderOptions { Shortest = SimDuration.FromMilliseconds(401) });
         HandSender sender = new(First);
         Assert.True(sender.TrySample(At(1), V(0), V(0), out _));
-        Assert.Throws<ArgumentOutOfRangeException>(() => sender.TrySample(At(1), V(0), V(0), out _));
+        Assert.False(sender.TrySample(At(1), V(9), V(0), out _));
+        Assert.Contains("in the order", Assert.Throws<ArgumentOutOfRangeException>(() => sender.TrySample(At(0.9), V(0), V(0), out _)).Message, StringComparison.Ordinal);
 
         static void Refused(string word, HandSenderOptions options) =>
             Assert.Contains(word, Assert.Throws<ArgumentOutOfRangeException>(() => new HandSender(First, options)).Message, StringComparison.Ordinal);
