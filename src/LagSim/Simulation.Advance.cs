@@ -158,7 +158,11 @@ public sealed partial class Simulation
     {
         int last = timelines.Last(slot);
         MotionSegment segment = timelines.Segment(last);
-        if (segment.Law == MotionLaw.RungeKutta4)
+        if (segment.Law == MotionLaw.Held)
+        {
+            HandleHoldEnd(slot, key);
+        }
+        else if (segment.Law == MotionLaw.RungeKutta4)
         {
             RungeKutta4.End(segment, timelines.Dense(last), out Vector3D position, out Vector3D velocity);
             OpenFlight(slot, key, position, velocity);
@@ -179,10 +183,10 @@ public sealed partial class Simulation
         }
     }
 
-    private void Append(int slot, in EventKey key, in MotionSegment segment, in DenseOutput dense)
+    private void Append(int slot, in EventKey key, in MotionSegment segment, in DenseOutput dense, in Hold hold = default)
     {
         timelines.DropBefore(slot, HistoryEdge);
-        timelines.Append(slot, bodies[slot].Id, key, segment, dense);
+        timelines.Append(slot, bodies[slot].Id, key, segment, dense, hold);
     }
 
     /// <summary>The round of something at <paramref name="time"/> on the body's newest segment: what a tick's own event causes at it comes a round later.</summary>

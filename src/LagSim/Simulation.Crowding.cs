@@ -68,9 +68,9 @@ public sealed partial class Simulation
     {
         int last = timelines.Last(slot);
         bool isPlane = surface < Scene.PlaneArray.Length;
-        if (count < nearFrom || (isPlane && timelines.Segment(last).Supports.Contains(surface)))
+        if (count < nearFrom || IsHeld(last) || (isPlane && timelines.Segment(last).Supports.Contains(surface)))
         {
-            return false; // a support takes part anyway
+            return false; // a support takes part anyway, and nothing static stops a hand
         }
 
         Vector3D position = PositionAt(last, time);
@@ -87,7 +87,7 @@ public sealed partial class Simulation
     /// <summary>Whether two bodies of which one is crowded are so near that the other takes part, though they do not strike now.</summary>
     private bool IsNearBody(int slot, int count, int other, int piece, SimTime time)
     {
-        bool isCrowded = count >= nearFrom || CrowdingAfter(piece, time) >= nearFrom;
+        bool isCrowded = (count >= nearFrom || CrowdingAfter(piece, time) >= nearFrom) && !(IsHeld(timelines.Last(slot)) && IsHeld(piece));
         return isCrowded && Gap(slot, timelines.Last(slot), other, piece, time) <= reach;
     }
 
@@ -117,6 +117,11 @@ public sealed partial class Simulation
         double pressing = Scene.Gravity.Length;
         for (int i = 0; i < partyCount; i++)
         {
+            if (double.IsPositiveInfinity(partyMasses[i]))
+            {
+                continue; // a hand keeps its velocity
+            }
+
             mass += partyMasses[i];
             square += ((partyTrial[i] - partyVelocities[i]).LengthSquared - square) * (partyMasses[i] / mass);
             pressing = Math.Max(pressing, partyAccelerations[i].Length);

@@ -25,7 +25,8 @@ public sealed partial class Simulation
 
     /// <summary>
     /// Adds an event that takes effect at <paramref name="arrival"/>, after its own time, by advancing the body alone from the event's time to
-    /// the arrival: its own motion and contacts with static geometry, as the thesis does. What lies before the arrival is not rewritten.
+    /// the arrival: its own motion and contacts with static geometry, as the thesis does. What lies before the arrival is not rewritten. What a hand does (grab,
+    /// knot, release) is done at the arrival as it is.
     /// </summary>
     /// <returns>What became of it.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The arrival is before the event's time.</exception>
@@ -157,6 +158,14 @@ public sealed partial class Simulation
         if (external.Kind == EventKind.Remove)
         {
             Append(slot, key, MotionSegment.Nothing(key.Time), default);
+        }
+        else if (external.Kind is EventKind.Grab or EventKind.HoldKnot or EventKind.Release)
+        {
+            HandleHand(slot, key, external);
+        }
+        else if (IsHeld(timelines.Last(slot)))
+        {
+            return; // what is in a hand goes where the hand goes
         }
         else if (log.IsForwarded(entry))
         {

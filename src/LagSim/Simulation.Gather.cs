@@ -72,7 +72,7 @@ public sealed partial class Simulation
                 if (!now && RoundAfter(then, key.Time) <= key.Round && timelines.Segment(then).IsPresent)
                 {
                     // What was struck in this very round already is not struck in it again.
-                    now = key.Round >= CollapseRound && IsTouching(party, other, then, key.Time, out contact);
+                    now = key.Round >= CollapseRound && !IsHeld(then) && !IsHeld(timelines.Last(party)) && IsTouching(party, other, then, key.Time, out contact);
                     isNear = !now && IsNearBody(party, count, other, then, key.Time);
                 }
 

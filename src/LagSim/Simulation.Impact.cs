@@ -97,16 +97,17 @@ public sealed partial class Simulation
 
     /// <summary>
     /// What is squeezed so that even plastic impacts do not end it (a mass ratio beyond what the solver resolves) goes on together: with the
-    /// velocity of its centre of mass, or at rest where something static takes part. Nothing closes then, so the tick ends.
+    /// velocity of its centre of mass, with that of the first hand that takes part, or at rest where something static does. Nothing closes then, but for what
+    /// a hand presses, which is left alone; so the tick ends.
     /// </summary>
     private void Unite()
     {
         double mass = 0;
         Vector3D common = Vector3D.Zero;
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < partyCount && !double.IsPositiveInfinity(mass); i++)
         {
             mass += partyMasses[i];
-            common += (partyVelocities[i] - common) * (partyMasses[i] / mass);
+            common = double.IsPositiveInfinity(mass) ? partyVelocities[i] : common + ((partyVelocities[i] - common) * (partyMasses[i] / mass));
         }
 
         for (int i = 0; i < contactCount; i++)
@@ -114,7 +115,10 @@ public sealed partial class Simulation
             common = contacts[i].Second == ContactPoint.Static ? Vector3D.Zero : common;
         }
 
-        partyVelocities.AsSpan(0, partyCount).Fill(common);
+        for (int i = 0; i < partyCount; i++)
+        {
+            partyVelocities[i] = double.IsPositiveInfinity(partyMasses[i]) ? partyVelocities[i] : common;
+        }
     }
 
     /// <summary>
@@ -127,7 +131,7 @@ public sealed partial class Simulation
         for (int i = 0; i < partyCount; i++)
         {
             double speed = partyVelocities[i].Length;
-            if (speed > limit)
+            if (speed > limit && !double.IsPositiveInfinity(partyMasses[i]))
             {
                 partyVelocities[i] *= limit / speed;
             }
@@ -142,7 +146,7 @@ public sealed partial class Simulation
             ref readonly MotionSegment segment = ref timelines.Segment(last);
             DenseOutput dense = timelines.Dense(last);
             double seconds = SecondsInto(last, time) + residual;
-            partyMasses[i] = bodies[parties[i]].Spec.Mass;
+            partyMasses[i] = segment.Law == MotionLaw.Held ? double.PositiveInfinity : bodies[parties[i]].Spec.Mass;
             partyPositions[i] = segment.PositionAt(seconds, dense);
             partyVelocities[i] = segment.VelocityAt(seconds, dense);
             partyAccelerations[i] = segment.AccelerationAt(seconds, dense);
@@ -255,6 +259,12 @@ public sealed partial class Simulation
     private void OpenAfterImpact(int party, in EventKey key, double residual)
     {
         int slot = parties[party];
+        if (IsHeld(timelines.Last(slot)))
+        {
+            GoOnHeld(slot, key);
+            return;
+        }
+
         SupportSet supports = timelines.Segment(timelines.Last(slot)).Supports;
         int count = 0;
         for (int i = 0; i < contactCount; i++)

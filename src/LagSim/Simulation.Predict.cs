@@ -120,9 +120,9 @@ public sealed partial class Simulation
         contact = default;
         round = 0;
         bool isPlane = surface < Scene.PlaneArray.Length;
-        if (segment.Law == MotionLaw.Resting || (isPlane && segment.Supports.Contains(surface)))
+        if (segment.Law is MotionLaw.Resting or MotionLaw.Held || (isPlane && segment.Supports.Contains(surface)))
         {
-            return false; // what carries a body stays below it until something else happens
+            return false; // what carries a body stays below it until something else happens, and nothing static stops a hand
         }
 
         SimTime opened = timelines.Key(last).Time;
@@ -143,7 +143,7 @@ public sealed partial class Simulation
 
             Vector3D normal = SurfaceNormal(surface, PositionAt(last, contact));
             double closing = -Vector3D.Dot(normal, VelocityAt(last, contact));
-            from = LookAgain(opened, round, closing, -Vector3D.Dot(normal, AccelerationAt(last, contact)), segment.End);
+            from = LookAgain(opened, round, closing, -Vector3D.Dot(normal, AccelerationAt(last, contact)), segment.End, isPushed: false);
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -239,7 +239,8 @@ public sealed partial class Simulation
         int lastB = ordered ? piece : mine;
         ref readonly MotionSegment segmentA = ref timelines.Segment(lastA);
         scoped ref readonly MotionSegment segmentB = ref timelines.Segment(lastB);
-        if (segmentA.Law == MotionLaw.Resting && segmentB.Law == MotionLaw.Resting)
+        bool isPushed = segmentA.Law == MotionLaw.Held || segmentB.Law == MotionLaw.Held;
+        if (segmentA.Law == segmentB.Law && (segmentA.Law == MotionLaw.Resting || isPushed))
         {
             return false;
         }
@@ -267,7 +268,7 @@ public sealed partial class Simulation
             Vector3D normal = Direction(Scene.Box.Nearest(PositionAt(lastA, contact) - PositionAt(lastB, contact)));
             double closing = -Vector3D.Dot(normal, VelocityAt(lastA, contact) - VelocityAt(lastB, contact));
             double pressing = -Vector3D.Dot(normal, AccelerationAt(lastA, contact) - AccelerationAt(lastB, contact));
-            from = LookAgain(opened, round, closing, pressing, until);
+            from = LookAgain(opened, round, closing, pressing, until, isPushed);
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -283,26 +284,33 @@ public sealed partial class Simulation
     /// <summary>
     /// From when on a contact that closes from the opening of its segments on is to be looked for again: so slow, as rounding leaves it, that it
     /// is a thousandth of the resolution deep only after <see cref="CollapseWait"/>. <paramref name="opened"/> if it cannot wait,
-    /// <see cref="SimTime.MaxValue"/> if the segments end before.
+    /// <see cref="SimTime.MaxValue"/> if the segments end before. A hand pushes a body that cannot give way for so many rounds, and then goes through it.
     /// </summary>
-    private SimTime LookAgain(SimTime opened, uint round, double closing, double pressing, SimTime end)
+    private SimTime LookAgain(SimTime opened, uint round, double closing, double pressing, SimTime end, bool isPushed)
     {
-        // The root of u t + a t^2 / 2 = depth; if it eases off by itself, as if it did not.
-        double depth = 2e-3 * Scene.Resolution;
-        double seconds = depth / (closing + Math.Sqrt((closing * closing) + (Math.Max(0, pressing) * depth)));
+        double seconds = UntilDeep(2e-3 * Scene.Resolution, closing, pressing);
         SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
+        if (isPushed && wait < PressedWait && UntilDeep(PressedDepth * Scene.Resolution, closing, pressing) >= PressedWait.ToSeconds())
+        {
+            wait = PressedWait; // a hand that creeps
+        }
+
         if (wait < CollapseWait)
         {
-            if (round <= CollapseRound || closing > CollapseSpeed)
+            if (round <= CollapseRound || (closing > CollapseSpeed && !isPushed))
             {
                 return opened;
             }
 
-            wait = CollapseWait;
+            wait = isPushed ? PressedWait : CollapseWait;
         }
 
         return end.SecondsSince(opened) < wait.ToSeconds() ? SimTime.MaxValue : opened + wait;
     }
+
+    /// <summary>The root of u t + a t^2 / 2 = depth / 2; if it eases off by itself, as if it did not.</summary>
+    private static double UntilDeep(double depth, double closing, double pressing) =>
+        depth / (closing + Math.Sqrt((closing * closing) + (Math.Max(0, pressing) * depth)));
 
     private Vector3D SurfaceNormal(int surface, in Vector3D position)
     {

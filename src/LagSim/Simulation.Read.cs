@@ -45,6 +45,10 @@ public sealed partial class Simulation
                 hash.Add((ulong)state.Motion);
                 hash.Add(state.Position);
                 hash.Add(state.Velocity);
+                if (state.Motion == MotionLaw.Held)
+                {
+                    hash.Add((ulong)timelines.HoldOf(timelines.At(slot, time)).Peer);
+                }
             }
         }
 

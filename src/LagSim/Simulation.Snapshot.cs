@@ -37,7 +37,7 @@ public sealed partial class Simulation
         {
             int slot = AddBody(body.Id);
             bodies[slot].Spec = body.Spec;
-            timelines.Append(slot, body.Id, body.Opened, body.Segment, body.Dense);
+            timelines.Append(slot, body.Id, body.Opened, body.Segment, body.Dense, body.Hold);
         }
 
         timelines.ContinueFrom(snapshot.EventHash);
@@ -64,7 +64,7 @@ public sealed partial class Simulation
             int at = timelines.At(slot, last);
             if (at != TimelineStore.None && timelines.Segment(at).IsPresent)
             {
-                there.Add(new BodySnapshot(bodies[slot].Id, bodies[slot].Spec, timelines.Key(at), timelines.Segment(at), timelines.Dense(at)));
+                there.Add(new BodySnapshot(bodies[slot].Id, bodies[slot].Spec, timelines.Key(at), timelines.Segment(at), timelines.Dense(at), timelines.HoldOf(at)));
             }
         }
 

@@ -99,7 +99,8 @@ public sealed partial class Simulation
 
         ref readonly MotionSegment x = ref expected.timelines.Segment(a);
         ref readonly MotionSegment y = ref actual.timelines.Segment(b);
-        return x.IsSameAs(y) && (x.Law != Scenes.MotionLaw.RungeKutta4 || expected.timelines.Dense(a).IsSameAs(actual.timelines.Dense(b)));
+        return x.IsSameAs(y) && expected.timelines.HoldOf(a) == actual.timelines.HoldOf(b)
+            && (!x.IsDense || expected.timelines.Dense(a).IsSameAs(actual.timelines.Dense(b)));
     }
 
     private static string Describe(Simulation simulation, int segment)

@@ -12,12 +12,13 @@ internal sealed class Deed
 {
     internal const string Syntax =
         "KIND@SECONDS[:BODY][:X,Y,Z], counted from the session's start. KIND is teleport (to, in m), set-velocity (m/s), impulse (N s), spawn (a body like BODY, "
-        + "at, in m) or remove (without X,Y,Z). BODY is the name of one of the scene's, by default its first, or PEER.SEQUENCE.0 of what was spawned. "
+        + "at, in m), grab (by the point that far from its centre, in m), knot (the hand that holds it is there, in m, at rest; without one for a second it lets go), "
+        + "release (with, in m/s) or remove (without X,Y,Z). BODY is the name of one of the scene's, by default its first, or PEER.SEQUENCE.0 of what was spawned. "
         + "As: teleport@3:0,15,0, impulse@2.5:ball:0,4,0, remove@9:ball. May be repeated.";
 
     internal const double MostSeconds = 1e6;
 
-    private static readonly string[] Kinds = ["teleport", "set-velocity", "impulse", "spawn", "remove"];
+    private static readonly string[] Kinds = ["teleport", "set-velocity", "impulse", "spawn", "grab", "knot", "release", "remove"];
 
     private readonly string kind;
     private readonly string? body;
@@ -76,6 +77,9 @@ internal sealed class Deed
             "teleport" => PlayerAction.Teleport(id, vector),
             "set-velocity" => PlayerAction.SetVelocity(id, vector),
             "impulse" => PlayerAction.Impulse(id, vector),
+            "grab" => PlayerAction.Grab(id, vector),
+            "knot" => PlayerAction.HoldKnot(id, vector, Vector3D.Zero),
+            "release" => PlayerAction.Release(id, vector),
             "remove" => PlayerAction.Remove(id),
             _ when id.Sequence == 0 => PlayerAction.Spawn(scene.Bodies[id.Index].Spec, vector),
             _ => throw Wrong(Text, "a new body takes after one of the scene's own"),

@@ -182,8 +182,11 @@ public sealed class HostileDatagrams
         for (uint n = (uint)Below(30); n > 0; n--)
         {
             BodyId body = Below(2) == 0 ? BodyId.OfScene(Below(8)) : BodyId.FromPacked(random.NextUInt64());
-            _ = Below(4) switch
+            _ = Below(7) switch
             {
+                4 => update.TryAdd((Verdict)Below(6), ExternalEvent.Grab(Time(), (byte)Below(10), n, body, Vector())),
+                5 => update.TryAdd((Verdict)Below(6), ExternalEvent.HoldKnot(Time(), (byte)Below(10), n, body, Vector(), Vector())),
+                6 => update.TryAdd((Verdict)Below(6), ExternalEvent.Release(Time(), (byte)Below(10), n, body, Vector())),
                 0 => update.TryAddOwn((Verdict)Below(6), n),
                 1 => update.TryAdd((Verdict)Below(6), ExternalEvent.Remove(Time(), (byte)Below(10), n, body)),
                 2 => update.TryAdd((Verdict)Below(6), ExternalEvent.Impulse(Time(), (byte)Below(10), n, body, Vector())),

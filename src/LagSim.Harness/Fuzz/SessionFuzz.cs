@@ -189,7 +189,15 @@ public static class SessionFuzz
         {
             if (sessions[peer].State == SessionState.Running)
             {
-                sessions[peer].Do(PlayerAction.Impulse(BodyId.OfScene((int)(random.NextUInt64() % 2)), new Vector3D(random.NextGaussian(), 3, 0)));
+                BodyId body = BodyId.OfScene((int)(random.NextUInt64() % 2));
+                Vector3D vector = new(random.NextGaussian(), 3, 0);
+                sessions[peer].Do((random.NextUInt64() % 5) switch
+                {
+                    0 => PlayerAction.Grab(body),
+                    1 => PlayerAction.HoldKnot(body, vector, vector),
+                    2 => PlayerAction.Release(body, vector),
+                    _ => PlayerAction.Impulse(body, vector),
+                });
                 steps.Wake(peer);
             }
         }

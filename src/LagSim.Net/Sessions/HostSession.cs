@@ -25,6 +25,7 @@ public sealed partial class HostSession : Session
     private readonly uint[] lastSequences = new uint[SessionOptions.MaxJoiners + 1]; // by number: of the last event that bears it
     private readonly ulong sessionId;
     private ulong joins;
+    private uint lastUrgent; // of the log: the newest entry that nothing later makes up for
 
     /// <summary>Opens a session and waits for joiners.</summary>
     /// <param name="scene">The scene that all share.</param>
@@ -315,6 +316,7 @@ public sealed partial class HostSession : Session
         Counters.EventsAccepted += verdict == Verdict.Accepted ? 1 : 0;
         Counters.EventsRefused += verdict == Verdict.Accepted ? 0 : 1;
         log.Add(external, verdict, SimTime.Min(Watermark, external.Time)); // it was judged, or done, a little earlier
+        lastUrgent = verdict == Verdict.Accepted && IsMadeUpFor(external) ? lastUrgent : log.Count;
         Tell(log[log.Count]);
         Hasten();
     }
@@ -347,8 +349,9 @@ public sealed partial class HostSession : Session
         // The watermark is a promise about what comes after this update's last entry: the one at which the next entry was added, or as there is none, now's.
         uint last = update.FirstIndex + (uint)update.Held.Length - 1;
         update.Watermark = World is null ? SimTime.MinValue : last < log.Count ? log.WatermarkAfter(last) : Watermark;
-        bool isPending = joiner.Acknowledged < logView.Last || (World is not null && joiner.IsReady && !joiner.HasBegun);
-        Send(joiner.Link.Seal(hasMore ? now : now + WaitAfterUpdate(isPending, joiner.Link.Silence(now), Overdue)), joiner.Link);
+        bool isUrgent = joiner.Acknowledged < Math.Min(lastUrgent, logView.Last) || (World is not null && joiner.IsReady && !joiner.HasBegun);
+        SimDuration wait = WaitAfterUpdate(isUrgent, joiner.Acknowledged < logView.Last, joiner.Link, now, Overdue);
+        Send(joiner.Link.Seal(hasMore ? now : now + wait), joiner.Link);
         return hasMore;
     }
 

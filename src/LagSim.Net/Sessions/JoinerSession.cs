@@ -33,6 +33,7 @@ public sealed partial class JoinerSession : Session
     private readonly ulong nonce;
     private readonly SimTime began;
     private SimTime tended; // own clock, when this peer last looked after itself
+    private uint lastUrgent; // of the own events: the newest that nothing later makes up for
     private UpdateLink? link;
     private SimTime joinDue;
     private SimTime from = SimTime.MinValue; // the world goes on from there: earlier events are in it
@@ -211,6 +212,7 @@ public sealed partial class JoinerSession : Session
     private protected override void Publish(in ExternalEvent external)
     {
         unjudged.Add(external);
+        lastUrgent = IsMadeUpFor(external) ? lastUrgent : external.Sequence;
         link!.Hasten(Clock.Now);
     }
 
@@ -313,9 +315,11 @@ public sealed partial class JoinerSession : Session
         }
 
         bool any = incoming.HasNext;
+        bool isUrgent = false;
         while (incoming.HasNext)
         {
             UpdateEntry entry = incoming.Take();
+            isUrgent |= entry.IsOwn ? entry.Sequence <= lastUrgent || entry.Verdict != Verdict.Accepted : !IsMadeUpFor(entry.Event);
             Take(entry);
         }
 
@@ -329,7 +333,7 @@ public sealed partial class JoinerSession : Session
 
         if (any)
         {
-            link!.Hasten(now);
+            link!.Hasten(isUrgent ? now : now + MostAckDelay);
         }
     }
 
@@ -376,7 +380,7 @@ public sealed partial class JoinerSession : Session
         update.Ready = IsReady;
         update.Start = World?.Simulation.Start ?? SimTime.MinValue;
         bool hasMore = outgoing.Fill(update, unjudged, now, to.Patience + Options.ResendInterval, Options.ResendInterval);
-        SimDuration wait = !IsReady ? Pace : WaitAfterUpdate(outgoing.Acknowledged < LastSequence, to.Silence(now), Options.KeepAlive);
+        SimDuration wait = !IsReady ? Pace : WaitAfterUpdate(outgoing.Acknowledged < lastUrgent, outgoing.Acknowledged < LastSequence, to, now, Options.KeepAlive);
         Send(to.Seal(hasMore ? now : now + wait), to);
         return hasMore;
     }

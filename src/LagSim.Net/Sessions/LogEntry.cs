@@ -46,6 +46,9 @@ public readonly struct LogEntry : IEquatable<LogEntry>
             EventKind.Teleport => $": to {Event.Position} m with {Event.Velocity} m/s",
             EventKind.SetVelocity => $": to {Event.Velocity} m/s",
             EventKind.Impulse => $": of {Event.Velocity} N s",
+            EventKind.Grab => $": by the point {Event.Position} m from its centre",
+            EventKind.HoldKnot => $": the hand at {Event.Position} m with {Event.Velocity} m/s",
+            EventKind.Release => $": with {Event.Velocity} m/s",
             _ => "",
         };
         return $"{Verdict}: {Event}{values}";

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
+using LagSim.Motion;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -71,10 +72,17 @@ internal sealed class PlayerLimits
         }
     }
 
-    /// <summary>How fast the event leaves its body, and how fast that was; an impulse is judged by the world as it is known now.</summary>
+    /// <summary>
+    /// How fast the event leaves its body, and how fast that was; an impulse, and the way a hand has to make up for, are judged by the world as it is known now.
+    /// </summary>
     private double SpeedAfter(in ExternalEvent external, Simulation world, out double before)
     {
         before = 0;
+        if (external.Kind == EventKind.HoldKnot)
+        {
+            return Math.Max(external.Velocity.Length, SpeedOfCatchingUp(external, world));
+        }
+
         if (external.Kind != EventKind.Impulse)
         {
             return external.Kind == EventKind.Remove ? 0 : external.Velocity.Length;
@@ -93,6 +101,16 @@ internal sealed class PlayerLimits
 
         before = state.Velocity.Length;
         return (state.Velocity + (external.Velocity / MassOf(external.Body, world))).Length;
+    }
+
+    /// <summary>With what speed a held body gets to where the hand is now, in the mean; none if this peer does not hold it.</summary>
+    private static double SpeedOfCatchingUp(in ExternalEvent external, Simulation world)
+    {
+        bool isKnown = external.Time >= world.HistoryEdge && external.Time <= world.Horizon;
+        return isKnown && world.TryReadHold(external.Body, external.Time, out Hold hold) && hold.Peer == external.Peer
+            && world.TryRead(external.Body, external.Time, out BodyState state)
+            ? (external.Position - hold.Offset - state.Position).Length / HandPath.Settles.ToSeconds()
+            : 0;
     }
 
     /// <summary>In kg; of a body that nobody here has heard of, as one that acts faster than its spawner is heard may mean, as if it were 1 kg.</summary>

@@ -26,6 +26,9 @@ public abstract partial class Session
     /// <summary>As many datagrams are taken in at a time at most: whoever floods this peer does not keep it from its own work.</summary>
     private const int MaxDatagramsAStep = 256;
 
+    /// <summary>So long the acknowledgement of what is not urgent may wait for a datagram that goes out anyway.</summary>
+    private protected static readonly SimDuration MostAckDelay = SimDuration.FromMilliseconds(100);
+
     /// <summary>As often a goodbye is said at once; who has not heard it hears it again in answer to what it sends, for as long as the port is there.</summary>
     private protected const int Goodbyes = 3;
 
@@ -352,9 +355,26 @@ public abstract partial class Session
     /// <summary>How long a silence is overdue. A host waits as long before it writes of itself: a joiner's keep-alives, which it answers, do for both.</summary>
     private protected SimDuration Overdue => Options.KeepAlive + (Options.KeepAlive / 4);
 
+    /// <summary>Whether the next of its kind carries what this one would have, if it is lost: it waits for its acknowledgement, and need not be sent again and again.</summary>
+    private protected static bool IsMadeUpFor(in ExternalEvent external) => external.Kind == EventKind.HoldKnot;
+
     /// <summary>How long to wait before the next update, and how long where nothing is the matter.</summary>
-    private protected SimDuration WaitAfterUpdate(bool hasUnacknowledged, SimDuration silence, SimDuration atRest) =>
-        hasUnacknowledged || IsOverdue(silence) ? Options.ResendInterval : atRest;
+    /// <param name="hasUrgent">Whether something is not acknowledged that nothing later makes up for.</param>
+    /// <param name="hasUnacknowledged">Whether anything is not acknowledged.</param>
+    /// <param name="link">To whom.</param>
+    /// <param name="now">By the own clock.</param>
+    /// <param name="atRest">How long where nothing is the matter.</param>
+    private protected SimDuration WaitAfterUpdate(bool hasUrgent, bool hasUnacknowledged, UpdateLink link, SimTime now, SimDuration atRest)
+    {
+        bool isUnmeasured = hasUnacknowledged && link.Patience == SimDuration.Zero;
+        if (hasUrgent || isUnmeasured || IsOverdue(link.Silence(now)))
+        {
+            return Options.ResendInterval;
+        }
+
+        SimDuration answered = link.Patience + MostAckDelay + Options.ResendInterval;
+        return hasUnacknowledged && answered < atRest ? answered : atRest;
+    }
 
     /// <summary>Counts a datagram that could not be decoded.</summary>
     private protected bool IsWellFormed(bool decoded)

@@ -31,8 +31,8 @@ public static class EventFormat
     {
         EventKind.Spawn => MaxBytes,
         EventKind.Remove => MinBytes,
-        EventKind.Teleport => MinBytes + (2 * VectorBytes),
-        EventKind.SetVelocity or EventKind.Impulse => MinBytes + VectorBytes,
+        EventKind.Teleport or EventKind.HoldKnot => MinBytes + (2 * VectorBytes),
+        EventKind.SetVelocity or EventKind.Impulse or EventKind.Grab or EventKind.Release => MinBytes + VectorBytes,
         _ => 0,
     };
 
@@ -70,12 +70,12 @@ public static class EventFormat
             writer.WriteUInt64(what.Body.Packed);
         }
 
-        if (what.Kind is EventKind.Spawn or EventKind.Teleport)
+        if (HasPosition(what.Kind))
         {
             writer.WriteVector(what.Position);
         }
 
-        if (what.Kind != EventKind.Remove)
+        if (HasVelocity(what.Kind))
         {
             writer.WriteVector(what.Velocity);
         }
@@ -92,8 +92,8 @@ public static class EventFormat
         SimTime time = reader.ReadTime();
         BodySpec spec = kind == EventKind.Spawn ? ReadSpec(ref reader) : default;
         BodyId body = kind == EventKind.Spawn ? default : BodyId.FromPacked(reader.ReadUInt64());
-        Vector3D position = kind is EventKind.Spawn or EventKind.Teleport ? reader.ReadVector() : default;
-        Vector3D velocity = kind == EventKind.Remove ? default : reader.ReadVector();
+        Vector3D position = HasPosition(kind) ? reader.ReadVector() : default;
+        Vector3D velocity = HasVelocity(kind) ? reader.ReadVector() : default;
         ExternalEvent what = kind switch
         {
             EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity),
@@ -101,11 +101,18 @@ public static class EventFormat
             EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity),
             EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),
             EventKind.Impulse => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
+            EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position),
+            EventKind.HoldKnot => ExternalEvent.HoldKnot(time, peer, sequence, body, position, velocity),
+            EventKind.Release => ExternalEvent.Release(time, peer, sequence, body, velocity),
             _ => default,
         };
         reader.Require(IsWellFormed(what));
         return reader.Refusal == WireRefusal.None ? what : default;
     }
+
+    private static bool HasPosition(EventKind kind) => kind is EventKind.Spawn or EventKind.Teleport or EventKind.Grab or EventKind.HoldKnot;
+
+    private static bool HasVelocity(EventKind kind) => kind is not (EventKind.Remove or EventKind.Grab);
 
     // Every range is written so that NaN fails it.
     private static bool IsSpecWellFormed(in BodySpec spec) =>

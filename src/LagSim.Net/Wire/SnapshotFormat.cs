@@ -15,8 +15,9 @@ namespace LagSim.Net.Wire;
 public static class SnapshotFormat
 {
     private const int HeadBytes = 28; // start, time, event hash, count
-    private const int MinBodyBytes = 167; // without supports and dense output
+    private const int MinBodyBytes = 167; // without supports, dense output and hold
     private const int DenseBytes = 72;
+    private const int HoldBytes = 57; // cubic, peer, offset, knot
 
     /// <summary>The bytes of a snapshot.</summary>
     /// <exception cref="ArgumentException">
@@ -78,7 +79,8 @@ public static class SnapshotFormat
         long length = HeadBytes;
         foreach (BodySnapshot body in snapshot.Bodies)
         {
-            length += MinBodyBytes + (body.SupportCount * sizeof(uint)) + (body.Law == MotionLaw.RungeKutta4 ? DenseBytes : 0);
+            int more = body.Law switch { MotionLaw.RungeKutta4 => DenseBytes, MotionLaw.Held => HoldBytes, _ => 0 };
+            length += MinBodyBytes + (body.SupportCount * sizeof(uint)) + more;
         }
 
         return length;
@@ -106,6 +108,14 @@ public static class SnapshotFormat
         WriteExactly(ref writer, body.Position);
         WriteExactly(ref writer, body.Velocity);
         WriteExactly(ref writer, body.Acceleration);
+        if (body.Law == MotionLaw.Held)
+        {
+            WriteExactly(ref writer, body.Cubic);
+            writer.WriteByte(body.Hold.Peer);
+            WriteExactly(ref writer, body.Hold.Offset);
+            writer.WriteInt64(body.Hold.Knot.Ticks);
+        }
+
         writer.WriteByte((byte)body.Crowding);
         writer.WriteByte((byte)body.SupportCount);
         for (int n = 0; n < body.SupportCount; n++)
@@ -138,6 +148,11 @@ public static class SnapshotFormat
         Vector3D position = ReadExactly(ref reader);
         Vector3D velocity = ReadExactly(ref reader);
         Vector3D acceleration = ReadExactly(ref reader);
+        bool held = law == MotionLaw.Held;
+        Vector3D cubic = held ? ReadExactly(ref reader) : default;
+        byte holder = held ? reader.ReadByte() : (byte)0;
+        Vector3D offset = held ? ReadExactly(ref reader) : default;
+        Hold hold = held ? new Hold(holder, offset, SimTime.FromTicks(reader.ReadInt64())) : default;
         byte crowding = reader.ReadByte();
         int supports = reader.ReadByte();
         reader.Require(supports <= BodySnapshot.MaxSupports);
@@ -151,11 +166,11 @@ public static class SnapshotFormat
         }
 
         bool dense = law == MotionLaw.RungeKutta4;
-        Vector3D cubic = dense ? ReadExactly(ref reader) : default;
+        cubic = dense ? ReadExactly(ref reader) : cubic;
         Vector3D quartic = dense ? ReadExactly(ref reader) : default;
         Vector3D quintic = dense ? ReadExactly(ref reader) : default;
         return new BodySnapshot(
-            id, spec, opened, law, epoch, end, position, velocity, acceleration, planes.Slice(0, supports), crowding, cubic, quartic, quintic);
+            id, spec, opened, law, epoch, end, position, velocity, acceleration, planes.Slice(0, supports), crowding, cubic, quartic, quintic, hold);
     }
 
     // Also of zeros the sign: what goes on from here goes on from the very bits.

@@ -134,7 +134,7 @@ internal static class ContactFinder
         path[1] = segment.Velocity;
         path[2] = segment.Acceleration * 0.5;
         int length = 3;
-        if (segment.Law == MotionLaw.RungeKutta4)
+        if (segment.IsDense)
         {
             path[3] = dense.Cubic;
             path[4] = dense.Quartic;

@@ -50,7 +50,9 @@ internal sealed class ImpactSolver
 
     private int bodies;
 
-    /// <summary>Changes the velocities by the impulses of all contacts. <paramref name="masses"/> and velocities by number of body.</summary>
+    /// <summary>
+    /// Changes the velocities by the impulses of all contacts. <paramref name="masses"/> and velocities by number of body; one in a hand has an infinite mass.
+    /// </summary>
     internal void Solve(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities)
     {
         if (contacts.Length == 1)
@@ -94,6 +96,13 @@ internal sealed class ImpactSolver
             return;
         }
 
+        if (IsHand(masses[c.First]) || IsHand(masses[c.Second]))
+        {
+            velocities[c.First] += IsHand(masses[c.First]) ? Vector3D.Zero : c.Normal * change;
+            velocities[c.Second] -= IsHand(masses[c.Second]) ? Vector3D.Zero : c.Normal * change;
+            return;
+        }
+
         double whole = masses[c.First] + masses[c.Second];
         velocities[c.First] += c.Normal * (change * (masses[c.Second] / whole));
         velocities[c.Second] -= c.Normal * (change * (masses[c.First] / whole));
@@ -128,16 +137,36 @@ internal sealed class ImpactSolver
 
         double gain = 0;
         double allowed = 0;
+        bool isPushed = false;
         for (int b = 0; b < bodies; b++)
         {
+            if (IsHand(masses[b]))
+            {
+                isPushed = true;
+                continue;
+            }
+
             Vector3D v = velocities[b];
             Vector3D d = change[b];
             gain += masses[b] * (Vector3D.Dot(v, d) + (0.5 * d.LengthSquared));
             allowed += masses[b] * ((2 * given * given) + (Rounding * ((v.Length * d.Length) + d.LengthSquared)));
         }
 
+        if (isPushed)
+        {
+            // What a hand does to the bodies is no gain: what counts is what the contacts make of the speeds at which they are met.
+            gain = 0;
+            for (int i = 0; i < contacts.Length; i++)
+            {
+                gain += impulse[i] * (Opening(contacts[i], velocities) + (0.5 * Opening(contacts[i], change.AsSpan(0, bodies))));
+            }
+        }
+
         return !(gain <= allowed);
     }
+
+    /// <summary>Whether this is the mass of a body that a hand holds: infinite, so that nothing changes its velocity.</summary>
+    private static bool IsHand(double mass) => double.IsPositiveInfinity(mass);
 
     /// <summary>Lawson and Hanson's active-set method; false if some demand cannot be met. Leaves the change of every velocity.</summary>
     private bool TrySolve(Span<ContactPoint> contacts, Span<double> masses)

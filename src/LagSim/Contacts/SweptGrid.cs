@@ -379,7 +379,7 @@ internal sealed class SweptGrid : IPairIndex
     private static double LargestAcceleration(in MotionSegment path, in DenseOutput dense, double from, double until)
     {
         double largest = path.Acceleration.Length;
-        if (path.Law == MotionLaw.RungeKutta4)
+        if (path.IsDense)
         {
             double s = Math.Max(Math.Abs(from), Math.Abs(until));
             largest += ((6 * dense.Cubic.Length) + (((12 * dense.Quartic.Length) + (20 * s * dense.Quintic.Length)) * s)) * s;

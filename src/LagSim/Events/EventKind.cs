@@ -25,13 +25,13 @@ public enum EventKind : byte
     /// <summary>External: a body gets an impulse.</summary>
     Impulse = 11,
 
-    /// <summary>External: a hand takes a body. Its place is kept; not implemented yet.</summary>
+    /// <summary>External: a hand takes a body. One that is held it does not get.</summary>
     Grab = 12,
 
-    /// <summary>External: where the hand that holds a body is. Its place is kept; not implemented yet.</summary>
+    /// <summary>External: where the hand that holds a body is, and how fast. Without one for a second it has let go.</summary>
     HoldKnot = 13,
 
-    /// <summary>External: the hand lets go. Its place is kept; not implemented yet.</summary>
+    /// <summary>External: the hand that holds a body lets go of it, with a velocity.</summary>
     Release = 14,
 
     /// <summary>External: a body disappears.</summary>

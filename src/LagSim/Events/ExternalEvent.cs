@@ -40,10 +40,12 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     /// <summary>The body it is done to.</summary>
     public BodyId Body { get; }
 
-    /// <summary>Metres; of a spawn or teleport where the body's centre is put, else zero.</summary>
+    /// <summary>
+    /// Metres; of a spawn or teleport where the body's centre is put, of a knot where the hand's point is, of a grab that point less the body's centre; else zero.
+    /// </summary>
     public Vector3D Position { get; }
 
-    /// <summary>Metres per second, of a spawn, teleport or set velocity; newton seconds, of an impulse; else zero.</summary>
+    /// <summary>Metres per second, of a spawn, teleport, set velocity, knot or release; newton seconds, of an impulse; else zero.</summary>
     public Vector3D Velocity { get; }
 
     /// <summary>Of a spawn what appears; else <c>default</c>.</summary>
@@ -71,6 +73,21 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     /// <summary>The body's momentum changes by this many newton seconds.</summary>
     public static ExternalEvent Impulse(SimTime time, byte peer, uint sequence, BodyId body, Vector3D impulse) =>
         new(EventKind.Impulse, time, peer, sequence, body, default, impulse, default);
+
+    /// <summary>
+    /// The peer's hand takes the body, by a point that lies <paramref name="offset"/> from its centre, in metres. Until the first knot the hand is taken to be at
+    /// rest where the body was. What is held already, or faster than may be given, it does not get.
+    /// </summary>
+    public static ExternalEvent Grab(SimTime time, byte peer, uint sequence, BodyId body, Vector3D offset = default) =>
+        new(EventKind.Grab, time, peer, sequence, body, offset, default, default);
+
+    /// <summary>The peer's hand, if it holds the body, is at a position (metres) with a velocity (m/s) now; see <see cref="Motion.HandPath"/> for what follows.</summary>
+    public static ExternalEvent HoldKnot(SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity) =>
+        new(EventKind.HoldKnot, time, peer, sequence, body, position, velocity, default);
+
+    /// <summary>The peer's hand, if it holds the body, lets go of it, which from where it is goes on with this velocity (m/s).</summary>
+    public static ExternalEvent Release(SimTime time, byte peer, uint sequence, BodyId body, Vector3D velocity = default) =>
+        new(EventKind.Release, time, peer, sequence, body, default, velocity, default);
 
     /// <summary>The same deed at another time; how a peer that does not heal applies what it hears late.</summary>
     public ExternalEvent At(SimTime time) => new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec);

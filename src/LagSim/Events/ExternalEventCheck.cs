@@ -15,14 +15,14 @@ public static class ExternalEventCheck
         }
 
         Subject whose = new(external);
-        if (external.Kind is EventKind.Grab or EventKind.HoldKnot or EventKind.Release)
-        {
-            throw new SceneException($"{external.Kind} is not supported yet.");
-        }
-
-        if (external.Kind is not (EventKind.Spawn or EventKind.Remove or EventKind.Teleport or EventKind.SetVelocity or EventKind.Impulse))
+        if (external.Kind is < EventKind.Spawn or > EventKind.Remove)
         {
             throw new SceneException($"{external.Kind} is not an external event.");
+        }
+
+        if (scene.Box.Exists && external.Kind is >= EventKind.Grab and <= EventKind.Release)
+        {
+            throw new SceneException($"There is no {whose}: in a periodic box nothing is held.");
         }
 
         if (external.Sequence == 0)

@@ -40,6 +40,18 @@ public readonly struct PlayerAction
     /// <summary>The body's momentum changes by this many newton seconds.</summary>
     public static PlayerAction Impulse(BodyId body, Vector3D impulse) => new(EventKind.Impulse, body, default, impulse, default);
 
+    /// <summary>
+    /// The player's hand takes the body, by a point that lies <paramref name="offset"/> (metres) from its centre. It lasts as long as the hand tells where it
+    /// is, a second at a time; see <see cref="Motion.HandPath"/>.
+    /// </summary>
+    public static PlayerAction Grab(BodyId body, Vector3D offset = default) => new(EventKind.Grab, body, offset, default, default);
+
+    /// <summary>The hand that holds the body is at a position (metres) with a velocity (m/s).</summary>
+    public static PlayerAction HoldKnot(BodyId body, Vector3D position, Vector3D velocity) => new(EventKind.HoldKnot, body, position, velocity, default);
+
+    /// <summary>The hand that holds the body lets go of it, which goes on with this velocity (m/s).</summary>
+    public static PlayerAction Release(BodyId body, Vector3D velocity = default) => new(EventKind.Release, body, default, velocity, default);
+
     /// <summary>The event that this action is, done by <paramref name="peer"/> at <paramref name="time"/> as its <paramref name="sequence"/>-th.</summary>
     /// <exception cref="InvalidOperationException">This is <c>default</c>, no action.</exception>
     public ExternalEvent Stamp(SimTime time, byte peer, uint sequence) => kind switch
@@ -49,6 +61,9 @@ public readonly struct PlayerAction
         EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity),
         EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),
         EventKind.Impulse => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
+        EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position),
+        EventKind.HoldKnot => ExternalEvent.HoldKnot(time, peer, sequence, body, position, velocity),
+        EventKind.Release => ExternalEvent.Release(time, peer, sequence, body, velocity),
         _ => throw new InvalidOperationException("The default PlayerAction is no action."),
     };
 }

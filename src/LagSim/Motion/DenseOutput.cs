@@ -2,7 +2,7 @@ using LagSim.Scenes;
 
 namespace LagSim.Motion;
 
-/// <summary>The cubic, quartic and quintic coefficients of a path whose acceleration is not constant; kept apart so that closed forms do not pay for them.</summary>
+/// <summary>The cubic, quartic and quintic coefficients of a path whose acceleration is not constant; kept apart so that parabolas do not pay for them.</summary>
 internal readonly struct DenseOutput
 {
     internal DenseOutput(in Vector3D cubic, in Vector3D quartic, in Vector3D quintic)

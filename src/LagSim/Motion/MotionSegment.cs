@@ -48,6 +48,9 @@ internal readonly struct MotionSegment
 
     internal bool IsPresent => Law != MotionLaw.Absent;
 
+    /// <summary>Whether the formula has more terms than the acceleration's.</summary>
+    internal bool IsDense => Law is MotionLaw.RungeKutta4 or MotionLaw.Held;
+
     /// <summary>A path that never moves: a static sphere, or a body at rest.</summary>
     internal static MotionSegment AtRest(SimTime epoch, in Vector3D position, SupportSet supports = default) =>
         new(MotionLaw.Resting, epoch, SimTime.MaxValue, position, Vector3D.Zero, Vector3D.Zero, supports);
@@ -76,7 +79,7 @@ internal readonly struct MotionSegment
         }
 
         Vector3D quadratic = Position + ((Velocity + (Acceleration * (0.5 * seconds))) * seconds);
-        return Law != MotionLaw.RungeKutta4
+        return !IsDense
             ? quadratic
             : quadratic + ((dense.Cubic + ((dense.Quartic + (dense.Quintic * seconds)) * seconds)) * (seconds * seconds * seconds));
     }
@@ -90,13 +93,13 @@ internal readonly struct MotionSegment
         }
 
         Vector3D linear = Velocity + (Acceleration * seconds);
-        return Law != MotionLaw.RungeKutta4
+        return !IsDense
             ? linear
             : linear + (((dense.Cubic * 3) + (((dense.Quartic * 4) + (dense.Quintic * (5 * seconds))) * seconds)) * (seconds * seconds));
     }
 
     internal Vector3D AccelerationAt(double seconds, in DenseOutput dense) =>
-        Law != MotionLaw.RungeKutta4
+        !IsDense
             ? Acceleration
             : Acceleration + (((dense.Cubic * 6) + (((dense.Quartic * 12) + (dense.Quintic * (20 * seconds))) * seconds)) * seconds);
 }

@@ -17,4 +17,7 @@ public enum MotionLaw : byte
 
     /// <summary>At rest on static planes; costs nothing until something touches it. Entered from flight or sliding, never a scene's choice.</summary>
     Resting = 4,
+
+    /// <summary>In a hand, whose path it has, a cubic or parabola from knot to knot; nothing it meets changes that. Entered by a grab, never a scene's choice.</summary>
+    Held = 5,
 }

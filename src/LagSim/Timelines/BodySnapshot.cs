@@ -28,6 +28,7 @@ public readonly struct BodySnapshot
     /// <param name="cubic">See <see cref="Cubic"/>.</param>
     /// <param name="quartic">See <see cref="Quartic"/>.</param>
     /// <param name="quintic">See <see cref="Quintic"/>.</param>
+    /// <param name="hold">See <see cref="Hold"/>.</param>
     /// <exception cref="ArgumentException">There are more than <see cref="MaxSupports"/> supports.</exception>
     public BodySnapshot(
         BodyId id,
@@ -43,7 +44,8 @@ public readonly struct BodySnapshot
         int crowding = 0,
         in Vector3D cubic = default,
         in Vector3D quartic = default,
-        in Vector3D quintic = default)
+        in Vector3D quintic = default,
+        in Hold hold = default)
     {
         if (supports.Length > MaxSupports)
         {
@@ -58,15 +60,17 @@ public readonly struct BodySnapshot
         SupportSet set = new(supports.Length, planes[0], planes[1], planes[2]);
         Segment = new MotionSegment(law, epoch, end, position, velocity, acceleration, set, crowding);
         Dense = new DenseOutput(cubic, quartic, quintic);
+        Hold = hold;
     }
 
-    internal BodySnapshot(BodyId id, in BodySpec spec, in EventKey opened, in MotionSegment segment, in DenseOutput dense)
+    internal BodySnapshot(BodyId id, in BodySpec spec, in EventKey opened, in MotionSegment segment, in DenseOutput dense, in Hold hold)
     {
         Id = id;
         Spec = spec;
         Opened = opened;
         Segment = segment;
         Dense = dense;
+        Hold = hold;
     }
 
     /// <summary>Who it is.</summary>
@@ -102,7 +106,7 @@ public readonly struct BodySnapshot
     /// <summary>How many impacts in succession came soon after the one before.</summary>
     public int Crowding => Segment.Crowding;
 
-    /// <summary>Of an integrated step the coefficient of t^3, in m/s^3; else zero.</summary>
+    /// <summary>Of an integrated step, or a held path, the coefficient of t^3, in m/s^3; else zero.</summary>
     public Vector3D Cubic => Dense.Cubic;
 
     /// <summary>Of an integrated step the coefficient of t^4, in m/s^4; else zero.</summary>
@@ -110,6 +114,9 @@ public readonly struct BodySnapshot
 
     /// <summary>Of an integrated step the coefficient of t^5, in m/s^5; else zero.</summary>
     public Vector3D Quintic => Dense.Quintic;
+
+    /// <summary>Of a body in a hand who holds it; else the default.</summary>
+    public Hold Hold { get; }
 
     internal MotionSegment Segment { get; }
 

@@ -1,4 +1,5 @@
 using LagSim.Events;
+using LagSim.Motion;
 using LagSim.Scenes;
 
 namespace LagSim.Timelines;
@@ -45,6 +46,10 @@ internal static class SnapshotCheck
         if (scene.Box.Exists)
         {
             Limits.CheckInBox(body.Spec, body.Position, scene.Box, whose);
+            if (body.Law != MotionLaw.Ballistic)
+            {
+                throw new SceneException($"The motion of {whose} is {body.Law}; in a periodic box it is Ballistic.");
+            }
         }
 
         Limits.Components(body.Position, double.MaxValue, whose, "position", "m");
@@ -53,10 +58,10 @@ internal static class SnapshotCheck
         Limits.Components(body.Cubic, double.MaxValue, whose, "cubic coefficient", "m/s^3");
         Limits.Components(body.Quartic, double.MaxValue, whose, "quartic coefficient", "m/s^4");
         Limits.Components(body.Quintic, double.MaxValue, whose, "quintic coefficient", "m/s^5");
-        if (body.Law is not (MotionLaw.Ballistic or MotionLaw.RungeKutta4 or MotionLaw.Sliding or MotionLaw.Resting)
+        if (body.Law is not (MotionLaw.Ballistic or MotionLaw.RungeKutta4 or MotionLaw.Sliding or MotionLaw.Resting or MotionLaw.Held)
             || (body.Law is MotionLaw.Ballistic or MotionLaw.RungeKutta4 && body.Law != body.Spec.Flight))
         {
-            throw new SceneException($"The motion of {whose} is {body.Law}; it must be Sliding, Resting, or its law of flight, {body.Spec.Flight}.");
+            throw new SceneException($"The motion of {whose} is {body.Law}; it must be Sliding, Resting, Held, or its law of flight, {body.Spec.Flight}.");
         }
 
         bool isCarried = body.Law is MotionLaw.Sliding or MotionLaw.Resting;
@@ -74,9 +79,27 @@ internal static class SnapshotCheck
             }
         }
 
+        CheckHold(body, snapshot, whose);
         if (body.Crowding is < 0 or > MaxCrowding)
         {
             throw new SceneException($"The count of impacts on the spot of {whose} is {body.Crowding}; it lies between 0 and {MaxCrowding}.");
+        }
+    }
+
+    private static void CheckHold(in BodySnapshot body, WorldSnapshot snapshot, string whose)
+    {
+        Hold hold = body.Hold;
+        if (body.Law != MotionLaw.Held)
+        {
+            return;
+        }
+
+        Limits.Components(hold.Offset, Limits.MaxCoordinate, whose, "offset of the hand", "m");
+        bool isPast = hold.Knot >= snapshot.Start && hold.Knot <= body.Epoch;
+        if (!isPast || (body.End != hold.Knot + HandPath.Settles && body.End != hold.Knot + HandPath.Stops && body.End != hold.Knot + HandPath.Lasts))
+        {
+            throw new SceneException(
+                $"The hand that holds {whose} last told where it is at {hold.Knot}, and this piece of its path lasts from {body.Epoch} to {body.End}; it must not begin before, and end {HandPath.Settles}, {HandPath.Stops} or {HandPath.Lasts} after.");
         }
     }
 
@@ -84,7 +107,7 @@ internal static class SnapshotCheck
     {
         EventKey opened = body.Opened;
         bool isKnown = opened.Kind is EventKind.Start or EventKind.Impact or EventKind.StepEnd
-            or (>= EventKind.Spawn and <= EventKind.Impulse);
+            or (>= EventKind.Spawn and <= EventKind.Release);
         if (!isKnown || opened.Time < snapshot.Start || opened.Time >= snapshot.Time)
         {
             throw new SceneException($"The path of {whose} was opened by {opened}; it must be an event that opens one, from {snapshot.Start} on and before {snapshot.Time}.");

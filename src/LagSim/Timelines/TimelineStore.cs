@@ -20,6 +20,7 @@ internal sealed class TimelineStore
     private readonly SimTime origin;
     private MotionSegment[] segments = new MotionSegment[32];
     private DenseOutput[] dense = Array.Empty<DenseOutput>(); // only once something is integrated
+    private Hold[] holds = Array.Empty<Hold>(); // only once something is held
     private EventKey[] keys = new EventKey[32];
     private long[] serials = new long[32];
     private int[] previous = new int[32];
@@ -84,6 +85,9 @@ internal sealed class TimelineStore
 
     internal DenseOutput Dense(int segment) => segment < dense.Length ? dense[segment] : default;
 
+    /// <summary>Of a held segment who holds; of any other the default.</summary>
+    internal Hold HoldOf(int segment) => segments[segment].Law == MotionLaw.Held ? holds[segment] : default;
+
     /// <summary>The key of the event that opened the segment.</summary>
     internal ref readonly EventKey Key(int segment) => ref keys[segment];
 
@@ -122,7 +126,7 @@ internal sealed class TimelineStore
 
     /// <summary>Opens the body's next segment.</summary>
     /// <exception cref="SimulationException">There are as many as may be.</exception>
-    internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output)
+    internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output, in Hold hold = default)
     {
         int at = free;
         if (at != None)
@@ -145,7 +149,7 @@ internal sealed class TimelineStore
         }
 
         segments[at] = segment;
-        if (segment.Law == MotionLaw.RungeKutta4)
+        if (segment.IsDense)
         {
             if (at >= dense.Length)
             {
@@ -153,6 +157,16 @@ internal sealed class TimelineStore
             }
 
             dense[at] = output;
+        }
+
+        if (segment.Law == MotionLaw.Held)
+        {
+            if (at >= holds.Length)
+            {
+                Array.Resize(ref holds, segments.Length);
+            }
+
+            holds[at] = hold;
         }
 
         keys[at] = key;
@@ -273,6 +287,15 @@ internal sealed class TimelineStore
         hash.Add(motion.Epoch - origin);
         hash.Add(motion.Position);
         hash.Add(motion.Velocity);
+        if (motion.Law == MotionLaw.Held)
+        {
+            hash.Add((ulong)holds[segment].Peer);
+            hash.Add(holds[segment].Offset);
+            hash.Add(holds[segment].Knot - origin);
+            hash.Add(motion.Acceleration);
+            hash.Add(dense[segment].Cubic);
+        }
+
         return hash.Value;
     }
 
@@ -297,6 +320,11 @@ internal sealed class TimelineStore
         if (dense.Length > 0)
         {
             Array.Resize(ref dense, size);
+        }
+
+        if (holds.Length > 0)
+        {
+            Array.Resize(ref holds, size);
         }
     }
 }

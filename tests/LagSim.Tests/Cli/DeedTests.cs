@@ -20,6 +20,9 @@ public sealed class DeedTests
         Assert.Equal(ExternalEvent.Teleport(At(1), 2, 3, First, V(0, 15)), Stamped("teleport@3:0,15,0", 3));
         Assert.Equal(ExternalEvent.SetVelocity(At(1), 2, 3, First, V(-1.5, 0, 1e3)), Stamped("set-velocity@0:-1.5,0,1e3", 0));
         Assert.Equal(ExternalEvent.Impulse(At(1), 2, 3, First, V(0, 4)), Stamped("impulse@2.5:ball:0,4,0", 2.5));
+        Assert.Equal(ExternalEvent.Grab(At(1), 2, 3, First, V(0, 0.1)), Stamped("grab@2.5:ball:0,0.1,0", 2.5));
+        Assert.Equal(ExternalEvent.HoldKnot(At(1), 2, 3, First, V(1, 4), V(0)), Stamped("knot@2.5:ball:1,4,0", 2.5));
+        Assert.Equal(ExternalEvent.Release(At(1), 2, 3, First, V(0, 4)), Stamped("release@2.5:ball:0,4,0", 2.5));
         Assert.Equal(ExternalEvent.Remove(At(1), 2, 3, First), Stamped("remove@9", 9));
         Assert.Equal(ExternalEvent.Remove(At(1), 2, 3, Second), Stamped("remove@9:a:b", 9));
         Assert.Equal(ExternalEvent.Remove(At(1), 2, 3, new BodyId(1, 7, 0)), Stamped("remove@9:1.7.0", 9));
@@ -30,7 +33,7 @@ public sealed class DeedTests
     [Theory]
     [InlineData("teleport", "it must be KIND@SECONDS:X,Y,Z")]
     [InlineData("", "it must be KIND@SECONDS:X,Y,Z")]
-    [InlineData("fly@3:0,1,2", "'fly' must be one of teleport, set-velocity, impulse, spawn, remove")]
+    [InlineData("fly@3:0,1,2", "'fly' must be one of teleport, set-velocity, impulse, spawn, grab, knot, release, remove")]
     [InlineData("Teleport@3:0,1,2", "'Teleport' must be one of")]
     [InlineData("teleport@:0,1,2", "its time is ''")]
     [InlineData("teleport@x:0,1,2", "its time is 'x', it must be a number of seconds between 0 and 1000000")]

@@ -144,7 +144,7 @@ public sealed partial class CorpusTests
     private static IEnumerable<string> Needed =>
     [
         .. Enum.GetNames<MotionLaw>().Select(law => $"law {law}"),
-        .. new[] { "Spawn", "Teleport", "SetVelocity", "Impulse", "Remove" }.Select(kind => $"event {kind}"),
+        .. new[] { "Spawn", "Teleport", "SetVelocity", "Impulse", "Grab", "HoldKnot", "Release", "Remove" }.Select(kind => $"event {kind}"),
         "a step's end", "an impact of two", "an impact of many", "a wake by impact", "sliding in a groove", "sliding on a plane", "crowding", "squeezing", "a late round",
         "masses sixty decades apart", "a supplied acceleration", "a late start", "a place far from the origin", "a subnormal speed", "a refused event", "two events at a tick",
     ];

@@ -42,6 +42,7 @@ internal static class CorpusWorlds
         SmallAndFast(),
         Subnormal(),
         Deeds(),
+        Held(),
     ];
 
     private static CorpusWorld World(string name, Scene scene, double seconds, params ExternalEvent[] events) =>
@@ -63,6 +64,31 @@ internal static class CorpusWorlds
         }
 
         return World("mass-ratios", builder.Build(), 10);
+    }
+
+    /// <summary>
+    /// Hands: one takes a ball, strikes another with it and throws it; two that want the same ball; one that presses a ball on the floor and falls silent; knots of
+    /// one that holds nothing.
+    /// </summary>
+    private static CorpusWorld Held()
+    {
+        Scene scene = new SceneBuilder("held").AddPlane("floor", Vector3D.Up, V(0), 0.7).AddStaticSphere("stone", V(6, 0, 0), 1, 0.5)
+            .AddBody("bat", Ball(0.3, 2, 0.9), V(-2, 0.3)).AddBody("struck", Ball(0.3, 1, 0.8), V(-0.5, 0.3))
+            .AddBody("wanted", Ball(0.25, 1, 0.5, MotionLaw.RungeKutta4), V(3, 2), V(0, 1)).AddBody("under", Ball(0.3, 1, 0.4), V(3.1, 0.3, 2)).Build();
+        BodyId bat = First, wanted = Third;
+        List<ExternalEvent> events = [ExternalEvent.Grab(At(0.3), 1, 1, bat, V(0, 0.1)), ExternalEvent.Grab(At(0.5), 2, 1, wanted), ExternalEvent.Grab(At(0.5), 3, 1, wanted, V(0.1))];
+        for (uint n = 0; n < 14; n++)
+        {
+            double t = 0.3 + (0.07 * n);
+            events.Add(ExternalEvent.HoldKnot(At(t), 1, n + 2, bat, V(-2 + (0.13 * n), 0.4 + (0.01 * n * n), 0.003 * n), V(2, 0.3, 0.05)));
+            events.Add(ExternalEvent.HoldKnot(At(t + 0.21), 2, n + 2, wanted, V(3, 2 - (0.13 * n), 0.15 * n), V(0.1, -1.8, 2)));
+            events.Add(ExternalEvent.HoldKnot(At(t + 0.22), 3, n + 2, wanted, V(9, 9, 9), V(1)));
+        }
+
+        events.Add(ExternalEvent.Release(At(1.3), 1, 20, bat, V(4, 3, -0.2)));
+        events.Add(ExternalEvent.Impulse(At(1.4), 3, 20, wanted, V(9)));
+        events.Add(ExternalEvent.Grab(At(3.1), 3, 21, wanted, V(0, -0.2)));
+        return World("held", scene, 5, [.. events]);
     }
 
     /// <summary>A light ball that carries one a million times as heavy, and three on a floor of which the middle one is sixty decades lighter.</summary>

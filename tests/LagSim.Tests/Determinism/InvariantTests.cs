@@ -76,7 +76,7 @@ public sealed class InvariantTests
         Ascend(Run(row.Build(), 0.1));
         foreach (int seed in Enumerable.Range(5000, 120))
         {
-            Ascend(new RandomWorld(seed).OnTime());
+            Ascend(new RandomWorld(seed, hands: seed % 2 == 0).OnTime());
         }
 
         static void Ascend(Simulation simulation)
@@ -94,7 +94,7 @@ public sealed class InvariantTests
     {
         foreach (int seed in Enumerable.Range(9000, 40))
         {
-            RandomWorld world = new(seed);
+            RandomWorld world = new(seed, hands: seed % 2 == 0);
             foreach (SimTime start in new[] { At(123456.789), SimTime.FromTicks(-1), SimTime.FromTicks(-(1L << 62)), SimTime.FromTicks(3L << 61) })
             {
                 SimDuration shift = start - SimTime.Zero;
@@ -115,7 +115,7 @@ public sealed class InvariantTests
     {
         foreach (int seed in Enumerable.Range(7000, 60))
         {
-            RandomWorld world = new(seed);
+            RandomWorld world = new(seed, hands: seed % 2 == 0);
             Random steps = new(seed);
             Simulation actual = new(world.Scene, KeepAll);
             foreach (ExternalEvent external in world.Events)
@@ -143,7 +143,7 @@ public sealed class InvariantTests
         int lost = 0, seen = 0;
         foreach (int seed in Enumerable.Range(0, 60))
         {
-            RandomWorld world = new(seed);
+            RandomWorld world = new(seed, hands: seed % 2 == 0);
             Simulation whole = world.OnTime();
             HashSet<EventKey> effective = Bodies(whole).SelectMany(body => whole.Timeline(body)).Select(entry => entry.Key).ToHashSet();
             foreach (ExternalEvent external in world.Events.Where(external => effective.Contains(external.Key)))
@@ -162,7 +162,7 @@ public sealed class InvariantTests
     {
         foreach (int seed in Enumerable.Range(0, 40))
         {
-            RandomWorld world = new(seed);
+            RandomWorld world = new(seed, hands: seed % 2 == 0);
             Assert.NotNull(RandomWorld.Difference(world.OnTime(), world.OnTime(scene: Perturbed(world.Scene))));
         }
     }
@@ -211,7 +211,7 @@ public sealed class InvariantTests
         int rollbacks = 0, several = 0, atImpacts = 0, rounds = 0, impacts = 0;
         foreach (int seed in Enumerable.Range(0, 100))
         {
-            RandomWorld world = new(seed);
+            RandomWorld world = new(seed, hands: seed % 2 == 0);
             Simulation simulation = world.Shuffled(seed);
             rollbacks += (int)simulation.Rollbacks;
             EventKey[] all = Bodies(simulation).SelectMany(body => simulation.Timeline(body)).Select(entry => entry.Key).ToArray();
@@ -230,7 +230,7 @@ public sealed class InvariantTests
     {
         for (int seed = block; seed < Worlds; seed += Blocks.Count())
         {
-            RandomWorld world = new(seed);
+            RandomWorld world = new(seed, hands: seed % 16 >= 8);
             string? difference = RandomWorld.Difference(onTime(world), late(world, seed));
             Assert.True(difference is null, $"seed {seed}: {difference}");
         }
@@ -241,7 +241,7 @@ public sealed class InvariantTests
 
     private static bool Differs(int seed, Action<Simulation> breaks, HealingMode mode)
     {
-        RandomWorld world = new(seed);
+        RandomWorld world = new(seed, hands: seed % 2 == 0);
         try
         {
             return RandomWorld.Difference(world.OnTime(), world.Shuffled(seed, prepare: breaks, mode: mode)) is not null;

@@ -21,13 +21,21 @@ internal sealed class RandomWorld
     private readonly Random random;
     private readonly double[] masses;
 
-    internal RandomWorld(int seed)
+    /// <summary>The world of a seed; with hands that take, move and let go of bodies besides, which nothing else in it depends on.</summary>
+    internal RandomWorld(int seed, bool hands = false)
     {
         random = new Random(seed);
         masses = seed % 4 == 3 ? ExtremeMasses : Masses;
         Scene = DrawScene();
         Events = DrawEvents();
+        HasHands = hands;
+        if (hands)
+        {
+            DrawHands(new Random(seed + 1_000_000));
+        }
     }
+
+    internal bool HasHands { get; }
 
     internal Scene Scene { get; }
 
@@ -222,6 +230,40 @@ internal sealed class RandomWorld
         return events;
     }
 
+    /// <summary>A few hands, most of them on the same bodies: knots in quick succession and slow, early, late and of who does not hold, with and without an end.</summary>
+    private void DrawHands(Random from)
+    {
+        List<BodyId> known = [.. Events.Select(e => e.Body), BodyId.OfScene(0), BodyId.OfScene(1)];
+        SimTime[] times = [At(0), At(0.25), At(0.5), .. Events.Select(e => e.Time)];
+        BodyId favourite = known[from.Next(known.Count)];
+        int hands = from.Next(1, 5);
+        for (int hand = 0; hand < hands; hand++)
+        {
+            byte peer = (byte)from.Next(0, 4);
+            uint sequence = 100u + ((uint)hand * 100);
+            BodyId body = from.Next(3) > 0 ? favourite : known[from.Next(known.Count)];
+            SimTime time = times[from.Next(times.Length)];
+            Events.Add(ExternalEvent.Grab(time, peer, ++sequence, body, V(from.Next(2) * 0.125, from.Next(2) * 0.125)));
+            int knots = from.Next(0, 9);
+            Vector3D at = V(from.Next(-2, 4) * 0.5, 0.5 + (from.Next(6) * 0.5), from.Next(2) * 0.125);
+            for (int knot = 0; knot < knots; knot++)
+            {
+                Vector3D speed = V(from.Next(-3, 4), from.Next(-3, 4), from.Next(-1, 2) * 0.5);
+                Events.Add(ExternalEvent.HoldKnot(time, peer, ++sequence, body, at, speed));
+                double gap = from.Next(4) switch { 0 => 0.05, 1 => 0.2, 2 => from.NextDouble() * 0.03, _ => from.NextDouble() * 0.3 };
+                time += SimDuration.FromSeconds(gap);
+                at += (speed * (gap * 0.75)) + V(from.Next(-1, 2) * 0.0625, 0);
+            }
+
+            if (from.Next(3) > 0)
+            {
+                Events.Add(ExternalEvent.Release(time, peer, ++sequence, body, V(from.Next(-2, 3), from.Next(-2, 4))));
+            }
+        }
+
+        Events.RemoveAll(e => e.Time > At(End));
+    }
+
     private Vector3D Place() => V(Pick(0.0, 0.5, 1, 2), Pick(4.0, 4, 3.5), Pick(0, 0.25));
 
     private ExternalEvent Deed(Random from, SimTime time, byte peer, uint sequence, BodyId body) => from.Next(5) switch
@@ -235,6 +277,19 @@ internal sealed class RandomWorld
     private ExternalEvent Decoy(Random arrivals, int i)
     {
         SimTime time = Events.Count > 0 && arrivals.Next(2) == 0 ? Events[arrivals.Next(Events.Count)].Time : At(arrivals.NextDouble() * End);
+        if (HasHands && arrivals.Next(2) == 0)
+        {
+            // Of a body that hands are at: one that took it first, or let go of it for another.
+            ExternalEvent hand = Events[^1];
+            BodyId body = hand.Body;
+            return arrivals.Next(3) switch
+            {
+                0 => ExternalEvent.Grab(time, 9, (uint)i + 1, body),
+                1 => ExternalEvent.HoldKnot(time, hand.Peer, (uint)i + 9001, body, V(arrivals.Next(4), 2), V(arrivals.Next(3))),
+                _ => ExternalEvent.Release(time, hand.Peer, (uint)i + 9001, body, V(0, arrivals.Next(5))),
+            };
+        }
+
         return arrivals.Next(4) == 0
             ? ExternalEvent.Spawn(time, 9, (uint)i + 1, Ball(0.25), V(arrivals.Next(4), 4), V(0, -2))
             : Deed(arrivals, time, 9, (uint)i + 1, BodyId.OfScene(arrivals.Next(Scene.Bodies.Count)));

@@ -19,10 +19,10 @@ public sealed class SnapshotTests
     [MemberData(nameof(Blocks))]
     public void World_GoingOnFromASnapshot_IsTheSameToTheBit(int block)
     {
-        int bodies = 0, inLasting = 0;
+        int bodies = 0, inLasting = 0, held = 0;
         foreach (int seed in Enumerable.Range(20_000 + (block * 30), 30))
         {
-            RandomWorld world = new(seed);
+            RandomWorld world = new(seed, hands: seed % 2 == 0);
             Simulation expected = world.OnTime();
             foreach (SimTime time in Instants(expected, seed))
             {
@@ -32,10 +32,11 @@ public sealed class SnapshotTests
                 Assert.True(difference is null, $"seed {seed}, from {time}: {difference}");
                 bodies += snapshot.Bodies.Count;
                 inLasting += snapshot.Bodies.Count(b => b.Crowding > 0 || b.SupportCount > 0);
+                held += snapshot.Bodies.Count(b => b.Law == MotionLaw.Held);
             }
         }
 
-        Assert.True(bodies > 400 && inLasting > 10, $"{bodies} {inLasting}"); // else nothing was shown
+        Assert.True(bodies > 400 && inLasting > 10 && held > 10, $"{bodies} {inLasting} {held}"); // else nothing was shown
     }
 
     [Fact]
@@ -189,5 +190,5 @@ public sealed class SnapshotTests
         in BodySnapshot b, BodySpec? spec = null, EventKey? opened = null, MotionLaw? law = null, SimTime? epoch = null, SimTime? end = null,
         Vector3D? position = null, Vector3D? velocity = null, Vector3D? acceleration = null, int[]? supports = null, int? crowding = null) => new(
         b.Id, spec ?? b.Spec, opened ?? b.Opened, law ?? b.Law, epoch ?? b.Epoch, end ?? b.End, position ?? b.Position, velocity ?? b.Velocity,
-        acceleration ?? b.Acceleration, supports, crowding ?? b.Crowding, b.Cubic, b.Quartic, b.Quintic);
+        acceleration ?? b.Acceleration, supports, crowding ?? b.Crowding, b.Cubic, b.Quartic, b.Quintic, b.Hold);
 }

@@ -186,6 +186,7 @@ public sealed class PeriodicBoxTests
         Simulation simulation = new(Box().AddBody("ball", Ball(0.1), V(1, 1, 1)).Build());
         Assert.Contains("each component is at least 0", Refusal(ExternalEvent.Teleport(At(1), 1, 1, First, V(4, 1, 1))), StringComparison.Ordinal);
         Assert.Contains("5 times the diameter", Refusal(ExternalEvent.Spawn(At(1), 1, 1, Ball(0.41), V(1, 1, 2))), StringComparison.Ordinal);
+        Assert.Contains("in a periodic box nothing is held", Refusal(ExternalEvent.Grab(At(1), 1, 1, First, V(0))), StringComparison.Ordinal);
         Assert.Contains("flies by Ballistic", Refusal(ExternalEvent.Spawn(At(1), 1, 1, Ball(0.1, flight: MotionLaw.RungeKutta4), V(1, 1, 2))), StringComparison.Ordinal);
 
         string Refusal(ExternalEvent external) => Assert.Throws<SceneException>(() => simulation.Submit(external)).Message;

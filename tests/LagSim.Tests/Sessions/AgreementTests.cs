@@ -163,7 +163,7 @@ public sealed class AgreementTests
     private static SessionGroup Connected(string link, int peers, ulong seed, Func<int, SessionOptions> options) =>
         new SessionGroup(Deeds.Box(), peers, Link(link), seed, options).Connect();
 
-    private static LinkProfile Link(string name) => name switch
+    internal static LinkProfile Link(string name) => name switch
     {
         "loss-10" => new LinkProfile(name, new LinkLeg(40, 10, lossPercent: 10, meanBurstLength: 2)),
         "loss-20" => new LinkProfile(name, new LinkLeg(30, 5, lossPercent: 20, meanBurstLength: 2)),

@@ -52,9 +52,22 @@ internal sealed class Deeds(int seed, int mostSpawns = int.MaxValue)
         return done;
     }
 
+    /// <summary>Has hands as well, which take, move and let go of what they may hold or not.</summary>
+    internal bool HasHands { get; init; }
+
     private PlayerAction Draw()
     {
         BodyId body = bodies[random.Next(bodies.Count)];
+        if (HasHands && random.Next(2) == 0)
+        {
+            return random.Next(4) switch
+            {
+                0 => PlayerAction.Grab(body, V(0, 0.1)),
+                1 => PlayerAction.Release(body, Speed(4)),
+                _ => PlayerAction.HoldKnot(body, Place(), Speed(2)),
+            };
+        }
+
         return random.Next(12) switch
         {
             0 or 1 when spawns++ < mostSpawns => PlayerAction.Spawn(Ball(0.25 + (0.1 * random.NextDouble()), 1, 0.7, random.Next(3) == 0 ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic), Place(), Speed(3)),

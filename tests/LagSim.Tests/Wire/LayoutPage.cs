@@ -105,6 +105,8 @@ internal static class LayoutPage
                 return ((int[])value).SelectMany(BitConverter.GetBytes).ToArray();
             case "dense":
                 return ((Vector3D[])value).SelectMany(c => Bytes("bits", c)).ToArray();
+            case "hold":
+                return ((Hold Hold, Vector3D Cubic)?)value is var (hold, cubic) ? [.. Bytes("bits", cubic), hold.Peer, .. Bytes("bits", hold.Offset), .. Bytes("ticks", hold.Knot)] : [];
             case "bytes" or "8 bytes" or "token" or "entry":
                 return (byte[])value;
             case "spec":

@@ -36,15 +36,16 @@ public sealed class SnapshotFormatTests
         from parties in Gen.ArrayOf(WireGen.Bits64, 2)
         from peer in WireGen.Byte
         from sequence in WireGen.Bits32
-        from law in Gen.OneOf(Gen.Choose(1, 4).Select(n => (MotionLaw)n), Gen.Constant(MotionLaw.RungeKutta4))
-        from times in Gen.ArrayOf(Ticks, 2)
-        from vectors in Gen.ArrayOf(Vector, 6)
+        from law in Gen.OneOf(Gen.Choose(1, 5).Select(n => (MotionLaw)n), Gen.Constant(MotionLaw.RungeKutta4), Gen.Constant(MotionLaw.Held))
+        from times in Gen.ArrayOf(Ticks, 3)
+        from vectors in Gen.ArrayOf(Vector, 7)
         from supports in Gen.Choose(0, 3).SelectMany(count => Gen.ArrayOf(Gen.OneOf(Gen.Constant(int.MaxValue), Gen.Choose(0, 1000)), count))
         from crowding in WireGen.Byte
         select new BodySnapshot(
             BodyId.FromPacked(id), spec, new EventKey(at, round, (EventKind)kind, BodyId.FromPacked(parties[0]), BodyId.FromPacked(parties[1]), peer, sequence),
             law, times[0], times[1], vectors[0], vectors[1], vectors[2], supports, crowding,
-            law == MotionLaw.RungeKutta4 ? vectors[3] : default, law == MotionLaw.RungeKutta4 ? vectors[4] : default, law == MotionLaw.RungeKutta4 ? vectors[5] : default);
+            law is MotionLaw.RungeKutta4 or MotionLaw.Held ? vectors[3] : default, law == MotionLaw.RungeKutta4 ? vectors[4] : default, law == MotionLaw.RungeKutta4 ? vectors[5] : default,
+            law == MotionLaw.Held ? new Hold(peer, vectors[6], times[2]) : default);
 
     private static readonly Gen<WorldSnapshot> Any =
         from start in Ticks
@@ -61,10 +62,10 @@ public sealed class SnapshotFormatTests
     [Fact]
     public void Encode_RandomWorlds_DecodeToWorldsThatGoOnAlikeToTheBit()
     {
-        int negativeZeros = 0, dense = 0, carried = 0;
+        int negativeZeros = 0, dense = 0, carried = 0, held = 0;
         for (int seed = 1; seed <= 150; seed++)
         {
-            RandomWorld world = new(seed);
+            RandomWorld world = new(seed, hands: true);
             Simulation expected = world.OnTime();
             WorldSnapshot snapshot = expected.Snapshot(At(0.1 + (seed * 0.007)));
             WorldSnapshot again = Decoded(SnapshotFormat.Encode(snapshot));
@@ -83,9 +84,10 @@ public sealed class SnapshotFormatTests
             negativeZeros += negative.Bodies.SelectMany(Numbers).Count(value => value == 0 && double.IsNegative(value));
             dense += snapshot.Bodies.Count(b => b.Law == MotionLaw.RungeKutta4);
             carried += snapshot.Bodies.Count(b => b.SupportCount > 0);
+            held += snapshot.Bodies.Count(b => b.Law == MotionLaw.Held);
         }
 
-        Assert.True(negativeZeros > 10 && dense > 50 && carried > 10, $"{negativeZeros} {dense} {carried}"); // else nothing was shown
+        Assert.True(negativeZeros > 10 && dense > 50 && carried > 10 && held > 20, $"{negativeZeros} {dense} {carried} {held}"); // else nothing was shown
     }
 
     [Fact]
@@ -160,7 +162,7 @@ public sealed class SnapshotFormatTests
     {
         // What the decoder lets through, the door of the simulation judges; neither ends in anything but a sentence.
         Random random = new(9);
-        RandomWorld[] worlds = [.. Enumerable.Range(1, 20).Select(seed => new RandomWorld(seed))];
+        RandomWorld[] worlds = [.. Enumerable.Range(1, 20).Select(seed => new RandomWorld(seed, hands: true))];
         byte[][] valid = [.. worlds.Select(world => SnapshotFormat.Encode(world.OnTime().Snapshot(At(0.6))))];
         int made = 0, refused = 0;
         for (int i = 0; i < 3000; i++)
@@ -260,13 +262,13 @@ public sealed class SnapshotFormatTests
     {
         return new BodySnapshot(
             b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, Negative(b.Position), Negative(b.Velocity), Negative(b.Acceleration),
-            Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray(), b.Crowding, b.Cubic, b.Quartic, b.Quintic);
+            Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray(), b.Crowding, b.Cubic, b.Quartic, b.Quintic, b.Law == MotionLaw.Held ? new Hold(b.Hold.Peer, Negative(b.Hold.Offset), b.Hold.Knot) : default);
 
         static Vector3D Negative(Vector3D v) => new(v.X == 0 ? -0.0 : v.X, v.Y == 0 ? -0.0 : v.Y, v.Z == 0 ? -0.0 : v.Z);
     }
 
     private static byte[][] Valid(int count) =>
-        [.. Gen.Sample(Any, count, new Rnd(20261121, 1), 30).Where(s => s.Bodies.Count > 0).Select(SnapshotFormat.Encode), .. Enumerable.Range(1, count / 4).Select(seed => SnapshotFormat.Encode(new RandomWorld(seed).OnTime().Snapshot(At(0.6))))];
+        [.. Gen.Sample(Any, count, new Rnd(20261121, 1), 30).Where(s => s.Bodies.Count > 0).Select(SnapshotFormat.Encode), .. Enumerable.Range(1, count / 4).Select(seed => SnapshotFormat.Encode(new RandomWorld(seed, hands: true).OnTime().Snapshot(At(0.6))))];
 
     private static WorldSnapshot Decoded(ReadOnlySpan<byte> bytes)
     {
@@ -306,7 +308,7 @@ public sealed class SnapshotFormatTests
     }
 
     private static IEnumerable<double> Numbers(BodySnapshot b) =>
-        new[] { b.Position, b.Velocity, b.Acceleration, b.Cubic, b.Quartic, b.Quintic }.SelectMany(v => new[] { v.X, v.Y, v.Z });
+        new[] { b.Position, b.Velocity, b.Acceleration, b.Cubic, b.Quartic, b.Quintic, b.Hold.Offset }.SelectMany(v => new[] { v.X, v.Y, v.Z });
 
     /// <summary>Every field of both, and of numbers every bit.</summary>
     private static bool Same(WorldSnapshot a, WorldSnapshot b) =>
@@ -314,6 +316,6 @@ public sealed class SnapshotFormatTests
 
     private static bool Same(BodySnapshot a, BodySnapshot b) =>
         a.Id == b.Id && a.Spec.Equals(b.Spec) && a.Opened.Equals(b.Opened) && a.Law == b.Law && a.Epoch == b.Epoch && a.End == b.End
-        && a.Crowding == b.Crowding && a.SupportCount == b.SupportCount && Enumerable.Range(0, a.SupportCount).All(n => a.Support(n) == b.Support(n))
+        && a.Crowding == b.Crowding && a.Hold.Peer == b.Hold.Peer && a.Hold.Knot == b.Hold.Knot && a.SupportCount == b.SupportCount && Enumerable.Range(0, a.SupportCount).All(n => a.Support(n) == b.Support(n))
         && Numbers(a).Select(BitConverter.DoubleToInt64Bits).SequenceEqual(Numbers(b).Select(BitConverter.DoubleToInt64Bits));
 }

@@ -82,9 +82,8 @@ public class ValueRangeTests
     [InlineData(FlagsAt, 0x80)]
     [InlineData(VerdictAt, 6)]
     [InlineData(KindAt, (byte)EventKind.None)]
-    [InlineData(KindAt, (byte)EventKind.Grab)]
-    [InlineData(KindAt, (byte)EventKind.HoldKnot)]
-    [InlineData(KindAt, (byte)EventKind.Release)]
+    [InlineData(KindAt, (byte)EventKind.Start)]
+    [InlineData(KindAt, (byte)EventKind.Remove + 1)]
     [InlineData(KindAt, (byte)EventKind.Impact)]
     [InlineData(KindAt, 255)]
     [InlineData(FlightAt, (byte)MotionLaw.Absent)]
@@ -144,12 +143,12 @@ public class ValueRangeTests
     [Fact]
     public void TryReadType_ForeignBytes_SaysWhatIsWrong()
     {
-        AssertHeader(WireRefusal.TooShort, 0x53, 0x4C, 2);
-        AssertHeader(WireRefusal.NotLagSim, 0x4C, 0x53, 2, 1);
+        AssertHeader(WireRefusal.TooShort, 0x53, 0x4C, 3);
+        AssertHeader(WireRefusal.NotLagSim, 0x4C, 0x53, 3, 1);
         AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, 1, 1);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 2, 0);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 2, 10);
-        AssertHeader(WireRefusal.None, 0x53, 0x4C, 2, 9);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 3, 0);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 3, 10);
+        AssertHeader(WireRefusal.None, 0x53, 0x4C, 3, 9);
     }
 
     [Fact]

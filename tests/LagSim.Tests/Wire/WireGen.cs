@@ -48,7 +48,7 @@ internal static class WireGen
         select new BodySpec(radius, mass, restitution, flight, step, flight == MotionLaw.Ballistic ? (byte)0 : acceleration);
 
     internal static readonly Gen<ExternalEvent> Event =
-        from kind in Gen.Elements(EventKind.Spawn, EventKind.Remove, EventKind.Teleport, EventKind.SetVelocity, EventKind.Impulse)
+        from kind in Gen.Elements(EventKind.Spawn, EventKind.Remove, EventKind.Teleport, EventKind.SetVelocity, EventKind.Impulse, EventKind.Grab, EventKind.HoldKnot, EventKind.Release)
         from time in Time
         from peer in Byte
         from sequence in Bits32.Select(value => Math.Max(1, value))
@@ -62,6 +62,9 @@ internal static class WireGen
             EventKind.Remove => ExternalEvent.Remove(time, peer, sequence, body),
             EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity),
             EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),
+            EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position),
+            EventKind.HoldKnot => ExternalEvent.HoldKnot(time, peer, sequence, body, position, velocity),
+            EventKind.Release => ExternalEvent.Release(time, peer, sequence, body, velocity),
             _ => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
         };
 

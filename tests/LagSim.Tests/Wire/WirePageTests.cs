@@ -38,17 +38,18 @@ public sealed class WirePageTests
     [Fact]
     public void Tables_OfCopyAndSnapshot_AreThoseOfWorlds()
     {
-        int dense = 0, carried = 0;
-        foreach (RandomWorld world in Enumerable.Range(1, 40).Select(seed => new RandomWorld(seed)))
+        int dense = 0, carried = 0, held = 0;
+        foreach (RandomWorld world in Enumerable.Range(1, 40).Select(seed => new RandomWorld(seed, hands: true)))
         {
             WorldSnapshot snapshot = world.OnTime().Snapshot(At(0.6));
             Assert.Equal(Convert.ToHexString(SnapshotFormat.Encode(snapshot)), Convert.ToHexString(Snapshot(Page, snapshot)));
             Assert.Equal(Convert.ToHexString(WorldCopy.Encode(world.Scene, snapshot)), Convert.ToHexString(Copy(Page, world.Scene, snapshot)));
             dense += snapshot.Bodies.Count(b => b.Law == MotionLaw.RungeKutta4);
             carried += snapshot.Bodies.Count(b => b.SupportCount > 0);
+            held += snapshot.Bodies.Count(b => b.Law == MotionLaw.Held);
         }
 
-        Assert.True(dense > 10 && carried > 3, $"{dense} {carried}"); // else nothing was shown
+        Assert.True(dense > 10 && carried > 3 && held > 5, $"{dense} {carried} {held}"); // else nothing was shown
     }
 
     [Fact]
@@ -72,7 +73,7 @@ public sealed class WirePageTests
             }
         }
 
-        Assert.Equal(3 + 3 + 8 + 2 + 16 + 4 + 6 + 3 + 2 + 4 + 5 + 3 + 3 + 23, rows);
+        Assert.Equal(3 + 3 + 8 + 2 + 16 + 4 + 6 + 3 + 2 + 4 + 5 + 3 + 3 + 24, rows);
     }
 
     [Fact]
@@ -143,6 +144,13 @@ public sealed class WirePageTests
             BodySnapshot both = new(
                 b.Id, b.Spec, b.Opened, MotionLaw.RungeKutta4, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [7, 8, 9], 5, V(1, 2, 3), V(4, 5, 6), V(7, 8, 9));
             snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [both]);
+        }
+        else if (seed == 2)
+        {
+            BodySnapshot b = snapshot.Bodies[0];
+            BodySnapshot held = new(
+                b.Id, b.Spec, b.Opened, MotionLaw.Held, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [7], 5, V(1, 2, 3), hold: new Hold(3, V(4, 5, 6), At(7)));
+            snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [held]);
         }
 
         return (WorldCopy.Encode(world.Scene, snapshot), (Func<string[], byte[]>)(page => Copy(page, world.Scene, snapshot)));
@@ -251,6 +259,7 @@ public sealed class WirePageTests
                 "spec" => Spec(page, what.Spec),
                 "u64 body" => Bytes("u64", what.Body.Packed),
                 "position" => Bytes("vector", what.Position),
+                "offset" => Bytes("vector", what.Position),
                 "velocity" or "impulse" => Bytes("vector", what.Velocity),
                 _ => throw new KeyNotFoundException(field),
             });
@@ -293,5 +302,6 @@ public sealed class WirePageTests
         ("opened body", b.Opened.Body.Packed), ("opened other", b.Opened.Other.Packed), ("opened peer", b.Opened.Peer), ("opened sequence", b.Opened.Sequence),
         ("law", (byte)b.Law), ("epoch", b.Epoch), ("end", b.End), ("position", b.Position), ("velocity", b.Velocity), ("acceleration", b.Acceleration),
         ("crowding", (byte)b.Crowding), ("supports", (byte)b.SupportCount), ("carried by", Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray()),
-        ("dense output", b.Law == MotionLaw.RungeKutta4 ? new[] { b.Cubic, b.Quartic, b.Quintic } : []));
+        ("dense output", b.Law == MotionLaw.RungeKutta4 ? new[] { b.Cubic, b.Quartic, b.Quintic } : []),
+        ("hold", b.Law == MotionLaw.Held ? (b.Hold, b.Cubic) : null!));
 }

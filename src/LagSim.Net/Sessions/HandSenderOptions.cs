@@ -1,0 +1,42 @@
+using System;
+using LagSim.Motion;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions;
+
+/// <summary>How closely the others are to follow a hand, and at what rate of knots.</summary>
+public sealed class HandSenderOptions
+{
+    /// <summary>By how many metres the others may be off without a knot, above zero; default 0.01.</summary>
+    public double Distance { get; set; } = 0.01;
+
+    /// <summary>The least time between two knots, however far off the others are: 1 ms to <see cref="Longest"/>, default 50 ms.</summary>
+    public SimDuration Shortest { get; set; } = SimDuration.FromMilliseconds(50);
+
+    /// <summary>
+    /// The longest time without a knot, however still the hand keeps: up to half of <see cref="HandPath.Lasts"/>, after which the hold would end by itself, so that
+    /// one may be late; default 400 ms.
+    /// </summary>
+    public SimDuration Longest { get; set; } = SimDuration.FromMilliseconds(400);
+
+    internal HandSenderOptions Checked()
+    {
+        if (!(Distance > 0))
+        {
+            throw new ArgumentOutOfRangeException(nameof(Distance), Distance, "The distance by which others may be off is above 0 m.");
+        }
+
+        SimDuration most = HandPath.Lasts / 2;
+        if (Longest < SimDuration.FromMilliseconds(1) || Longest > most)
+        {
+            throw new ArgumentOutOfRangeException(nameof(Longest), Longest, $"The longest time without a knot lies between 1 ms and {most}.");
+        }
+
+        if (Shortest < SimDuration.FromMilliseconds(1) || Shortest > Longest)
+        {
+            throw new ArgumentOutOfRangeException(nameof(Shortest), Shortest, $"The least time between two knots lies between 1 ms and the longest, {Longest}.");
+        }
+
+        return new HandSenderOptions { Distance = Distance, Shortest = Shortest, Longest = Longest };
+    }
+}

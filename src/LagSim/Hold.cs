@@ -1,0 +1,42 @@
+using System;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim;
+
+/// <summary>Who holds a body, by which point, and since when nothing new was heard of the hand.</summary>
+/// <remarks>Immutable, safe on any thread. It belongs to a piece of the body's path, and is cut and kept with it.</remarks>
+public readonly struct Hold : IEquatable<Hold>
+{
+    /// <summary>A hold of these.</summary>
+    public Hold(byte peer, in Vector3D offset, SimTime knot)
+    {
+        Peer = peer;
+        Offset = offset;
+        Knot = knot;
+    }
+
+    /// <summary>The peer whose hand it is.</summary>
+    public byte Peer { get; }
+
+    /// <summary>From the body's centre to the hand's point, in metres; fixed while the hold lasts.</summary>
+    public Vector3D Offset { get; }
+
+    /// <summary>When the hand last told where it is: its last knot, or the grab. The hold ends by itself <see cref="Motion.HandPath.Lasts"/> later.</summary>
+    public SimTime Knot { get; }
+
+    /// <inheritdoc/>
+    public bool Equals(Hold other) => Peer == other.Peer && Offset.Equals(other.Offset) && Knot == other.Knot;
+
+    /// <inheritdoc/>
+    public override bool Equals(object? obj) => obj is Hold other && Equals(other);
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => Knot.GetHashCode() ^ (Offset.GetHashCode() * 397) ^ Peer;
+
+    /// <summary>Same in every part.</summary>
+    public static bool operator ==(in Hold a, in Hold b) => a.Equals(b);
+
+    /// <summary>Different in some part.</summary>
+    public static bool operator !=(in Hold a, in Hold b) => !a.Equals(b);
+}

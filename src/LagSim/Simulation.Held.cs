@@ -1,0 +1,164 @@
+using System;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <content>Held bodies: a hand takes one, tells now and then where it is, and lets go.</content>
+/// <remarks>
+/// While it is held a body's path is the hand's: nothing it meets changes it, and it pushes others as if its mass were infinite. Static geometry does not
+/// stop a hand, and two held bodies pass through each other. Where it is at t depends on the grab and the knots up to t alone.
+/// </remarks>
+public sealed partial class Simulation
+{
+    /// <summary>How long a body that a hand presses against what cannot give way, or into which it creeps, is left alone: 5 ms.</summary>
+    private static readonly SimDuration PressedWait = SimDuration.FromMilliseconds(5);
+
+    /// <summary>Half as many of the scene's resolutions deep a hand may creep into a body before that is looked at again: 5 nm, at 1 micrometre a second in 5 ms.</summary>
+    private const double PressedDepth = 10;
+
+    /// <summary>So often what is let go inside static geometry is put out of one surface after the other.</summary>
+    private const int MostPuttingOut = 16;
+
+    /// <summary>Who holds a body at an instant that can be read, by which point, and when its hand last told where it is.</summary>
+    /// <returns>False, and the default, if nobody does.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
+    public bool TryReadHold(BodyId body, SimTime time, out Hold hold)
+    {
+        CheckReadable(time);
+        int slot = SlotOf(body);
+        int at = slot < 0 ? TimelineStore.None : timelines.At(slot, time);
+        bool isHeld = at != TimelineStore.None && IsHeld(at);
+        hold = isHeld ? timelines.HoldOf(at) : default;
+        return isHeld;
+    }
+
+    private bool IsHeld(int segment) => timelines.Segment(segment).Law == MotionLaw.Held;
+
+    private bool IsHolding(int slot, byte peer)
+    {
+        int last = timelines.Last(slot);
+        return IsHeld(last) && timelines.HoldOf(last).Peer == peer;
+    }
+
+    /// <summary>
+    /// What a hand does to a body that is there. A grab of what is held, and a knot or release of whoever does not hold it, has no effect, now: later news may
+    /// still change that. So has one that would have it move faster than may be given.
+    /// </summary>
+    private void HandleHand(int slot, in EventKey key, in ExternalEvent external)
+    {
+        int last = timelines.Last(slot);
+        double seconds = SecondsInto(last, key.Time);
+        DenseOutput dense = timelines.Dense(last);
+        Vector3D position = timelines.Segment(last).PositionAt(seconds, dense);
+        Vector3D velocity = timelines.Segment(last).VelocityAt(seconds, dense);
+        if (external.Kind == EventKind.Grab && !IsHeld(last))
+        {
+            // Until the first knot the hand is taken to be at rest where it took the body.
+            Converge(slot, key, position, velocity, position, Vector3D.Zero, new Hold(external.Peer, external.Position, key.Time));
+        }
+        else if (external.Kind == EventKind.HoldKnot && IsHolding(slot, external.Peer))
+        {
+            Vector3D offset = timelines.HoldOf(last).Offset;
+            Converge(slot, key, position, velocity, external.Position - offset, external.Velocity, new Hold(external.Peer, offset, key.Time));
+        }
+        else if (external.Kind == EventKind.Release && IsHolding(slot, external.Peer))
+        {
+            OpenFlight(slot, key, PutOut(slot, position), external.Velocity);
+        }
+    }
+
+    /// <summary>Converges on what a knot foretells; where the body is there already, as far as the scene resolves, it just follows: so keeps who only says that he holds it still.</summary>
+    private void Converge(
+        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D target, in Vector3D targetVelocity, in Hold hold)
+    {
+        if ((position - target).Length < Scene.Resolution && (velocity - targetVelocity).Length * HandPath.Stops.ToSeconds() < Scene.Resolution)
+        {
+            Follow(slot, key, position, velocity, hold);
+            return;
+        }
+
+        MotionSegment path = HandPath.Converge(key.Time, position, velocity, target, targetVelocity, out DenseOutput dense);
+        if (HandPath.SpeedBound(path, dense) <= Limits.MaxGivenSpeed(Scene.SmallestRadius))
+        {
+            Append(slot, key, path, dense, hold);
+        }
+    }
+
+    /// <summary>On the foretold path: brakes, or keeps still.</summary>
+    private void Follow(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Hold hold)
+    {
+        // Slower than this it would not get as far as the scene resolves: what rounding leaves of a convergence on a hand that keeps still.
+        bool isStill = velocity.Length * HandPath.Stops.ToSeconds() < Scene.Resolution;
+        MotionSegment path = isStill || key.Time >= hold.Knot + HandPath.Stops
+            ? HandPath.Still(key.Time, hold.Knot, position)
+            : HandPath.Brake(key.Time, hold.Knot, position, velocity);
+        CheckState(slot, key, position, velocity);
+        Append(slot, key, path, default, hold);
+    }
+
+    /// <summary>A piece of a held path ends: the next begins where it ends, or the hand, of which nothing was heard for so long, has let go.</summary>
+    private void HandleHoldEnd(int slot, in EventKey key)
+    {
+        int last = timelines.Last(slot);
+        Hold hold = timelines.HoldOf(last);
+        double seconds = SecondsInto(last, key.Time);
+        DenseOutput dense = timelines.Dense(last);
+        Vector3D position = timelines.Segment(last).PositionAt(seconds, dense);
+        if (key.Time >= hold.Knot + HandPath.Lasts)
+        {
+            OpenFlight(slot, key, PutOut(slot, position), Vector3D.Zero);
+        }
+        else
+        {
+            Follow(slot, key, position, timelines.Segment(last).VelocityAt(seconds, dense), hold);
+        }
+    }
+
+    /// <summary>A held body goes on after an impact as before it: the same path, to the bit, in a new piece, so that who cuts it cuts what it struck.</summary>
+    private void GoOnHeld(int slot, in EventKey key)
+    {
+        int last = timelines.Last(slot);
+        MotionSegment path = timelines.Segment(last).WithCrowding(CrowdingAt(slot, key.Time));
+        Append(slot, key, path, timelines.Dense(last), timelines.HoldOf(last));
+    }
+
+    /// <summary>
+    /// Where a body is let go that a hand holds inside static geometry: outside of it, at the surface, one after the other in the scene's order. What is between
+    /// surfaces too close for it stays inside.
+    /// </summary>
+    private Vector3D PutOut(int slot, in Vector3D position)
+    {
+        double radius = bodies[slot].Spec.Radius;
+        Vector3D at = position;
+        bool isInside = true;
+        for (int n = 0; n < MostPuttingOut && isInside; n++)
+        {
+            isInside = false;
+            foreach (ref readonly StaticPlane plane in Scene.PlaneArray.AsSpan())
+            {
+                double gap = plane.Gap(at, radius);
+                if (gap < 0)
+                {
+                    isInside |= gap < -Scene.Resolution;
+                    at -= plane.Normal * gap;
+                }
+            }
+
+            foreach (ref readonly StaticSphere sphere in Scene.SphereArray.AsSpan())
+            {
+                double gap = (at - sphere.Centre).Length - sphere.Radius - radius;
+                if (gap < 0)
+                {
+                    isInside |= gap < -Scene.Resolution;
+                    at = sphere.Centre + (Direction(at - sphere.Centre) * (sphere.Radius + radius));
+                }
+            }
+        }
+
+        return at;
+    }
+}
