@@ -152,7 +152,7 @@ public sealed class SessionCommandTests
                 other.Send(answer, from);
             }
         };
-        Tool.Refuses(3, ["join", other.LocalAddress.ToString()], $"The host at {other.LocalAddress} refused: it speaks version 77 of the protocol, this peer 2.");
+        Tool.Refuses(3, ["join", other.LocalAddress.ToString()], $"The host at {other.LocalAddress} refused: it speaks version 77 of the protocol, this peer {WireFormat.Version}.");
     }
 
     [Fact]
