@@ -1,0 +1,77 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Time;
+
+namespace LagSim.Contacts;
+
+/// <summary>Time in slabs of an eighth of a second, each with a table of who is listed in which cell then; old slabs are dropped as a whole and used again.</summary>
+internal sealed class SlabRing
+{
+    private const int SlabBits = 37; // 2^37 ticks are 1/8 s
+
+    private readonly Stack<CellTable<int>> spare = new();
+    private CellTable<int>?[] slabs = new CellTable<int>?[16]; // by number, from first on
+    private long first;
+    private int count;
+
+    /// <summary>The end of the last slab in which anybody is listed; null if nobody is.</summary>
+    internal SimTime? End => count == 0 ? null : EndOf(first + count - 1);
+
+    /// <summary>The number of the slab that an instant lies in.</summary>
+    internal static long NumberOf(SimTime time) => time.Ticks >> SlabBits;
+
+    /// <summary>The first instant after a slab.</summary>
+    internal static SimTime EndOf(long number) =>
+        number >= long.MaxValue >> SlabBits ? SimTime.MaxValue : SimTime.FromTicks((number + 1) << SlabBits);
+
+    /// <summary>A slab in which somebody may be listed; null for any other.</summary>
+    internal CellTable<int>? Find(long number) => number >= first && number < first + count ? slabs[number - first] : null;
+
+    /// <summary>A slab, to list somebody in it.</summary>
+    internal CellTable<int> Get(long number)
+    {
+        first = count == 0 ? number : first;
+        if (number < first)
+        {
+            int missing = (int)(first - number);
+            CellTable<int>?[] shifted = new CellTable<int>?[Math.Max(slabs.Length, count + missing)];
+            Array.Copy(slabs, 0, shifted, missing, count);
+            slabs = shifted;
+            first = number;
+            count += missing;
+        }
+
+        int at = (int)(number - first);
+        if (at >= slabs.Length)
+        {
+            Array.Resize(ref slabs, Math.Max(at + 1, slabs.Length * 2));
+        }
+
+        count = Math.Max(count, at + 1);
+        return slabs[at] ??= spare.Count > 0 ? spare.Pop() : new CellTable<int>(at > 0 && slabs[at - 1] is { } before ? before.Capacity : 64);
+    }
+
+    /// <summary>Drops the slabs that end before an instant.</summary>
+    internal void DropBefore(SimTime edge)
+    {
+        int dropped = (int)Math.Max(0, Math.Min(count, NumberOf(edge) - first));
+        if (count == 0 || dropped == 0)
+        {
+            return;
+        }
+
+        for (int i = 0; i < dropped; i++)
+        {
+            if (slabs[i] is { } old)
+            {
+                old.Clear();
+                spare.Push(old);
+            }
+        }
+
+        Array.Copy(slabs, dropped, slabs, 0, count - dropped);
+        Array.Clear(slabs, count - dropped, dropped);
+        count -= dropped;
+        first += dropped;
+    }
+}
