@@ -5,6 +5,7 @@ using LagSim.Time;
 namespace LagSim.Timelines;
 
 /// <summary>The external events of every body inside the window, in canonical order, so that a rolled-back body meets them again.</summary>
+/// <remarks>Looks from the newest on, since news is mostly of what happened last.</remarks>
 internal sealed class EventLog
 {
     internal const int None = -1;
@@ -13,16 +14,20 @@ internal sealed class EventLog
     private int used;
     private int free = None;
     private int[] first = Array.Empty<int>();
+    private int[] last = Array.Empty<int>();
 
     /// <summary>Makes room for a body's events.</summary>
     internal void AddSlot(int slot)
     {
         if (slot >= first.Length)
         {
-            Array.Resize(ref first, Math.Max(slot + 1, Math.Max(16, first.Length * 2)));
+            int size = Math.Max(slot + 1, Math.Max(16, first.Length * 2));
+            Array.Resize(ref first, size);
+            Array.Resize(ref last, size);
         }
 
         first[slot] = None;
+        last[slot] = None;
     }
 
     internal ref readonly ExternalEvent Event(int entry) => ref entries[entry].Event;
@@ -38,14 +43,8 @@ internal sealed class EventLog
     /// <summary>Adds an event and tells its entry; false if the body has one of that key, which is then the same event heard again.</summary>
     internal bool TryAdd(int slot, in ExternalEvent external, in EventKey key, bool forwarded, out int entry)
     {
-        int before = None;
-        int after = first[slot];
-        while (after != None && EventKey.Compare(entries[after].Key, key) < 0)
-        {
-            before = after;
-            after = entries[after].Next;
-        }
-
+        int before = LastBefore(slot, key);
+        int after = before == None ? first[slot] : entries[before].Next;
         entry = after;
         if (after != None && entries[after].Key == key)
         {
@@ -66,16 +65,9 @@ internal sealed class EventLog
             }
         }
 
-        entries[at] = new Entry { Event = external, Key = key, Forwarded = forwarded, Next = after };
-        if (before == None)
-        {
-            first[slot] = at;
-        }
-        else
-        {
-            entries[before].Next = at;
-        }
-
+        entries[at] = new Entry { Event = external, Key = key, Forwarded = forwarded };
+        Link(slot, before, at);
+        Link(slot, at, after);
         entry = at;
         return true;
     }
@@ -83,13 +75,12 @@ internal sealed class EventLog
     /// <summary>Takes the event (peer, sequence) of a body out; false if there is none.</summary>
     internal bool TryRemove(int slot, byte peer, uint sequence, out EventKey key)
     {
-        int before = None;
-        for (int at = first[slot]; at != None; before = at, at = entries[at].Next)
+        for (int at = last[slot]; at != None; at = entries[at].Previous)
         {
             if (entries[at].Event.Peer == peer && entries[at].Event.Sequence == sequence)
             {
                 key = entries[at].Key;
-                Unlink(slot, before, at);
+                Remove(slot, at);
                 return true;
             }
         }
@@ -106,35 +97,40 @@ internal sealed class EventLog
     {
         while (first[slot] != None && entries[first[slot]].Key.Time < edge)
         {
-            Unlink(slot, None, first[slot]);
+            Remove(slot, first[slot]);
         }
     }
 
     /// <summary>The body's first event keyed at or after <paramref name="key"/>, or <see cref="None"/>.</summary>
     internal int FirstFrom(int slot, in EventKey key)
     {
-        int at = first[slot];
-        while (at != None && EventKey.Compare(entries[at].Key, key) < 0)
+        int before = LastBefore(slot, key);
+        return before == None ? first[slot] : entries[before].Next;
+    }
+
+    private int LastBefore(int slot, in EventKey key)
+    {
+        int at = last[slot];
+        while (at != None && EventKey.Compare(entries[at].Key, key) >= 0)
         {
-            at = entries[at].Next;
+            at = entries[at].Previous;
         }
 
         return at;
     }
 
-    private void Unlink(int slot, int before, int at)
+    private void Remove(int slot, int at)
     {
-        if (before == None)
-        {
-            first[slot] = entries[at].Next;
-        }
-        else
-        {
-            entries[before].Next = entries[at].Next;
-        }
-
+        Link(slot, entries[at].Previous, entries[at].Next);
         entries[at].Next = free;
         free = at;
+    }
+
+    /// <summary>Has one entry of a body follow the other; <see cref="None"/> stands for the ends.</summary>
+    private void Link(int slot, int before, int after)
+    {
+        (before == None ? ref first[slot] : ref entries[before].Next) = after;
+        (after == None ? ref last[slot] : ref entries[after].Previous) = before;
     }
 
     private struct Entry
@@ -142,6 +138,7 @@ internal sealed class EventLog
         internal ExternalEvent Event;
         internal EventKey Key;
         internal bool Forwarded;
+        internal int Previous;
         internal int Next;
     }
 }
