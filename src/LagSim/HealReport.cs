@@ -8,8 +8,9 @@ namespace LagSim;
 public readonly struct HealReport : IEquatable<HealReport>
 {
     /// <summary>A report of these.</summary>
-    public HealReport(SimTime from, SimTime to, int news, int bodies, long segmentsCut, long events)
+    public HealReport(SimTime from, SimTime to, int news, int bodies, long segmentsCut, long events, SimTime? met = null)
     {
+        Met = met;
         From = from;
         To = to;
         News = news;
@@ -36,15 +37,21 @@ public readonly struct HealReport : IEquatable<HealReport>
     /// <summary>How many events were run again, and the late ones.</summary>
     public long Events { get; }
 
+    /// <summary>
+    /// From when on all paths were the old ones again, to the bit, so that the heal was done: what came after stands as it was. Null if that never came, or was not looked
+    /// for: after a full rollback, after more news before the heal was finished, and where it had cut more than 256 segments.
+    /// </summary>
+    public SimTime? Met { get; }
+
     /// <inheritdoc/>
     public bool Equals(HealReport other) =>
-        (From, To, News, Bodies, SegmentsCut, Events) == (other.From, other.To, other.News, other.Bodies, other.SegmentsCut, other.Events);
+        (From, To, News, Bodies, SegmentsCut, Events, Met) == (other.From, other.To, other.News, other.Bodies, other.SegmentsCut, other.Events, other.Met);
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is HealReport other && Equals(other);
 
     /// <inheritdoc/>
-    public override int GetHashCode() => (From, To, News, Bodies, SegmentsCut, Events).GetHashCode();
+    public override int GetHashCode() => (From, To, News, Bodies, SegmentsCut, Events, Met).GetHashCode();
 
     /// <summary>Same in every part.</summary>
     public static bool operator ==(in HealReport a, in HealReport b) => a.Equals(b);

@@ -52,6 +52,12 @@ public sealed partial class Simulation
             {
                 if (queue.LeastKey.Time > reached)
                 {
+                    if (HasMet(queue.LeastKey.Time - SimDuration.OneTick, time))
+                    {
+                        reached = SimulatedTo;
+                        continue;
+                    }
+
                     isCancelled = cancellation.IsCancellationRequested; // between instants: one has happened as a whole or not at all
                     isThere = events > 0;
                     if (isCancelled || !isThere)

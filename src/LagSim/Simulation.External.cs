@@ -137,6 +137,7 @@ public sealed partial class Simulation
             if (!isThere)
             {
                 bodies[slot].Spec = external.Spec;
+                flights.SetRadius(slot, external.Spec.Radius);
                 if (log.IsForwarded(entry))
                 {
                     Adopt(slot, key, external);

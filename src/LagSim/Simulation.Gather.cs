@@ -61,7 +61,7 @@ public sealed partial class Simulation
 
             foreach (int other in index.CandidatesAt(party, bodies[party].Spec.Radius, key.Time))
             {
-                if (other == party)
+                if (other == party || flights.AreApart(party, other, key.Time, key.Time))
                 {
                     continue;
                 }

@@ -67,24 +67,36 @@ public sealed partial class Simulation
             healNumber++;
             healedBodies = 0;
             healed = new HealReport(time, front, 1, 0, SegmentsCut, EventsProcessed);
+            if (healing != HealingMode.FullRollback)
+            {
+                cutPaths.Begin(timelines.LastSerial);
+                heldBack.Hold();
+            }
         }
         else
         {
+            GoOnToTheEnd(); // what stood before is no longer to be told from what the heal has made
             healed = new HealReport(SimTime.Min(healed.From, time), healed.To, healed.News + 1, 0, healed.SegmentsCut, healed.Events);
         }
     }
 
-    private void EndHeal()
+    private void EndHeal(SimTime? met = null)
     {
+        GoOnToTheEnd();
         isTwinDue = true;
         front = SimTime.MinValue;
-        Healed?.Invoke(new HealReport(healed.From, healed.To, healed.News, healedBodies, SegmentsCut - healed.SegmentsCut, EventsProcessed - healed.Events));
+        Healed?.Invoke(new HealReport(
+            healed.From, healed.To, healed.News, healedBodies, SegmentsCut - healed.SegmentsCut, EventsProcessed - healed.Events, met));
     }
 
     private void CountHealed(int slot)
     {
-        healedBodies += bodies[slot].HealedIn == healNumber ? 0 : 1;
-        bodies[slot].HealedIn = healNumber;
+        if (bodies[slot].HealedIn != healNumber)
+        {
+            bodies[slot].HealedIn = healNumber;
+            healedBodies++;
+            cutPaths.Touch(slot);
+        }
     }
 
     /// <summary>Takes the body back to the key, and with it what the news can have touched, as it comes to light; and simulates that again.</summary>
@@ -146,6 +158,7 @@ public sealed partial class Simulation
         cuts.Push((slot, cutsByTime ? EventKey.Before(key.Time) : key));
         HasDueFrom(slot, key);
         taken.Add(slot);
+        CountHealed(slot);
         while (cuts.Count > 0)
         {
             (int body, EventKey from) = cuts.Pop();
@@ -157,7 +170,11 @@ public sealed partial class Simulation
                 }
             }
 
-            witnesses.CutFrom(body, from);
+            if (witnesses.CutFrom(body, from))
+            {
+                GoOnToTheEnd(); // who was looked at is not kept
+            }
+
             bool any = false;
             for (int at = timelines.Last(body); at != TimelineStore.None && EventKey.Compare(timelines.Key(at), from) >= 0; at = timelines.Last(body))
             {
@@ -166,6 +183,8 @@ public sealed partial class Simulation
                     cuts.Push((timelines.Owner(other), timelines.Key(other)));
                 }
 
+                CountHealed(body);
+                cutPaths.Keep(timelines, body, at);
                 timelines.CutLast(body, bodies[body].Id);
                 SegmentsCut++;
                 any = true;
@@ -184,7 +203,6 @@ public sealed partial class Simulation
 
         foreach (int body in taken)
         {
-            CountHealed(body);
             Predict(body);
         }
     }

@@ -12,8 +12,12 @@ public sealed partial class Simulation
     /// <summary>Is told of impacts made and cut; null, the default, costs nothing.</summary>
     internal IImpactObserver? Observer
     {
-        get => timelines.Observer;
-        set => timelines.Observer = value;
+        get => heldBack.Listener;
+        set
+        {
+            heldBack.Listener = value;
+            timelines.Observer = value is null ? null : heldBack;
+        }
     }
 
     /// <summary>Whether a heal is under way: what stands ahead of <see cref="SimulatedTo"/> may still be taken back by it.</summary>

@@ -59,7 +59,7 @@ public sealed partial class Simulation
             Span<int> candidates = index.Candidates(slot, bodies[slot].Spec.Radius, from, out SimTime until);
             foreach (int other in candidates)
             {
-                if (!alone && TryMeet(slot, other, until, out int piece, out ContactTime contact, out uint round))
+                if (!alone && !flights.AreApart(slot, other, from, until) && TryMeet(slot, other, until, out int piece, out ContactTime contact, out uint round))
                 {
                     BodyId otherId = bodies[other].Id;
                     EventKey key = id < otherId

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
@@ -31,12 +32,13 @@ public sealed partial class Simulation
         clock = EventKey.Before(snapshot.Time);
         SimulatedTo = snapshot.Time - SimDuration.OneTick;
         HistoryEdge = snapshot.Time;
-        timelines = new TimelineStore(Start, options.MaxSegments) { Observer = options.Observer };
+        flights = new FreeFlights(scene.Gravity, NearGap, scene.Box);
+        timelines = new TimelineStore(Start, options.MaxSegments, flights);
+        Observer = options.Observer;
         forces = new Forces(scene, Start);
         foreach (ref readonly BodySnapshot body in snapshot.BodyArray.AsSpan())
         {
-            int slot = AddBody(body.Id);
-            bodies[slot].Spec = body.Spec;
+            int slot = AddBody(body.Id, body.Spec);
             timelines.Append(slot, body.Id, body.Opened, body.Segment, body.Dense, body.Hold);
         }
 

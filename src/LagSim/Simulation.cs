@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Threading;
+using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
@@ -24,6 +25,7 @@ public sealed partial class Simulation
     private readonly EventLog log = new();
     private readonly EventQueue queue = new();
     private readonly Forces forces;
+    private readonly FreeFlights flights;
     private readonly SimDuration history;
     private readonly CancellationToken cancellation;
     private readonly HealingMode healing;
@@ -48,13 +50,14 @@ public sealed partial class Simulation
         clock = EventKey.Before(Start);
         SimulatedTo = Start - SimDuration.OneTick;
         HistoryEdge = Start;
-        timelines = new TimelineStore(Start, options.MaxSegments) { Observer = options.Observer };
+        flights = new FreeFlights(scene.Gravity, NearGap, scene.Box);
+        timelines = new TimelineStore(Start, options.MaxSegments, flights);
+        Observer = options.Observer;
         forces = new Forces(scene, Start);
         for (int i = 0; i < scene.BodyArray.Length; i++)
         {
             ref readonly SceneBody body = ref scene.BodyArray[i];
-            int slot = AddBody(BodyId.OfScene(i));
-            bodies[slot].Spec = body.Spec;
+            int slot = AddBody(BodyId.OfScene(i), body.Spec);
             EventKey key = new(Start, 0, EventKind.Start, bodies[slot].Id, bodies[slot].Id, 0, 0);
             OpenFlight(slot, key, body.Position, body.Velocity);
         }
@@ -107,7 +110,7 @@ public sealed partial class Simulation
         }
     }
 
-    private int AddBody(BodyId id)
+    private int AddBody(BodyId id, BodySpec spec = default)
     {
         if (freeSlots.Count == 0 && slotCount == bodies.Length)
         {
@@ -120,8 +123,9 @@ public sealed partial class Simulation
 
         int slot = freeSlots.Count > 0 ? freeSlots.Pop() : slotCount++;
 
-        bodies[slot] = new Body { Id = id, NextExternal = EventLog.None, Partner = NoPartner };
+        bodies[slot] = new Body { Id = id, Spec = spec, NextExternal = EventLog.None, Partner = NoPartner };
         timelines.AddSlot(slot);
+        flights.AddSlot(slot, spec.Radius);
         log.AddSlot(slot);
         witnesses.AddSlot(slot);
         order.Insert(~FindInOrder(id), slot);

@@ -154,8 +154,7 @@ internal sealed class SweptGrid : IPairIndex
                     for (long z = cells.Z.From; z <= cells.Z.To; z++)
                     {
                         ulong number = grid.Number(x, y, z);
-                        int head = slab.First(number);
-                        if (head == CellTable<int>.None || slab.Cell(head) != number || slab.Value(head) != slot)
+                        if (!IsListed(slab, number, slot))
                         {
                             slab.Add(number, slot);
                         }
@@ -170,6 +169,18 @@ internal sealed class SweptGrid : IPairIndex
 
             at = next;
         }
+    }
+
+    /// <summary>Whether a body is in a cell already: what is healed is listed again where it was.</summary>
+    private static bool IsListed(CellTable<int> slab, ulong number, int slot)
+    {
+        int entry = slab.First(number);
+        while (entry != CellTable<int>.None && (slab.Value(entry) != slot || slab.Cell(entry) != number))
+        {
+            entry = slab.Next(entry);
+        }
+
+        return entry != CellTable<int>.None;
     }
 
     private void AddEverywhere(Stay stay)

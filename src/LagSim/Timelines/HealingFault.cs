@@ -26,4 +26,7 @@ internal enum HealingFault
 
     /// <summary>Who has come to rest meanwhile is left there by news of before.</summary>
     LeavesWhoRests = 32,
+
+    /// <summary>A heal ends where the bodies are in their old places again, whichever way they move.</summary>
+    StopsWherePlacesMeet = 64,
 }

@@ -1,4 +1,5 @@
 using System;
+using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
@@ -18,6 +19,7 @@ internal sealed class TimelineStore
     internal const int None = -1;
 
     private readonly SimTime origin;
+    private readonly FreeFlights? flights; // is told of each body's newest segment
     private MotionSegment[] segments = new MotionSegment[32];
     private DenseOutput[] dense = Array.Empty<DenseOutput>(); // only once something is integrated
     private Hold[] holds = Array.Empty<Hold>(); // only once something is held
@@ -32,10 +34,11 @@ internal sealed class TimelineStore
     private int[] first = Array.Empty<int>();
     private int[] last = Array.Empty<int>();
 
-    /// <summary>No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>.</summary>
-    internal TimelineStore(SimTime origin, int most = SimulationOptions.DefaultMaxSegments)
+    /// <summary>No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to <paramref name="flights"/>.</summary>
+    internal TimelineStore(SimTime origin, int most = SimulationOptions.DefaultMaxSegments, FreeFlights? flights = null)
     {
         this.origin = origin;
+        this.flights = flights;
         Most = most;
     }
 
@@ -185,6 +188,7 @@ internal sealed class TimelineStore
         }
 
         last[slot] = at;
+        flights?.Set(slot, segment, key.Time);
         Alive++;
         EventHash += HashOf(at, body);
     }
@@ -216,10 +220,12 @@ internal sealed class TimelineStore
         if (last[slot] == None)
         {
             first[slot] = None;
+            flights?.Clear(slot);
         }
         else
         {
             next[last[slot]] = None;
+            flights?.Set(slot, segments[last[slot]], keys[last[slot]].Time);
         }
 
         int before = at;
@@ -250,6 +256,7 @@ internal sealed class TimelineStore
         Release(first[slot]);
         first[slot] = None;
         last[slot] = None;
+        flights?.Clear(slot);
     }
 
     /// <summary>The hash from which this store goes on, which has what its segments would add in it already.</summary>

@@ -62,11 +62,12 @@ internal sealed class WitnessLog
         first[slot] = at;
     }
 
-    /// <summary>Takes out what is keyed at or after <paramref name="key"/>.</summary>
-    internal void CutFrom(int slot, EventKey key) => Remove(slot, entry => EventKey.Compare(entry.Key, key) >= 0);
+    /// <summary>Takes out what is keyed at or after <paramref name="key"/>; whether anything was.</summary>
+    internal bool CutFrom(int slot, EventKey key) => Remove(slot, entry => EventKey.Compare(entry.Key, key) >= 0);
 
-    private void Remove(int slot, Predicate<Entry> isGone)
+    private bool Remove(int slot, Predicate<Entry> isGone)
     {
+        bool any = false;
         int before = None;
         int at = first[slot];
         while (at != None)
@@ -89,10 +90,13 @@ internal sealed class WitnessLog
 
                 entries[at].Next = free;
                 free = at;
+                any = true;
             }
 
             at = next;
         }
+
+        return any;
     }
 
     private struct Entry

@@ -186,6 +186,7 @@ public sealed class InvariantTests
     [InlineData(HealingFault.DropsEvents)]
     [InlineData(HealingFault.CutsByTime)]
     [InlineData(HealingFault.LeavesWhoRests)]
+    [InlineData(HealingFault.StopsWherePlacesMeet)]
     internal void Check_HealingInAWayKnownToBeWrong_IsSeenToFail(HealingFault fault)
     {
         int seed = 0;

@@ -1,0 +1,97 @@
+using LagSim.Events;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <content>A heal that comes to where everybody is on the path he was on before is done: what is simulated of the future from there is right.</content>
+public sealed partial class Simulation
+{
+    private readonly CutPaths cutPaths = new();
+    private readonly HeldBackImpacts heldBack = new();
+
+    /// <summary>Nothing will be put back of what the heal at hand cuts.</summary>
+    private void GoOnToTheEnd()
+    {
+        cutPaths.GiveUp();
+        heldBack.Release(SimTime.MaxValue);
+    }
+
+    /// <summary>Ends the heal at hand if at an instant, of which it has done all, the new paths have met the old, and if it may get so far at all.</summary>
+    private bool HasMet(SimTime at, SimTime until)
+    {
+        if (front == SimTime.MinValue || at < clock.Time || until < front)
+        {
+            return false; // no heal; or of the instant of the news nothing is done; or whoever advances does not want that much yet
+        }
+
+        if (!cutPaths.IsWhole)
+        {
+            GoOnToTheEnd();
+            return false;
+        }
+
+        if (!cutPaths.AreMet(timelines, at, Has(HealingFault.StopsWherePlacesMeet)))
+        {
+            return false;
+        }
+
+        PutBack(at);
+        return true;
+    }
+
+    private void PutBack(SimTime at)
+    {
+        SimTime met = clock.Time;
+        SimTime to = front;
+        SimTime next = to + SimDuration.OneTick;
+        for (int n = 0; n < cutPaths.BodyCount; n++)
+        {
+            int slot = cutPaths.SlotAt(n);
+            bodies[slot].NextExternal = log.FirstFrom(slot, EventKey.Before(next));
+        }
+
+        cutPaths.PutBack(timelines, at, slot => bodies[slot].Id);
+        for (int n = 0; n < cutPaths.BodyCount; n++)
+        {
+            ListAgain(cutPaths.SlotAt(n), at, next);
+        }
+
+        SimulatedTo = to;
+        front = SimTime.MinValue; // nobody is ahead of anybody
+        clock = EventKey.Before(next);
+        for (int n = 0; n < cutPaths.BodyCount; n++)
+        {
+            Predict(cutPaths.SlotAt(n));
+        }
+
+        while (queue.Count > 0 && queue.LeastKey.Time <= to)
+        {
+            Predict(queue.LeastSlot); // its next was to be with a path that did not last
+        }
+
+        heldBack.Release(at);
+        EndHeal(met);
+    }
+
+    /// <summary>The index learns again of the paths from an instant on.</summary>
+    private void ListAgain(int slot, SimTime from, SimTime until)
+    {
+        int piece = timelines.Last(slot);
+        while (timelines.Key(piece).Time > from)
+        {
+            piece = timelines.Previous(piece);
+        }
+
+        for (; piece != TimelineStore.None; piece = timelines.Next(piece))
+        {
+            int next = timelines.Next(piece);
+            if (timelines.Segment(piece).IsPresent)
+            {
+                index.Add(
+                    slot, bodies[slot].Spec.Radius, piece, SimTime.Max(from, timelines.Key(piece).Time),
+                    next == TimelineStore.None ? until : timelines.Key(next).Time);
+            }
+        }
+    }
+}
