@@ -45,7 +45,7 @@ internal static class HostCommand
             }
 
             request.Options.ExpectedJoiners = parsed.GetValue(joiners);
-            request.Options.History = SimDuration.FromSeconds(parsed.GetValue(history));
+            request.Options.Window = request.Options.Window.WithHistory(SimDuration.FromSeconds(parsed.GetValue(history)));
             using UdpPort carrier = new(new IPEndPoint(local, parsed.GetValue(port)));
             HostSession session = Open(loaded, carrier, request.Options);
             bool json = parsed.GetValue(common.Json);

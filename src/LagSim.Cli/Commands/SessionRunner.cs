@@ -227,7 +227,7 @@ internal sealed class SessionRunner : IDisposable
             return (isCommitted && attempts.Count == 0 && !isAwaitingVerdict) || now >= patienceEnd;
         }
 
-        if (!isCommitted && now - start > SimDuration.FromSeconds(request.Seconds.Value) + request.Options.History + WorldPatience)
+        if (!isCommitted && now - start > SimDuration.FromSeconds(request.Seconds.Value) + request.Options.Window.History + WorldPatience)
         {
             Fail(FormattableString.Invariant($"The time is up, and the world is not committed to T {(last - start).ToSeconds()} s: it is too far behind."));
             return true;

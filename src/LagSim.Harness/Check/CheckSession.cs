@@ -149,9 +149,8 @@ internal sealed class CheckSession
         SessionOptions sessionOptions = new()
         {
             Accelerations = drawn.Accelerations,
-            History = drawn.History,
+            Window = new(drawn.History, drawn.LookAhead),
             ExtraHistory = drawn.ExtraHistory,
-            LookAhead = drawn.LookAhead,
             PicturePast = SimDuration.Zero,
             Strategy = options.Strategy,
             ExpectedJoiners = expectedJoiners,

@@ -4,6 +4,7 @@ using LagSim.Harness.Peers;
 using LagSim.Hosting;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Harness.Compare;
 
@@ -20,7 +21,7 @@ internal sealed class InputWatch(PeerGroup peers)
     {
         PeerSamples seen = peers.Seen[peer];
         Picture picture = peers.Session(peer).World!.Pictures.Latest();
-        SimDuration ahead = peers.DisplayDelay + LiveWorld.DefaultLookAhead; // a world at rest is known for ever; no more is needed
+        SimDuration ahead = peers.DisplayDelay + LatencyCompensationWindow.DefaultLookAhead; // a world at rest is known for ever; no more is needed
         SimTime last = peers.Session(peer).SharedTime.Now + ahead;
         List<BodyState> expected = [];
         for (int n = seen.Next; n < peers.Grid.Count && peers.Grid.At(n) <= last && picture.Covers(seen.ShownAt(peers.Grid.At(n))); n++)

@@ -3,6 +3,7 @@ using LagSim.Harness.Links;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Harness.Peers;
 
@@ -37,7 +38,7 @@ public sealed record PeerGroupOptions(
         DisplayDelay = DisplayDelay,
         StartLead = StartLead,
         ExpectedJoiners = Peers - 1,
-        History = Net.Sessions.SessionOptions.MaxHistory,
+        Window = new(LatencyCompensationWindow.MaxHistory),
         ExtraHistory = SimDuration.FromSeconds(60),
     };
 }

@@ -108,7 +108,7 @@ public sealed partial class HostSession
         {
             Span<byte> bytes = stackalloc byte[WireFormat.WelcomeBytes];
             WelcomeDatagram welcome = new(
-                nonce, known.Link.SessionId, known.Peer, known.FirstSequence, Options.History, copy.Bytes.Length, copy.Hash, copy.LogIndex);
+                nonce, known.Link.SessionId, known.Peer, known.FirstSequence, Options.Window.History, copy.Bytes.Length, copy.Hash, copy.LogIndex);
             Send(bytes.Slice(0, welcome.Encode(bytes)), known.Link);
         }
     }

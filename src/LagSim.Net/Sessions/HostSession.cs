@@ -62,7 +62,7 @@ public sealed partial class HostSession : Session
     public int JoinerCount => joiners.Count;
 
     /// <summary>The time before which no event is accepted any more.</summary>
-    public SimTime Watermark => SharedTime.Now - Options.History;
+    public SimTime Watermark => SharedTime.Now - Options.Window.History;
 
     /// <inheritdoc/>
     public override IReadOnlyList<LinkTraffic> Links => joiners.ConvertAll(j => j.Link.Traffic);
@@ -218,7 +218,7 @@ public sealed partial class HostSession : Session
 
     private protected override SimTime NextDue(SimTime now)
     {
-        SimTime due = NextCommit(Options.History);
+        SimTime due = NextCommit(Options.Window.History);
         foreach (Joiner joiner in joiners)
         {
             due = SimTime.Min(due, joiner.HasWritten ? joiner.Link.Due : joiner.Link.Heard + PatienceWith(joiner) + SimDuration.OneTick);
@@ -299,8 +299,8 @@ public sealed partial class HostSession : Session
         SimTime now = SharedTime.Now;
         Verdict verdict = World is null || !MayEnter(external) ? Verdict.Invalid
             : !EventRights.Has(external, Scene!) ? Verdict.NoRight
-            : external.Time < now - Options.History || external.Time < World.Simulation.Start ? Verdict.TooLate
-            : external.Time > now + Options.History ? Verdict.TooEarly
+            : external.Time < now - Options.Window.History || external.Time < World.Simulation.Start ? Verdict.TooLate
+            : external.Time > now + Options.Window.History ? Verdict.TooEarly
             : Limits.WhyNot(external, World.Simulation, now, out _);
         if (verdict == Verdict.Accepted)
         {

@@ -299,7 +299,7 @@ public sealed partial class JoinerSession : Session
     /// asked to be let in, and the time-out for clocks and copies; before that nothing is simulated, however long it would take.
     /// </summary>
     private SimTime EarliestStart() =>
-        SharedTime.Now - (Clock.Now - began) - (History < SessionOptions.MaxHistory ? History : SessionOptions.MaxHistory) - Options.Timeout;
+        SharedTime.Now - (Clock.Now - began) - (History < LatencyCompensationWindow.MaxHistory ? History : LatencyCompensationWindow.MaxHistory) - Options.Timeout;
 
     private void TakeEntries(UpdateDatagram update, SimTime now)
     {

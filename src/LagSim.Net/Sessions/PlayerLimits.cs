@@ -25,7 +25,7 @@ internal sealed class PlayerLimits
         if (external.Kind == EventKind.Spawn && external.Velocity.Length <= options.MaxGivenSpeed)
         {
             byte player = external.Peer;
-            ForgetBefore(now - options.History);
+            ForgetBefore(now - options.Window.History);
             if (spawned.Count < options.MaxSpawned || spawned.Count(s => s.Key.Peer == player && s.Value.Removed > now) < options.MaxSpawned)
             {
                 return Verdict.Accepted;

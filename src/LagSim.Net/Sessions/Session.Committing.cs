@@ -1,5 +1,6 @@
 using System;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Net.Sessions;
 
@@ -65,7 +66,7 @@ public abstract partial class Session
     {
         Commit(settled);
         Simulation simulation = World!.Simulation;
-        SimTime oldest = SimTime.Min(shared - SessionOptions.MaxHistory - Options.Timeout - Options.ExtraHistory, simulation.SimulatedTo);
+        SimTime oldest = SimTime.Min(shared - LatencyCompensationWindow.MaxHistory - Options.Timeout - Options.ExtraHistory, simulation.SimulatedTo);
         if (oldest > simulation.HistoryEdge)
         {
             schedule!.SkipTo(oldest);

@@ -179,7 +179,9 @@ public abstract partial class Session
         }
     }
 
-    /// <summary>Does something to the shared world, now: seen here at once, by the others as soon as they hear of it.</summary>
+    /// <summary>
+    /// Does something to the shared world, now, or later by what <see cref="SessionOptions.Window"/> has of local lag for it: seen here then, by the others too or as soon as they hear of it.
+    /// </summary>
     /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
     /// <exception cref="InvalidOperationException">
     /// The session is not running; or of a joiner's events <see cref="JoinerSession.MaxUnjudgedEvents"/> wait for the host's verdict, and nothing happened:
@@ -205,7 +207,7 @@ public abstract partial class Session
         }
 
         ThrowIfTooMuch();
-        ExternalEvent external = action.Stamp(SharedTime.Now, Peer, LastSequence + 1);
+        ExternalEvent external = action.Stamp(SharedTime.Now + Options.Window.LocalLag(action.Kind), Peer, LastSequence + 1);
         EventRights.Throw(external, Scene!);
         if (Limits.WhyNot(external, World.Simulation, external.Time, out string sentence) != Verdict.Accepted)
         {
@@ -286,7 +288,7 @@ public abstract partial class Session
         if (world is null)
         {
             begunAt = start;
-            world = new LiveWorld(Scene!, WorldOptions(start), Options.LookAhead, Options.PicturePast + DisplayDelay, contacts);
+            world = new LiveWorld(Scene!, WorldOptions(start), Options.Window.LookAhead, Options.PicturePast + DisplayDelay, contacts);
             schedule = new CommitSchedule(start, start, Options.CommitInterval);
             Begun?.Invoke();
         }
@@ -296,7 +298,7 @@ public abstract partial class Session
     /// <exception cref="SceneException">It is no world of the scene.</exception>
     private protected void Begin(WorldSnapshot snapshot)
     {
-        LiveWorld copied = new(Scene!, snapshot, WorldOptions(snapshot.Start), Options.LookAhead, Options.PicturePast + DisplayDelay, contacts);
+        LiveWorld copied = new(Scene!, snapshot, WorldOptions(snapshot.Start), Options.Window.LookAhead, Options.PicturePast + DisplayDelay, contacts);
         begunAt = copied.Simulation.HistoryEdge;
         world = copied;
         schedule = new CommitSchedule(snapshot.Start, snapshot.Time, Options.CommitInterval);
@@ -305,7 +307,8 @@ public abstract partial class Session
     }
 
     // The session itself decides what is forgotten, by the watermark; the simulation's own limit would go by its look-ahead.
-    private SimulationOptions WorldOptions(SimTime start) => new(start, SimDuration.MaxValue, cancellation: interruption.Token, healing: strategy.Mode);
+    private SimulationOptions WorldOptions(SimTime start) =>
+        new(start, SimDuration.MaxValue, Options.MaxSegments, interruption.Token, strategy.Mode);
 
     private protected void Tell(in LogEntry entry) => Logged?.Invoke(entry);
 
@@ -459,7 +462,10 @@ public abstract partial class Session
     private void EndWorld(SimulationException failure)
     {
         Farewell();
-        End(SessionEnd.Failed, $"The world cannot be simulated any further. {failure.Message}");
+        bool isFull = failure is TimelinesFullException;
+        End(
+            isFull ? SessionEnd.TimelinesFull : SessionEnd.Failed,
+            isFull ? $"This peer has no more room for what may still change, and left; it can join again. {failure.Message}" : $"The world cannot be simulated any further. {failure.Message}");
     }
 
     private void BeginRunning(SimTime shared)

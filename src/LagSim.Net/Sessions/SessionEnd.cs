@@ -21,6 +21,9 @@ public enum SessionEnd
     /// <summary>The host gave this joiner up: it heard nothing of it, or it did not keep up.</summary>
     LetGo,
 
+    /// <summary>What may still change of this peer's world is more than <see cref="SessionOptions.MaxSegments"/>. It can join again.</summary>
+    TimelinesFull,
+
     /// <summary>What the host sent makes no world, or the world cannot be simulated any further.</summary>
     Failed,
 }

@@ -6,18 +6,13 @@ using LagSim.Net.Strategies;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Net.Sessions;
 
 /// <summary>How a peer takes part in a session. Checked when the session is made, with a sentence that tells what is allowed.</summary>
 public sealed class SessionOptions
 {
-    /// <summary>How late an event may be and still be accepted, where nothing else is said: 1 s.</summary>
-    public static readonly SimDuration DefaultHistory = SimDuration.FromSeconds(1);
-
-    /// <summary>The longest history: 5 s.</summary>
-    public static readonly SimDuration MaxHistory = SimDuration.FromSeconds(5);
-
     /// <summary>How long a silent peer is believed to be there, where nothing else is said: 10 s.</summary>
     public static readonly SimDuration DefaultTimeout = SimDuration.FromSeconds(10);
 
@@ -69,14 +64,20 @@ public sealed class SessionOptions
     /// <summary>How much time lies between two committed states that are hashed, 100 ms to 60 s; default 1 s. The same on all peers, to be compared.</summary>
     public SimDuration CommitInterval { get; set; } = SimDuration.FromSeconds(1);
 
-    /// <summary>Host only: how far behind its time it accepts an event, 50 ms to 5 s; default 1 s. At least two hops plus clock error.</summary>
-    public SimDuration History { get; set; } = DefaultHistory;
+    /// <summary>
+    /// How late an event may be and still be accepted, how far ahead the world is simulated, and how much later than it is done what this peer does is to happen. The history is the
+    /// host's, whatever a joiner says.
+    /// </summary>
+    public LatencyCompensationWindow Window { get; set; } = new();
+
+    /// <summary>
+    /// How many segments all timelines of this peer may hold together, from 1; default <see cref="SimulationOptions.DefaultMaxSegments"/>. A peer that needs more says so and leaves
+    /// (<see cref="SessionEnd.TimelinesFull"/>), and can join again: it then gets the world as it is committed.
+    /// </summary>
+    public int MaxSegments { get; set; } = SimulationOptions.DefaultMaxSegments;
 
     /// <summary>How much longer timelines are kept than events may be late, 0 to 60 s; default 0. For those who compare settled states.</summary>
     public SimDuration ExtraHistory { get; set; }
-
-    /// <summary>How far ahead of the shared time the world is simulated, above 0 to 1 s; default two frames.</summary>
-    public SimDuration LookAhead { get; set; } = LiveWorld.DefaultLookAhead;
 
     /// <summary>
     /// How much of the past pictures show, 0 to 60 s; default 250 ms. It is counted from what is displayed: with <c>interpolation</c> pictures go back by
@@ -120,7 +121,6 @@ public sealed class SessionOptions
 
     internal void Check()
     {
-        Range(History, 0.05, 5, nameof(History));
         Range(ExtraHistory, 0, 60, nameof(ExtraHistory));
         Range(PicturePast, 0, 60, nameof(PicturePast));
         Range(DisplayDelay, 0, Interpolation.MaxDelay.ToSeconds(), nameof(DisplayDelay));
@@ -132,9 +132,14 @@ public sealed class SessionOptions
             Range(given, 0.01, Timeout.ToSeconds() / 3, nameof(KeepAlive));
         }
 
-        if (LookAhead <= SimDuration.Zero || LookAhead > SimDuration.FromSeconds(1))
+        if (Window is null)
         {
-            throw new ArgumentOutOfRangeException(nameof(LookAhead), LookAhead, "The look-ahead must be above zero and at most 1 s.");
+            throw new ArgumentException("The window may not be null.", nameof(Window));
+        }
+
+        if (MaxSegments < 1)
+        {
+            throw new ArgumentOutOfRangeException(nameof(MaxSegments), MaxSegments, "The timelines must be allowed one segment at least.");
         }
 
         Range(CommitInterval, 0.1, 60, nameof(CommitInterval));

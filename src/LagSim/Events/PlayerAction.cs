@@ -8,7 +8,6 @@ namespace LagSim.Events;
 /// <remarks>Immutable, safe on any thread. <c>default</c> is no action and cannot be stamped.</remarks>
 public readonly struct PlayerAction
 {
-    private readonly EventKind kind;
     private readonly BodyId body;
     private readonly Vector3D position;
     private readonly Vector3D velocity;
@@ -16,12 +15,15 @@ public readonly struct PlayerAction
 
     private PlayerAction(EventKind kind, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec)
     {
-        this.kind = kind;
+        Kind = kind;
         this.body = body;
         this.position = position;
         this.velocity = velocity;
         this.spec = spec;
     }
+
+    /// <summary>What is done; <see cref="EventKind.None"/> of the default.</summary>
+    public EventKind Kind { get; }
 
     /// <summary>A new body appears, at metres and with metres per second. Its identity comes with the stamp.</summary>
     public static PlayerAction Spawn(BodySpec spec, Vector3D position, Vector3D velocity = default) =>
@@ -54,7 +56,7 @@ public readonly struct PlayerAction
 
     /// <summary>The event that this action is, done by <paramref name="peer"/> at <paramref name="time"/> as its <paramref name="sequence"/>-th.</summary>
     /// <exception cref="InvalidOperationException">This is <c>default</c>, no action.</exception>
-    public ExternalEvent Stamp(SimTime time, byte peer, uint sequence) => kind switch
+    public ExternalEvent Stamp(SimTime time, byte peer, uint sequence) => Kind switch
     {
         EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity),
         EventKind.Remove => ExternalEvent.Remove(time, peer, sequence, body),

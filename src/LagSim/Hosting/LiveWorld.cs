@@ -15,9 +15,6 @@ namespace LagSim.Hosting;
 /// </remarks>
 public sealed class LiveWorld
 {
-    /// <summary>The look-ahead where nothing else is said: two frames at 60 Hz.</summary>
-    public static readonly SimDuration DefaultLookAhead = SimDuration.FromSeconds(2.0 / 60.0);
-
     /// <summary>How much of the past pictures show where nothing else is said: 250 ms.</summary>
     public static readonly SimDuration DefaultPicturePast = SimDuration.FromMilliseconds(250);
 
@@ -68,7 +65,7 @@ public sealed class LiveWorld
         Simulation = simulation;
         Contacts = contacts;
         events = EventsAStep;
-        LookAhead = lookAhead ?? DefaultLookAhead;
+        LookAhead = lookAhead ?? LatencyCompensationWindow.DefaultLookAhead;
         this.picturePast = picturePast ?? DefaultPicturePast;
     }
 
@@ -174,8 +171,8 @@ public sealed class LiveWorld
             throw new ArgumentNullException(nameof(options));
         }
 
-        SimDuration ahead = lookAhead ?? DefaultLookAhead;
-        if (ahead <= SimDuration.Zero || ahead > SimDuration.FromSeconds(1))
+        SimDuration ahead = lookAhead ?? LatencyCompensationWindow.DefaultLookAhead;
+        if (ahead <= SimDuration.Zero || ahead > LatencyCompensationWindow.MaxLookAhead)
         {
             throw new ArgumentOutOfRangeException(nameof(lookAhead), ahead, "The look-ahead must be above zero and at most 1 s.");
         }

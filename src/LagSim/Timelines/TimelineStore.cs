@@ -128,7 +128,7 @@ internal sealed class TimelineStore
     }
 
     /// <summary>Opens the body's next segment.</summary>
-    /// <exception cref="SimulationException">There are as many as may be.</exception>
+    /// <exception cref="TimelinesFullException">There are as many as may be.</exception>
     internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output, in Hold hold = default)
     {
         int at = free;
@@ -140,7 +140,7 @@ internal sealed class TimelineStore
         {
             if (used == Most)
             {
-                throw new SimulationException(
+                throw new TimelinesFullException(
                     $"At {key.Time} the timelines hold {Most} segments, the most that the options allow: allow more, keep a shorter history, or look for what makes so many events.");
             }
 

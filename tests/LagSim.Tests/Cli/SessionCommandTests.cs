@@ -112,7 +112,7 @@ public sealed class SessionCommandTests
     {
         // A host that says another hash than it has.
         using LyingPort port = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0)));
-        HostSession session = new(BuiltInScenes.Drop(), port, new StopwatchClock(), new SessionOptions { History = SimDuration.FromSeconds(0.2), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
+        HostSession session = new(BuiltInScenes.Drop(), port, new StopwatchClock(), new SessionOptions { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
         using PeerThread host = new(session, port, "host");
         host.Start();
         using LiveTool joiner = LiveTool.Run($"join {port.LocalAddress} --for-s 1");
@@ -126,7 +126,7 @@ public sealed class SessionCommandTests
     {
         using EventTakingPort port = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0)));
         HostSession session = new(
-            BuiltInScenes.Drop(), port, new StopwatchClock(), new SessionOptions { History = SimDuration.FromSeconds(0.2), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
+            BuiltInScenes.Drop(), port, new StopwatchClock(), new SessionOptions { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
         using PeerThread host = new(session, port, "host");
         host.Start();
         using LiveTool joiner = LiveTool.Run($"join {port.LocalAddress} --for-s 2");

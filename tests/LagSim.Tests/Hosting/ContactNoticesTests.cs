@@ -76,7 +76,7 @@ public sealed class ContactNoticesTests
         LinkProfile profile = link == "loss-20" ? new LinkProfile(link, new LinkLeg(30, 0, 20)) : LinkProfiles.TryGet(link, out LinkProfile? found, out _) ? found : throw new ArgumentException(link);
         SessionGroup group = new SessionGroup(
             Deeds.Box(), 3, profile, (ulong)seed,
-            peer => new SessionOptions { History = SimDuration.FromSeconds(3), Strategy = strategy, Contacts = ledgers[peer].Notices }).Connect();
+            peer => new SessionOptions { Window = new(SimDuration.FromSeconds(3)), Strategy = strategy, Contacts = ledgers[peer].Notices }).Connect();
         new Deeds(seed, mostSpawns: 4).DoIn(group, 24, 0.2);
         group.Run(12);
         int count = ledgers.Min(l => l.Confirmed.Count);

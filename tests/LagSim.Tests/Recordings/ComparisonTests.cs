@@ -159,7 +159,7 @@ public sealed class ComparisonTests
         for (ulong seed = 1; seed <= 3; seed++)
         {
             Recording[] recordings = OfPeers(AgreementTests.Play(
-                "loss-10", 3, seed, _ => new SessionOptions { History = SimDuration.FromSeconds(5), ExtraHistory = SimDuration.FromSeconds(60) }));
+                "loss-10", 3, seed, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(5)), ExtraHistory = SimDuration.FromSeconds(60) }));
             Assert.All(recordings, recording => Assert.Equal(ReplayOutcome.Agrees, Replayed(recording).Outcome));
             Assert.All(recordings[1..], recording => Assert.Equal(ComparisonOutcome.Agrees, Compared(recordings[0], recording).Outcome));
             Assert.True(recordings[0].Committed.Count >= 3 && recordings[0].Entries.Count == 24, $"{recordings[0].Committed.Count} states");

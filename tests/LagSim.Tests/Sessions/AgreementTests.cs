@@ -49,7 +49,7 @@ public sealed class AgreementTests
         int forgotten = 0;
         for (ulong seed = 1; seed <= 8; seed++)
         {
-            SessionGroup group = Play(link, peers, seed, _ => new SessionOptions { History = SimDuration.FromSeconds(1) });
+            SessionGroup group = Play(link, peers, seed, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(1)) });
             group.Run(5);
             Assert.True(group.Difference() is null, $"seed {seed}: {group.Difference()}");
             Assert.All(group.Sessions, s => Assert.Equal(0, s.Counters.EventsLost));
@@ -158,7 +158,7 @@ public sealed class AgreementTests
         return group;
     }
 
-    private static SessionOptions LongHistory(int peer) => new() { History = SimDuration.FromSeconds(5) };
+    private static SessionOptions LongHistory(int peer) => new() { Window = new(SimDuration.FromSeconds(5)) };
 
     private static SessionGroup Connected(string link, int peers, ulong seed, Func<int, SessionOptions> options) =>
         new SessionGroup(Deeds.Box(), peers, Link(link), seed, options).Connect();

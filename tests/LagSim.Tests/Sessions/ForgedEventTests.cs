@@ -6,6 +6,7 @@ using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 
@@ -102,7 +103,7 @@ public sealed class ForgedEventTests
     [Fact]
     public void Claim_StampOutsideTheWindow_IsRefused()
     {
-        SimDuration history = SessionOptions.DefaultHistory, little = SimDuration.FromMilliseconds(20);
+        SimDuration history = LatencyCompensationWindow.DefaultHistory, little = SimDuration.FromMilliseconds(20);
         group.Run(2);
         liar.Claim(
             1,
@@ -119,7 +120,7 @@ public sealed class ForgedEventTests
     [Fact]
     public void Claim_StampJustInsideTheWindow_IsAccepted()
     {
-        SimDuration history = SessionOptions.DefaultHistory, little = SimDuration.FromMilliseconds(20);
+        SimDuration history = LatencyCompensationWindow.DefaultHistory, little = SimDuration.FromMilliseconds(20);
         group.Run(2);
         liar.Claim(
             1,

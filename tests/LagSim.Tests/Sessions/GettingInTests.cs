@@ -164,7 +164,7 @@ public sealed class GettingInTests
         {
             SlowClock clock = new();
             AnsweringPort port = new();
-            SessionOptions options = new() { ExpectedJoiners = 0, History = SimDuration.FromSeconds(history), StartLead = SimDuration.Zero };
+            SessionOptions options = new() { ExpectedJoiners = 0, Window = new(SimDuration.FromSeconds(history)), StartLead = SimDuration.Zero };
             HostSession host = new(Deeds.Box(), port, clock, options, 1);
             host.Step();
             clock.Time += SimDuration.OneTick;

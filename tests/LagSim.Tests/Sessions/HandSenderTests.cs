@@ -105,7 +105,7 @@ public sealed class HandSenderTests
     public void Traffic_OfOneHandAtAHundredMilliseconds_IsBelowTheAim(bool isSlow, double bytesASecond)
     {
         Scene scene = new SceneBuilder("hand").AddPlane("floor", Vector3D.Up, V(0, -2), 0.5).AddBody("ball", Ball(0.1), V(0)).Build();
-        SessionGroup group = new SessionGroup(scene, 2, LinkProfiles.PureDelay(100), 1, _ => new SessionOptions { History = SimDuration.FromSeconds(1) }).Connect();
+        SessionGroup group = new SessionGroup(scene, 2, LinkProfiles.PureDelay(100), 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(1)) }).Connect();
         JoinerSession player = group.Joiner(1);
         HandMotion hand = new(5, isSlow);
         HandSender sender = new(First);

@@ -186,7 +186,7 @@ public sealed class HoldTests
         Assert.True(holds > 2, $"{holds} knots that had an effect");
     }
 
-    private static SessionOptions Long() => new() { History = SimDuration.FromSeconds(5), ExtraHistory = SimDuration.FromSeconds(60) };
+    private static SessionOptions Long() => new() { Window = new(SimDuration.FromSeconds(5)), ExtraHistory = SimDuration.FromSeconds(60) };
 
     private static SessionGroup Group(int peers) => new SessionGroup(Scene(PeerSet.Everyone), peers, LinkProfiles.PureDelay(50), 3, _ => Long()).Connect();
 

@@ -64,7 +64,7 @@ public sealed class JoinAnyTimeTests
         // Spawns, removals, bodies on Runge-Kutta, others who act during the join; three addresses in turn, of which some leave and some just vanish.
         const int joins = 9;
         Assert.True(LinkProfiles.TryGet(link, out LinkProfile? profile, out _));
-        SessionOptions Options() => new() { History = SimDuration.FromSeconds(3) };
+        SessionOptions Options() => new() { Window = new(SimDuration.FromSeconds(3)) };
         SessionGroup group = new SessionGroup(Deeds.Box(), 3, profile, (ulong)seed, _ => Options()).Connect();
         Deeds deeds = new(seed, mostSpawns: 20);
         Random random = new(seed);
@@ -119,7 +119,7 @@ public sealed class JoinAnyTimeTests
         // 400 bodies are some 80 KB: seventy pieces, more than a window.
         Assert.True(LinkProfiles.TryGet(link, out LinkProfile? profile, out _));
         SessionGroup group = new SessionGroup(
-            BuiltInScenes.Crowd(400), 2, profile, 3, _ => new SessionOptions { History = SimDuration.FromSeconds(5) }).Connect();
+            BuiltInScenes.Crowd(400), 2, profile, 3, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(5)) }).Connect();
         group.Run(6);
         JoinerSession joiner = group.Join(100, 77);
         Assert.True(group.RunUntil(() => joiner.State == SessionState.Running), joiner.EndReason);

@@ -147,15 +147,13 @@ public sealed class JoiningTests
     }
 
     [Theory]
-    [InlineData(0.01, 10, "History")]
-    [InlineData(6, 10, "History")]
-    [InlineData(1, 0.01, "Timeout")]
-    [InlineData(1, 1000, "Timeout")]
-    [InlineData(1, 1, "KeepAlive", 0.5)]
-    public void Session_OptionOutOfRange_IsRefusedByName(double history, double timeout, string named, double? keepAlive = null)
+    [InlineData(0.01, "Timeout")]
+    [InlineData(1000, "Timeout")]
+    [InlineData(1, "KeepAlive", 0.5)]
+    public void Session_OptionOutOfRange_IsRefusedByName(double timeout, string named, double? keepAlive = null)
     {
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
-        SessionOptions options = new() { History = SimDuration.FromSeconds(history), Timeout = SimDuration.FromSeconds(timeout) };
+        SessionOptions options = new() { Timeout = SimDuration.FromSeconds(timeout) };
         options.KeepAlive = keepAlive is double given ? SimDuration.FromSeconds(given) : options.KeepAlive;
         ArgumentOutOfRangeException refused = Assert.Throws<ArgumentOutOfRangeException>(
             () => new HostSession(Deeds.Box(), port, new VirtualClock(), options, 1));

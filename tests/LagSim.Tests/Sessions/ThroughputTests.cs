@@ -117,7 +117,7 @@ public sealed class ThroughputTests(ITestOutputHelper output)
     public void Do_MoreThanMayWaitForTheVerdict_ThrowsUntilItCame()
     {
         SessionGroup group = new SessionGroup(
-            Floating(), 2, LinkProfiles.PureDelay(5), 1, _ => new SessionOptions { History = SimDuration.FromSeconds(5), MaxEventsPerSecond = 100_000 }).Connect();
+            Floating(), 2, LinkProfiles.PureDelay(5), 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(5)), MaxEventsPerSecond = 100_000 }).Connect();
         for (int i = 0; i < JoinerSession.MaxUnjudgedEvents; i++)
         {
             group.Sessions[1].Do(Push);
@@ -163,7 +163,7 @@ public sealed class ThroughputTests(ITestOutputHelper output)
     private static SessionGroup Group(string profile, int peers, double history)
     {
         Assert.True(LinkProfiles.TryGet(profile, out LinkProfile? link, out _));
-        return new SessionGroup(Floating(), peers, link, 1, _ => new SessionOptions { History = SimDuration.FromSeconds(history) }).Connect();
+        return new SessionGroup(Floating(), peers, link, 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(history)) }).Connect();
     }
 
     private static int Count(double rate) => (int)(Seconds * rate);

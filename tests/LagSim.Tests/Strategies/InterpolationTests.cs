@@ -166,7 +166,7 @@ public sealed class InterpolationTests
         Strategy = strategy,
         DisplayDelay = SimDuration.FromSeconds(delay),
         PicturePast = SimDuration.FromSeconds(past),
-        History = SimDuration.FromSeconds(history),
+        Window = new(SimDuration.FromSeconds(history)),
     };
 
     /// <summary>Three peers, 40 ms a hop; a joiner turns a ball round after a second.</summary>

@@ -1,0 +1,146 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Events;
+using LagSim.Time;
+
+namespace LagSim.Timelines;
+
+/// <summary>
+/// The stretch of time around now in which a peer works: it takes events that are up to <see cref="History"/> late, and knows the world <see cref="LookAhead"/> beyond now. What
+/// is older is committed.
+/// </summary>
+/// <remarks>
+/// <para>Immutable, safe on any thread. The history is the session's, and so the host's: whether an event is too late is judged once, for all. The look-ahead and the lags are each peer's own, and no bit
+/// of the world depends on the look-ahead.</para>
+/// <para>Memory: the completed events are one segment for each thing that happened to a body, kept for the history: bodies × segments a second × history × the size of a segment, some 250 bytes in all.</para>
+/// </remarks>
+public sealed class LatencyCompensationWindow
+{
+    /// <summary>The shortest history: 50 ms.</summary>
+    public static readonly SimDuration MinHistory = SimDuration.FromMilliseconds(50);
+
+    /// <summary>The history where nothing else is said: 1 s, two hops of most links there are. It has to be fixed before the first event, so before anything is measured.</summary>
+    public static readonly SimDuration DefaultHistory = SimDuration.FromSeconds(1);
+
+    /// <summary>The longest history: 5 s.</summary>
+    public static readonly SimDuration MaxHistory = SimDuration.FromSeconds(5);
+
+    /// <summary>The history that <see cref="HistoryFor"/> gives at least, however fast the links are: 250 ms.</summary>
+    public static readonly SimDuration LeastMeasuredHistory = SimDuration.FromMilliseconds(250);
+
+    /// <summary>The look-ahead where nothing else is said: two frames of a sixtieth of a second.</summary>
+    public static readonly SimDuration DefaultLookAhead = SimDuration.FromSeconds(2.0 / 60.0);
+
+    /// <summary>The longest look-ahead: 1 s.</summary>
+    public static readonly SimDuration MaxLookAhead = SimDuration.FromSeconds(1);
+
+    private const double MeasuredQuantile = 0.999;
+
+    private readonly SimDuration[] lags; // by kind of event
+
+    /// <summary>A window without local lag; see <see cref="WithLocalLag"/>.</summary>
+    /// <param name="history">How late an event may come and still be healed, <see cref="MinHistory"/> to <see cref="MaxHistory"/>, default <see cref="DefaultHistory"/>; at least the worst expected
+    /// delay (two hops, from player to host and from host to player), the clocks' error and the interval at which is sent.</param>
+    /// <param name="lookAhead">How far beyond now the world is simulated, above zero to <see cref="MaxLookAhead"/>, default <see cref="DefaultLookAhead"/>. It covers the interpolation of frames and spikes
+    /// of other work; since every peer simulates everything it needs to cover no network.</param>
+    /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
+    public LatencyCompensationWindow(SimDuration? history = null, SimDuration? lookAhead = null)
+        : this(history ?? DefaultHistory, lookAhead ?? DefaultLookAhead, new SimDuration[EventKind.Remove - EventKind.Spawn + 1])
+    {
+    }
+
+    private LatencyCompensationWindow(SimDuration history, SimDuration lookAhead, SimDuration[] lags)
+    {
+        if (history < MinHistory || history > MaxHistory)
+        {
+            throw new ArgumentOutOfRangeException(nameof(history), history, $"The history must lie between {MinHistory} and {MaxHistory}.");
+        }
+
+        if (lookAhead <= SimDuration.Zero || lookAhead > MaxLookAhead)
+        {
+            throw new ArgumentOutOfRangeException(nameof(lookAhead), lookAhead, $"The look-ahead must be above zero and at most {MaxLookAhead}.");
+        }
+
+        History = history;
+        LookAhead = lookAhead;
+        this.lags = lags;
+        foreach (SimDuration lag in lags)
+        {
+            ThrowIfNot(lag);
+        }
+    }
+
+    /// <summary>How late an event may come and still be healed.</summary>
+    public SimDuration History { get; }
+
+    /// <summary>How far beyond now the world is simulated.</summary>
+    public SimDuration LookAhead { get; }
+
+    /// <summary>The same window with another history.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">It is out of its range, or too short for a lag.</exception>
+    public LatencyCompensationWindow WithHistory(SimDuration history) => new(history, LookAhead, lags);
+
+    /// <summary>The same window with another look-ahead.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">It is out of its range, or shorter than a lag.</exception>
+    public LatencyCompensationWindow WithLookAhead(SimDuration lookAhead) => new(History, lookAhead, lags);
+
+    /// <summary>The same window with a lag for what this peer does of a kind.</summary>
+    /// <param name="kind">Of which kind. Grab, knot and release of a hand should have the same, or they overtake each other.</param>
+    /// <param name="lag">So much later than it is done it is to happen, here as elsewhere; from zero, the default, to the look-ahead, and no more than half the history. Above the delay of the links nobody ever has
+    /// to heal it, and whoever did it sees it that much later.</param>
+    /// <exception cref="ArgumentOutOfRangeException">The kind is none of a player's, or the lag is out of its range.</exception>
+    public LatencyCompensationWindow WithLocalLag(EventKind kind, SimDuration lag)
+    {
+        if (!IsOfPlayers(kind))
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(kind), kind, "A local lag is that of what players do: a spawn, a teleport, a set velocity, an impulse, a grab, a knot, a release, a removal.");
+        }
+
+        SimDuration[] changed = (SimDuration[])lags.Clone();
+        changed[kind - EventKind.Spawn] = lag;
+        return new LatencyCompensationWindow(History, LookAhead, changed);
+    }
+
+    /// <summary>How much later than it is done something of this kind is to happen; zero of what no player does.</summary>
+    public SimDuration LocalLag(EventKind kind) => IsOfPlayers(kind) ? lags[kind - EventKind.Spawn] : SimDuration.Zero;
+
+    /// <summary>
+    /// The history that would have served, from how late events were that came: the 99.9th percentile of it, but <see cref="LeastMeasuredHistory"/> at least and <see cref="MaxHistory"/> at
+    /// most.
+    /// </summary>
+    /// <param name="lateness">By how much each event came after its stamp, negative if before; as a session counts it. At least one.</param>
+    /// <exception cref="ArgumentException">Nothing was measured.</exception>
+    /// <remarks>The percentile is that of the sorted values at rank ⌈0.999 n⌉, so it was measured itself; of fewer than a thousand it is the largest.</remarks>
+    public static SimDuration HistoryFor(IReadOnlyCollection<SimDuration> lateness)
+    {
+        if (lateness is null || lateness.Count == 0)
+        {
+            throw new ArgumentException("How late events come must have been measured at least once.", nameof(lateness));
+        }
+
+        SimDuration[] sorted = new SimDuration[lateness.Count];
+        int count = 0;
+        foreach (SimDuration one in lateness)
+        {
+            sorted[count++] = one;
+        }
+
+        Array.Sort(sorted);
+        int rank = count - (int)(count * (1 - MeasuredQuantile)) - 1;
+        SimDuration measured = sorted[rank];
+        return measured < LeastMeasuredHistory ? LeastMeasuredHistory : measured > MaxHistory ? MaxHistory : measured;
+    }
+
+    private static bool IsOfPlayers(EventKind kind) => kind is >= EventKind.Spawn and <= EventKind.Remove;
+
+    private void ThrowIfNot(SimDuration lag)
+    {
+        SimDuration half = History / 2;
+        SimDuration most = LookAhead < half ? LookAhead : half;
+        if (lag < SimDuration.Zero || lag > most)
+        {
+            throw new ArgumentOutOfRangeException(nameof(lag), lag, $"A local lag must lie between 0 s and {most}, the lesser of the look-ahead and half the history.");
+        }
+    }
+}
