@@ -3,6 +3,8 @@ using System.CommandLine;
 using System.CommandLine.Parsing;
 using System.Globalization;
 using System.Linq;
+using LagSim.Cli.Output;
+using LagSim.Harness.Links;
 using LagSim.Net.Strategies;
 
 namespace LagSim.Cli.Commands;
@@ -57,6 +59,39 @@ internal sealed class CommonOptions
     internal static Option<double> DisplayDelay() => Number(
         "--display-delay-ms", "How far behind shared time the strategy interpolation shows the world", Interpolation.DefaultDelay.ToMilliseconds(), 0, Interpolation.MaxDelay.ToMilliseconds());
 
+    /// <summary>The delay of every joiner's link.</summary>
+    internal static Option<double?> Delay(string otherwise) => new("--delay-ms")
+    {
+        Description = $"Delay added one way, without jitter or loss (0 to 2000); {otherwise}. Excludes --profile.",
+        HelpName = "NUMBER",
+        CustomParser = result => ParseNumber(result, "--delay-ms", 0, LinkProfiles.MaxPureDelay),
+    };
+
+    /// <summary>The profile of every joiner's link.</summary>
+    internal static Option<string?> Profile() => new("--profile")
+    {
+        Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, or {LinkProfiles.AnyDelay}.",
+        HelpName = "NAME",
+    };
+
+    /// <summary>The link that was asked for by a delay or a profile; null if by neither.</summary>
+    /// <exception cref="UsageException">By both, or there is no such profile.</exception>
+    internal static LinkProfile? LinkOf(double? delay, string? profile)
+    {
+        if (delay is not null && profile is not null)
+        {
+            throw new UsageException("--delay-ms and --profile exclude each other: a profile has its own delay.");
+        }
+
+        return delay is double milliseconds ? LinkProfiles.PureDelay(milliseconds)
+            : profile is null ? null
+            : LinkProfiles.TryGet(profile, out LinkProfile? found, out string? error) ? found : throw new UsageException(error);
+    }
+
+    /// <summary>Real or virtual time.</summary>
+    internal static Option<string> Time(string byDefault) =>
+        Word("--time", "Real time over real sockets, or the same in virtual time, seeded, without waiting.", byDefault, "real", "virtual");
+
     private static Option<string?> Folder(string name, string description)
     {
         Option<string?> option = Path(name, description, "FOLDER");
@@ -68,7 +103,7 @@ internal sealed class CommonOptions
     internal static Option<string?> File(string name, string description)
     {
         Option<string?> option = Path(name, description, "FILE");
-        Refuse(option, file => file != Output.ResultFile.StandardOutput && System.IO.Directory.Exists(file), "that is a folder, it must be a file");
+        Refuse(option, file => file != ResultFile.StandardOutput && System.IO.Directory.Exists(file), "that is a folder, it must be a file");
         return option;
     }
 

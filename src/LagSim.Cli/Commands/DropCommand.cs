@@ -25,19 +25,10 @@ internal static class DropCommand
         Option<double> displayDelay = CommonOptions.DisplayDelay();
         Option<string> motion = CommonOptions.Word("--motion", "How the ball flies: integrated in steps as in the thesis, or in closed form.", "rk4", "rk4", "ballistic");
         Option<double> rate = CommonOptions.Number("--rate-hz", "Steps a second of rk4", 200, 1, 1e4);
-        Option<double?> delay = new("--delay-ms")
-        {
-            Description = "Delay added one way, without jitter or loss (0 to 2000); default 25. Excludes --profile.",
-            HelpName = "NUMBER",
-            CustomParser = result => CommonOptions.ParseNumber(result, "--delay-ms", 0, 2000),
-        };
-        Option<string?> profile = new("--profile")
-        {
-            Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, or {LinkProfiles.AnyDelay}.",
-            HelpName = "NAME",
-        };
+        Option<double?> delay = CommonOptions.Delay("default 25");
+        Option<string?> profile = CommonOptions.Profile();
         Option<int> peers = CommonOptions.Whole("--peers", "How many peers, the host included", 2, 2, 9);
-        Option<string> time = CommonOptions.Word("--time", "Real time over real sockets, or the same in virtual time, seeded, without waiting.", "real", "real", "virtual");
+        Option<string> time = CommonOptions.Time("real");
         Option<string> transport = CommonOptions.Word("--transport", "What carries datagrams in real time; in virtual time nothing does but the simulated link.", Carrier.Udp.Name, BuiltCarriers.Names);
         Option<double> height = CommonOptions.Number("--height-m", "Where the ball's centre falls from", 10, 0.5, 1e6);
         Option<double> second = CommonOptions.Number("--second-height-m", "Where it is lifted to", 15, 0.5, 1e6);
@@ -50,7 +41,7 @@ internal static class DropCommand
         common.AddTo(command);
         command.SetAction(parsed =>
         {
-            LinkProfile link = Link(parsed.GetValue(delay), parsed.GetValue(profile), out double? delayed);
+            LinkProfile? asked = CommonOptions.LinkOf(parsed.GetValue(delay), parsed.GetValue(profile));
             string chosen = parsed.GetValue(strategy)!;
             DropOptions options = new()
             {
@@ -59,8 +50,8 @@ internal static class DropCommand
                 DisplayDelay = SimDuration.FromMilliseconds(parsed.GetValue(displayDelay)),
                 Motion = parsed.GetValue(motion) == "rk4" ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic,
                 RateHertz = parsed.GetValue(rate),
-                Link = link,
-                DelayMilliseconds = delayed,
+                Link = asked ?? LinkProfiles.PureDelay(DefaultDelay),
+                DelayMilliseconds = parsed.GetValue(profile) is null ? parsed.GetValue(delay) ?? DefaultDelay : null,
                 Peers = parsed.GetValue(peers),
                 IsVirtual = parsed.GetValue(time) == "virtual",
                 Carrier = BuiltCarriers.Of(parsed.GetValue(transport)!),
@@ -121,20 +112,4 @@ internal static class DropCommand
         "teleport" => [DropCase.Teleport],
         _ => [DropCase.SameStart, DropCase.Teleport],
     };
-
-    private static LinkProfile Link(double? delay, string? profile, out double? delayed)
-    {
-        if (delay is not null && profile is not null)
-        {
-            throw new UsageException("--delay-ms and --profile exclude each other: a profile has its own delay.");
-        }
-
-        delayed = profile is null ? delay ?? DefaultDelay : null;
-        if (profile is null)
-        {
-            return LinkProfiles.PureDelay(delay ?? DefaultDelay);
-        }
-
-        return LinkProfiles.TryGet(profile, out LinkProfile? found, out string? error) ? found : throw new UsageException(error);
-    }
 }

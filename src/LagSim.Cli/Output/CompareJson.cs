@@ -58,25 +58,9 @@ internal static class CompareJson
     {
         MotionLaw[] laws = run.Options.Scene.Bodies.Select(body => body.Spec.Flight).Distinct().ToArray();
         json.WriteStartObject();
-        json.WriteString("case", "plan");
-        json.WriteString("strategy", run.Options.Strategy);
-        json.WriteString("motion", laws.Length == 1 ? MotionNames.Of(laws[0]) : null);
-        json.WriteString("time", "virtual");
-        json.WriteString("transport", "virtual");
-        json.WriteString("profile", run.Options.Link.Name);
-        json.WriteNull("delay_ms");
-        json.WriteNumber("peers", run.Options.Peers);
-        RunJson.Phases(json, "seen", run.Seen);
-        RunJson.Phases(json, "seen_true_time", run.SeenTrueTime);
-        RunJson.Phases(json, "settled", run.Settled);
-        RunJson.Hashes(json, "state_hashes", run.StateHashes);
-        RunJson.Hashes(json, "event_hashes", run.EventHashes);
-        json.WriteNumber("clock_error_ms", run.ClockErrorMilliseconds);
-        json.WriteNumber("events", run.Events);
-        json.WriteNumber("heals", run.Heals);
-        RunJson.Numbers(json, "bytes_sent_per_s", run.BytesSentPerSecond);
-        RunJson.Percentiles(json, "event_lateness_ms", run.Lateness);
-        json.WriteNull("cpu_cores_at_rest");
+        RunJson.Setting(
+            json, "plan", run.Options.Strategy, laws.Length == 1 ? MotionNames.Of(laws[0]) : null, "virtual", "virtual", run.Options.Link.Name, null, run.Options.Peers);
+        RunJson.Figures(json, run, null);
         RunJson.Percentiles(json, "time_to_heal_ms", run.TimeToHeal);
         RunJson.MeanAndTail(json, "events_rerun", run.EventsRerun);
         RunJson.MeanAndTail(json, "cone_bodies", run.ConeBodies);

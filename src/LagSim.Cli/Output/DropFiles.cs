@@ -3,7 +3,6 @@ using System.IO;
 using System.Linq;
 using LagSim.Harness.Charts;
 using LagSim.Harness.Drop;
-using LagSim.Harness.Metrics;
 using LagSim.Harness.Reports;
 using LagSim.Harness.Scenes;
 
@@ -26,7 +25,7 @@ internal static class DropFiles
             LineChart chart = DropChart.Of(run);
             chart.Save(Path.Combine(folder, $"drop-{name}.svg"));
             Samples(Path.Combine(folder, $"drop-{name}.csv"), run);
-            report.AddHeading(name).AddChart(chart).AddTable(Errors(run));
+            report.AddHeading(name).AddChart(chart).AddTable(ErrorTable.Of("Height error between peers, in metres", run));
         }
 
         LineChart compared = DropChart.OfStrategies(strategies);
@@ -71,25 +70,6 @@ internal static class DropFiles
                 csv.WriteRow(run.Options.Strategy, run.Trace.Seconds[n], run.Trace.SeenError[n], run.Trace.SettledError[n]);
             }
         }
-    }
-
-    private static ReportTable Errors(DropRun run)
-    {
-        List<IReadOnlyList<string>> rows = [];
-        foreach ((string compared, PhaseErrors errors) in new[] { ("seen", run.Seen), ("seen, true time", run.SeenTrueTime), ("settled", run.Settled) })
-        {
-            foreach (Phase phase in new[] { Phase.Before, Phase.During, Phase.After })
-            {
-                ErrorStatistics of = errors[phase].ToStatistics();
-                if (of.Samples + of.StalledSamples > 0)
-                {
-                    rows.Add([compared, phase.ToString().ToLowerInvariant(), $"{of.Samples}", NumberText.Short(of.MaxMetres), NumberText.Short(of.MeanMetres),
-                        NumberText.Short(of.RmsMetres), $"{of.DifferingBits}", $"{of.StalledSamples}"]);
-                }
-            }
-        }
-
-        return new ReportTable("Height error between peers, in metres", ["compared", "phase", "samples", "max", "mean", "rms", "differing bits", "stalled"], rows);
     }
 
     private static ReportTable StrategyErrors(IReadOnlyList<DropRun> runs) =>

@@ -3,27 +3,109 @@ using System.IO;
 using System.Linq;
 using LagSim.Harness.Charts;
 using LagSim.Harness.Hands;
+using LagSim.Harness.Hold;
+using LagSim.Harness.Metrics;
 using LagSim.Harness.Reports;
 using LagSim.Net.Display;
+using LagSim.Scenes;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The prediction of a hand as files: a CSV of the errors, a picture of them and of the motion, and a page that shows them.</summary>
+/// <summary>A hand that holds and throws a ball as files: a row a link, samples and two pictures of each link, what delay does, the prediction, and a page that shows them.</summary>
 internal static class HoldFiles
 {
-    internal static void Write(string folder, HandMotion motion, IReadOnlyList<PredictionError> errors, ulong seed)
+    internal static void Write(string folder, HoldReport report)
     {
         Directory.CreateDirectory(folder);
-        LineChart byDelay = HoldChart.OfErrors(motion, errors);
-        LineChart path = HoldChart.OfMotion(motion);
-        byDelay.Save(Path.Combine(folder, "hold-prediction.svg"));
-        path.Save(Path.Combine(folder, "hold-motion.svg"));
-        Errors(Path.Combine(folder, "hold-prediction.csv"), errors);
-        new HtmlReport("LagSim: a hand told from the past", $"Motion {motion.Name}, {HandMotion.RateHertz} samples a second.", new ReportFooter("lagsim", ToolVersion.Text, seed, null))
-            .AddChart(byDelay)
-            .AddTable(new ReportTable("Rms error in mm, by the age of the newest sample in ms", HoldTables.Headings, errors.Select(HoldTables.Row).ToList()))
-            .AddChart(path)
-            .Save(Path.Combine(folder, "report.html"));
+        HandMotion motion = report.Motion;
+        HtmlReport page = new(
+            "LagSim: a hand holds and throws a ball",
+            HoldTables.Introduction(report) + ".",
+            new ReportFooter("lagsim", ToolVersion.Text, report.Seed, JsonDocumentWriter.Hash(report.Runs[0].SceneHash)));
+        page.AddTable(new ReportTable(HoldTables.ViewTitle, HoldTables.ViewHeadings, HoldTables.Views(report.Runs).ToList()))
+            .AddTable(new ReportTable(HoldTables.SessionTitle, HoldTables.SessionHeadings, HoldTables.Sessions(report.Runs).ToList()));
+        foreach (string line in HoldTables.Footnotes(report))
+        {
+            page.AddParagraph(line);
+        }
+
+        Runs(Path.Combine(folder, "hold.csv"), report.Runs);
+        if (report.Runs.Count > 1)
+        {
+            page.AddHeading("What delay does");
+            Chart("hold-delays.svg", HoldChart.OfDelays(report));
+            Chart("hold-views.svg", HoldChart.OfViews(motion, report.Runs));
+        }
+
+        foreach (HoldRun run in report.Runs)
+        {
+            string name = run.Options.Link.Name;
+            Samples(Path.Combine(folder, $"hold-{name}.csv"), run);
+            page.AddHeading(name);
+            Chart($"hold-{name}.svg", HoldChart.OfHold(motion, run));
+            Chart($"hold-{name}-throw.svg", HoldChart.OfThrow(motion, run));
+            page.AddTable(ErrorTable.Of("Error between peers, in metres", run));
+        }
+
+        page.AddHeading("How well this hand can be predicted from all of its samples");
+        Chart("hold-prediction.svg", HoldChart.OfErrors(motion, report.Predictions));
+        page.AddTable(new ReportTable(HoldTables.PredictionTitle, HoldTables.Headings, report.Predictions.Select(HoldTables.Row).ToList())).AddParagraph(HoldTables.PredictionFootnote);
+        Chart("hold-motion.svg", HoldChart.OfMotion(motion));
+        Errors(Path.Combine(folder, "hold-prediction.csv"), report.Predictions);
+        page.Save(Path.Combine(folder, "report.html"));
+
+        void Chart(string file, LineChart chart)
+        {
+            chart.Save(Path.Combine(folder, file));
+            page.AddChart(chart);
+        }
+    }
+
+    /// <summary>A row a link and peer that looks on.</summary>
+    private static void Runs(string path, IReadOnlyList<HoldRun> runs)
+    {
+        using StreamWriter file = new(path);
+        CsvFile csv = new(
+            file, "profile", "strategy", "peer", "simulated_rms_m", "simulated_max_m", "predicted_rms_m", "predicted_max_m", "best_in_hindsight_m", "hold_last_m", "velocity_m",
+            "holder_rms_m", "seen_during_max_m", "seen_after_max_m", "settled_differing_bits", "heals", "event_lateness_max_ms", "knots_per_s", "holder_bytes_sent_per_s",
+            "holder_bytes_received_per_s");
+        foreach (HoldRun run in runs)
+        {
+            long differing = new[] { run.Settled.Before, run.Settled.During, run.Settled.After }.Sum(phase => phase.ToStatistics().DifferingBits);
+            ErrorStatistics during = run.Seen.During.ToStatistics(), after = run.Seen.After.ToStatistics();
+            foreach (HeldView view in run.Views)
+            {
+                csv.WriteRow(
+                    run.Options.Link.Name, run.Options.Strategy, view.Peer, view.Simulated.RmsMetres, view.Simulated.MaxMetres, view.Predicted.RmsMetres, view.Predicted.MaxMetres,
+                    view.BestInHindsightMetres, view.HoldLastMetres, view.VelocityMetres, run.Own.RmsMetres, during.MaxMetres, after.MaxMetres, differing, run.Heals, run.Lateness.Max,
+                    run.KnotsPerSecond, run.HolderSentPerSecond, run.HolderReceivedPerSecond);
+            }
+        }
+    }
+
+    /// <summary>Where the hand was, where each peer showed the ball, and where the predictor would have drawn it for those who look on.</summary>
+    private static void Samples(string path, HoldRun run)
+    {
+        HoldTrace trace = run.Trace;
+        using StreamWriter file = new(path);
+        CsvFile csv = new(
+            file,
+            [
+                "time_s", .. Columns("hand"), .. trace.Balls.SelectMany((_, peer) => Columns($"seen_{peer}")), .. run.Views.SelectMany(view => Columns($"predicted_{view.Peer}")),
+                "seen_error_m", "settled_error_m",
+            ]);
+        for (int n = 0; n < trace.Seconds.Length; n++)
+        {
+            csv.WriteRow(
+            [
+                trace.Seconds[n], .. Cells(trace.Hand[n]), .. trace.Balls.SelectMany(ball => Cells(ball[n])), .. trace.Drawn.SelectMany(drawn => Cells(drawn[n])),
+                trace.SeenError[n], trace.SettledError[n],
+            ]);
+        }
+
+        static string[] Columns(string of) => [$"{of}_x_m", $"{of}_y_m", $"{of}_z_m"];
+
+        static object?[] Cells(Vector3D at) => [at.X, at.Y, at.Z];
     }
 
     /// <summary>A row a horizon: what the JSON has, and each candidate.</summary>

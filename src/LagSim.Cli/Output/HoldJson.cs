@@ -1,35 +1,88 @@
-using System.Collections.Generic;
 using System.IO;
+using System.Linq;
+using System.Text.Json;
 using LagSim.Harness.Hands;
+using LagSim.Harness.Hold;
+using LagSim.Harness.Scenes;
 using LagSim.Net.Display;
+using LagSim.Scenes;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The prediction of a hand as JSON.</summary>
+/// <summary>A hand that holds and throws a ball, and its prediction, as JSON.</summary>
 internal static class HoldJson
 {
-    internal static void Write(TextWriter output, HandMotion motion, IReadOnlyList<PredictionError> errors, ulong seed) =>
-        JsonDocumentWriter.Write(output, "hold", seed, null, null, null, json =>
+    internal static void Write(TextWriter output, HoldReport report)
+    {
+        ulong? scene = RunJson.Common(report.Runs.Select(run => run.SceneHash)), state = RunJson.Common(report.Runs.SelectMany(run => run.StateHashes));
+        JsonDocumentWriter.Write(output, "hold", report.Seed, "hold", scene, state, json =>
         {
-            json.WriteString("motion_input", motion.Name);
-            json.WriteNumber("motion_s", motion.Seconds);
-            json.WriteNumber("largest_acceleration_m_per_s2", motion.LargestAcceleration());
-            json.WriteStartArray("prediction_error_m");
-            foreach (PredictionError error in errors)
+            json.WriteString("motion_input", report.Motion.Name);
+            json.WriteNumber("motion_s", report.Motion.Seconds);
+            json.WriteNumber("largest_acceleration_m_per_s2", report.Motion.LargestAcceleration());
+            json.WriteStartArray("runs");
+            foreach (HoldRun run in report.Runs)
             {
-                json.WriteStartObject();
-                json.WriteNumber("horizon_ms", error.HorizonMilliseconds);
-                json.WriteNumber("adaptive_m", error.AdaptiveMetres);
-                json.WriteNumber("hold_last_m", error.HoldLastMetres);
-                json.WriteNumber("velocity_m", error.VelocityMetres);
-                json.WriteNumber("best_in_hindsight_m", error.BestInHindsightMetres);
-                json.WriteString("best_in_hindsight", AdaptivePredictor.Candidates[error.BestCandidate]);
-                json.WriteNumber("linear_bound_m", error.LinearMetres);
-                json.WriteNumber("least_worst_m", error.LeastWorstMetres);
-                json.WriteNumber("samples", error.Samples);
-                json.WriteEndObject();
+                Run(json, run);
+            }
+
+            json.WriteEndArray();
+            json.WriteStartArray("prediction_error_m");
+            foreach (PredictionError error in report.Predictions)
+            {
+                Prediction(json, error);
             }
 
             json.WriteEndArray();
         });
+    }
+
+    private static void Run(Utf8JsonWriter json, HoldRun run)
+    {
+        json.WriteStartObject();
+        RunJson.Setting(
+            json, "hold", run.Options.Strategy, MotionNames.Of(MotionLaw.RungeKutta4), HoldTables.Time(run.Options), HoldTables.Transport(run.Options),
+            run.Options.DelayMilliseconds is null ? run.Options.Link.Name : null, run.Options.DelayMilliseconds, run.Options.Peers);
+        RunJson.Figures(json, run, run.CpuCoresAtRest);
+        json.WriteString("truth_state_hash", JsonDocumentWriter.Hash(run.TruthStateHash));
+        json.WriteString("truth_event_hash", JsonDocumentWriter.Hash(run.TruthEventHash));
+        json.WriteNumber("hold_s", run.Options.HoldSeconds);
+        json.WriteNumber("knot_distance_m", run.Options.KnotDistanceMetres);
+        json.WriteNumber("knots", run.Knots);
+        json.WriteNumber("knots_per_s", run.KnotsPerSecond);
+        json.WriteNumber("holder_bytes_sent_per_s", run.HolderSentPerSecond);
+        json.WriteNumber("holder_bytes_received_per_s", run.HolderReceivedPerSecond);
+        RunJson.Errors(json, "holder_error", run.Own);
+        json.WriteStartArray("held_error");
+        foreach (HeldView view in run.Views)
+        {
+            json.WriteStartObject();
+            json.WriteNumber("peer", view.Peer);
+            RunJson.Errors(json, "simulated", view.Simulated);
+            RunJson.Errors(json, "predicted", view.Predicted);
+            json.WriteNumber("hold_last_m", view.HoldLastMetres);
+            json.WriteNumber("velocity_m", view.VelocityMetres);
+            json.WriteNumber("best_in_hindsight_m", view.BestInHindsightMetres);
+            json.WriteString("best_in_hindsight", AdaptivePredictor.Candidates[view.BestCandidate]);
+            json.WriteEndObject();
+        }
+
+        json.WriteEndArray();
+        json.WriteEndObject();
+    }
+
+    private static void Prediction(Utf8JsonWriter json, PredictionError error)
+    {
+        json.WriteStartObject();
+        json.WriteNumber("horizon_ms", error.HorizonMilliseconds);
+        json.WriteNumber("adaptive_m", error.AdaptiveMetres);
+        json.WriteNumber("hold_last_m", error.HoldLastMetres);
+        json.WriteNumber("velocity_m", error.VelocityMetres);
+        json.WriteNumber("best_in_hindsight_m", error.BestInHindsightMetres);
+        json.WriteString("best_in_hindsight", AdaptivePredictor.Candidates[error.BestCandidate]);
+        json.WriteNumber("linear_bound_m", error.LinearMetres);
+        json.WriteNumber("least_worst_m", error.LeastWorstMetres);
+        json.WriteNumber("samples", error.Samples);
+        json.WriteEndObject();
+    }
 }

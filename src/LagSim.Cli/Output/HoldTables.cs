@@ -1,50 +1,125 @@
+using System;
 using System.Collections.Generic;
 using System.Globalization;
+using System.Linq;
 using LagSim.Harness.Hands;
+using LagSim.Harness.Hold;
+using LagSim.Harness.Metrics;
+using LagSim.Harness.Peers;
 using LagSim.Harness.Reports;
 using LagSim.Net.Display;
+using LagSim.Net.Strategies;
 using Spectre.Console;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The prediction of a hand as a table for a person.</summary>
+/// <summary>A hand that holds and throws a ball, and its prediction, as tables for a person.</summary>
 internal static class HoldTables
 {
-    internal static void Write(ToolConsole console, HandMotion motion, IReadOnlyList<PredictionError> errors, ulong seed, string? folder)
+    internal static IReadOnlyList<string> ViewHeadings { get; } = ["link", "seen by", "simulated", "max", "predicted", "max", "of best", "hold", "velocity", "own"];
+
+    internal static IReadOnlyList<string> SessionHeadings { get; } =
+        ["link", "during", "after", "settled differ", "heals", "late ms", "knots/s", "sent", "received"];
+
+    internal static IReadOnlyList<string> Headings { get; } = ["delay", "adaptive", "of best", "best", "which is", "hold last", "velocity", "linear"];
+
+    internal static void Write(ToolConsole console, HoldReport report, string? folder)
     {
-        console.Output.WriteLine($"lagsim {ToolVersion.Text}   hold   seed {seed}");
-        console.Output.WriteLine(string.Create(
-            CultureInfo.InvariantCulture,
-            $"{motion.Name} motion of a hand, {motion.Seconds:0.#} s, at most {NumberText.Short(motion.LargestAcceleration())} m/s^2"));
-        Table table = new Table { Border = TableBorder.Horizontal }.Title("where the hand is, by delay in ms: rms error in mm").LeftAligned();
-        IReadOnlyList<string> headings = Headings;
-        for (int i = 0; i < headings.Count; i++)
+        console.Output.WriteLine($"lagsim {ToolVersion.Text}   hold   seed {report.Seed}   scene {JsonDocumentWriter.Hash(report.Runs[0].SceneHash)}");
+        console.Output.WriteLine(Introduction(report));
+        WriteTable(console, ViewTitle, ViewHeadings, Views(report.Runs));
+        WriteTable(console, SessionTitle, SessionHeadings, Sessions(report.Runs));
+        foreach (string line in Footnotes(report))
         {
-            table.AddColumn(new TableColumn(headings[i]).NoWrap().PadLeft(0).PadRight(i == headings.Count - 1 ? 0 : 1).RightAligned());
+            console.Output.WriteLine(line);
         }
 
-        foreach (PredictionError error in errors)
-        {
-            table.AddRow([.. Row(error)]);
-        }
-
-        console.Rich.Write(table);
-        console.Output.WriteLine("best: of what the adaptive one mixes, in hindsight; linear: 20 taps, fitted to the other nine tenths of this very motion");
+        WriteTable(console, PredictionTitle, Headings, report.Predictions.Select(Row));
+        console.Output.WriteLine(PredictionFootnote);
         if (folder is not null)
         {
             console.Output.WriteLine($"Charts, CSV and report.html are in {folder}.");
         }
     }
 
-    internal static IReadOnlyList<string> Headings { get; } = ["delay", "adaptive", "of best", "best", "which is", "hold last", "velocity", "linear"];
+    internal const string ViewTitle = "the ball in the hand, off from where the hand is then: rms and largest error in mm";
+
+    internal const string SessionTitle = "the sessions: error between the peers as seen, m; bytes/s of the holder";
+
+    internal const string PredictionTitle = "the hand told from all of its samples, by delay in ms: rms error in mm";
+
+    internal const string PredictionFootnote = "best: of what the adaptive one mixes, in hindsight; linear: 20 taps, fitted to the other nine tenths of this very motion";
+
+    internal static string Introduction(HoldReport report)
+    {
+        HoldOptions options = report.Runs[0].Options;
+        string time = options.IsVirtual ? "virtual time" : $"real time over {Carrier.Udp.Name}, {options.Link.Name} alone";
+        string hand = FormattableString.Invariant($"{report.Motion.Name} motion of a hand, {report.Motion.Seconds:0.#} s, at most {NumberText.Short(report.Motion.LargestAcceleration())} m/s^2");
+        return FormattableString.Invariant($"{hand}; {options.Strategy}, {options.Peers} peers, the ball is held for {options.HoldSeconds:0.##} s and thrown, {time}");
+    }
+
+    internal static IEnumerable<string> Footnotes(HoldReport report)
+    {
+        yield return "simulated: where that peer's world has the ball, by the last knot; predicted: drawn where the adaptive predictor tells the hand is, from the same knots.";
+        yield return "of best: its rms error over that of the best in hindsight of what it mixes; hold, velocity: two of those; own: what the holder sees, which knots leave out.";
+        yield return $"A knot goes out when the others are off by more than {NumberText.Short(1000 * report.Runs[0].Options.KnotDistanceMetres)} mm. The throw is not in these errors.";
+        yield return "during: while news of the hand is on its way to somebody, after: while none is. Bytes while it holds, with UDP and IP headers.";
+        yield return "The thesis's own figures for this (Fig 4 and 5) are not known to this tool.";
+        foreach (HoldRun broken in report.Runs.Where(run => !run.Agrees))
+        {
+            yield return $"NOT equal: with {broken.Options.Strategy} on {broken.Options.Link.Name} not all peers settled on the world that had all on time.";
+        }
+    }
+
+    /// <summary>A row for each link and each peer that looks on.</summary>
+    internal static IEnumerable<IReadOnlyList<string>> Views(IReadOnlyList<HoldRun> runs) => runs.SelectMany(run => run.Views.Select(view => new[]
+    {
+        run.Options.Link.Name, PeerName(view.Peer), Millimetres(view.Simulated.RmsMetres), Millimetres(view.Simulated.MaxMetres), Millimetres(view.Predicted.RmsMetres),
+        Millimetres(view.Predicted.MaxMetres), Ratio(view.RatioToBest), Millimetres(view.HoldLastMetres), Millimetres(view.VelocityMetres), Millimetres(run.Own.RmsMetres),
+    }));
+
+    /// <summary>A row for each link.</summary>
+    internal static IEnumerable<IReadOnlyList<string>> Sessions(IReadOnlyList<HoldRun> runs) => runs.Select(run =>
+    {
+        ErrorStatistics[] settled = [run.Settled.Before.ToStatistics(), run.Settled.During.ToStatistics(), run.Settled.After.ToStatistics()];
+        return new[]
+        {
+            run.Options.Link.Name, NumberText.Short(run.Seen.During.ToStatistics().MaxMetres), NumberText.Short(run.Seen.After.ToStatistics().MaxMetres),
+            FormattableString.Invariant($"{settled.Sum(e => e.DifferingBits)} of {settled.Sum(e => e.Samples)}"),
+            FormattableString.Invariant($"{run.Heals}"), NumberText.Short(run.Lateness.Max), NumberText.Short(run.KnotsPerSecond),
+            FormattableString.Invariant($"{run.HolderSentPerSecond:0}"), FormattableString.Invariant($"{run.HolderReceivedPerSecond:0}"),
+        };
+    });
 
     internal static IReadOnlyList<string> Row(PredictionError error) =>
     [
-        NumberText.Short(error.HorizonMilliseconds), Millimetres(error.AdaptiveMetres),
-        error.BestInHindsightMetres > 0 ? error.RatioToBest.ToString("0.000", CultureInfo.InvariantCulture) : "-",
+        NumberText.Short(error.HorizonMilliseconds), Millimetres(error.AdaptiveMetres), error.BestInHindsightMetres > 0 ? Ratio(error.RatioToBest) : "-",
         Millimetres(error.BestInHindsightMetres), error.BestInHindsightMetres > 0 ? AdaptivePredictor.Candidates[error.BestCandidate] : "-",
         Millimetres(error.HoldLastMetres), Millimetres(error.VelocityMetres), Millimetres(error.LinearMetres),
     ];
 
+    /// <summary>Whether a strategy promised agreement, and did not agree.</summary>
+    internal static bool IsBroken(HoldRun run) => LateEventStrategies.Create(run.Options.Strategy).PromisesAgreement && !run.Agrees;
+
+    internal static string Time(HoldOptions options) => options.IsVirtual ? "virtual" : "real";
+
+    /// <summary>What carried the datagrams: no socket has a part in virtual time.</summary>
+    internal static string Transport(HoldOptions options) => options.IsVirtual ? "virtual" : Carrier.Udp.Name;
+
+    internal static string PeerName(int place) => place == 0 ? "host" : string.Create(CultureInfo.InvariantCulture, $"joiner {place}");
+
+    private static string Ratio(double ratio) => double.IsFinite(ratio) ? ratio.ToString("0.000", CultureInfo.InvariantCulture) : "-";
+
     private static string Millimetres(double metres) => NumberText.Short(1000 * metres);
+
+    private static void WriteTable(ToolConsole console, string title, IReadOnlyList<string> headings, IEnumerable<IReadOnlyList<string>> rows)
+    {
+        Table table = DropTables.NewTable(title, [.. headings]);
+        foreach (IReadOnlyList<string> row in rows)
+        {
+            table.AddRow([.. row]);
+        }
+
+        console.Rich.Write(table);
+    }
 }

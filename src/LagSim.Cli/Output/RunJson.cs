@@ -2,13 +2,44 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Text.Json;
 using LagSim.Harness.Metrics;
+using LagSim.Harness.Peers;
 
 namespace LagSim.Cli.Output;
 
 /// <summary>What the runs of every command that compares peers have in common, as JSON.</summary>
 internal static class RunJson
 {
-    internal static void Hashes(Utf8JsonWriter json, string key, IReadOnlyList<ulong> hashes)
+    /// <summary>What was run: the keys that every run begins with.</summary>
+    internal static void Setting(
+        Utf8JsonWriter json, string which, string strategy, string? motion, string time, string transport, string? profile, double? delay, int peers)
+    {
+        json.WriteString("case", which);
+        json.WriteString("strategy", strategy);
+        json.WriteString("motion", motion);
+        json.WriteString("time", time);
+        json.WriteString("transport", transport);
+        json.WriteString("profile", profile);
+        JsonDocumentWriter.Number(json, "delay_ms", delay);
+        json.WriteNumber("peers", peers);
+    }
+
+    /// <summary>What came of it: the keys that follow on those.</summary>
+    internal static void Figures(Utf8JsonWriter json, IPeerRun run, double? cpuCoresAtRest)
+    {
+        Phases(json, "seen", run.Seen);
+        Phases(json, "seen_true_time", run.SeenTrueTime);
+        Phases(json, "settled", run.Settled);
+        Hashes(json, "state_hashes", run.StateHashes);
+        Hashes(json, "event_hashes", run.EventHashes);
+        json.WriteNumber("clock_error_ms", run.ClockErrorMilliseconds);
+        json.WriteNumber("events", run.Events);
+        json.WriteNumber("heals", run.Heals);
+        Numbers(json, "bytes_sent_per_s", run.BytesSentPerSecond);
+        Percentiles(json, "event_lateness_ms", run.Lateness);
+        JsonDocumentWriter.Number(json, "cpu_cores_at_rest", cpuCoresAtRest);
+    }
+
+    private static void Hashes(Utf8JsonWriter json, string key, IReadOnlyList<ulong> hashes)
     {
         json.WriteStartArray(key);
         foreach (ulong hash in hashes)
@@ -28,7 +59,8 @@ internal static class RunJson
         json.WriteEndObject();
     }
 
-    private static void Errors(Utf8JsonWriter json, string key, in ErrorStatistics errors)
+    /// <summary>One error of the contract.</summary>
+    internal static void Errors(Utf8JsonWriter json, string key, in ErrorStatistics errors)
     {
         json.WriteStartObject(key);
         json.WriteNumber("samples", errors.Samples);
@@ -40,7 +72,7 @@ internal static class RunJson
         json.WriteEndObject();
     }
 
-    internal static void Numbers(Utf8JsonWriter json, string key, IReadOnlyList<double> numbers)
+    private static void Numbers(Utf8JsonWriter json, string key, IReadOnlyList<double> numbers)
     {
         json.WriteStartArray(key);
         foreach (double number in numbers)

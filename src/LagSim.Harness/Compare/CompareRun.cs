@@ -1,6 +1,7 @@
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Harness.Metrics;
+using LagSim.Harness.Peers;
 
 namespace LagSim.Harness.Compare;
 
@@ -52,7 +53,7 @@ public sealed record CompareRun(
     Percentiles Corrections,
     long CorrectionsSeen,
     Percentiles InputLatency,
-    CompareTrace Trace)
+    CompareTrace Trace) : IPeerRun
 {
     /// <summary>Whether all peers settled on the same, and on what a world has that had every event on time, bit for bit.</summary>
     public bool Agrees =>

@@ -67,7 +67,7 @@ public static class CompareTest
     {
         SampleGrid grid = peers.Grid;
         int last = grid.Count - 1;
-        Simulation truth = Truth(peers, news.Accepted);
+        Simulation truth = GroupFigures.Truth(peers, news.Accepted);
         PeerSamples onTime = new(grid, peers.Bodies);
         onTime.TakeSettled(truth);
         PeerSamples[] fromTruth = [onTime, .. peers.Seen];
@@ -107,18 +107,5 @@ public static class CompareTest
         double[] Distances(IReadOnlyList<PeerSamples> samples) => Instants(n => PeerComparison.Distance(samples, peers.Bodies.Length, n, out _));
 
         T[] Instants<T>(Func<int, T> of) => Array.ConvertAll(Enumerable.Range(0, grid.Count).ToArray(), n => of(n));
-    }
-
-    /// <summary>The world that had everything on time: what the host accepted, at its own time, before anything was simulated.</summary>
-    private static Simulation Truth(PeerGroup peers, IReadOnlyList<ExternalEvent> accepted)
-    {
-        Simulation truth = new(peers.Scene, new SimulationOptions(peers.Start, SimDuration.MaxValue));
-        foreach (ExternalEvent external in accepted)
-        {
-            truth.Submit(external);
-        }
-
-        truth.AdvanceTo(peers.Grid.At(peers.Grid.Count - 1));
-        return truth;
     }
 }

@@ -1,6 +1,7 @@
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Harness.Metrics;
+using LagSim.Harness.Peers;
 
 namespace LagSim.Harness.Drop;
 
@@ -37,7 +38,7 @@ public sealed record DropRun(
     Percentiles Lateness,
     double? CpuCoresAtRest,
     bool BallRested,
-    DropTrace Trace)
+    DropTrace Trace) : IPeerRun
 {
     /// <summary>Whether all peers' timelines and hashes agree to the bit, before and after the event and at the time of it, and nothing was missed.</summary>
     public bool Agrees =>

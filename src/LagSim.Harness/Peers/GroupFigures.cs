@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -38,6 +39,19 @@ internal static class GroupFigures
         return peers.Bodies
             .SelectMany(body => peers.Session(0).World!.Simulation.Timeline(body))
             .Where(entry => entry.Key.Time > from && entry.Key.Time <= to);
+    }
+
+    /// <summary>The world that had everything on time: what the host accepted, at its own time, before anything was simulated.</summary>
+    internal static Simulation Truth(PeerGroup peers, IReadOnlyList<ExternalEvent> accepted)
+    {
+        Simulation truth = new(peers.Scene, new SimulationOptions(peers.Start, SimDuration.MaxValue));
+        foreach (ExternalEvent external in accepted)
+        {
+            truth.Submit(external);
+        }
+
+        truth.AdvanceTo(peers.Grid.At(peers.Grid.Count - 1));
+        return truth;
     }
 
     private static T[] All<T>(PeerGroup peers, Func<int, T> figure) => Enumerable.Range(0, peers.PeerCount).Select(figure).ToArray();

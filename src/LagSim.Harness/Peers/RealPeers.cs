@@ -123,9 +123,16 @@ public sealed class RealPeers : PeerGroup
     public override ExternalEvent Do(int peer, PlayerAction action)
     {
         System.Threading.Tasks.Task<ExternalEvent> done = threads[peer].Do(action);
-        return done.Wait((int)AnswerDeadline.ToMilliseconds())
-            ? done.Result
-            : throw new PeerGroupException($"Peer {peer} did not answer within {AnswerDeadline.ToSeconds()} s.");
+        try
+        {
+            return done.Wait((int)AnswerDeadline.ToMilliseconds())
+                ? done.Result
+                : throw new PeerGroupException($"Peer {peer} did not answer within {AnswerDeadline.ToSeconds()} s.");
+        }
+        catch (AggregateException failure)
+        {
+            throw new PeerGroupException($"Peer {peer} could not do what it was to do. {failure.InnerException!.Message}", failure.InnerException);
+        }
     }
 
     /// <inheritdoc/>

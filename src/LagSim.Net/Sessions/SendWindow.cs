@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using LagSim.Events;
 using LagSim.Net.Wire;
 using LagSim.Time;
 
@@ -56,20 +57,30 @@ internal sealed class SendWindow
     {
         uint last = source.Last - Acknowledged > MaxEntries ? Acknowledged + MaxEntries : source.Last;
         bool mayRepeat = repeated == SimTime.MinValue || now - repeated >= resend;
-        if (Add(update, source, Acknowledged + 1, last) == last)
-        {
-            flights.Clear();
-            Note(Acknowledged + 1, last, now);
-            repeated = now;
-            return false;
-        }
-
         while (flights.TryPeek(out Flight past) && past.Last <= Acknowledged)
         {
             flights.Dequeue();
         }
 
         SimDuration wait = Wait(patience);
+        if (Add(update, source, Acknowledged + 1, last) == last)
+        {
+            uint needed = IsOverdue(now, wait) ? Acknowledged + 1 : FirstNeeded(source, last);
+            if (needed == Acknowledged + 1)
+            {
+                flights.Clear();
+                sent = Acknowledged;
+            }
+            else
+            {
+                Add(update, source, needed, last);
+            }
+
+            Note(sent + 1, last, now);
+            repeated = now;
+            return false;
+        }
+
         if (mayRepeat && (stalls > 0 || (sent == last && !IsOverdue(now, wait))))
         {
             repeated = now; // from the oldest on, as it is already filled
@@ -92,6 +103,21 @@ internal sealed class SendWindow
 
         return sent < last || IsOverdue(now, Wait(patience));
     }
+
+    /// <summary>The first entry that goes out in any case, of those that are not acknowledged, up to the last: before it there are knots alone, sent before, and the newest of these goes out once more.</summary>
+    private uint FirstNeeded(IEntrySource source, uint last)
+    {
+        uint first = Acknowledged + 1;
+        while (first < sent && first < last && IsMadeUpFor(source[first]))
+        {
+            first++;
+        }
+
+        return first;
+    }
+
+    /// <summary>Whether what comes after carries what this one would have.</summary>
+    private static bool IsMadeUpFor(in UpdateEntry entry) => !entry.IsOwn && entry.Event.Kind == EventKind.HoldKnot;
 
     /// <summary>Sends again what was in the datagram that was sent the longest ago, and what follows on it and was overdue as well.</summary>
     private void Repeat(UpdateDatagram update, IEntrySource source, SimTime now, SimDuration wait)

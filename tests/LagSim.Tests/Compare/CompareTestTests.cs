@@ -5,6 +5,7 @@ using LagSim.Events;
 using LagSim.Harness.Compare;
 using LagSim.Harness.Links;
 using LagSim.Harness.Metrics;
+using LagSim.Harness.Peers;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;

@@ -31,6 +31,8 @@ public sealed class RealPeersTests
                 peers.RunUntil(SimDuration.FromSeconds(0.1), null);
                 ExternalEvent lifted = peers.Do(1, PlayerAction.Teleport(BodyId.OfScene(0), new Vector3D(0, 3, 0)));
                 ExternalEvent pushed = peers.Do(0, PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(1, 2, 0)));
+                PeerGroupException refused = Assert.Throws<PeerGroupException>(() => peers.Do(1, PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(double.NaN, 0, 0))));
+                Assert.Contains("Peer 1 could not", refused.Message, System.StringComparison.Ordinal);
                 peers.RunQuietlyUntil(length, null);
                 peers.Finish();
 

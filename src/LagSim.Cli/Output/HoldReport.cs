@@ -1,0 +1,12 @@
+using System.Collections.Generic;
+using LagSim.Harness.Hands;
+using LagSim.Harness.Hold;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>All that <c>lagsim hold</c> found out, however it is told. Immutable.</summary>
+/// <param name="Motion">How the hand moved.</param>
+/// <param name="Runs">The sessions, one for each link.</param>
+/// <param name="Predictions">How well that motion can be predicted from all of its samples, by how old they are.</param>
+/// <param name="Seed">The luck of all of it.</param>
+internal sealed record HoldReport(HandMotion Motion, IReadOnlyList<HoldRun> Runs, IReadOnlyList<PredictionError> Predictions, ulong Seed);
