@@ -63,17 +63,14 @@ internal sealed class SendWindow
         }
 
         SimDuration wait = Wait(patience);
-        if (Add(update, source, Acknowledged + 1, last) == last)
+        uint first = Acknowledged + 1;
+        uint needed = IsOverdue(now, wait) ? first : FirstNeeded(source, last);
+        if (Add(update, source, needed, last) == last)
         {
-            uint needed = IsOverdue(now, wait) ? Acknowledged + 1 : FirstNeeded(source, last);
-            if (needed == Acknowledged + 1)
+            if (needed == first)
             {
                 flights.Clear();
                 sent = Acknowledged;
-            }
-            else
-            {
-                Add(update, source, needed, last);
             }
 
             Note(sent + 1, last, now);
@@ -81,6 +78,7 @@ internal sealed class SendWindow
             return false;
         }
 
+        Add(update, source, first, last);
         if (mayRepeat && (stalls > 0 || (sent == last && !IsOverdue(now, wait))))
         {
             repeated = now; // from the oldest on, as it is already filled
@@ -91,7 +89,7 @@ internal sealed class SendWindow
         }
         else if (sent < last)
         {
-            uint first = mayRepeat ? FirstBefore(source, last) : sent + 1;
+            first = mayRepeat ? FirstBefore(source, last) : sent + 1;
             repeated = mayRepeat ? now : repeated;
             Note(sent + 1, Add(update, source, Math.Min(first, sent + 1), last), now);
         }

@@ -100,12 +100,13 @@ public sealed class HandSenderTests
     }
 
     [Theory]
-    [InlineData(true, 3_500)]
-    [InlineData(false, 4_812)]
-    public void Traffic_OfOneHandAtAHundredMilliseconds_IsBelowTheAim(bool isSlow, double bytesASecond)
+    [InlineData(100, true, 3_000)]
+    [InlineData(100, false, 4_812)]
+    [InlineData(500, false, 4_812)] // each knot travels twice, however many are under way
+    public void Traffic_OfOneHand_IsBelowTheAim(int milliseconds, bool isSlow, double bytesASecond)
     {
         Scene scene = new SceneBuilder("hand").AddPlane("floor", Vector3D.Up, V(0, -2), 0.5).AddBody("ball", Ball(0.1), V(0)).Build();
-        SessionGroup group = new SessionGroup(scene, 2, LinkProfiles.PureDelay(100), 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(1)) }).Connect();
+        SessionGroup group = new SessionGroup(scene, 2, LinkProfiles.PureDelay(milliseconds), 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(3)) }).Connect();
         JoinerSession player = group.Joiner(1);
         HandMotion hand = new(5, isSlow);
         HandSender sender = new(First);
@@ -135,7 +136,7 @@ public sealed class HandSenderTests
         TestContext.Current.TestOutputHelper?.WriteLine(figures);
         Assert.True(up + down < bytesASecond, figures); // 4.7 KiB, both ways together
         Assert.True(up > 300, figures);
-        Assert.True(errors.Average() < 0.1, figures);
+        Assert.True(errors.Average() < 0.001 * milliseconds, figures);
         Assert.True(group.Host.World!.Simulation.TryReadHold(First, group.Host.SharedTime.Now, out _)); // it lasted
 
         (long Up, long Down) Traffic()
