@@ -21,7 +21,7 @@ internal static class MemoryTable
         Console.WriteLine(string.Create(
             CultureInfo.InvariantCulture, $"Memory after 3 s of gas at volume fraction {Fraction}, H = {History} s; a segment with its key and links takes {SegmentBytes()} bytes"));
         Console.WriteLine(
-            "| bodies | segments a second each | kept each | formula, MB | timelines, MB | timelines : formula | the same with one segment more a body | index, MB | all else, MB | whole world by the collector, MB |");
+            "| bodies | segments a second each | kept each | formula, MB | room for segments, MB | room : formula | the same with one segment more a body | index, MB | all else, MB | whole world by the collector, MB |");
         Console.WriteLine("|---|---|---|---|---|---|---|---|---|---|");
         foreach (int bodies in brief ? new[] { 1_000 } : new[] { 1_000, 2_000, 4_000, 10_000, 30_000 })
         {
@@ -34,9 +34,8 @@ internal static class MemoryTable
     {
         TimelineStore store = new(default);
         store.AddSlot(0);
-        string[] perBody = { "first", "last" };
         return typeof(TimelineStore).GetFields(BindingFlags.Instance | BindingFlags.NonPublic)
-            .Where(f => f.FieldType.IsArray && !perBody.Contains(f.Name) && ((Array)f.GetValue(store)!).Length > 0)
+            .Where(f => f.FieldType.IsArray && ((Array)f.GetValue(store)!).Length == store.Room)
             .Sum(f => ObjectSize.SizeOf(f.FieldType.GetElementType()!));
     }
 
@@ -51,9 +50,10 @@ internal static class MemoryTable
         double rate = (simulation.Timelines.LastSerial - opened) / (double)bodies;
         double whole = GC.GetTotalMemory(forceFullCollection: true) - before;
         HashSet<object> seen = new(ReferenceEqualityComparer.Instance) { scene };
-        double timelines = ObjectSize.Of(simulation.Timelines, seen);
+        double timelines = simulation.Timelines.Room * (double)SegmentBytes();
+        double perBody = ObjectSize.Of(simulation.Timelines, seen) - timelines;
         double index = ObjectSize.Of(ObjectSize.Field(simulation, "index"), seen);
-        double rest = ObjectSize.Of(simulation, seen);
+        double rest = perBody + ObjectSize.Of(simulation, seen);
         double formula = bodies * rate * History * SegmentBytes();
         double withLast = formula + (bodies * SegmentBytes());
         const double mega = 1e-6;
