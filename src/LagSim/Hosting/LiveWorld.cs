@@ -27,6 +27,7 @@ public sealed class LiveWorld
     private readonly SimDuration picturePast;
     private bool changed = true;
     private volatile bool isBehind;
+    private SimTime shownTo = SimTime.MinValue; // how far the newest picture's world was simulated
     private long events; // how many may still happen before the next step
     private long lateSteps;
     private long maxLatenessTicks;
@@ -138,7 +139,8 @@ public sealed class LiveWorld
     /// When the next step is due if nothing changes before: <paramref name="now"/> while the world <see cref="IsBehind"/>, and
     /// <see cref="SimTime.MaxValue"/> for a world in which nothing will happen, and of which no contact is to be confirmed.
     /// </returns>
-    /// <remarks>It does a bounded number of events, so that whoever calls it gets to other things in between. Half of the look-ahead may be used up before the next step is due, so a moving world steps about once a frame, one at rest never.</remarks>
+    /// <remarks>It does a bounded number of events, so that whoever calls it gets to other things in between. While late news is made good over several steps the last whole picture stays, until
+    /// the world has caught up with it. Half of the look-ahead may be used up before the next step is due, so a moving world steps about once a frame, one at rest never.</remarks>
     public SimTime Step(SimTime now)
     {
         if (Simulation.Horizon < now)
@@ -150,9 +152,10 @@ public sealed class LiveWorld
 
         events = EventsAStep;
         Advance(now);
-        if (changed)
+        if (changed && !(isBehind && Simulation.SimulatedTo < shownTo))
         {
-            // What is behind shows where it stands, and ends there.
+            // What is behind shows where it stands, and ends there; but a world that went back to heal does not run a second time before everybody's eyes.
+            shownTo = Simulation.SimulatedTo;
             SimTime from = SimTime.Min(SimTime.Max(now, Simulation.Start), Simulation.SimulatedTo) - picturePast;
             Pictures.Publish(Simulation, SimTime.Max(from, Simulation.HistoryEdge));
             changed = false;

@@ -18,6 +18,11 @@ internal sealed class PictureTimeline
     /// <summary>Makes this equal to the simulation's timeline of the slot from <paramref name="edge"/> on.</summary>
     internal void Follow(TimelineStore store, int slot, SimTime edge)
     {
+        if (end > first && entries[first].Opened > edge)
+        {
+            first = end = 0; // the edge went back, maybe behind what was dropped here; where nothing was, it is little to copy
+        }
+
         // Serials only grow along a timeline, and a segment once cut never comes back under its old one: the newest serial that both
         // have is where they part.
         int fresh = 0;

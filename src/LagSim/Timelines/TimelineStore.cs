@@ -10,13 +10,17 @@ namespace LagSim.Timelines;
 /// <summary>Every body's timeline: its segments in the order of the keys that opened them, back to the edge of the window.</summary>
 /// <remarks>
 /// <para>Segments live in flat arrays, linked per body; nothing is overwritten, a segment is only appended, cut off at the end, or dropped
-/// behind the window. Allocates only when more segments are alive than ever before.</para>
+/// behind the window. Allocates only when more segments are alive than ever before. A body's old segments are dropped when it opens a new one, and all bodies'
+/// before the arrays grow, which they do by an eighth once they are large: so a world takes little more than its window needs.</para>
 /// <para>It keeps a running hash of all events: the sum (modulo 2^64) of one hash a segment, so that appending and cutting are O(1) and the
 /// order in which the news came leaves no trace.</para>
 /// </remarks>
 internal sealed class TimelineStore
 {
     internal const int None = -1;
+
+    /// <summary>Below this the arrays double, above they grow by an eighth.</summary>
+    private const int Large = 1024;
 
     private readonly SimTime origin;
     private readonly FreeFlights? flights; // is told of each body's newest segment
@@ -33,6 +37,7 @@ internal sealed class TimelineStore
     private int used;
     private int[] first = Array.Empty<int>();
     private int[] last = Array.Empty<int>();
+    private SimTime dropped = SimTime.MinValue; // the latest edge of the history that was heard of
 
     /// <summary>No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to <paramref name="flights"/>.</summary>
     internal TimelineStore(SimTime origin, int most = SimulationOptions.DefaultMaxSegments, FreeFlights? flights = null)
@@ -56,6 +61,9 @@ internal sealed class TimelineStore
 
     /// <summary>How many segments are kept now.</summary>
     internal int Alive { get; private set; }
+
+    /// <summary>For how many segments there is room without more memory.</summary>
+    internal int Room => segments.Length;
 
     /// <summary>Makes room for a body's timeline.</summary>
     internal void AddSlot(int slot)
@@ -131,6 +139,11 @@ internal sealed class TimelineStore
     /// <exception cref="TimelinesFullException">There are as many as may be.</exception>
     internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output, in Hold hold = default)
     {
+        if (free == None && used == segments.Length && used >= Large)
+        {
+            DropAll();
+        }
+
         int at = free;
         if (at != None)
         {
@@ -241,6 +254,7 @@ internal sealed class TimelineStore
     /// <summary>Drops what is no longer needed for instants from <paramref name="edge"/> on; the last segment opened before the edge stays.</summary>
     internal void DropBefore(int slot, SimTime edge)
     {
+        dropped = SimTime.Max(dropped, edge);
         while (first[slot] != None && next[first[slot]] != None && keys[next[first[slot]]].Time < edge)
         {
             int at = first[slot];
@@ -306,6 +320,20 @@ internal sealed class TimelineStore
         return hash.Value;
     }
 
+    /// <summary>Drops what lies behind the window of bodies that have not opened a segment since; and makes room for more if that was little, else it would soon be looked for again.</summary>
+    private void DropAll()
+    {
+        for (int slot = 0; slot < last.Length; slot++)
+        {
+            DropBefore(slot, dropped);
+        }
+
+        if (Alive > used - (used / 16) && used < Most)
+        {
+            Grow();
+        }
+    }
+
     private void Release(int at)
     {
         serials[at] = 0;
@@ -316,7 +344,7 @@ internal sealed class TimelineStore
 
     private void Grow()
     {
-        int size = segments.Length * 2;
+        int size = segments.Length < Large ? segments.Length * 2 : segments.Length + (segments.Length / 8);
         Array.Resize(ref segments, size);
         Array.Resize(ref keys, size);
         Array.Resize(ref serials, size);

@@ -80,6 +80,41 @@ public sealed class TimelineStoreTests
         Assert.NotEqual(a.EventHash, b.EventHash);
     }
 
+    [Fact]
+    public void Append_ManyBodiesInAWindow_TakesLittleMoreThanTheWindowNeedsAndLosesNothingInIt()
+    {
+        const int bodies = 2_000, window = 8_000, appends = 60_000;
+        TimelineStore store = new(default);
+        Random random = new(1);
+        for (int slot = 0; slot < bodies; slot++)
+        {
+            store.AddSlot(slot);
+            Append(store, slot, Key(0, 0), 1);
+        }
+
+        List<int>[] opened = Enumerable.Range(0, bodies).Select(_ => new List<int> { 0 }).ToArray();
+        for (int tick = 1; tick <= appends; tick++)
+        {
+            int slot = random.Next(bodies);
+            store.DropBefore(slot, SimTime.FromTicks(tick - window));
+            Append(store, slot, Key(tick, 0), (2 * tick) + 1);
+            opened[slot].Add(tick);
+        }
+
+        // One segment for each append in the window, and of each body the one before.
+        Assert.InRange(store.Room, window + bodies, 1.25 * (window + bodies));
+        Assert.InRange(store.Alive, window + bodies, store.Room);
+        for (int slot = 0; slot < bodies; slot++)
+        {
+            for (int time = appends - window; time <= appends; time += 500)
+            {
+                int at = store.At(slot, SimTime.FromTicks(time));
+                Assert.Equal(opened[slot].Last(tick => tick <= time), store.Key(at).Time.Ticks);
+                Assert.Equal(slot, store.Owner(at));
+            }
+        }
+    }
+
     private static string? FirstDisagreement(int seed, Cut cut)
     {
         Random random = new(seed);

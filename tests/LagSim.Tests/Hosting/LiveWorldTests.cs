@@ -1,6 +1,7 @@
 using System;
 using System.Linq;
 using LagSim.Events;
+using LagSim.Harness.Scenes;
 using LagSim.Hosting;
 using LagSim.Scenes;
 using LagSim.Tests.Determinism;
@@ -188,9 +189,81 @@ public sealed class LiveWorldTests
         SameTimelines(free.Simulation, bounded.Simulation);
     }
 
+    [Theory]
+    [InlineData(1)]
+    [InlineData(2)]
+    public void Step_HealOverManySteps_KeepsTheLastWholePictureUntilTheWorldHasCaughtUp(int seed)
+    {
+        // Pairs of opposite kicks at one instant: in one version of the world, whichever, the velocities add up to what they did.
+        (LiveWorld world, Random random) = (new(BuiltInScenes.Gas(100), Kept) { Effort = 1 }, new(seed));
+        SimTime now = At(0.9);
+        Settle(world, now);
+        Vector3D sum = Sum(world.Pictures.Latest(), now, 100);
+        uint sequence = 0;
+        int steps = 0, kept = 0, healed = 0;
+        for (int round = 0; round < 5; round++)
+        {
+            for (int pair = 0; pair < 10; pair++)
+            {
+                SimTime stamp = now - SimDuration.FromSeconds(0.5 + (0.3 * random.NextDouble()));
+                int first = random.Next(100);
+                world.Submit(ExternalEvent.Impulse(stamp, 1, ++sequence, BodyId.OfScene(first), V(0.02, 0.01)));
+                world.Submit(ExternalEvent.Impulse(stamp, 1, ++sequence, BodyId.OfScene((first + 1 + random.Next(99)) % 100), V(-0.02, -0.01)));
+            }
+
+            Picture before = world.Pictures.Latest();
+            SimTime shown = now + world.LookAhead;
+            do
+            {
+                world.Step(now);
+                Picture picture = world.Pictures.Latest();
+                Assert.True(picture.Covers(now) && picture.To >= shown, $"{picture.To}, and {shown} was shown before");
+                Assert.True((Sum(picture, now, 100) - sum).Length < 1e-12);
+                Assert.True((Sum(picture, picture.From, 100) - sum).Length < 1e-12);
+                steps++;
+                kept += ReferenceEquals(picture, before) && world.Simulation.SimulatedTo < shown ? 1 : 0;
+            }
+            while (world.IsBehind);
+
+            healed += ReferenceEquals(world.Pictures.Latest(), before) ? 0 : 1;
+            now += SimDuration.FromSeconds(0.1);
+            Settle(world, now);
+        }
+
+        Assert.Equal(5, healed);
+        Assert.True(kept > 10 && steps > kept, $"{kept} of {steps} steps");
+
+        // The control: half a pair is seen.
+        world.Submit(ExternalEvent.Impulse(now - SimDuration.FromSeconds(0.1), 1, ++sequence, First, V(0.02, 0.01)));
+        Settle(world, now);
+        Assert.True((Sum(world.Pictures.Latest(), now, 100) - sum).Length > 0.02);
+    }
+
     /// <summary>A ball in a gap of 2 mm, which meets 500 times its speed in walls a second.</summary>
     private static Scene Rattle(double speed) => new SceneBuilder("rattle").WithGravity(Vector3D.Zero)
         .AddPlane("west", V(1), V(-0.501), 1).AddPlane("east", V(-1), V(0.501), 1).AddBody("ball", Ball(), V(0), V(speed)).Build();
+
+    private static void Settle(LiveWorld world, SimTime now)
+    {
+        do
+        {
+            world.Step(now);
+        }
+        while (world.IsBehind);
+    }
+
+    /// <summary>The velocities of so many bodies, all of which are there, added up.</summary>
+    private static Vector3D Sum(Picture picture, SimTime time, int bodies)
+    {
+        Vector3D sum = Vector3D.Zero;
+        for (int n = 0; n < bodies; n++)
+        {
+            Assert.True(picture.TryRead(BodyId.OfScene(n), time, out BodyState state), $"{n} at {time}");
+            sum += state.Velocity;
+        }
+
+        return sum;
+    }
 
     private static Scene RandomScene => new RandomWorld(3).Scene;
 

@@ -52,6 +52,27 @@ public sealed class PictureExchangeTests
     }
 
     [Fact]
+    public void Publish_BackToBeforeWhatWasShownLast_ShowsItAgain()
+    {
+        Simulation simulation = Pair();
+        simulation.Submit(ExternalEvent.SetVelocity(At(1.8), 1, 1, First, V(3)));
+        simulation.AdvanceTo(At(2));
+        PictureExchange exchange = new();
+        foreach (double from in new[] { 1.9, 1.9, 1.6, 1.6 })
+        {
+            exchange.Publish(simulation, At(from)); // while nobody reads, two of the three buffers take turns
+        }
+
+        Picture picture = exchange.Latest();
+        foreach (double time in new[] { 1.6, 1.7, 1.95 })
+        {
+            Assert.True(simulation.TryRead(First, At(time), out BodyState expected));
+            Assert.True(picture.TryRead(First, At(time), out BodyState actual), $"{time}");
+            Assert.True(expected.IsSameBits(actual));
+        }
+    }
+
+    [Fact]
     public void Publish_BodiesOnlyHeardOf_CostLittleMemory()
     {
         // Anybody can name bodies that nobody spawned. While nobody reads, two of the three buffers take turns.

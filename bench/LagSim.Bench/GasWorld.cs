@@ -1,0 +1,74 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Harness.Scenes;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Bench;
+
+/// <summary>A gas in a periodic box, run until it has forgotten its lattice, that takes late events and takes them back again, so that it stays the gas it was.</summary>
+internal sealed class GasWorld
+{
+    private static readonly SimDuration Half = SimDuration.FromSeconds(0.5); // a second to settle, of which the second half is counted
+
+    private readonly Random random = new(1);
+    private readonly int bodies;
+    private HealReport report;
+    private uint sequence;
+
+    /// <summary>So many balls at a volume fraction, and the seconds kept of their past.</summary>
+    internal GasWorld(int bodies, double fraction, HealingMode mode, double history)
+    {
+        this.bodies = bodies;
+        Simulation = new Simulation(BuiltInScenes.Gas(bodies, fraction), new SimulationOptions(default, SimDuration.FromSeconds(history), healing: mode));
+        Simulation.Healed += healed => report = healed;
+        Simulation.AdvanceTo(Simulation.Start + Half);
+        long before = Simulation.ImpactsProcessed;
+        Simulation.AdvanceTo(Simulation.Start + (Half * 2));
+        ContactsPerSecond = (Simulation.ImpactsProcessed - before) * 2 / (bodies * Half.ToSeconds()); // each has two bodies
+    }
+
+    internal Simulation Simulation { get; }
+
+    /// <summary>Contacts a second of each body.</summary>
+    internal double ContactsPerSecond { get; }
+
+    /// <summary>Brings in so many events one by one, each so late, on bodies drawn at random, some simulated time apart.</summary>
+    /// <exception cref="InvalidOperationException">A heal did not leave what it should.</exception>
+    internal IReadOnlyList<Heal> Bring(int count, double late, double apart)
+    {
+        List<Heal> heals = new();
+        for (int i = 0; i < count; i++)
+        {
+            Simulation.AdvanceTo(Simulation.SimulatedTo + SimDuration.FromSeconds(apart));
+            ulong events = Simulation.Timelines.EventHash;
+            BodyId body = BodyId.OfScene(random.Next(bodies));
+            ExternalEvent external = ExternalEvent.Impulse(Simulation.SimulatedTo - SimDuration.FromSeconds(late), 1, ++sequence, body, new Vector3D(0.1, 0.05, 0));
+            long impacts = Simulation.ImpactsProcessed;
+            double began = ThreadClock.Microseconds;
+            Simulation.Submit(external);
+            double took = ThreadClock.Microseconds - began;
+            heals.Add(new Heal(report.Events, Simulation.ImpactsProcessed - impacts, report.Bodies, took));
+            bool changed = Simulation.Timelines.EventHash != events;
+            Simulation.Retract(external);
+            if (!changed || Simulation.Timelines.EventHash != events)
+            {
+                throw new InvalidOperationException($"A late event of {external.Time} {(changed ? "was taken back and left something behind" : "changed nothing")}.");
+            }
+        }
+
+        return heals;
+    }
+
+    /// <summary>What one late event cost.</summary>
+    /// <param name="Events">Events run again, and the late one.</param>
+    /// <param name="Impacts">The impacts among them.</param>
+    /// <param name="Bodies">How many bodies were predicted anew.</param>
+    /// <param name="Microseconds">How long it took.</param>
+    internal readonly record struct Heal(long Events, long Impacts, int Bodies, double Microseconds)
+    {
+        internal static double MeanEvents(IReadOnlyList<Heal> heals) => heals.Average(h => (double)h.Events);
+    }
+}
