@@ -28,7 +28,8 @@ public readonly struct HealReport : IEquatable<HealReport>
     /// <summary>How many late events, or events taken back, it served; at least one.</summary>
     public int News { get; }
 
-    /// <summary>How many bodies were predicted anew because of it: the causal cone; of a full rollback all there are.</summary>
+    /// <summary>How many bodies were predicted anew because of it: the causal cone; all there are of a full rollback, and of a heal that grew to
+    /// more than 32 of them and an eighth.</summary>
     public int Bodies { get; }
 
     /// <summary>How many segments were cut off.</summary>

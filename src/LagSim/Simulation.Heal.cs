@@ -47,6 +47,9 @@ public sealed partial class Simulation
     /// <summary>What is done wrongly on purpose: only a test's negative control sets it.</summary>
     internal HealingFault Fault { get; set; }
 
+    /// <summary>With so few bodies or less a heal never takes all back that it has not touched; an eighth of all is the limit with more.</summary>
+    internal int FewHealed { get; set; } = 32;
+
     private bool Has(HealingFault wrong) => (Fault & wrong) != 0;
 
     /// <summary>Whether bodies' paths may be known beyond this key: a heal is under way.</summary>
@@ -201,10 +204,31 @@ public sealed partial class Simulation
             }
         }
 
+        if (HasTakenBackAll())
+        {
+            return;
+        }
+
         foreach (int body in taken)
         {
             Predict(body);
         }
+    }
+
+    /// <summary>
+    /// A heal whose cone has grown to so many bodies that it will grow to nearly all takes all back to the event at hand: to simulate everybody again costs less than to ask at every step
+    /// who is ahead, and what he did there.
+    /// </summary>
+    private bool HasTakenBackAll()
+    {
+        if (oldSerial < 0 || healedBodies <= Math.Max(FewHealed, order.Count / 8))
+        {
+            return false;
+        }
+
+        GoOnToTheEnd();
+        TakeBackAll(clock.Kind == EventKind.Impact ? RoundOfImpacts(clock.Time, clock.Round) : clock);
+        return true;
     }
 
     /// <summary>The body's external events from the key on are still to be applied, or again; those before it that are still due stay so.</summary>

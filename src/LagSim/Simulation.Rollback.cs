@@ -20,6 +20,13 @@ public sealed partial class Simulation
     {
         SimTime to = SimulatedTo;
         SimulatedTo = key.Time - SimDuration.OneTick;
+        TakeBackAll(key);
+        AdvanceTo(DefersAgain ? key.Time : to);
+    }
+
+    /// <summary>Cuts every timeline at the key, and has everybody predicted again.</summary>
+    private void TakeBackAll(in EventKey key)
+    {
         clock = key;
         oldSerial = -1; // nobody is ahead of anybody
         EventKey cut = CutsByTime ? new EventKey(key.Time, 0, EventKind.Spawn, default, default, 0, 0) : key;
@@ -35,7 +42,5 @@ public sealed partial class Simulation
             CountHealed(slot);
             Predict(slot);
         }
-
-        AdvanceTo(DefersAgain ? key.Time : to);
     }
 }

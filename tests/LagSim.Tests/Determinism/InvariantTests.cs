@@ -57,6 +57,19 @@ public sealed class InvariantTests
 
     [Theory]
     [MemberData(nameof(Blocks))]
+    public void State_ConeThatGrowsToTakeAllBack_IsTheSameToo(int block)
+    {
+        int grown = 0;
+        AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed, inPieces: seed % 3 == 0, mostPairs: seed % 2 * 64, prepare: simulation =>
+        {
+            simulation.FewHealed = seed % 3;
+            simulation.Healed += report => grown += report.Bodies == simulation.BodyCount && report.Bodies > 3 ? 1 : 0;
+        }));
+        Assert.True(grown > 8, $"{grown} heals took all back");
+    }
+
+    [Theory]
+    [MemberData(nameof(Blocks))]
     public void State_HistoryBarelyLongEnough_IsTheSameToo(int block)
     {
         AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed, SimDuration.FromSeconds(0.2)));
