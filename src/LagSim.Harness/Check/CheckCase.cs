@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Threading;
 using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Scenes;
@@ -37,7 +38,8 @@ internal sealed class CheckCase
     private readonly List<CheckPlayer> players = [];
     private readonly List<CheckDeed> deeds = [];
 
-    internal CheckCase(ulong seed, CheckOptions options)
+    /// <exception cref="OperationCanceledException">It was asked to stop.</exception>
+    internal CheckCase(ulong seed, CheckOptions options, CancellationToken cancellation = default)
     {
         Seed = seed;
         SeededRandom random = new(seed);
@@ -48,7 +50,7 @@ internal sealed class CheckCase
         {
             room = new CheckScene(random.Fork(FirstRoom + (2 * attempt)));
             DrawDeeds(random.Fork(FirstRoom + (2 * attempt) + 1));
-            if (attempt == MostAttempts || IsWithin(budget))
+            if (attempt == MostAttempts || IsWithin(budget, cancellation))
             {
                 break;
             }
@@ -159,9 +161,9 @@ internal sealed class CheckCase
     }
 
     /// <summary>Whether the scene, with all that is to be done in it, takes no more events than that.</summary>
-    private bool IsWithin(long budget)
+    private bool IsWithin(long budget, CancellationToken cancellation)
     {
-        Simulation alone = new(room.Build([.. Enumerable.Range(0, room.BodyCount)]), new SimulationOptions());
+        Simulation alone = new(room.Build([.. Enumerable.Range(0, room.BodyCount)]), new SimulationOptions(cancellation: cancellation));
         BodyId[] bodies = new BodyId[deeds.Count];
         for (int i = 0; i < deeds.Count; i++)
         {

@@ -7,6 +7,7 @@ using LagSim.Harness.Check;
 using LagSim.Harness.Links;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 
@@ -56,12 +57,9 @@ public sealed class InvariantCheckTests
     public void Run_OneAtATimeOrTwo_IsTheSame()
     {
         CheckOptions options = new() { Sessions = 6, Seed = 40 };
-        string[] once = Texts(options with { Workers = 1 });
-        Assert.Equal(once, Texts(options with { Workers = 2 }));
+        string[] once = Texts(Run(options with { Workers = 1 }));
+        Assert.Equal(once, Texts(Run(options with { Workers = 2 })));
         Assert.Equal(6, once.Distinct().Count());
-
-        static string[] Texts(CheckOptions options) => [.. Run(options).Outcomes.Select(
-            o => $"{o.Seed} {o.Peers} {o.Events} {o.ExternalEvents} {o.LateEvents} {o.Heals} {o.HealsThatChangedAnImpact} {o.Impacts} {o.Compared} {o.Failure}")];
     }
 
     [Fact]
@@ -95,6 +93,20 @@ public sealed class InvariantCheckTests
     }
 
     [Theory]
+    [InlineData(HealingFault.ForgetsThePast)]
+    [InlineData(HealingFault.OverlooksWhoIsAhead)]
+    [InlineData(HealingFault.GivesUpByBody)]
+    [InlineData(HealingFault.DropsEvents)]
+    [InlineData(HealingFault.CutsByTime)]
+    [InlineData(HealingFault.LeavesWhoRests)]
+    internal void Run_HealingInAWayKnownToBeWrong_IsCaughtByASeed(HealingFault fault)
+    {
+        CheckReport report = Run(new CheckOptions { Sessions = 100, ShrinkingPlays = 0, Prepare = (_, simulation) => simulation.Fault = fault });
+        TestContext.Current.TestOutputHelper!.WriteLine($"{fault}: {report.Failures.Count}: {string.Join("; ", report.Failures.Take(12).Select(f => f.Whole.Seed + " " + f.Whole.Failure))}");
+        Assert.NotEmpty(report.Failures);
+    }
+
+    [Theory]
     [InlineData("none")]
     [InlineData("latency-forward")]
     public void Run_StrategyThatDoesNotAgree_FailsEverywhere(string strategy)
@@ -123,9 +135,47 @@ public sealed class InvariantCheckTests
     public void Run_AskedToStop_ReportsWhatIsDone()
     {
         using CancellationTokenSource stop = new();
-        CheckReport report = InvariantCheck.Run(new CheckOptions { Sessions = 100_000, Workers = 1 }, _ => stop.Cancel(), stop.Token);
-        Assert.InRange(report.Outcomes.Count, 0, 99_999);
+        CheckOptions options = new() { Sessions = 100_000, Seed = 40, Workers = 2 };
+        CheckReport report = InvariantCheck.Run(options, done => StopAfter(3, done), stop.Token);
+        Assert.InRange(report.Outcomes.Count, 3, 99_999);
+        Assert.True(report.IsStopped);
+        Assert.Equal(100_000, report.AskedFor);
         Assert.Empty(report.Failures);
+        Assert.All(report.Outcomes, o => Assert.True(o.ExternalEvents > 0 && o.Compared > 0, $"seed {o.Seed}"));
+
+        // What is reported is whole: those sessions come to the same where nobody stops them.
+        CheckReport whole = Run(options with { Sessions = 3 });
+        Assert.False(whole.IsStopped);
+        Assert.Equal(Texts(whole), Texts(report with { Outcomes = [.. report.Outcomes.Take(3)] }));
+
+        void StopAfter(int sessions, int done)
+        {
+            if (done >= sessions)
+            {
+                stop.Cancel();
+            }
+        }
+    }
+
+    [Fact]
+    public void Play_AskedToStopInTheMiddle_HasNoOutcome()
+    {
+        using CancellationTokenSource stop = new();
+        int begun = 0;
+        CheckOptions options = new() { FromPeers = 3, ToPeers = 3, Prepare = (_, _) => begun += StopAtTheSecond() };
+        Assert.Throws<OperationCanceledException>(() => CheckSession.Play(40, options, stop.Token));
+        Assert.Equal(2, begun); // worlds; the third never began
+        Assert.Throws<OperationCanceledException>(() => CheckSession.Play(40, options, stop.Token));
+
+        int StopAtTheSecond()
+        {
+            if (begun == 1)
+            {
+                stop.Cancel();
+            }
+
+            return 1;
+        }
     }
 
     [Fact]
@@ -135,6 +185,9 @@ public sealed class InvariantCheckTests
         Assert.Contains("2 to 8", Assert.Throws<ArgumentOutOfRangeException>(() => Run(new CheckOptions { FromPeers = 5, ToPeers = 4 })).Message, StringComparison.Ordinal);
         Assert.Contains("one session", Assert.Throws<ArgumentException>(() => Run(new CheckOptions { Events = [1] })).Message, StringComparison.Ordinal);
     }
+
+    private static string[] Texts(CheckReport report) => [.. report.Outcomes.Select(
+        o => $"{o.Seed} {o.Peers} {o.Events} {o.ExternalEvents} {o.LateEvents} {o.Heals} {o.HealsThatChangedAnImpact} {o.Impacts} {o.Compared} {o.Failure}")];
 
     private static CheckReport Run(CheckOptions options) => InvariantCheck.Run(options, null, TestContext.Current.CancellationToken);
 
