@@ -41,6 +41,9 @@ internal sealed class CheckCase
     private const long HeavyEvents = 6_000;
     private const double HeavyPercent = 1;
 
+    /// <summary>The same of a calm scene: with a little more going on there balls come to lie on each other, and when each event is done decides that.</summary>
+    private const long CalmEvents = 400;
+
     private readonly CheckScene room;
     private readonly List<CheckPlayer> players = [];
     private readonly List<CheckDeed> deeds = [];
@@ -58,7 +61,7 @@ internal sealed class CheckCase
             room = new CheckScene(random.Fork(FirstRoom + (2 * attempt)));
             DrawDeeds(random.Fork(FirstRoom + (2 * attempt) + 1));
             DrawHands(random.Fork(FirstHands + attempt));
-            if (attempt == MostAttempts || IsWithin(budget, cancellation))
+            if (attempt == MostAttempts || IsWithin(room.IsCalm ? CalmEvents : budget, cancellation))
             {
                 break;
             }
@@ -234,7 +237,7 @@ internal sealed class CheckCase
     {
         List<CheckDeed> all = [.. deeds];
         int[] spawns = [.. Enumerable.Range(0, deeds.Count).Where(i => deeds[i].Kind == EventKind.Spawn)];
-        int hands = random.NextInt(MostHands + 1);
+        int hands = room.IsCalm ? 0 : random.NextInt(MostHands + 1);
         CheckDeed? before = null;
         for (int hand = 0; hand < hands; hand++)
         {

@@ -35,7 +35,7 @@ internal sealed class CheckScene
     {
         this.random = random;
         masses = random.IsLucky(20) ? ExtremeMasses : Masses;
-        isCalm = random.IsLucky(12);
+        isCalm = random.IsLucky(10);
         hasGravity = random.IsLucky(35) || isCalm;
         restitutions = isCalm ? CalmRestitutions : random.IsLucky(hasGravity ? 85 : 30) ? [0.9, 1, 1] : Restitutions; // what falls and loses speed piles up
         half = random.NextDouble(1.6, 2.1);
@@ -54,6 +54,9 @@ internal sealed class CheckScene
             bodies.Add((DrawSpec(), position, DrawVelocity(fastest)));
         }
     }
+
+    /// <summary>Whether what falls here comes to rest.</summary>
+    internal bool IsCalm => isCalm;
 
     internal int BodyCount => bodies.Count;
 
