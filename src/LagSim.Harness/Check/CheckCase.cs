@@ -80,7 +80,7 @@ internal sealed class CheckCase
         double worst = players.Max(p => WorstMilliseconds(p.Link.ToHost));
 
         // A hop, what a burst of losses adds to it, the error of a clock that is set by a slow or uneven way.
-        History = SimDuration.FromMilliseconds(Math.Min(5000, 1000 + (2 * worst)));
+        History = options.History ?? SimDuration.FromMilliseconds(Math.Min(5000, 1000 + (2 * worst)));
     }
 
     internal ulong Seed { get; }
