@@ -65,7 +65,7 @@ public sealed class Divergence
     {
         string since = After < start ? "from its beginning" : $"after T {Seconds(After)} s";
         string head = FormattableString.Invariant(
-            $"The committed state at T {Seconds(At)} s differs from the host's: {OwnHash:x16} here, {HostHash:x16} there. It began to differ {since}; in between {Count()} of players took effect here. ");
+            $"The committed state at T {Seconds(At)} s differs from the host's. Its hash is {OwnHash:x16} here and {HostHash:x16} there. It began to differ {since}; in between {Count()} of players took effect here. ");
         return head + Finding switch
         {
             DivergenceFinding.EventDiffers => $"The first that differs: at the host {Text(HostVersion, true)}; here {Text(OwnVersion, HasOwnEffect)}.",
