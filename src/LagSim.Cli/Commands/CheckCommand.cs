@@ -16,7 +16,9 @@ internal static class CheckCommand
     private const string All = "all";
     private const string None = "none";
 
-    internal static Command Create(ToolConsole console)
+    /// <param name="console">Where the report goes.</param>
+    /// <param name="change">What a test changes about what is to be checked: it puts faults in on purpose. Null for nothing.</param>
+    internal static Command Create(ToolConsole console, Func<CheckOptions, CheckOptions>? change = null)
     {
         CommonOptions common = new();
         Option<int> sessions = CommonOptions.Whole("--sessions", "How many sessions; each has the next seed", 1000, 1, 10_000_000);
@@ -59,7 +61,7 @@ internal static class CheckCommand
                 throw new UsageException($"--bodies and --events are of one session alone: give its --seed, and --sessions 1 instead of {options.Sessions}.");
             }
 
-            return Run(console, options, parsed.GetValue(common.Out), parsed.GetValue(common.Json));
+            return Run(console, change?.Invoke(options) ?? options, parsed.GetValue(common.Out), parsed.GetValue(common.Json));
         });
         return command;
     }

@@ -70,9 +70,16 @@ internal sealed class SessionRunner : IDisposable
         {
             host.JoinerCame += link => Tell(() => printer.Came(link));
             host.JoinerGone += link => Tell(() => printer.Gone(link));
+            host.JoinerDiverged += (peer, time) => Tell(() => printer.Problem(FormattableString.Invariant(
+                $"Peer {peer} says that its committed state at T {(time - session.World!.Simulation.Start).ToSeconds()} s is not this one's.")));
         }
 
         session.StateCommitted += OnCommitted;
+        if (session is JoinerSession joiner)
+        {
+            joiner.Diverged += _ => TellDifference();
+        }
+
         if (request.RecordFile is string file)
         {
             recorder = new SessionRecorder(session, file, request.Length);
@@ -349,18 +356,16 @@ internal sealed class SessionRunner : IDisposable
         {
             Tell(() => printer.State(state, sinceStart, clock));
         }
-
-        TellDifference();
     }
 
-    /// <summary>Tells of the first committed state that was not the host's.</summary>
+    /// <summary>Tells of the first committed state that was not the host's, and what is known of it.</summary>
     private void TellDifference()
     {
-        if (session.Counters.StatesDiffered > 0 && !hasToldDifference)
+        if (!hasToldDifference && session is JoinerSession { Divergence: Divergence divergence })
         {
             hasToldDifference = true;
-            double seconds = (session.Counters.FirstDifference - session.World!.Simulation.Start).ToSeconds();
-            Tell(() => printer.Problem(FormattableString.Invariant($"The committed state at T {seconds} s differs from the host's.")));
+            string sentences = divergence.ToString();
+            Tell(() => printer.Problem(sentences));
         }
     }
 

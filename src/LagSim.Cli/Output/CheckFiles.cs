@@ -32,7 +32,7 @@ internal static class CheckFiles
 
         IReadOnlyList<string>[] sums =
         [
-            ["sessions", Text(report.Outcomes.Count)],
+            [report.IsStopped ? $"sessions (stopped early, of {Text(report.AskedFor)})" : "sessions", Text(report.Outcomes.Count)],
             ["external events", Text(report.ExternalEvents)],
             ["late events", Text(report.LateEvents)],
             ["heals", Text(report.Heals)],

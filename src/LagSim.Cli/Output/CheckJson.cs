@@ -13,6 +13,8 @@ internal static class CheckJson
         JsonDocumentWriter.Write(output, "check", options.Seed, null, null, null, json =>
         {
             json.WriteNumber("sessions", report.Outcomes.Count);
+            json.WriteNumber("sessions_asked_for", report.AskedFor);
+            json.WriteBoolean("stopped_early", report.IsStopped);
             json.WriteNumber("events", report.Events);
             json.WriteNumber("external_events", report.ExternalEvents);
             json.WriteNumber("tied_events", report.Outcomes.Sum(o => (long)o.TiedEvents));

@@ -131,9 +131,13 @@ internal sealed class SessionPrinter
             ? "nothing was committed"
             : string.Create(CultureInfo.InvariantCulture, $"last committed: {states[^1].Seconds} s, {states[^1].State}"));
         to.WriteLine($"events: {counters.EventsAccepted} accepted, {counters.EventsRefused} refused; heals: {counters.Heals}");
-        if (session is JoinerSession)
+        if (session is JoinerSession joiner)
         {
             to.WriteLine($"states held against the host's: {counters.StatesAgreed} agreed, {counters.StatesDiffered} differed");
+            if (joiner.Divergence is Divergence divergence)
+            {
+                to.WriteLine($"first difference: {divergence}");
+            }
         }
 
         foreach (LinkRow row in Links.Rows)
@@ -182,6 +186,7 @@ internal sealed class SessionPrinter
         document.WriteEndArray();
         document.WriteNumber("states_agreed", counters.StatesAgreed);
         document.WriteNumber("states_differed", counters.StatesDiffered);
+        document.WriteString("divergence", (session as JoinerSession)?.Divergence?.ToString());
         document.WriteNumber("events_accepted", counters.EventsAccepted);
         document.WriteNumber("events_refused", counters.EventsRefused);
         document.WriteNumber("heals", counters.Heals);

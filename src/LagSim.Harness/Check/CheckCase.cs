@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Threading;
 using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Scenes;
@@ -19,10 +20,17 @@ internal sealed class CheckCase
     private const int MostSpawns = 6;
     private const int MostRemovals = 3;
 
+    /// <summary>How often players' hands take a body, at most.</summary>
+    private const int MostHands = 3;
+
+    private const int FewestKnots = 2;
+    private const int MostKnots = 10;
+
     /// <summary>Who needs longer than this for a round trip is there from the start as a rule: to get in takes several.</summary>
     private const double SlowMilliseconds = 500;
 
     private const ulong FirstRoom = 100;
+    private const ulong FirstHands = 1000;
     private const ulong MostAttempts = 20;
 
     /// <summary>
@@ -33,11 +41,15 @@ internal sealed class CheckCase
     private const long HeavyEvents = 6_000;
     private const double HeavyPercent = 1;
 
+    /// <summary>The same of a calm scene: with a little more going on there balls come to lie on each other, and when each event is done decides that.</summary>
+    private const long CalmEvents = 400;
+
     private readonly CheckScene room;
     private readonly List<CheckPlayer> players = [];
     private readonly List<CheckDeed> deeds = [];
 
-    internal CheckCase(ulong seed, CheckOptions options)
+    /// <exception cref="OperationCanceledException">It was asked to stop.</exception>
+    internal CheckCase(ulong seed, CheckOptions options, CancellationToken cancellation = default)
     {
         Seed = seed;
         SeededRandom random = new(seed);
@@ -48,7 +60,8 @@ internal sealed class CheckCase
         {
             room = new CheckScene(random.Fork(FirstRoom + (2 * attempt)));
             DrawDeeds(random.Fork(FirstRoom + (2 * attempt) + 1));
-            if (attempt == MostAttempts || IsWithin(budget))
+            DrawHands(random.Fork(FirstHands + attempt));
+            if (attempt == MostAttempts || IsWithin(room.IsCalm ? CalmEvents : budget, cancellation))
             {
                 break;
             }
@@ -67,7 +80,7 @@ internal sealed class CheckCase
         double worst = players.Max(p => WorstMilliseconds(p.Link.ToHost));
 
         // A hop, what a burst of losses adds to it, the error of a clock that is set by a slow or uneven way.
-        History = SimDuration.FromMilliseconds(Math.Min(5000, 1000 + (2 * worst)));
+        History = options.History ?? SimDuration.FromMilliseconds(Math.Min(5000, 1000 + (2 * worst)));
     }
 
     internal ulong Seed { get; }
@@ -159,9 +172,9 @@ internal sealed class CheckCase
     }
 
     /// <summary>Whether the scene, with all that is to be done in it, takes no more events than that.</summary>
-    private bool IsWithin(long budget)
+    private bool IsWithin(long budget, CancellationToken cancellation)
     {
-        Simulation alone = new(room.Build([.. Enumerable.Range(0, room.BodyCount)]), new SimulationOptions());
+        Simulation alone = new(room.Build([.. Enumerable.Range(0, room.BodyCount)]), new SimulationOptions(cancellation: cancellation));
         BodyId[] bodies = new BodyId[deeds.Count];
         for (int i = 0; i < deeds.Count; i++)
         {
@@ -172,7 +185,7 @@ internal sealed class CheckCase
                 return false;
             }
 
-            ExternalEvent external = deed.On(deed.Spawn >= 0 ? bodies[deed.Spawn] : BodyId.OfScene(Math.Max(0, deed.Body))).Stamp(time, 0, (uint)i + 1);
+            ExternalEvent external = deed.On(deed.Spawn >= 0 ? bodies[deed.Spawn] : BodyId.OfScene(Math.Max(0, deed.Body))).Stamp(time, (byte)deed.Peer, (uint)i + 1);
             bodies[i] = external.Body;
             alone.Submit(external);
         }
@@ -217,5 +230,55 @@ internal sealed class CheckCase
                 spawns.Add(i);
             }
         }
+    }
+
+    /// <summary>Hands that take a body, move it about and let go of it, or only cease to tell where they are; often two at one time are after the same.</summary>
+    private void DrawHands(SeededRandom random)
+    {
+        List<CheckDeed> all = [.. deeds];
+        int[] spawns = [.. Enumerable.Range(0, deeds.Count).Where(i => deeds[i].Kind == EventKind.Spawn)];
+        int hands = room.IsCalm ? 0 : random.NextInt(MostHands + 1);
+        CheckDeed? before = null;
+        for (int hand = 0; hand < hands; hand++)
+        {
+            int spawn = spawns.Length > 0 && random.IsLucky(20) ? random.Pick(spawns) : -1;
+            int body = spawn >= 0 ? -1 : random.NextInt(room.BodyCount);
+            double at = random.NextDouble(spawn >= 0 ? deeds[spawn].AtSeconds : 0, Length);
+            if (before is not null && random.IsLucky(50))
+            {
+                (spawn, body) = (before.Spawn, before.Body);
+                at = Math.Min(Length, before.AtSeconds + random.Pick(0, 0, random.NextDouble()));
+            }
+
+            CheckDeed deed = new(at, random.NextInt(players.Count), EventKind.Grab, body, spawn, new Vector3D(random.NextDouble(-0.1, 0.1), random.NextDouble(-0.1, 0.1), 0), default, default);
+            all.Add(deed);
+            before = deed;
+            Vector3D position = room.DrawPosition();
+            for (int knots = FewestKnots + random.NextInt(MostKnots - FewestKnots + 1); knots > 0 && at < Length; knots--)
+            {
+                // Some of the way to anywhere in the room, so it never leaves that.
+                double gap = random.Pick(0.02, 0.1, 0.1, 0.3);
+                Vector3D velocity = (room.DrawPosition() - position) * 1.5;
+                all.Add(deed with { AtSeconds = at, Kind = EventKind.HoldKnot, Position = position, Velocity = velocity });
+                position += velocity * gap;
+                at += gap;
+            }
+
+            if (at < Length && random.IsLucky(70))
+            {
+                all.Add(deed with { AtSeconds = at, Kind = EventKind.Release, Velocity = room.DrawVelocity(6) });
+            }
+        }
+
+        // By time, those of one instant as they were drawn; what names a spawn names it by where that is now.
+        int[] order = [.. Enumerable.Range(0, all.Count).OrderBy(i => all[i].AtSeconds)];
+        int[] place = new int[order.Length];
+        for (int i = 0; i < order.Length; i++)
+        {
+            place[order[i]] = i;
+        }
+
+        deeds.Clear();
+        deeds.AddRange(order.Select(i => all[i].Spawn < 0 ? all[i] : all[i] with { Spawn = place[all[i].Spawn] }));
     }
 }

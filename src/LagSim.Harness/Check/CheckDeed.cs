@@ -12,8 +12,8 @@ namespace LagSim.Harness.Check;
 /// <param name="Kind">What.</param>
 /// <param name="Body">To which body of the scene, by the index it was drawn with; negative where to a spawned one.</param>
 /// <param name="Spawn">To what which deed spawned, by index; negative where to one of the scene's.</param>
-/// <param name="Position">Where to, in metres.</param>
-/// <param name="Velocity">Metres per second, of an impulse the change of velocity.</param>
+/// <param name="Position">Where to, in metres; of a grab by which point from the body's centre, of a knot where the hand is.</param>
+/// <param name="Velocity">Metres per second, of an impulse the change of velocity, of a knot the hand's.</param>
 /// <param name="Spec">Of a spawn what appears; of an impulse what it is done to.</param>
 internal sealed record CheckDeed(double AtSeconds, int Peer, EventKind Kind, int Body, int Spawn, Vector3D Position, Vector3D Velocity, BodySpec Spec)
 {
@@ -23,6 +23,9 @@ internal sealed record CheckDeed(double AtSeconds, int Peer, EventKind Kind, int
         EventKind.Remove => PlayerAction.Remove(body),
         EventKind.Teleport => PlayerAction.Teleport(body, Position, Velocity),
         EventKind.SetVelocity => PlayerAction.SetVelocity(body, Velocity),
+        EventKind.Grab => PlayerAction.Grab(body, Position),
+        EventKind.HoldKnot => PlayerAction.HoldKnot(body, Position, Velocity),
+        EventKind.Release => PlayerAction.Release(body, Velocity),
         _ => PlayerAction.Impulse(body, Velocity * Spec.Mass),
     };
 }

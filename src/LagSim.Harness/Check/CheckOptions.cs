@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using LagSim.Harness.Links;
 using LagSim.Net.Strategies;
+using LagSim.Time;
 
 namespace LagSim.Harness.Check;
 
@@ -43,6 +44,9 @@ public sealed record CheckOptions
 
     /// <summary>How often a failing session is played again, smaller, to find the least that still fails; 0 leaves it whole. Default 200.</summary>
     public int ShrinkingPlays { get; init; } = 200;
+
+    /// <summary>How late an event may be; null, the default: as late as the session's links need. A test has it too short.</summary>
+    internal SimDuration? History { get; init; }
 
     /// <summary>Gets each peer's number in its session and its world, when the world has just been made: for faults put in on purpose.</summary>
     internal Action<int, Simulation>? Prepare { get; init; }

@@ -4,11 +4,15 @@ using System.Linq;
 namespace LagSim.Harness.Check;
 
 /// <summary>What all sessions came to.</summary>
-/// <param name="Outcomes">One a session, by ascending seed; fewer than were asked for if the check was ended early.</param>
+/// <param name="Outcomes">One a session, by ascending seed; fewer than were asked for if the check was stopped early.</param>
 /// <param name="Failures">Those that failed; the first few of them shrunk.</param>
+/// <param name="AskedFor">How many sessions were to be played.</param>
 /// <param name="WallSeconds">How long it took, without the shrinking.</param>
-public sealed record CheckReport(IReadOnlyList<CheckOutcome> Outcomes, IReadOnlyList<CheckFailure> Failures, double WallSeconds)
+public sealed record CheckReport(IReadOnlyList<CheckOutcome> Outcomes, IReadOnlyList<CheckFailure> Failures, int AskedFor, double WallSeconds)
 {
+    /// <summary>Whether it was stopped before all sessions were done.</summary>
+    public bool IsStopped => Outcomes.Count < AskedFor;
+
     /// <summary>Events that all worlds ran, those run again included.</summary>
     public long Events => Outcomes.Sum(o => o.Events);
 

@@ -6,10 +6,14 @@ using LagSim.Time;
 namespace LagSim.Harness.Check;
 
 /// <summary>A random scene: a closed room in which 8 to 12 balls meet each other all the time.</summary>
-/// <remarks>With and without gravity, often flat, with any restitution and mass ratio, on either law of flight, sometimes around static spheres.</remarks>
+/// <remarks>
+/// With and without gravity, often flat, with any restitution and mass ratio, on either law of flight, sometimes around static spheres. Some are calm: what falls there
+/// comes to rest within a second or two, until something happens to it, and so news comes late for a body that rests by then.
+/// </remarks>
 internal sealed class CheckScene
 {
     private static readonly double[] Restitutions = [0, 0.3, 0.5, 0.8, 0.9, 1, 1];
+    private static readonly double[] CalmRestitutions = [0, 0, 0.3, 0.5];
     private static readonly double[] Masses = [0.5, 1, 1, 1, 3, 20];
     private static readonly double[] ExtremeMasses = [1e-6, 1e-2, 1, 1, 1e3, 1e9];
 
@@ -17,6 +21,7 @@ internal sealed class CheckScene
     private readonly double[] masses;
     private readonly double[] restitutions;
     private readonly double half;
+    private readonly bool isCalm;
     private readonly bool isFlat;
     private readonly int integratedPercent;
     private readonly bool hasForce;
@@ -30,14 +35,15 @@ internal sealed class CheckScene
     {
         this.random = random;
         masses = random.IsLucky(20) ? ExtremeMasses : Masses;
-        hasGravity = random.IsLucky(35);
-        restitutions = random.IsLucky(hasGravity ? 85 : 30) ? [0.9, 1, 1] : Restitutions; // what falls and loses speed piles up
+        isCalm = random.IsLucky(10);
+        hasGravity = random.IsLucky(35) || isCalm;
+        restitutions = isCalm ? CalmRestitutions : random.IsLucky(hasGravity ? 85 : 30) ? [0.9, 1, 1] : Restitutions; // what falls and loses speed piles up
         half = random.NextDouble(1.6, 2.1);
-        isFlat = random.IsLucky(60);
+        isFlat = random.IsLucky(60) && !isCalm; // there they would lie on top of each other
         integratedPercent = random.IsLucky(20) ? 12 : 0;
         hasForce = random.IsLucky(40);
         hasDome = random.IsLucky(30);
-        wall = random.Pick(restitutions);
+        wall = isCalm ? 0 : random.Pick(restitutions); // nothing rubs: only a wall stops what slides along the floor
         floor = random.Pick(restitutions);
         int count = 8 + random.NextInt(5);
         double fastest = random.Pick(3.0, 6, 9);
@@ -48,6 +54,9 @@ internal sealed class CheckScene
             bodies.Add((DrawSpec(), position, DrawVelocity(fastest)));
         }
     }
+
+    /// <summary>Whether what falls here comes to rest.</summary>
+    internal bool IsCalm => isCalm;
 
     internal int BodyCount => bodies.Count;
 
@@ -96,6 +105,8 @@ internal sealed class CheckScene
     internal Vector3D DrawPosition() => new(
         random.NextDouble(-1, 1) * (half - 0.3), random.NextDouble(0.7, (2 * half) - 0.3), isFlat ? 0 : random.NextDouble(-1, 1) * (half - 0.3));
 
-    internal Vector3D DrawVelocity(double most) =>
-        new(random.NextDouble(-1, 1) * most, random.NextDouble(-1, 1) * most, isFlat ? 0 : random.NextDouble(-1, 1) * most);
+    /// <summary>Up to that much along each axis; in a calm room mostly straight up or down, which is what can come to rest.</summary>
+    internal Vector3D DrawVelocity(double most) => isCalm && random.IsLucky(75)
+        ? new(0, random.NextDouble(-1, 1) * most, 0)
+        : new(random.NextDouble(-1, 1) * most, random.NextDouble(-1, 1) * most, isFlat ? 0 : random.NextDouble(-1, 1) * most);
 }

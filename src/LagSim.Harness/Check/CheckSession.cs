@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
+using System.Threading;
 using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Harness.Peers;
@@ -27,6 +28,7 @@ internal sealed class CheckSession
 
     private readonly CheckCase drawn;
     private readonly CheckOptions options;
+    private readonly CancellationToken cancellation;
     private readonly VirtualClock clock = new(SimTime.FromSeconds(Origin));
     private readonly VirtualNetwork network;
     private readonly VirtualSteps steps;
@@ -37,10 +39,11 @@ internal sealed class CheckSession
     private long tooLate;
     private long refused;
 
-    private CheckSession(CheckCase drawn, CheckOptions options)
+    private CheckSession(CheckCase drawn, CheckOptions options, CancellationToken cancellation)
     {
         this.drawn = drawn;
         this.options = options;
+        this.cancellation = cancellation;
         network = new VirtualNetwork(clock, drawn.Seed);
         steps = new VirtualSteps(network);
         spawned = new BodyId?[drawn.Deeds.Count];
@@ -49,10 +52,11 @@ internal sealed class CheckSession
     private HostSession Host => (HostSession)members[0].Session;
 
     /// <summary>Plays the session that the seed draws, or what the options keep of it.</summary>
-    internal static CheckOutcome Play(ulong seed, CheckOptions options)
+    /// <exception cref="OperationCanceledException">It was asked to stop before the end: there is no outcome.</exception>
+    internal static CheckOutcome Play(ulong seed, CheckOptions options, CancellationToken cancellation)
     {
-        CheckCase drawn = new(seed, options);
-        return new CheckSession(drawn, options).Play();
+        CheckCase drawn = new(seed, options, cancellation);
+        return new CheckSession(drawn, options, cancellation).Play();
     }
 
     private CheckOutcome Play()
@@ -92,7 +96,7 @@ internal sealed class CheckSession
             SimTime when = SimTime.Max(start + SimDuration.FromSeconds(at), clock.Now);
             while (clock.Now < when)
             {
-                steps.Advance(when);
+                Advance(when);
             }
 
             action();
@@ -246,7 +250,7 @@ internal sealed class CheckSession
             SimTime next = clock.Now + (left - (left / 16) > SimDuration.OneTick ? left - (left / 16) : SimDuration.OneTick);
             while (clock.Now < next)
             {
-                steps.Advance(next);
+                Advance(next);
             }
 
             left = reading - actor.Session.SharedTime.Now;
@@ -278,17 +282,23 @@ internal sealed class CheckSession
                 return false;
             }
 
-            steps.Advance(deadline);
+            Advance(deadline);
         }
 
         return true;
+    }
+
+    private void Advance(SimTime limit)
+    {
+        cancellation.ThrowIfCancellationRequested();
+        steps.Advance(limit);
     }
 
     private CheckOutcome Compare(CheckOutcome outcome)
     {
         List<Member> there = members.FindAll(m => !m.HasGone);
         SimTime end = members.Where(m => m.Session.World is not null).Max(m => m.Session.World!.Simulation.SimulatedTo);
-        Simulation alone = new(drawn.Scene, new SimulationOptions(Host.World!.Simulation.Start, SimDuration.MaxValue));
+        Simulation alone = new(drawn.Scene, new SimulationOptions(Host.World!.Simulation.Start, SimDuration.MaxValue, cancellation: cancellation));
         foreach (ExternalEvent external in accepted)
         {
             alone.Submit(external);

@@ -20,7 +20,7 @@ public static class InvariantCheck
     /// <summary>Plays all sessions, several at a time.</summary>
     /// <param name="options">What is checked.</param>
     /// <param name="progress">Called on the caller's thread now and then with how many sessions are done; null for nobody.</param>
-    /// <param name="cancellation">Ends it early, with a report of what is done by then.</param>
+    /// <param name="cancellation">Ends it early, with a report of the sessions that were done by then; those in progress are given up.</param>
     /// <exception cref="ArgumentException">An option is out of its range; the sentence names it.</exception>
     public static CheckReport Run(CheckOptions options, Action<int>? progress = null, CancellationToken cancellation = default)
     {
@@ -54,7 +54,7 @@ public static class InvariantCheck
             failures.Add(new CheckFailure(failed, least, Command(least, options)));
         }
 
-        return new CheckReport(played, failures, seconds);
+        return new CheckReport(played, failures, options.Sessions, seconds);
 
         void Work()
         {
@@ -62,9 +62,13 @@ public static class InvariantCheck
             {
                 for (int n = Interlocked.Increment(ref next); n < options.Sessions && !cancellation.IsCancellationRequested; n = Interlocked.Increment(ref next))
                 {
-                    outcomes[n] = CheckSession.Play(unchecked(options.Seed + (ulong)n), options);
+                    outcomes[n] = CheckSession.Play(unchecked(options.Seed + (ulong)n), options, cancellation);
                     Interlocked.Increment(ref done);
                 }
+            }
+            catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
+            {
+                // What it was at is not done; what was done is reported.
             }
             catch (Exception failure)
             {

@@ -29,15 +29,28 @@ internal sealed class Shrinking
     internal static CheckOutcome Shrink(CheckOutcome whole, CheckOptions options, CancellationToken cancellation)
     {
         Shrinking shrinking = new(whole, options, cancellation);
+        try
+        {
+            shrinking.Run();
+        }
+        catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
+        {
+            // The least that was found by then.
+        }
+
+        return shrinking.Least;
+    }
+
+    private void Run()
+    {
         int before;
         do
         {
-            before = shrinking.Size;
-            shrinking.Reduce(shrinking.Least.Deeds, shrinking.FailsWithDeeds);
-            shrinking.Reduce(shrinking.Least.Bodies, shrinking.FailsWithBodies);
+            before = Size;
+            Reduce(Least.Deeds, FailsWithDeeds);
+            Reduce(Least.Bodies, FailsWithBodies);
         }
-        while (shrinking.Size < before && shrinking.CanPlay);
-        return shrinking.Least;
+        while (Size < before && CanPlay);
     }
 
     private int Size => Least.Deeds.Count + Least.Bodies.Count;
@@ -84,7 +97,7 @@ internal sealed class Shrinking
     private bool Fails(IReadOnlyList<int> bodies, IReadOnlyList<int> deeds)
     {
         plays--;
-        CheckOutcome outcome = CheckSession.Play(seed, options with { Bodies = bodies, Events = deeds });
+        CheckOutcome outcome = CheckSession.Play(seed, options with { Bodies = bodies, Events = deeds }, cancellation);
         if (outcome.Failure is null)
         {
             return false;

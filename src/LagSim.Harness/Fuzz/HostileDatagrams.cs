@@ -125,7 +125,7 @@ public sealed class HostileDatagrams
     /// <summary>A true form with values drawn, the session's number sometimes that of a datagram seen.</summary>
     private byte[] MadeUp()
     {
-        int length = Below(7) switch
+        int length = Below(9) switch
         {
             0 => new KnockDatagram(random.NextUInt64()).Encode(buffer),
             1 => new ChallengeDatagram(random.NextUInt64(), Token()).Encode(buffer),
@@ -135,10 +135,18 @@ public sealed class HostileDatagrams
             5 => new WelcomeDatagram(
                 random.NextUInt64(), Session(), (byte)(1 + Below(9)), (uint)Below(9), SimDuration.FromSeconds(1), 1 + Below(WorldCopy.MaxBytes),
                 random.NextUInt64(), (uint)Below(9)).Encode(buffer),
+            6 => new DoubtDatagram(
+                Session(), (byte)Below(10), (uint)Below(100), SimTime.FromSeconds(Below(20)), SimTime.FromSeconds(20 + Below(20)), (uint)Below(70)).Encode(buffer),
+            7 => Evidence().Encode(buffer),
             _ => Update().Encode(buffer),
         };
         return buffer.AsSpan(0, length).ToArray();
     }
+
+    private EvidenceDatagram Evidence() => Below(4) == 0
+        ? new EvidenceDatagram(Session(), Below(2) == 0)
+        : new EvidenceDatagram(Session(), 2000, (uint)Below(2000), 1 + (uint)Below(100), ExternalEvent.Remove(
+            SimTime.FromSeconds(Below(40)), (byte)Below(10), 1 + (uint)Below(100), BodyId.OfScene(Below(10))));
 
     private Token128 Token()
     {

@@ -46,10 +46,10 @@ internal sealed class CommitSchedule
         return state;
     }
 
-    /// <summary>Notes what the host says; true if it can be compared now, and whether it agrees.</summary>
-    internal bool TryCompare(SimTime time, ulong stateHash, out bool agrees)
+    /// <summary>Notes what the host says; true if it can be compared now, with the own state to compare it with.</summary>
+    internal bool TryCompare(SimTime time, ulong stateHash, out CommittedState mine)
     {
-        agrees = false;
+        mine = default;
         if (time <= start || (time - start).Ticks % interval.Ticks != 0)
         {
             return false;
@@ -62,16 +62,14 @@ internal sealed class CommitSchedule
         }
 
         last = (time, stateHash);
-        CommittedState? mine = own[Place(time)];
-        agrees = mine?.StateHash == stateHash;
-        return mine?.Time == time;
+        mine = own[Place(time)] ?? default;
+        return own[Place(time)]?.Time == time;
     }
 
-    /// <summary>Compares a state just taken with what the host said of it before, if it did.</summary>
-    internal bool TryCompare(in CommittedState mine, out bool agrees)
+    /// <summary>What the host said before of a state just taken; false if it did not.</summary>
+    internal bool TryCompare(in CommittedState mine, out ulong stateHash)
     {
-        (SimTime time, ulong stateHash) = heard[Place(mine.Time)];
-        agrees = stateHash == mine.StateHash;
+        (SimTime time, stateHash) = heard[Place(mine.Time)];
         return time == mine.Time;
     }
 

@@ -102,11 +102,14 @@ public sealed partial class HostSession : Session
             case DatagramType.Fetch when IsWellFormed(FetchDatagram.TryDecode(datagram, out FetchDatagram fetch, out _)):
                 OnFetch(fetch, from);
                 break;
+            case DatagramType.Doubt when IsWellFormed(DoubtDatagram.TryDecode(datagram, out DoubtDatagram doubt, out _)):
+                OnDoubt(doubt, from);
+                break;
             case DatagramType.Leave when IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)):
                 Counters.DatagramsIgnored +=
                     LetGo(j => j.Link.Other == from && j.Peer == leave.Peer && j.Link.SessionId == leave.SessionId) ? 0 : 1;
                 break;
-            case DatagramType.Welcome or DatagramType.Refusal or DatagramType.Challenge or DatagramType.Chunk:
+            case DatagramType.Welcome or DatagramType.Refusal or DatagramType.Challenge or DatagramType.Chunk or DatagramType.Evidence:
                 Counters.DatagramsIgnored++; // a host's own words
                 break;
         }
@@ -390,6 +393,7 @@ public sealed partial class HostSession : Session
             Outgoing = new SendWindow(copy.LogIndex);
             Events = events;
             Pieces = pieces;
+            Doubts = new RateLimit(2, RecentEvents.Most / DoubtDatagram.MaxEvents, link.Heard);
         }
 
         internal byte Peer => Link.Peer;
@@ -412,6 +416,12 @@ public sealed partial class HostSession : Session
 
         /// <summary>How many pieces of its copy it gets.</summary>
         internal RateLimit Pieces { get; }
+
+        /// <summary>How many of its questions about a difference are answered: two a second, and as many at once as a whole answer takes.</summary>
+        internal RateLimit Doubts { get; }
+
+        /// <summary>The last such question that was answered.</summary>
+        internal uint Doubted { get; set; }
 
         /// <summary>How many it got.</summary>
         internal long PiecesGiven { get; set; }

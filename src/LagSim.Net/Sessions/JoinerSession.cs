@@ -99,10 +99,13 @@ public sealed partial class JoinerSession : Session
             case DatagramType.Chunk when IsWellFormed(ChunkDatagram.TryDecode(datagram, out ChunkDatagram chunk, out _)):
                 OnChunk(chunk, datagram.Length);
                 break;
+            case DatagramType.Evidence when IsWellFormed(EvidenceDatagram.TryDecode(datagram, out EvidenceDatagram evidence, out _)):
+                OnEvidence(evidence, datagram.Length);
+                break;
             case DatagramType.Leave when IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)):
                 OnLeave(leave);
                 break;
-            case DatagramType.Knock or DatagramType.Join or DatagramType.Fetch:
+            case DatagramType.Knock or DatagramType.Join or DatagramType.Fetch or DatagramType.Doubt:
                 Counters.DatagramsIgnored++; // a joiner's own words
                 break;
         }
@@ -197,6 +200,7 @@ public sealed partial class JoinerSession : Session
         }
 
         TendFetch(now);
+        TendInquiry(now);
         if (link.Due <= now)
         {
             bool hasMore = true;
@@ -207,7 +211,8 @@ public sealed partial class JoinerSession : Session
         }
     }
 
-    private protected override SimTime NextDue(SimTime now) => link is null ? joinDue : SimTime.Min(link.Due, fetch?.Due ?? SimTime.MaxValue);
+    private protected override SimTime NextDue(SimTime now) =>
+        link is null ? joinDue : SimTime.Min(SimTime.Min(link.Due, fetch?.Due ?? SimTime.MaxValue), inquiry?.Due ?? SimTime.MaxValue);
 
     private protected override void Publish(in ExternalEvent external)
     {
@@ -356,6 +361,7 @@ public sealed partial class JoinerSession : Session
         }
 
         bool accepted = entry.Verdict == Verdict.Accepted && (own || MayEnter(external));
+        IsWithoutEffect = !accepted;
         Counters.EventsAccepted += accepted ? 1 : 0;
         Counters.EventsRefused += accepted ? 0 : 1;
         if (own && !accepted)

@@ -25,10 +25,21 @@ public abstract partial class Session
     /// <summary>Notes the state that the host says it has committed.</summary>
     private protected void CompareCommitted(SimTime time, ulong stateHash)
     {
-        if (schedule is not null && schedule.TryCompare(time, stateHash, out bool agrees))
+        if (schedule is not null && schedule.TryCompare(time, stateHash, out CommittedState mine))
         {
-            Counters.Count(agrees, time);
+            Compare(mine, stateHash);
         }
+    }
+
+    /// <summary>An own committed state was held against the hash that the host told for it.</summary>
+    private protected virtual void OnCompared(in CommittedState own, ulong theirs)
+    {
+    }
+
+    private void Compare(in CommittedState own, ulong theirs)
+    {
+        Counters.Count(own.StateHash == theirs, own.Time);
+        OnCompared(own, theirs);
     }
 
     /// <summary>Nothing before the watermark will change any more; hash what is due, and forget it, but for what the options want kept.</summary>
@@ -44,9 +55,9 @@ public abstract partial class Session
         {
             CommittedState state = schedule.Take(World.Simulation);
             committed = state;
-            if (schedule.TryCompare(state, out bool agrees))
+            if (schedule.TryCompare(state, out ulong theirs))
             {
-                Counters.Count(agrees, state.Time);
+                Compare(state, theirs);
             }
 
             StateCommitted?.Invoke(state);

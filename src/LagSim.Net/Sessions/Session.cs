@@ -152,6 +152,12 @@ public abstract partial class Session
     /// <summary>What players may do at most; a host judges by it.</summary>
     private protected PlayerLimits Limits { get; }
 
+    /// <summary>The newest lines of the log, for what a difference is explained by.</summary>
+    private protected RecentEvents Recent { get; } = new();
+
+    /// <summary>Whether the line of the log that is told next has no effect here, though the host accepted it.</summary>
+    private protected bool IsWithoutEffect { get; set; }
+
     /// <summary>The number of this peer's newest event.</summary>
     private protected uint LastSequence { get; set; }
 
@@ -310,7 +316,12 @@ public abstract partial class Session
     private SimulationOptions WorldOptions(SimTime start) =>
         new(start, SimDuration.MaxValue, Options.MaxSegments, interruption.Token, strategy.Mode);
 
-    private protected void Tell(in LogEntry entry) => Logged?.Invoke(entry);
+    private protected void Tell(in LogEntry entry)
+    {
+        Recent.Add(entry, entry.Verdict == Verdict.Accepted && !IsWithoutEffect);
+        IsWithoutEffect = false;
+        Logged?.Invoke(entry);
+    }
 
     /// <summary>Brings another peer's accepted event into the world.</summary>
     private protected void Apply(in ExternalEvent external)
@@ -331,6 +342,7 @@ public abstract partial class Session
                 break;
             case SubmitResult.TooOld:
                 Counters.EventsLost++;
+                IsWithoutEffect = true;
                 break;
         }
     }

@@ -32,4 +32,10 @@ public enum DatagramType : byte
 
     /// <summary>A <see cref="ChunkDatagram"/>: a piece of scene and world.</summary>
     Chunk = 9,
+
+    /// <summary>A <see cref="DoubtDatagram"/>: my world is not yours; which events do you have?</summary>
+    Doubt = 10,
+
+    /// <summary>An <see cref="EvidenceDatagram"/>: this one.</summary>
+    Evidence = 11,
 }

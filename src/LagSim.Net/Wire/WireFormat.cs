@@ -40,6 +40,12 @@ public static class WireFormat
     /// <summary>The length of a <see cref="ChunkDatagram"/> without its data.</summary>
     public const int EmptyChunkBytes = 16;
 
+    /// <summary>The length of a <see cref="DoubtDatagram"/>.</summary>
+    public const int DoubtBytes = 37;
+
+    /// <summary>The length of an <see cref="EvidenceDatagram"/> without an event.</summary>
+    public const int EmptyEvidenceBytes = 21;
+
     /// <summary>The length of an <see cref="UpdateDatagram"/> without state hash and entries.</summary>
     public const int EmptyUpdateBytes = 67;
 

@@ -7,6 +7,7 @@ using LagSim.Harness.Check;
 using LagSim.Harness.Links;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 
@@ -44,7 +45,7 @@ public sealed class InvariantCheckTests
         Assert.Contains(cases, c => c.Scene.Bodies.Any(b => b.Spec.Flight == MotionLaw.RungeKutta4));
         Assert.Contains(cases, c => c.Scene.Bodies.Any(b => b.Spec.Restitution == 0));
         Assert.Contains(cases, c => c.Scene.Bodies.Max(b => b.Spec.Mass) >= 1e6 * c.Scene.Bodies.Min(b => b.Spec.Mass));
-        Assert.Equal(5, cases.SelectMany(c => c.Deeds).Select(d => d.Kind).Distinct().Count());
+        Assert.Equal(8, cases.SelectMany(c => c.Deeds).Select(d => d.Kind).Distinct().Count());
         HashSet<string> links = [.. cases.SelectMany(c => c.Players.Skip(1)).Select(p => p.Link.Name)];
         Assert.Superset(LinkProfiles.All.Where(p => !p.Name.StartsWith("delay-", StringComparison.Ordinal)).Select(p => p.Name).ToHashSet(), links);
         Assert.Contains(cases.SelectMany(c => c.Players), p => p.Link.RoundTripMilliseconds > 3_000);
@@ -56,12 +57,9 @@ public sealed class InvariantCheckTests
     public void Run_OneAtATimeOrTwo_IsTheSame()
     {
         CheckOptions options = new() { Sessions = 6, Seed = 40 };
-        string[] once = Texts(options with { Workers = 1 });
-        Assert.Equal(once, Texts(options with { Workers = 2 }));
+        string[] once = Texts(Run(options with { Workers = 1 }));
+        Assert.Equal(once, Texts(Run(options with { Workers = 2 })));
         Assert.Equal(6, once.Distinct().Count());
-
-        static string[] Texts(CheckOptions options) => [.. Run(options).Outcomes.Select(
-            o => $"{o.Seed} {o.Peers} {o.Events} {o.ExternalEvents} {o.LateEvents} {o.Heals} {o.HealsThatChangedAnImpact} {o.Impacts} {o.Compared} {o.Failure}")];
     }
 
     [Fact]
@@ -73,6 +71,7 @@ public sealed class InvariantCheckTests
         Assert.Equal(1UL, failure.Whole.Seed);
         Assert.True(failure.Least.Deeds.Count == 2 && failure.Least.Bodies.Count <= 2, failure.Command);
         Assert.StartsWith("lagsim check --seed 1 --sessions 1 --strategy full-rollback --bodies ", failure.Command, StringComparison.Ordinal);
+        AssertLeast(failure.Least, options);
         CheckCase least = new(1, options with { Bodies = failure.Least.Bodies, Events = failure.Least.Deeds });
         Assert.Single(least.DeedIndices.Select(i => least.Deeds[i].AtSeconds).Distinct());
 
@@ -80,6 +79,22 @@ public sealed class InvariantCheckTests
         CheckOptions again = options with { Sessions = 1, Seed = 1, Bodies = failure.Least.Bodies, Events = failure.Least.Deeds, ShrinkingPlays = 0 };
         Assert.Equal(failure.Least.Difference, Run(again).Failures.Single().Whole.Difference);
         Assert.Empty(Run(again with { Prepare = null }).Failures);
+    }
+
+    private static void AssertLeast(CheckOutcome least, CheckOptions options)
+    {
+        foreach (int deed in least.Deeds)
+        {
+            Assert.Null(Failure(least.Bodies, [.. least.Deeds.Where(d => d != deed)]));
+        }
+
+        foreach (int body in least.Bodies)
+        {
+            Assert.True(least.Bodies.Count == 1 || Failure([.. least.Bodies.Where(b => b != body)], least.Deeds) is null);
+        }
+
+        string? Failure(IReadOnlyList<int> bodies, IReadOnlyList<int> deeds) =>
+            CheckSession.Play(least.Seed, options with { Bodies = bodies, Events = deeds }, TestContext.Current.CancellationToken).Failure;
     }
 
     [Fact]
@@ -95,6 +110,41 @@ public sealed class InvariantCheckTests
     }
 
     [Theory]
+    [InlineData(HealingFault.ForgetsThePast, 6u)]
+    [InlineData(HealingFault.OverlooksWhoIsAhead, 6u)]
+    [InlineData(HealingFault.GivesUpByBody, 6u)]
+    [InlineData(HealingFault.DropsEvents, 12u)]
+    [InlineData(HealingFault.CutsByTime, 6u)]
+    [InlineData(HealingFault.LeavesWhoRests, 45u)]
+    internal void Run_HealingInAWayKnownToBeWrong_IsCaughtByASeed(HealingFault fault, uint first)
+    {
+        CheckOptions options = new() { Sessions = 1, Seed = first, ShrinkingPlays = 0, Prepare = (_, simulation) => simulation.Fault = fault };
+        CheckReport report = Run(options);
+        while (report.Failures.Count == 0 && options.Seed < first + 20)
+        {
+            options = options with { Seed = options.Seed + 1 };
+            report = Run(options);
+        }
+
+        CheckOutcome failed = Assert.Single(report.Failures).Whole;
+        TestContext.Current.TestOutputHelper!.WriteLine($"{fault} is caught by seed {failed.Seed}: {failed.Failure} {failed.Difference}");
+        Assert.True(failed.DifferingBits > 0 && failed.Difference is not null, failed.Failure);
+
+        // It is the fault that it caught: without it the same session is as it should be.
+        Assert.Empty(Run(options with { Prepare = null }).Failures);
+    }
+
+    [Fact]
+    public void Draw_Hands_TakeMoveAndLetGoAndAreAfterTheSameBody()
+    {
+        CheckCase[] cases = [.. Enumerable.Range(1, 60).Select(seed => new CheckCase((ulong)seed, new CheckOptions()))];
+        CheckDeed[][] hands = [.. cases.Select(c => c.Deeds.Where(d => d.Kind is EventKind.Grab or EventKind.HoldKnot or EventKind.Release).ToArray())];
+        Assert.True(hands.Count(h => h.Length > 0) > 30);
+        Assert.Contains(hands, h => h.Where(d => d.Kind == EventKind.Grab).GroupBy(d => (d.Body, d.Spawn)).Any(g => g.Select(d => d.Peer).Distinct().Skip(1).Any()));
+        Assert.All(cases, c => Assert.All(c.Deeds, d => Assert.True(d.Spawn < 0 || (c.Deeds[d.Spawn].Kind == EventKind.Spawn && c.Deeds[d.Spawn].AtSeconds <= d.AtSeconds))));
+    }
+
+    [Theory]
     [InlineData("none")]
     [InlineData("latency-forward")]
     public void Run_StrategyThatDoesNotAgree_FailsEverywhere(string strategy)
@@ -107,25 +157,63 @@ public sealed class InvariantCheckTests
     [Fact]
     public void Run_HistoryTooShort_TooLateIsAFailure()
     {
-        // The window is measured, not believed: a peer whose history is cut off under it loses events, and that is seen.
-        CheckOptions options = new()
-        {
-            Sessions = 3,
-            Profile = LinkProfiles.PureDelay(500),
-            ShrinkingPlays = 0,
-            Prepare = static (_, simulation) => simulation.Healed += _ => simulation.DropHistoryBefore(simulation.SimulatedTo),
-        };
+        // Half a second there, and a quarter of one is allowed: the host refuses what joiners do, and their senders take it back.
+        CheckOptions options = new() { Sessions = 3, Profile = LinkProfiles.PureDelay(500), ShrinkingPlays = 0, History = SimDuration.FromMilliseconds(250) };
         CheckReport report = Run(options);
-        Assert.NotEmpty(report.Failures);
+        Assert.Equal([1UL, 2, 3], report.Failures.Select(f => f.Whole.Seed));
+        Assert.All(report.Outcomes, o => Assert.Equal((true, $"{o.TooLateEvents} events were too late."), (o.TooLateEvents > 0, o.Failure)));
+        Assert.Equal(0, report.DifferingBits);
+
+        // The control: with the history that such a link needs none of them is.
+        CheckReport whole = Run(options with { History = null });
+        Assert.Equal((0, 0L, 0L), (whole.Failures.Count, whole.TooLateEvents, whole.DifferingBits));
     }
 
     [Fact]
     public void Run_AskedToStop_ReportsWhatIsDone()
     {
         using CancellationTokenSource stop = new();
-        CheckReport report = InvariantCheck.Run(new CheckOptions { Sessions = 100_000, Workers = 1 }, _ => stop.Cancel(), stop.Token);
-        Assert.InRange(report.Outcomes.Count, 0, 99_999);
+        CheckOptions options = new() { Sessions = 100_000, Seed = 40, Workers = 2 };
+        CheckReport report = InvariantCheck.Run(options, done => StopAfter(3, done), stop.Token);
+        Assert.InRange(report.Outcomes.Count, 3, 99_999);
+        Assert.True(report.IsStopped);
+        Assert.Equal(100_000, report.AskedFor);
         Assert.Empty(report.Failures);
+        Assert.All(report.Outcomes, o => Assert.True(o.ExternalEvents > 0 && o.Compared > 0, $"seed {o.Seed}"));
+
+        // What is reported is whole: those sessions come to the same where nobody stops them.
+        CheckReport whole = Run(options with { Sessions = 3 });
+        Assert.False(whole.IsStopped);
+        Assert.Equal(Texts(whole), Texts(report with { Outcomes = [.. report.Outcomes.Take(3)] }));
+
+        void StopAfter(int sessions, int done)
+        {
+            if (done >= sessions)
+            {
+                stop.Cancel();
+            }
+        }
+    }
+
+    [Fact]
+    public void Play_AskedToStopInTheMiddle_HasNoOutcome()
+    {
+        using CancellationTokenSource stop = new();
+        int begun = 0;
+        CheckOptions options = new() { FromPeers = 3, ToPeers = 3, Prepare = (_, _) => begun += StopAtTheSecond() };
+        Assert.Throws<OperationCanceledException>(() => CheckSession.Play(40, options, stop.Token));
+        Assert.Equal(2, begun); // worlds; the third never began
+        Assert.Throws<OperationCanceledException>(() => CheckSession.Play(40, options, stop.Token));
+
+        int StopAtTheSecond()
+        {
+            if (begun == 1)
+            {
+                stop.Cancel();
+            }
+
+            return 1;
+        }
     }
 
     [Fact]
@@ -135,6 +223,9 @@ public sealed class InvariantCheckTests
         Assert.Contains("2 to 8", Assert.Throws<ArgumentOutOfRangeException>(() => Run(new CheckOptions { FromPeers = 5, ToPeers = 4 })).Message, StringComparison.Ordinal);
         Assert.Contains("one session", Assert.Throws<ArgumentException>(() => Run(new CheckOptions { Events = [1] })).Message, StringComparison.Ordinal);
     }
+
+    private static string[] Texts(CheckReport report) => [.. report.Outcomes.Select(
+        o => $"{o.Seed} {o.Peers} {o.Events} {o.ExternalEvents} {o.LateEvents} {o.Heals} {o.HealsThatChangedAnImpact} {o.Impacts} {o.Compared} {o.Failure}")];
 
     private static CheckReport Run(CheckOptions options) => InvariantCheck.Run(options, null, TestContext.Current.CancellationToken);
 

@@ -1,7 +1,13 @@
 using System;
+using System.CommandLine;
 using System.IO;
 using System.Linq;
 using System.Text.Json;
+using System.Threading;
+using LagSim.Cli;
+using LagSim.Cli.Commands;
+using LagSim.Cli.Output;
+using LagSim.Timelines;
 using Xunit;
 
 namespace LagSim.Tests.Cli;
@@ -43,6 +49,60 @@ public sealed class CheckCommandTests
         Assert.Equal(1, again.ExitCode);
         Assert.Contains("seed 2: ", again.Output, StringComparison.Ordinal);
         Assert.Contains("expected ", again.Output, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Check_FaultInOneWorld_IsShrunkAndTheCommandItPrintsFailsWithItAlone()
+    {
+        // The whole way: found among several sessions, made small, printed as a command, and that command given to the tool again.
+        static void Wrong(int peer, Simulation simulation) => simulation.Fault = peer == 1 ? HealingFault.CutsByTime : HealingFault.None;
+        (int code, string output) = Run(["check", "--sessions", "2", "--seed", "7", "--peers", "2-4"], Wrong);
+        Assert.Equal(1, code);
+        string[] commands = [.. output.Split('\n').Select(line => line.Trim()).Where(line => line.StartsWith("lagsim check ", StringComparison.Ordinal))];
+        Assert.NotEmpty(commands);
+        string[] least = commands[0].Split(' ');
+        Assert.Equal(["--sessions", "1", "--peers", "2-4", "--bodies"], least[4..9]);
+        Assert.InRange(least[9].Split(',').Length, 1, 3);
+        Assert.InRange(least[11].Split(',').Length, 1, 4);
+        string difference = output.Split('\n').First(line => line.Contains("first difference", StringComparison.Ordinal)).Trim();
+        Assert.Contains("Peer 1,", difference, StringComparison.Ordinal);
+
+        (int again, string replayed) = Run(least[1..], Wrong);
+        Assert.Equal(1, again);
+        Assert.Contains("1 of 1 sessions", replayed, StringComparison.Ordinal);
+        Assert.Contains(difference["first difference of the least that fails: ".Length..], replayed, StringComparison.Ordinal);
+        Assert.Contains(commands[0], replayed, StringComparison.Ordinal); // nothing more can be left out
+        Assert.Equal(0, Run(least[1..], null).Code);
+    }
+
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Check_Interrupted_TellsOfTheSessionsThatWereDone(bool json)
+    {
+        using CancellationTokenSource stop = new();
+        using StringWriter output = new(), error = new();
+        using Timer late = new(_ => stop.Cancel(), null, 500, Timeout.Infinite);
+        string[] arguments = ["check", "--sessions", "100000", .. json ? ["--json"] : Array.Empty<string>()];
+        Assert.Equal(130, Program.Run(arguments, output, error, stop.Token));
+        if (json)
+        {
+            JsonElement told = JsonDocument.Parse(output.ToString()).RootElement;
+            Assert.True(told.GetProperty("stopped_early").GetBoolean());
+            Assert.Equal(100_000, told.GetProperty("sessions_asked_for").GetInt32());
+            Assert.InRange(told.GetProperty("sessions").GetInt32(), 0, 99_999);
+            return;
+        }
+
+        Assert.Matches("^stopped early: [0-9,]+ of 100,000 sessions from seed 1 ", output.ToString());
+        Assert.Contains("failing seeds 0", output.ToString(), StringComparison.Ordinal);
+    }
+
+    private static (int Code, string Output) Run(string[] arguments, Action<int, Simulation>? prepare)
+    {
+        using StringWriter output = new(), error = new();
+        Command command = CheckCommand.Create(new ToolConsole(output, error, TestContext.Current.CancellationToken), options => options with { Prepare = prepare });
+        return (command.Parse(arguments[1..]).Invoke(new InvocationConfiguration { Output = output, Error = error, EnableDefaultExceptionHandler = false }), output.ToString());
     }
 
     [Fact]

@@ -135,6 +135,9 @@ public sealed class SessionCommandTests
         joiner.Ends(1);
         Assert.Contains("The committed state at T 1 s differs from the host's.", joiner.Error.ToString(), StringComparison.Ordinal);
         Assert.Contains("events: 0 accepted, 1 refused", joiner.Output.ToString(), StringComparison.Ordinal);
+
+        // And which event it was, as the host has it and as it came here.
+        Assert.Matches("The first that differs: at the host entry 1 of the log, at T [0-9.]+ s, Accepted: .*; here entry 1 of the log, at T [0-9.]+ s, ", joiner.Error.ToString());
     }
 
     [Fact]

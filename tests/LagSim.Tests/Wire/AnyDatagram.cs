@@ -46,6 +46,10 @@ internal static class AnyDatagram
                 return RefusalDatagram.TryDecode(bytes, out RefusalDatagram answer, out refusal) ? Bytes(answer.Encode) : null;
             case DatagramType.Leave:
                 return LeaveDatagram.TryDecode(bytes, out LeaveDatagram leave, out refusal) ? Bytes(leave.Encode) : null;
+            case DatagramType.Doubt:
+                return DoubtDatagram.TryDecode(bytes, out DoubtDatagram doubt, out refusal) ? Bytes(doubt.Encode) : null;
+            case DatagramType.Evidence:
+                return EvidenceDatagram.TryDecode(bytes, out EvidenceDatagram evidence, out refusal) ? Bytes(evidence.Encode) : null;
             default:
                 return scratch.TryDecode(bytes, out refusal) ? Bytes(scratch.Encode) : null;
         }

@@ -121,6 +121,16 @@ public class HostileBytesTests
             yield return AnyDatagram.Bytes(fetch.Encode);
         }
 
+        foreach (DoubtDatagram doubt in Gen.Sample(WireGen.Doubt, 30, each))
+        {
+            yield return AnyDatagram.Bytes(doubt.Encode);
+        }
+
+        foreach (EvidenceDatagram evidence in Gen.Sample(WireGen.Evidence, 30, each))
+        {
+            yield return AnyDatagram.Bytes(evidence.Encode);
+        }
+
         foreach (JoinDatagram join in Gen.Sample(WireGen.Join, 30, each))
         {
             yield return AnyDatagram.Bytes(join.Encode);

@@ -30,6 +30,16 @@ public class RoundTripTests
         FetchDatagram.TryDecode(AnyDatagram.Bytes(fetch.Encode), out FetchDatagram again, out _) && again.Equals(fetch));
 
     [Fact]
+    public void Encode_AnyDoubt_DecodesToTheSame() => Holds(WireGen.Doubt, doubt =>
+        DoubtDatagram.TryDecode(AnyDatagram.Bytes(doubt.Encode), out DoubtDatagram again, out _) && again.Equals(doubt));
+
+    [Fact]
+    public void Encode_AnyEvidence_DecodesToTheSame() => Holds(WireGen.Evidence, evidence =>
+        EvidenceDatagram.TryDecode(AnyDatagram.Bytes(evidence.Encode), out EvidenceDatagram again, out _)
+        && (again.SessionId, again.IsWhole, again.Total, again.Index, again.LogIndex) == (evidence.SessionId, evidence.IsWhole, evidence.Total, evidence.Index, evidence.LogIndex)
+        && again.Event.Equals(evidence.Event));
+
+    [Fact]
     public void Encode_AnyChunk_DecodesToTheSame() => Holds(WireGen.Chunk, bytes =>
         ChunkDatagram.TryDecode(bytes, out ChunkDatagram again, out _)
         && bytes.AsSpan().SequenceEqual(AnyDatagram.ChunkBytes(again.SessionId, again.Index, again.Data)));

@@ -147,8 +147,8 @@ public class ValueRangeTests
         AssertHeader(WireRefusal.NotLagSim, 0x4C, 0x53, 3, 1);
         AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, 1, 1);
         AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 3, 0);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 3, 10);
-        AssertHeader(WireRefusal.None, 0x53, 0x4C, 3, 9);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 3, 12);
+        AssertHeader(WireRefusal.None, 0x53, 0x4C, 3, 11);
     }
 
     [Fact]

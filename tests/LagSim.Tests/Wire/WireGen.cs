@@ -82,6 +82,25 @@ internal static class WireGen
         from wanted in Bits64
         select new FetchDatagram(session, peer, number, first, wanted);
 
+    internal static readonly Gen<DoubtDatagram> Doubt =
+        from session in Bits64
+        from peer in Byte
+        from number in Bits32
+        from after in Time
+        from upTo in Time
+        from first in Bits32
+        where after != upTo
+        select new DoubtDatagram(session, peer, number, SimTime.Min(after, upTo), SimTime.Max(after, upTo), first);
+
+    internal static readonly Gen<EvidenceDatagram> Evidence = Gen.OneOf(
+        from session in Bits64 from whole in Byte select new EvidenceDatagram(session, whole % 2 == 1),
+        from session in Bits64
+        from total in Bits32
+        from index in Bits32
+        from place in Bits32
+        from what in Event
+        select new EvidenceDatagram(session, Math.Max(1, total), index % Math.Max(1, total), Math.Max(1, place), what));
+
     /// <summary>A piece as bytes: it cannot leave the stack itself.</summary>
     internal static readonly Gen<byte[]> Chunk =
         from session in Bits64

@@ -32,7 +32,7 @@ public sealed class WirePageTests
             checkedOnes++;
         }
 
-        Assert.Equal(9 * 60, checkedOnes);
+        Assert.Equal(11 * 60, checkedOnes);
     }
 
     [Fact]
@@ -73,7 +73,7 @@ public sealed class WirePageTests
             }
         }
 
-        Assert.Equal(3 + 3 + 8 + 2 + 16 + 4 + 6 + 3 + 2 + 4 + 5 + 3 + 3 + 24, rows);
+        Assert.Equal(3 + 3 + 8 + 2 + 16 + 4 + 6 + 3 + 2 + 4 + 5 + 3 + 6 + 6 + 3 + 24, rows);
     }
 
     [Fact]
@@ -92,6 +92,8 @@ public sealed class WirePageTests
             [DatagramType.Join] = WireFormat.JoinBytes,
             [DatagramType.Fetch] = WireFormat.FetchBytes,
             [DatagramType.Chunk] = WireFormat.EmptyChunkBytes + 1,
+            [DatagramType.Doubt] = WireFormat.DoubtBytes,
+            [DatagramType.Evidence] = WireFormat.EmptyEvidenceBytes,
         };
         foreach (DatagramType type in Enum.GetValues<DatagramType>().Where(type => type != DatagramType.None))
         {
@@ -201,6 +203,17 @@ public sealed class WirePageTests
             yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(
                 page, DatagramType.Fetch, ("session id", d.SessionId), ("peer", d.Peer), ("number", d.Number), ("first", d.First), ("wanted", d.Wanted)));
         }
+
+        foreach (DoubtDatagram d in Sample(WireGen.Doubt, each))
+        {
+            yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(
+                page, DatagramType.Doubt, ("session id", d.SessionId), ("peer", d.Peer), ("number", d.Number), ("after", d.After), ("up to", d.UpTo), ("first", d.First)));
+        }
+
+        foreach (EvidenceDatagram d in Sample(WireGen.Evidence, each))
+        {
+            yield return (AnyDatagram.Bytes(d.Encode), page => Evidence(page, d));
+        }
     }
 
     private static IEnumerable<T> Sample<T>(Gen<T> gen, int count) => Gen.Sample(gen, count, new Rnd(20261121, 1), 30);
@@ -215,6 +228,18 @@ public sealed class WirePageTests
 
     private static void Header(Stream to, string[] page, DatagramType type) => Write(
         to, Table(page, "## Header"), Values(("magic", 0x4C53), ("version", WireFormat.Version), ("type", (byte)type)));
+
+    private static byte[] Evidence(string[] page, EvidenceDatagram d)
+    {
+        LayoutRow[] rows = Table(page, "## 11 Evidence");
+        rows = d.Total > 0 ? rows : [.. rows.Where(row => !row.Value.Contains("only with an event", StringComparison.Ordinal))];
+        MemoryStream bytes = new();
+        Header(bytes, page, DatagramType.Evidence);
+        Write(bytes, rows, Values(
+            ("session id", d.SessionId), ("whole", d.IsWhole ? 1 : 0), ("total", d.Total), ("index", d.Index), ("log index", d.LogIndex),
+            ("event", d.Total > 0 ? Event(page, d.Event) : [])));
+        return bytes.ToArray();
+    }
 
     private static byte[] Update(string[] page, UpdateDatagram d)
     {
