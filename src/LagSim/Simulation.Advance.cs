@@ -192,6 +192,11 @@ public sealed partial class Simulation
     private void Append(int slot, in EventKey key, in MotionSegment segment, in DenseOutput dense, in Hold hold = default)
     {
         timelines.DropBefore(slot, HistoryEdge);
+        if (key.Time <= front)
+        {
+            CountHealed(slot); // also who had nothing to be cut, because what struck him now comes after all he did
+        }
+
         timelines.Append(slot, bodies[slot].Id, key, segment, dense, hold);
     }
 

@@ -20,9 +20,9 @@ public sealed partial class Simulation
     /// <summary>Ends the heal at hand if at an instant, of which it has done all, the new paths have met the old, and if it may get so far at all.</summary>
     private bool HasMet(SimTime at, SimTime until)
     {
-        if (front == SimTime.MinValue || at < clock.Time || until < front)
+        if (front == SimTime.MinValue || at >= front || at < clock.Time || until < front)
         {
-            return false; // no heal; or of the instant of the news nothing is done; or whoever advances does not want that much yet
+            return false; // no heal, or none any more; or of the instant of the news nothing is done; or whoever advances does not want that much yet
         }
 
         if (!cutPaths.IsWhole)

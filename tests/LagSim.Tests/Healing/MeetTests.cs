@@ -67,6 +67,24 @@ public sealed class MeetTests
     }
 
     [Fact]
+    public void Healed_WhereWhatWasStruckHadNothingToBeCut_DoesNotStopEither()
+    {
+        // Without a floor ball 4 has one flight and no more, so that the impact comes after all it did.
+        Simulation simulation = new(Scene(hasFloor: false), new SimulationOptions(default, SimDuration.MaxValue));
+        List<HealReport> reports = [];
+        simulation.Healed += reports.Add;
+        simulation.Submit(Back);
+        simulation.AdvanceTo(At(4));
+        simulation.Submit(ExternalEvent.SetVelocity(At(0.5), 1, 1, Ball3, V(5, -0.5 * 9.81)));
+        Assert.Null(Assert.Single(reports).Met);
+        Assert.Equal(7, reports[0].Bodies); // it and all in the row beyond, each of which had one flight
+        Simulation onTime = new(simulation.Scene, new SimulationOptions(default, SimDuration.MaxValue));
+        onTime.Submit(Back);
+        onTime.Submit(ExternalEvent.SetVelocity(At(0.5), 1, 1, Ball3, V(5, -0.5 * 9.81)));
+        AssertIs(onTime, simulation);
+    }
+
+    [Fact]
     public void Healed_InPiecesAndWithAnIndex_MeetsToo()
     {
         (Simulation simulation, List<HealReport> reports) = Row(0, Back);
@@ -147,9 +165,14 @@ public sealed class MeetTests
         }
     }
 
-    private static Scene Scene()
+    private static Scene Scene(bool hasFloor = true)
     {
-        SceneBuilder builder = new SceneBuilder("row").AddPlane("floor", Vector3D.Up, V(0), 0.9);
+        SceneBuilder builder = new("row");
+        if (hasFloor)
+        {
+            builder.AddPlane("floor", Vector3D.Up, V(0), 0.9);
+        }
+
         for (int i = 0; i < 10; i++)
         {
             builder.AddBody($"ball {i}", Ball(0.25, 1, 0.9), V(i, 2.25));
