@@ -102,16 +102,21 @@ internal sealed class SendWindow
         return sent < last || IsOverdue(now, Wait(patience));
     }
 
-    /// <summary>The first entry that goes out in any case, of those that are not acknowledged, up to the last: before it there are knots alone, sent before, and the newest of these goes out once more.</summary>
+    /// <summary>
+    /// The first entry that goes out in any case, of those that are not acknowledged, up to the last. Where they are knots alone it is the newest that was sent before; where there is anything else, it
+    /// is the first, since what comes after one that is lost can be taken only with it.
+    /// </summary>
     private uint FirstNeeded(IEntrySource source, uint last)
     {
-        uint first = Acknowledged + 1;
-        while (first < sent && first < last && IsMadeUpFor(source[first]))
+        for (uint number = Acknowledged + 1; number <= last; number++)
         {
-            first++;
+            if (!IsMadeUpFor(source[number]))
+            {
+                return Acknowledged + 1;
+            }
         }
 
-        return first;
+        return Math.Max(Acknowledged + 1, Math.Min(sent, last));
     }
 
     /// <summary>Whether what comes after carries what this one would have.</summary>

@@ -71,7 +71,7 @@ public sealed class EndlessWorkTests
             .AddBody("ball", Ball(), V(0.5005), V(1)).Build();
         Simulation simulation = new(scene, new SimulationOptions(default, SimDuration.FromSeconds(1), maxSegments: 500));
         simulation.AdvanceTo(At(0.4)); // the control: a thousand impacts a second, so far fewer than 500
-        SimulationException failure = Assert.Throws<SimulationException>(() => simulation.AdvanceTo(At(0.6)));
+        SimulationException failure = Assert.Throws<TimelinesFullException>(() => simulation.AdvanceTo(At(0.6)));
         Assert.Contains("500 segments", failure.Message, StringComparison.Ordinal);
         Simulation shorter = new(scene, new SimulationOptions(default, SimDuration.FromSeconds(0.25), maxSegments: 500));
         shorter.AdvanceTo(At(10)); // as it advises: what lies behind the history makes room
