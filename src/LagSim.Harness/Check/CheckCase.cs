@@ -122,7 +122,7 @@ internal sealed class CheckCase
     }
 
     private static double WorstMilliseconds(LinkLeg leg) =>
-        leg.DelayMilliseconds + (4 * leg.JitterMilliseconds) + (leg.Tail?.AboveMilliseconds ?? 0) + ((leg.Outage?.Length.ToMilliseconds() ?? 0) * 1.1);
+        leg.DelayMilliseconds + (4 * leg.JitterMilliseconds) + (leg.Tail is null ? 0 : LongTail.MostMilliseconds) + ((leg.Outage?.Length.ToMilliseconds() ?? 0) * 1.1);
 
     private static void Throw(IReadOnlyList<int> indices, int count, string what, ulong seed)
     {

@@ -158,7 +158,7 @@ public sealed class LinkModel
         double deviations = luck.NextGaussian();
         double milliseconds = Leg.Tail is null
             ? Math.Max(0, usual + (Leg.JitterMilliseconds * deviations))
-            : Math.Min(LinkLeg.MaxMilliseconds, usual * SeededRandom.Exp(logDeviation * deviations));
+            : Math.Min(LongTail.MostMilliseconds, usual * SeededRandom.Exp(logDeviation * deviations));
         return SimDuration.FromMilliseconds(milliseconds);
     }
 }
