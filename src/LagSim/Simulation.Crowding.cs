@@ -87,8 +87,14 @@ public sealed partial class Simulation
     /// <summary>Whether two bodies of which one is crowded are so near that the other takes part, though they do not strike now.</summary>
     private bool IsNearBody(int slot, int count, int other, int piece, SimTime time)
     {
-        bool isCrowded = (count >= nearFrom || CrowdingAfter(piece, time) >= nearFrom) && !(IsHeld(timelines.Last(slot)) && IsHeld(piece));
-        return isCrowded && Gap(slot, timelines.Last(slot), other, piece, time) <= reach;
+        int mine = timelines.Last(slot);
+        if ((count < nearFrom && CrowdingAfter(piece, time) < nearFrom) || (IsHeld(mine) && IsHeld(piece)))
+        {
+            return false;
+        }
+
+        double gap = Gap(slot, mine, other, piece, time);
+        return gap <= reach && !((IsHeld(mine) || IsHeld(piece)) && IsInside(gap));
     }
 
     /// <summary>The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits whoever asks.</summary>

@@ -255,6 +255,11 @@ public sealed partial class Simulation
         }
 
         double reach = bodies[a].Spec.Radius + bodies[b].Spec.Radius;
+        if (isPushed && IsInside(Gap(a, lastA, b, lastB, opened)))
+        {
+            return false;
+        }
+
         SimTime from = opened;
         while (from <= until && ContactFinder.WithSphere(
             segmentA, timelines.Dense(lastA), segmentB, timelines.Dense(lastB), reach, from, until, out contact))
@@ -302,7 +307,12 @@ public sealed partial class Simulation
                 return opened;
             }
 
-            wait = isPushed ? PressedWait : CollapseWait;
+            if (isPushed)
+            {
+                return SimTime.MaxValue; // it goes through
+            }
+
+            wait = CollapseWait;
         }
 
         return end.SecondsSince(opened) < wait.ToSeconds() ? SimTime.MaxValue : opened + wait;
