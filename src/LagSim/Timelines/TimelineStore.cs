@@ -11,7 +11,7 @@ namespace LagSim.Timelines;
 /// <remarks>
 /// <para>Segments live in flat arrays, linked per body; nothing is overwritten, a segment is only appended, cut off at the end, or dropped
 /// behind the window. Allocates only when more segments are alive than ever before. A body's old segments are dropped when it opens a new one, and all bodies'
-/// before the arrays grow, which they do by an eighth once they are large: so a world takes little more than its window needs.</para>
+/// before the arrays grow, which they do by a sixty-fourth once they are large: so a world takes little more than its window needs.</para>
 /// <para>It keeps a running hash of all events: the sum (modulo 2^64) of one hash a segment, so that appending and cutting are O(1) and the
 /// order in which the news came leaves no trace.</para>
 /// </remarks>
@@ -19,8 +19,10 @@ internal sealed class TimelineStore
 {
     internal const int None = -1;
 
-    /// <summary>Below this the arrays double, above they grow by an eighth.</summary>
+    /// <summary>Below this the arrays double, above they grow by one part in <see cref="Growth"/>.</summary>
     private const int Large = 1024;
+
+    private const int Growth = 64;
 
     private readonly SimTime origin;
     private readonly FreeFlights? flights; // is told of each body's newest segment
@@ -328,7 +330,7 @@ internal sealed class TimelineStore
             DropBefore(slot, dropped);
         }
 
-        if (Alive > used - (used / 16) && used < Most)
+        if (Alive > used - (used / (2 * Growth)) && used < Most)
         {
             Grow();
         }
@@ -344,7 +346,7 @@ internal sealed class TimelineStore
 
     private void Grow()
     {
-        int size = segments.Length < Large ? segments.Length * 2 : segments.Length + (segments.Length / 8);
+        int size = segments.Length < Large ? segments.Length * 2 : segments.Length + (segments.Length / Growth);
         Array.Resize(ref segments, size);
         Array.Resize(ref keys, size);
         Array.Resize(ref serials, size);
