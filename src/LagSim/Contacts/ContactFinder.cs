@@ -92,6 +92,11 @@ internal static class ContactFinder
         while (true)
         {
             int terms = SquaredDistance(d, reach, f);
+            if (OnlyGrows(f, terms))
+            {
+                return double.NaN; // as after some seconds whatever falls away from what does not: the end of time is far
+            }
+
             double root = FirstDescent.Find(f.Slice(0, terms), window);
             if (!double.IsNaN(root))
             {
@@ -107,6 +112,18 @@ internal static class ContactFinder
             Shift(d, window);
             window = Math.Min(start, seconds - start);
         }
+    }
+
+    /// <summary>Whether the two are apart, and no term of their distance ever brings them nearer.</summary>
+    private static bool OnlyGrows(Span<double> f, int terms)
+    {
+        bool grows = f[0] > 0;
+        for (int k = 1; k < terms && grows; k++)
+        {
+            grows = f[k] >= 0;
+        }
+
+        return grows;
     }
 
     private static int SquaredDistance(Span<Vector3D> d, double reach, Span<double> f)
