@@ -85,7 +85,7 @@ internal sealed class CheckSession
             }
         }
 
-        if (!RunUntil(() => members.All(m => m.Session.World is not null)))
+        if (!RunUntil(() => members.All(m => m.Session.World is not null) && Host.State == SessionState.Running))
         {
             return $"Not all were in after {Patience} s: {States()}.";
         }
