@@ -162,16 +162,18 @@ public sealed partial class HostSession : Session
 
         uint sequence = update.FirstIndex;
         bool isNear = true;
+        bool canWait = update.Held.Length > 0 && joiner.HasBegun && !IsOverdue(joiner.Link.Silence(now));
         foreach (UpdateEntry entry in update.Held)
         {
             isNear &= joiner.Incoming.Put(sequence++, entry);
+            canWait &= !entry.IsOwn && IsMadeUpFor(entry.Event);
         }
 
         Counters.DatagramsIgnored += isNear ? 0 : 1; // further ahead than any joiner of ours goes
         Counters.EventsDeferred += JudgeNext(joiner, now) ? 0 : 1;
 
-        // An answer at once: it carries the acknowledgement, and the joiner's clock has its exchange without waiting.
-        joiner.Link.Hasten(now);
+        // An answer at once: it carries the acknowledgement, and the joiner's clock has its exchange without waiting. Knots come many a second, and have time.
+        joiner.Link.Hasten(canWait ? now + MostAckDelay : now);
     }
 
     private protected override void Tend(SimTime now)
@@ -321,7 +323,12 @@ public sealed partial class HostSession : Session
         log.Add(external, verdict, SimTime.Min(Watermark, external.Time)); // it was judged, or done, a little earlier
         lastUrgent = verdict == Verdict.Accepted && IsMadeUpFor(external) ? lastUrgent : log.Count;
         Tell(log[log.Count]);
-        Hasten();
+        SimTime now = Clock.Now;
+        foreach (Joiner joiner in joiners)
+        {
+            bool canWait = log.Count != lastUrgent && joiner.Peer == external.Peer; // who did it knows it already
+            joiner.Link.Hasten(canWait ? now + MostAckDelay : now);
+        }
     }
 
     private void SendUpdates(Joiner joiner, SimTime now)
@@ -347,12 +354,12 @@ public sealed partial class HostSession : Session
         }
 
         logView.Reader = joiner;
-        bool hasMore = joiner.Outgoing.Fill(update, logView, now, joiner.Link.Patience + Options.ResendInterval, Options.ResendInterval);
+        bool hasMore = joiner.Outgoing.Fill(update, logView, now, joiner.Link.Patience + Options.ResendInterval, MostAckDelay, Options.ResendInterval);
 
         // The watermark is a promise about what comes after this update's last entry: the one at which the next entry was added, or as there is none, now's.
         uint last = update.FirstIndex + (uint)update.Held.Length - 1;
         update.Watermark = World is null ? SimTime.MinValue : last < log.Count ? log.WatermarkAfter(last) : Watermark;
-        bool isUrgent = joiner.Acknowledged < Math.Min(lastUrgent, logView.Last) || (World is not null && joiner.IsReady && !joiner.HasBegun);
+        bool isUrgent = joiner.Acknowledged < Math.Min(lastUrgent, logView.Last) || joiner.Outgoing.HasLost || (World is not null && joiner.IsReady && !joiner.HasBegun);
         SimDuration wait = WaitAfterUpdate(isUrgent, joiner.Acknowledged < logView.Last, joiner.Link, now, Overdue);
         Send(joiner.Link.Seal(hasMore ? now : now + wait), joiner.Link);
         return hasMore;

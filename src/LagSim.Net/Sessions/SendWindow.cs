@@ -35,6 +35,12 @@ internal sealed class SendWindow
     /// <summary>The other has the entries up to this one.</summary>
     internal uint Acknowledged { get; private set; }
 
+    /// <summary>
+    /// Whether something was not acknowledged in time, and nothing has been since. From then on all of it is worth a datagram each resend interval: links lose
+    /// several datagrams in a row, however far apart, so whoever asks again only after each answer's time may wait for seconds.
+    /// </summary>
+    internal bool HasLost { get; private set; }
+
     /// <summary>Notes that the other has the entries up to a number; a lower one than before says nothing.</summary>
     internal void Acknowledge(uint number)
     {
@@ -43,6 +49,7 @@ internal sealed class SendWindow
             Acknowledged = number;
             sent = Math.Max(sent, number);
             stalls = 0;
+            HasLost = false;
         }
     }
 
@@ -51,9 +58,10 @@ internal sealed class SendWindow
     /// <param name="source">The entries.</param>
     /// <param name="now">When it is sent.</param>
     /// <param name="patience">What an answer takes at most, as far as is known.</param>
+    /// <param name="ackDelay">How much longer it may take for what later entries make up for.</param>
     /// <param name="resend">After how long something goes out in any case.</param>
     /// <returns>Whether more is to be sent at once.</returns>
-    internal bool Fill(UpdateDatagram update, IEntrySource source, SimTime now, SimDuration patience, SimDuration resend)
+    internal bool Fill(UpdateDatagram update, IEntrySource source, SimTime now, SimDuration patience, SimDuration ackDelay, SimDuration resend)
     {
         uint last = source.Last - Acknowledged > MaxEntries ? Acknowledged + MaxEntries : source.Last;
         bool mayRepeat = repeated == SimTime.MinValue || now - repeated >= resend;
@@ -64,7 +72,8 @@ internal sealed class SendWindow
 
         SimDuration wait = Wait(patience);
         uint first = Acknowledged + 1;
-        uint needed = IsOverdue(now, wait) ? first : FirstNeeded(source, last);
+        HasLost |= IsOverdue(now, wait + ackDelay);
+        uint needed = HasLost ? first : FirstNeeded(source, last);
         if (Add(update, source, needed, last) == last)
         {
             if (needed == first)

@@ -23,9 +23,6 @@ namespace LagSim.Net.Sessions;
 /// </remarks>
 public abstract partial class Session
 {
-    /// <summary>As many datagrams are taken in at a time at most: whoever floods this peer does not keep it from its own work.</summary>
-    private const int MaxDatagramsAStep = 256;
-
     /// <summary>So long the acknowledgement of what is not urgent may wait for a datagram that goes out anyway.</summary>
     private protected static readonly SimDuration MostAckDelay = SimDuration.FromMilliseconds(100);
 
@@ -35,10 +32,8 @@ public abstract partial class Session
     /// <summary>The furthest that a clock may have run, 23 days: so long a session can last.</summary>
     internal static readonly SimTime MaxClock = SimTime.FromSeconds(2_000_000); // the estimate of another clock takes readings of up to 24 days
 
-    private readonly byte[] buffer = new byte[IDatagramPort.MaxDatagramBytes];
     private readonly ILateEventStrategy strategy;
     private readonly ContactNotices? contacts;
-    private readonly UpdateDatagram received = new();
     private readonly CancellationTokenSource interruption = new();
     private bool hasUnshown;
     private SimTime begunAt = SimTime.MaxValue; // the earliest instant of the world; there before the world is
@@ -169,77 +164,6 @@ public abstract partial class Session
         return BinaryPrimitives.ReadUInt64LittleEndian(bytes);
     }
 
-    /// <summary>Does what is due: takes in datagrams, sends, brings the world ahead, by a bounded number of events; see <see cref="LiveWorld.IsBehind"/>.</summary>
-    /// <returns>How long until something is due again, unless a datagram or an action comes first.</returns>
-    /// <remarks>A world that cannot be simulated any further ends the session, with the reason; whatever others send, it does not throw.</remarks>
-    public SimDuration Step()
-    {
-        try
-        {
-            return StepOnce();
-        }
-        catch (SimulationException failure)
-        {
-            EndWorld(failure);
-            return SimDuration.MaxValue;
-        }
-    }
-
-    /// <summary>
-    /// Does something to the shared world, now, or later by what <see cref="SessionOptions.Window"/> has of local lag for it: seen here then, by the others too or as soon as they hear of it.
-    /// </summary>
-    /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
-    /// <exception cref="InvalidOperationException">
-    /// The session is not running; or of a joiner's events <see cref="JoinerSession.MaxUnjudgedEvents"/> wait for the host's verdict, and nothing happened:
-    /// it can be done again once verdicts have come.
-    /// </exception>
-    /// <exception cref="SceneException">
-    /// A value may not enter the world, or this peer may not do that, or it is more than <see cref="SessionOptions.MaxGivenSpeed"/> or
-    /// <see cref="SessionOptions.MaxSpawned"/> permits here; nothing happened.
-    /// </exception>
-    /// <exception cref="SimulationException">The world cannot be simulated with it; the session has ended.</exception>
-    public ExternalEvent Do(in PlayerAction action)
-    {
-        if (State != SessionState.Ended && SharedTime.IsSet)
-        {
-            BeginRunning(SharedTime.Now);
-        }
-
-        if (State != SessionState.Running || World is null)
-        {
-            throw new InvalidOperationException(State == SessionState.Ended
-                ? $"Nothing can be done any more: the session has ended. {EndReason}"
-                : $"Nothing can be done while the session is {State}; wait until it is Running.");
-        }
-
-        ThrowIfTooMuch();
-        ExternalEvent external = action.Stamp(SharedTime.Now + Options.Window.LocalLag(action.Kind), Peer, LastSequence + 1);
-        EventRights.Throw(external, Scene!);
-        if (Limits.WhyNot(external, World.Simulation, external.Time, out string sentence) != Verdict.Accepted)
-        {
-            throw new SceneException(sentence);
-        }
-
-        try
-        {
-            if (World.Submit(external) == SubmitResult.TooOld)
-            {
-                throw new InvalidOperationException($"Nothing can be done yet: the shared time is {external.Time}, and what lies before {World.Simulation.HistoryEdge} is committed.");
-            }
-        }
-        catch (SimulationException failure)
-        {
-            EndWorld(failure);
-            throw;
-        }
-
-        hasUnshown = true;
-        Limits.Note(external);
-        LastSequence++;
-        Publish(external);
-        return external;
-    }
-
     /// <summary>Has a step that is simulating end soon, by an <see cref="OperationCanceledException"/>; from any thread. The world stands still from then on.</summary>
     internal void Interrupt() => interruption.Cancel();
 
@@ -269,11 +193,6 @@ public abstract partial class Session
     private protected abstract void Publish(in ExternalEvent external);
 
     private protected abstract void Farewell();
-
-    /// <exception cref="InvalidOperationException">Of what this peer did too much is not settled yet.</exception>
-    private protected virtual void ThrowIfTooMuch()
-    {
-    }
 
     private protected void End(SessionEnd by, string reason)
     {
@@ -316,51 +235,6 @@ public abstract partial class Session
     private SimulationOptions WorldOptions(SimTime start) =>
         new(start, SimDuration.MaxValue, Options.MaxSegments, interruption.Token, strategy.Mode);
 
-    private protected void Tell(in LogEntry entry)
-    {
-        Recent.Add(entry, entry.Verdict == Verdict.Accepted && !IsWithoutEffect);
-        IsWithoutEffect = false;
-        Logged?.Invoke(entry);
-    }
-
-    /// <summary>Brings another peer's accepted event into the world.</summary>
-    private protected void Apply(in ExternalEvent external)
-    {
-        if (World is null)
-        {
-            throw new InvalidOperationException("An event cannot be accepted before there is a world.");
-        }
-
-        hasUnshown = true;
-        SimTime now = SharedTime.Now;
-        Counters.AddLateness(now - external.Time);
-        World.Advance(now); // what was shown up to now is simulated, so what changes it counts as changed
-        switch (strategy.Apply(World, external, now))
-        {
-            case SubmitResult.RolledBack when strategy.RewritesPast && external.Time < now:
-                Counters.Heals++;
-                break;
-            case SubmitResult.TooOld:
-                Counters.EventsLost++;
-                IsWithoutEffect = true;
-                break;
-        }
-    }
-
-    /// <summary>Whether the event may enter this world at all; what others send is not trusted to be checked.</summary>
-    private protected bool MayEnter(in ExternalEvent external)
-    {
-        try
-        {
-            ExternalEventCheck.Throw(external, Scene!);
-            return true;
-        }
-        catch (SceneException)
-        {
-            return false;
-        }
-    }
-
     /// <summary>
     /// Whether one end of a link has not heard of the other when it should have. They then write as if something were unacknowledged: else a
     /// burst of losses, which is counted in datagrams, would last as long as the timeout.
@@ -381,7 +255,7 @@ public abstract partial class Session
     /// <param name="atRest">How long where nothing is the matter.</param>
     private protected SimDuration WaitAfterUpdate(bool hasUrgent, bool hasUnacknowledged, UpdateLink link, SimTime now, SimDuration atRest)
     {
-        bool isUnmeasured = hasUnacknowledged && link.Patience == SimDuration.Zero;
+        bool isUnmeasured = hasUnacknowledged && !link.IsMeasured;
         if (hasUrgent || isUnmeasured || IsOverdue(link.Silence(now)))
         {
             return Options.ResendInterval;
@@ -416,60 +290,6 @@ public abstract partial class Session
         Send(bytes.Slice(0, new LeaveDatagram(link.SessionId, Peer, reason).Encode(bytes)), link);
     }
 
-    private SimDuration StepOnce()
-    {
-        int taken = 0;
-        while (taken < MaxDatagramsAStep && Port.TryReceive(buffer, out int length, out PeerAddress from))
-        {
-            taken++;
-            Counters.DatagramsReceived++;
-            Receive(buffer.AsSpan(0, length), from);
-        }
-
-        SimTime now = Clock.Now;
-        if (State != SessionState.Ended)
-        {
-            Tend(now);
-        }
-
-        SimTime due = State == SessionState.Ended ? SimTime.MaxValue : NextDue(now);
-        if (World is not null && State != SessionState.Ended)
-        {
-            SimTime shared = SharedTime.Now;
-            SimTime worldDue = World.Step(shared);
-            if (hasUnshown && !World.IsBehind)
-            {
-                Counters.LastShown = SharedTime.Now;
-                hasUnshown = false;
-            }
-
-            if (World.IsBehind)
-            {
-                ForgetWhileBehind(shared);
-            }
-
-            if (worldDue != SimTime.MaxValue)
-            {
-                // A shared clock that is behind is bent to run up to 5 % fast: by the own clock the time then comes that much sooner.
-                SimDuration left = worldDue - shared;
-                due = SimTime.Min(due, now + (SharedTime.Remaining > SimDuration.Zero ? left - (left / 20) : left));
-            }
-
-            BeginRunning(shared);
-            if (State != SessionState.Running)
-            {
-                due = SimTime.Min(due, now + (World.Simulation.Start - shared));
-            }
-        }
-
-        if (taken == MaxDatagramsAStep)
-        {
-            return SimDuration.Zero; // there may be more
-        }
-
-        return due == SimTime.MaxValue ? SimDuration.MaxValue : due - Clock.Now; // what the step itself took is not waited again
-    }
-
     /// <summary>Nothing is to be read from a world that failed; the pictures that were published still can be.</summary>
     private void EndWorld(SimulationException failure)
     {
@@ -478,38 +298,5 @@ public abstract partial class Session
         End(
             isFull ? SessionEnd.TimelinesFull : SessionEnd.Failed,
             isFull ? $"This peer has no more room for what may still change, and left; it can join again. {failure.Message}" : $"The world cannot be simulated any further. {failure.Message}");
-    }
-
-    private void BeginRunning(SimTime shared)
-    {
-        if (World is not null && shared >= World.Simulation.Start)
-        {
-            State = SessionState.Running;
-        }
-    }
-
-    private void Receive(ReadOnlySpan<byte> datagram, PeerAddress from)
-    {
-        WireRefusal refusal;
-        if (!WireFormat.TryReadType(datagram, out DatagramType type, out refusal))
-        {
-            Counters.DatagramsMalformed++;
-            if (refusal == WireRefusal.VersionDiffers)
-            {
-                OnOtherVersion(datagram, from);
-            }
-        }
-        else if (type != DatagramType.Update)
-        {
-            OnDatagram(type, datagram, from);
-        }
-        else if (received.TryDecode(datagram, out refusal))
-        {
-            OnUpdate(received, from);
-        }
-        else
-        {
-            Counters.DatagramsMalformed++;
-        }
     }
 }

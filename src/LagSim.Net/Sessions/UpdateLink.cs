@@ -59,8 +59,11 @@ internal sealed class UpdateLink
     /// <summary>The longer of two silences: for how long nothing came, and for how long the other said, when it last wrote, that nothing came there.</summary>
     internal SimDuration Silence(SimTime now) => now - Heard > unheard ? now - Heard : unheard;
 
-    /// <summary>After how long an answer can be taken for lost: the mean round trip and four times its mean deviation, as TCP has it. Zero before there is one.</summary>
+    /// <summary>After how long an answer can be taken for lost: the mean round trip and four times its mean deviation, as TCP has it. Zero before it <see cref="IsMeasured"/>.</summary>
     internal SimDuration Patience => meanRoundTrip + (meanDeviation * 4);
+
+    /// <summary>Whether a round trip has been measured yet.</summary>
+    internal bool IsMeasured { get; private set; }
 
     /// <summary>Notes an update that came.</summary>
     /// <param name="update">The update.</param>
@@ -144,8 +147,9 @@ internal sealed class UpdateLink
             return;
         }
 
-        if (meanRoundTrip == SimDuration.Zero)
+        if (!IsMeasured)
         {
+            IsMeasured = true;
             meanRoundTrip = sample;
             meanDeviation = sample / 2;
             return;

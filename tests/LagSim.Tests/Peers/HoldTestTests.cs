@@ -85,12 +85,13 @@ public sealed class HoldTestTests
     }
 
     [Fact]
-    public void Traffic_OfOneHandThatMovesSlowly_IsBelowTheAimAndFollowsSurprise()
+    public void Traffic_OfOneHand_IsBelowTheAimAndFollowsSurprise()
     {
         HoldRun slow = HoldTest.Run(Options("slow", "delay-100ms") with { HoldSeconds = 10 });
         HoldRun random = HoldTest.Run(Options("random", "delay-100ms") with { HoldSeconds = 10 });
         HoldRun coarse = HoldTest.Run(Options("random", "delay-100ms") with { HoldSeconds = 10, KnotDistanceMetres = 0.03 });
         Assert.InRange(slow.HolderBytesPerSecond, 1000, 4812); // 4.7 KiB, both ways
+        Assert.InRange(random.HolderBytesPerSecond, 1000, 4812);
         Assert.InRange(coarse.HolderBytesPerSecond, 1000, 4812);
         Assert.True(random.HolderBytesPerSecond > coarse.HolderBytesPerSecond);
         Assert.True(random.KnotsPerSecond > 1.5 * slow.KnotsPerSecond);

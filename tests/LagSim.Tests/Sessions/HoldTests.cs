@@ -95,6 +95,21 @@ public sealed class HoldTests
     }
 
     [Fact]
+    public void LastKnot_OfWhichManyDatagramsInARowAreLost_IsThereWithinASecond()
+    {
+        SessionGroup group = new SessionGroup(Scene(PeerSet.Everyone), 2, LinkProfiles.PureDelay(200), 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(3)) }).Connect();
+        int left = 0;
+        group.Network.Lose((from, _, _) => from == 1 && left-- > 0);
+        group.Do(1, PlayerAction.Grab(First));
+        group.Run(2);
+        Assert.Equal(1u, group.Host.LogLength);
+
+        left = 8; // were each only sent again when its answer is overdue, after 0.5 s here, this would take 4 s
+        group.Do(1, PlayerAction.HoldKnot(First, V(0, 4), V(0)));
+        Assert.True(group.RunUntil(() => group.Host.LogLength == 2, seconds: 1), $"{left} are still to be lost");
+    }
+
+    [Fact]
     public void Leave_OfWhoHolds_EndsTheHoldInTheSameWay()
     {
         SessionGroup group = Group(3);
