@@ -308,7 +308,7 @@ internal sealed class CheckSession
         Comparison comparison = new(alone);
         foreach (Member member in members)
         {
-            member.Committed.ForEach(state => comparison.Take(state));
+            member.Committed.ForEach(state => comparison.Take(member.Peer, state));
         }
 
         foreach (Member member in there)
@@ -317,7 +317,7 @@ internal sealed class CheckSession
         }
 
         long lost = members.Sum(m => m.Session.Counters.EventsLost);
-        string? failure = comparison.Differing > 0 ? string.Create(CultureInfo.InvariantCulture, $"{comparison.Differing} of {comparison.Compared} compared states and events differ.")
+        string? failure = comparison.Differing > 0 ? string.Create(CultureInfo.InvariantCulture, $"{comparison.Differing} of {comparison.Compared} compared states and events differ. {comparison.FirstCommitted}").TrimEnd()
             : tooLate + lost > 0 ? $"{tooLate + lost} events were too late."
             : members.Sum(m => m.Session.Counters.StatesDiffered) > 0 ? "A joiner's committed state was not what the host said."
             : null;

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Net.Sessions;
@@ -34,10 +35,19 @@ internal sealed class Comparison
     /// <summary>The first event that differs; of several peers that of the first.</summary>
     internal FirstDifference? First { get; private set; }
 
+    /// <summary>The first state that a peer committed otherwise, as a sentence; of several peers that of the first. The timelines may agree all the same, where it came right afterwards.</summary>
+    internal string? FirstCommitted { get; private set; }
+
     /// <summary>What a peer had committed.</summary>
-    internal void Take(in CommittedState state)
+    internal void Take(int peer, in CommittedState state)
     {
-        Count(state.StateHash == expected.StateHash(state.Time));
+        bool isSame = state.StateHash == expected.StateHash(state.Time);
+        if (!isSame)
+        {
+            FirstCommitted ??= FormattableString.Invariant($"Peer {peer} committed another state {(state.Time - expected.Start).ToSeconds():R} s after the start.");
+        }
+
+        Count(isSame);
         Count(state.EventHash == expected.EventHash(state.Time));
     }
 

@@ -59,6 +59,11 @@ public abstract partial class Session
 
         Limits = new PlayerLimits(options);
         strategy = LateEventStrategies.Create(options.Strategy, options.DisplayDelay);
+        if (options.SyncTest && !(strategy.RewritesPast && strategy.Mode == HealingMode.CausalCone))
+        {
+            throw new ArgumentException($"The strategy is '{options.Strategy}', which does not heal; a sync test is for one that does: healing or interpolation.", nameof(options));
+        }
+
         contacts = options.Contacts;
         SharedTime = new SharedClock(clock);
     }
@@ -233,7 +238,7 @@ public abstract partial class Session
 
     // The session itself decides what is forgotten, by the watermark; the simulation's own limit would go by its look-ahead.
     private SimulationOptions WorldOptions(SimTime start) =>
-        new(start, SimDuration.MaxValue, Options.MaxSegments, interruption.Token, strategy.Mode);
+        new(start, SimDuration.MaxValue, Options.MaxSegments, interruption.Token, Options.SyncTest ? HealingMode.SyncTest : strategy.Mode);
 
     /// <summary>
     /// Whether one end of a link has not heard of the other when it should have. They then write as if something were unacknowledged: else a

@@ -6,6 +6,7 @@ using LagSim.Harness.Links;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Time;
+using LagSim.Timelines;
 using Xunit;
 
 namespace LagSim.Tests.Sessions;
@@ -39,6 +40,46 @@ public sealed class AgreementTests
         // Else nothing was shown.
         Assert.True(heals > 30, $"{heals} heals");
         Assert.Equal(link is "awful" or "loss-10" or "loss-20" or "loss-30", lost > 0);
+    }
+
+    [Fact]
+    public void SyncTest_OfASession_FindsNothingAndNamesTheFirstDifferenceWhereHealingIsWrong()
+    {
+        static SessionGroup Group(HealingFault fault, string strategy)
+        {
+            SessionGroup group = new(Deeds.Box(), 3, LinkProfiles.PureDelay(150), 2, _ => new SessionOptions { SyncTest = true, Strategy = strategy });
+            group.Sessions[1].Begun += () => group.Sessions[1].World!.Simulation.Fault = fault;
+            group.Connect();
+            try
+            {
+                new Deeds(5).DoIn(group, Count);
+            }
+            catch (InvalidOperationException) when (group.Sessions[1].State == SessionState.Ended)
+            {
+                // Nothing can be done there any more.
+            }
+
+            group.Run(2);
+            return group;
+        }
+
+        foreach (string strategy in new[] { "healing", "interpolation" })
+        {
+            SessionGroup right = Group(HealingFault.None, strategy);
+            Assert.All(right.Sessions, s => Assert.Equal(SessionState.Running, s.State));
+            Assert.True(right.Sessions.Sum(s => s.Counters.Heals) > 10);
+        }
+
+        SessionGroup wrong = Group(HealingFault.CutsByTime, "healing");
+        Assert.Equal(SessionEnd.Failed, wrong.Sessions[1].EndedBy);
+        Assert.Contains("The sync test failed", wrong.Sessions[1].EndReason, StringComparison.Ordinal);
+        Assert.Equal((SessionState.Running, SessionState.Running), (wrong.Sessions[0].State, wrong.Sessions[2].State));
+
+        foreach (string strategy in new[] { "none", "latency-forward", "full-rollback" })
+        {
+            ArgumentException refused = Assert.Throws<ArgumentException>(() => Group(HealingFault.None, strategy));
+            Assert.Contains($"'{strategy}'", refused.Message, StringComparison.Ordinal);
+        }
     }
 
     [Theory]
