@@ -62,6 +62,40 @@ internal sealed class GasWorld
         return heals;
     }
 
+    /// <summary>Brings in so many events at once, up to so late and at least nine tenths of that, in any order of their stamps; and takes them back.</summary>
+    /// <exception cref="InvalidOperationException">The heal did not leave what it should.</exception>
+    internal Heal BringTogether(int count, double late)
+    {
+        SimTime now = Simulation.SimulatedTo + SimDuration.FromSeconds(0.125);
+        Simulation.AdvanceTo(now);
+        ulong events = Simulation.Timelines.EventHash;
+        ExternalEvent[] news = new ExternalEvent[count];
+        for (int i = 0; i < count; i++)
+        {
+            SimTime stamp = now - SimDuration.FromSeconds(late * (0.9 + (0.1 * random.NextDouble())));
+            news[i] = ExternalEvent.Impulse(stamp, 1, ++sequence, BodyId.OfScene(random.Next(bodies)), new Vector3D(0.1, 0.05, 0));
+        }
+
+        long impacts = Simulation.ImpactsProcessed;
+        double began = ThreadClock.Microseconds;
+        Together(external => Simulation.Submit(external));
+        double took = ThreadClock.Microseconds - began;
+        Heal heal = new(report.Events, Simulation.ImpactsProcessed - impacts, report.Bodies, took);
+        bool changed = Simulation.Timelines.EventHash != events;
+        Together(external => Simulation.Retract(external));
+        return changed && Simulation.Timelines.EventHash == events
+            ? heal
+            : throw new InvalidOperationException($"{count} late events {(changed ? "were taken back and left something behind" : "changed nothing")}.");
+
+        void Together(Action<ExternalEvent> bring)
+        {
+            Simulation.DefersAgain = true; // as a live world does: what comes at a time is simulated again at a time
+            Array.ForEach(news, bring);
+            Simulation.DefersAgain = false;
+            Simulation.AdvanceTo(now);
+        }
+    }
+
     /// <summary>What one late event cost.</summary>
     /// <param name="Events">Events run again, and the late one.</param>
     /// <param name="Impacts">The impacts among them.</param>
@@ -69,6 +103,8 @@ internal sealed class GasWorld
     /// <param name="Microseconds">How long it took.</param>
     internal readonly record struct Heal(long Events, long Impacts, int Bodies, double Microseconds)
     {
+        internal static Heal Sum(IReadOnlyList<Heal> heals) => new(heals.Sum(h => h.Events), heals.Sum(h => h.Impacts), heals.Sum(h => h.Bodies), heals.Sum(h => h.Microseconds));
+
         internal static double MeanEvents(IReadOnlyList<Heal> heals) => heals.Average(h => (double)h.Events);
     }
 }

@@ -12,6 +12,7 @@ internal static class Program
         ["traffic"] = _ => TrafficTable.Print(),
         ["heal"] = HealTable.Print,
         ["dense"] = DenseTable.Print,
+        ["bunch"] = BunchTable.Print,
         ["memory"] = MemoryTable.Print,
         ["frames"] = FrameTable.Print,
         ["arrival"] = ArrivalTable.Print,

@@ -19,7 +19,7 @@ public sealed partial class Simulation
     /// <summary>Impacts that what is being predicted comes near to: one that takes part, and the impact's key.</summary>
     private readonly List<(int Slot, EventKey Key)> brushed = new();
 
-    private readonly WitnessLog witnesses = new();
+    private readonly WitnessLog witnesses;
 
     /// <summary>Of the heal at hand what it began with, and how many bodies it has predicted anew.</summary>
     private HealReport healed;
@@ -47,7 +47,12 @@ public sealed partial class Simulation
     /// <summary>What is done wrongly on purpose: only a test's negative control sets it.</summary>
     internal HealingFault Fault { get; set; }
 
-    /// <summary>With so few bodies or less a heal never takes all back that it has not touched; an eighth of all is the limit with more.</summary>
+    /// <summary>
+    /// The cones of so many news at a time, each in a place of its own, may take up an eighth of all bodies each; more share that half, where a cone is about as dear as a full rollback.
+    /// </summary>
+    private const int MostNewsApart = 4;
+
+    /// <summary>With so few bodies or less a heal never takes all back that it has not touched; an eighth of all for each of the news is the limit with more.</summary>
     internal int FewHealed { get; set; } = 32;
 
     private bool Has(HealingFault wrong) => (Fault & wrong) != 0;
@@ -115,7 +120,7 @@ public sealed partial class Simulation
         }
 
         TakeBack(slot, key);
-        AdvanceTo(DefersAgain ? SimTime.Max(key.Time, SimulatedTo) : to);
+        AdvanceTo(DefersAgain ? SimTime.Min(key.Time, to) : to); // put off, it is simulated again once for all that comes at a time
     }
 
     private void Rewrite(int slot, in EventKey key)
@@ -165,9 +170,9 @@ public sealed partial class Simulation
         while (cuts.Count > 0)
         {
             (int body, EventKey from) = cuts.Pop();
-            for (int seen = witnesses.First(body); seen != WitnessLog.None; seen = witnesses.Next(seen))
+            for (int seen = witnesses.Newest(body); seen != WitnessLog.None && EventKey.Compare(witnesses.Key(seen), from) >= 0; seen = witnesses.Older(seen))
             {
-                if (EventKey.Compare(witnesses.Key(seen), from) >= 0 && StillHappens(seen))
+                if (StillHappens(seen))
                 {
                     cuts.Push((witnesses.Party(seen), witnesses.Key(seen)));
                 }
@@ -221,7 +226,7 @@ public sealed partial class Simulation
     /// </summary>
     private bool HasTakenBackAll()
     {
-        if (oldSerial < 0 || healedBodies <= Math.Max(FewHealed, order.Count / 8))
+        if (oldSerial < 0 || healedBodies <= Math.Max(FewHealed, order.Count / 8 * Math.Min(healed.News, MostNewsApart)))
         {
             return false;
         }
@@ -280,10 +285,10 @@ public sealed partial class Simulation
             }
         }
 
-        for (int seen = witnesses.First(other); seen != WitnessLog.None; seen = witnesses.Next(seen))
+        for (int seen = witnesses.Newest(other); seen != WitnessLog.None && EventKey.Compare(witnesses.Key(seen), clock) > 0; seen = witnesses.Older(seen))
         {
             EventKey key = witnesses.Key(seen);
-            if (EventKey.Compare(key, clock) > 0 && key.Time <= end && StillHappens(seen, oldSerial))
+            if (key.Time <= end && StillHappens(seen, oldSerial))
             {
                 int then = timelines.Before(other, key);
                 if (then != TimelineStore.None && timelines.Segment(then).IsPresent && Gap(slot, mine, other, then, key.Time) <= NearGap)

@@ -34,6 +34,7 @@ public sealed partial class Simulation
         HistoryEdge = snapshot.Time;
         flights = new FreeFlights(scene.Gravity, NearGap, scene.Box);
         timelines = new TimelineStore(Start, options.MaxSegments, flights);
+        witnesses = new WitnessLog(options.MaxSegments);
         Observer = options.Observer;
         forces = new Forces(scene, Start);
         foreach (ref readonly BodySnapshot body in snapshot.BodyArray.AsSpan())

@@ -52,6 +52,7 @@ public sealed partial class Simulation
         HistoryEdge = Start;
         flights = new FreeFlights(scene.Gravity, NearGap, scene.Box);
         timelines = new TimelineStore(Start, options.MaxSegments, flights);
+        witnesses = new WitnessLog(options.MaxSegments);
         Observer = options.Observer;
         forces = new Forces(scene, Start);
         for (int i = 0; i < scene.BodyArray.Length; i++)

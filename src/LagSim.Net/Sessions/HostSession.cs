@@ -162,7 +162,7 @@ public sealed partial class HostSession : Session
 
         uint sequence = update.FirstIndex;
         bool isNear = true;
-        bool canWait = update.Held.Length > 0 && joiner.HasBegun && !IsOverdue(joiner.Link.Silence(now));
+        bool canWait = update.Held.Length > 0;
         foreach (UpdateEntry entry in update.Held)
         {
             isNear &= joiner.Incoming.Put(sequence++, entry);

@@ -8,31 +8,51 @@ namespace LagSim.Timelines;
 /// Of every body the impacts for which it was looked at, because it was near, whether or not it then took part: what happens to it can change what
 /// came of them.
 /// </summary>
-/// <remarks>Only impacts of crowded bodies look at what is near, so it is empty where nothing is piled up.</remarks>
+/// <remarks>
+/// Only impacts of crowded bodies look at what is near, so it is empty where nothing is piled up. A body's entries are linked from the newest key to the oldest, so that what is
+/// added, cut and forgotten, at the ends, does not cost what is kept between them.
+/// </remarks>
 internal sealed class WitnessLog
 {
     internal const int None = -1;
 
+    private readonly int most;
     private Entry[] entries = new Entry[4];
     private int used;
     private int free = None;
-    private int[] first = Array.Empty<int>();
+    private int[] newest = Array.Empty<int>();
+    private int[] oldest = Array.Empty<int>();
 
-    /// <summary>Makes room for a body's entries.</summary>
+    /// <summary>No entries yet, and at most <paramref name="most"/> of all bodies.</summary>
+    internal WitnessLog(int most) => this.most = most;
+
+    /// <summary>How many entries there are.</summary>
+    internal int Count { get; private set; }
+
+    /// <summary>Makes room for a body's entries, of which there are none yet.</summary>
     internal void AddSlot(int slot)
     {
-        if (slot >= first.Length)
+        if (slot >= newest.Length)
         {
-            Array.Resize(ref first, Math.Max(slot + 1, Math.Max(16, first.Length * 2)));
+            int known = newest.Length;
+            int size = Math.Max(slot + 1, Math.Max(16, known * 2));
+            Array.Resize(ref newest, size);
+            Array.Resize(ref oldest, size);
+            Array.Fill(newest, None, known, size - known);
+            Array.Fill(oldest, None, known, size - known);
         }
 
-        first[slot] = None;
+        while (newest[slot] != None)
+        {
+            Remove(slot, newest[slot]); // of the body that had the slot before
+        }
     }
 
-    /// <summary>The first entry of a body, or <see cref="None"/>; in no particular order.</summary>
-    internal int First(int slot) => first[slot];
+    /// <summary>The newest entry of a body, or <see cref="None"/>.</summary>
+    internal int Newest(int slot) => newest[slot];
 
-    internal int Next(int entry) => entries[entry].Next;
+    /// <summary>The next older entry of the same body, or <see cref="None"/>.</summary>
+    internal int Older(int entry) => entries[entry].Older;
 
     /// <summary>The impact.</summary>
     internal ref readonly EventKey Key(int entry) => ref entries[entry].Key;
@@ -40,69 +60,124 @@ internal sealed class WitnessLog
     /// <summary>The slot of one that takes part in it.</summary>
     internal int Party(int entry) => entries[entry].Party;
 
-    /// <summary>The body was looked at for an impact.</summary>
-    internal void Add(int slot, EventKey key, int party, SimTime edge)
+    /// <summary>The body was looked at for an impact; what lies before the edge is forgotten.</summary>
+    /// <exception cref="TimelinesFullException">There are as many entries as may be.</exception>
+    internal void Add(int slot, in EventKey key, int party, SimTime edge)
     {
-        Remove(slot, entry => entry.Key.Time < edge || entry.Key == key);
-        int at = free;
-        if (at != None)
+        while (oldest[slot] != None && entries[oldest[slot]].Key.Time < edge)
         {
-            free = entries[at].Next;
-        }
-        else
-        {
-            at = used++;
-            if (at == entries.Length)
-            {
-                Array.Resize(ref entries, used * 2);
-            }
+            Remove(slot, oldest[slot]);
         }
 
-        entries[at] = new Entry { Key = key, Party = party, Next = first[slot] };
-        first[slot] = at;
+        int newer = None;
+        int older = newest[slot];
+        while (older != None && EventKey.Compare(entries[older].Key, key) > 0)
+        {
+            newer = older;
+            older = entries[older].Older;
+        }
+
+        if (older != None && entries[older].Key == key)
+        {
+            entries[older].Party = party;
+            return;
+        }
+
+        int at = Take(key);
+        entries[at] = new Entry { Key = key, Party = party, Older = older, Newer = newer };
+        Link(slot, newer, at, older);
+        Count++;
     }
 
     /// <summary>Takes out what is keyed at or after <paramref name="key"/>; whether anything was.</summary>
-    internal bool CutFrom(int slot, EventKey key) => Remove(slot, entry => EventKey.Compare(entry.Key, key) >= 0);
-
-    private bool Remove(int slot, Predicate<Entry> isGone)
+    internal bool CutFrom(int slot, in EventKey key)
     {
         bool any = false;
-        int before = None;
-        int at = first[slot];
-        while (at != None)
+        while (newest[slot] != None && EventKey.Compare(entries[newest[slot]].Key, key) >= 0)
         {
-            int next = entries[at].Next;
-            if (!isGone(entries[at]))
-            {
-                before = at;
-            }
-            else
-            {
-                if (before == None)
-                {
-                    first[slot] = next;
-                }
-                else
-                {
-                    entries[before].Next = next;
-                }
-
-                entries[at].Next = free;
-                free = at;
-                any = true;
-            }
-
-            at = next;
+            Remove(slot, newest[slot]);
+            any = true;
         }
 
         return any;
+    }
+
+    private int Take(in EventKey key)
+    {
+        if (free != None)
+        {
+            int taken = free;
+            free = entries[taken].Older;
+            return taken;
+        }
+
+        if (used == most)
+        {
+            throw new TimelinesFullException(
+                $"At {key.Time} {most} looks at bodies near an impact are kept, as many as the segments that the options allow: allow more, keep a shorter history, or look for what piles up.");
+        }
+
+        if (used == entries.Length)
+        {
+            Array.Resize(ref entries, used * 2);
+        }
+
+        return used++;
+    }
+
+    private void Link(int slot, int newer, int at, int older)
+    {
+        if (newer == None)
+        {
+            newest[slot] = at;
+        }
+        else
+        {
+            entries[newer].Older = at;
+        }
+
+        if (older == None)
+        {
+            oldest[slot] = at;
+        }
+        else
+        {
+            entries[older].Newer = at;
+        }
+    }
+
+    private void Remove(int slot, int at)
+    {
+        int newer = entries[at].Newer;
+        int older = entries[at].Older;
+        if (newer == None)
+        {
+            newest[slot] = older;
+        }
+        else
+        {
+            entries[newer].Older = older;
+        }
+
+        if (older == None)
+        {
+            oldest[slot] = newer;
+        }
+        else
+        {
+            entries[older].Newer = newer;
+        }
+
+        entries[at].Older = free;
+        free = at;
+        Count--;
     }
 
     private struct Entry
     {
         internal EventKey Key;
         internal int Party;
-        internal int Next;
+        internal int Older;
+        internal int Newer;
     }
 }

@@ -115,19 +115,12 @@ public sealed class InvariantCheckTests
     [InlineData(HealingFault.GivesUpByBody, 6u)]
     [InlineData(HealingFault.DropsEvents, 12u)]
     [InlineData(HealingFault.CutsByTime, 6u)]
-    [InlineData(HealingFault.LeavesWhoRests, 45u)]
-    internal void Run_HealingInAWayKnownToBeWrong_IsCaughtByASeed(HealingFault fault, uint first)
+    [InlineData(HealingFault.LeavesWhoRests, 47u)]
+    internal void Run_HealingInAWayKnownToBeWrong_IsCaughtByItsSeed(HealingFault fault, uint seed)
     {
-        CheckOptions options = new() { Sessions = 1, Seed = first, ShrinkingPlays = 0, Prepare = (_, simulation) => simulation.Fault = fault };
-        CheckReport report = Run(options);
-        while (report.Failures.Count == 0 && options.Seed < first + 20)
-        {
-            options = options with { Seed = options.Seed + 1 };
-            report = Run(options);
-        }
-
-        CheckOutcome failed = Assert.Single(report.Failures).Whole;
-        TestContext.Current.TestOutputHelper!.WriteLine($"{fault} is caught by seed {failed.Seed}: {failed.Failure} {failed.Difference}");
+        // The seeds that docs/HEALING.md names.
+        CheckOptions options = new() { Sessions = 1, Seed = seed, ShrinkingPlays = 0, Prepare = (_, simulation) => simulation.Fault = fault };
+        CheckOutcome failed = Assert.Single(Run(options).Failures).Whole;
         Assert.True(failed.DifferingBits > 0 && failed.Difference is not null, failed.Failure);
 
         // It is the fault that it caught: without it the same session is as it should be.
