@@ -57,7 +57,7 @@ internal sealed class CommonOptions
 
     /// <summary>How far behind <c>interpolation</c> shows the world.</summary>
     internal static Option<double> DisplayDelay() => Number(
-        "--display-delay-ms", "How far behind shared time the strategy interpolation shows the world", Interpolation.DefaultDelay.ToMilliseconds(), 0, Interpolation.MaxDelay.ToMilliseconds());
+        "--display-delay-ms", "How far behind shared time the strategy interpolation shows the world", Math.Round(Interpolation.DefaultDelay.ToMilliseconds(), 6), 0, Interpolation.MaxDelay.ToMilliseconds());
 
     /// <summary>The delay of every joiner's link.</summary>
     internal static Option<double?> Delay(string otherwise) => new("--delay-ms")
