@@ -13,6 +13,7 @@ namespace LagSim.Net.Sessions;
 /// datagram is filled up with entries that were sent before.</para>
 /// <para>At most <see cref="MaxEntries"/> are under way. Where nothing is acknowledged though all was sent twice, the wait doubles, and only the oldest
 /// go on at the resend interval: who lets itself be sent to and answers nothing costs little.</para>
+/// <para>Knots are made up for by later ones, so they travel twice, and then wait; once one <see cref="HasLost"/> its time, they too travel in every datagram.</para>
 /// </remarks>
 internal sealed class SendWindow
 {

@@ -26,10 +26,7 @@ internal sealed class WitnessLog
     /// <summary>No entries yet, and at most <paramref name="most"/> of all bodies.</summary>
     internal WitnessLog(int most) => this.most = most;
 
-    /// <summary>How many entries there are.</summary>
-    internal int Count { get; private set; }
-
-    /// <summary>Makes room for a body's entries, of which there are none yet.</summary>
+    /// <summary>Makes room for a body's entries; those of the body that had the slot before are forgotten.</summary>
     internal void AddSlot(int slot)
     {
         if (slot >= newest.Length)
@@ -44,7 +41,7 @@ internal sealed class WitnessLog
 
         while (newest[slot] != None)
         {
-            Remove(slot, newest[slot]); // of the body that had the slot before
+            Remove(slot, newest[slot]);
         }
     }
 
@@ -84,9 +81,9 @@ internal sealed class WitnessLog
         }
 
         int at = Take(key);
-        entries[at] = new Entry { Key = key, Party = party, Older = older, Newer = newer };
-        Link(slot, newer, at, older);
-        Count++;
+        entries[at] = new Entry { Key = key, Party = party };
+        Join(slot, newer, at);
+        Join(slot, at, older);
     }
 
     /// <summary>Takes out what is keyed at or after <paramref name="key"/>; whether anything was.</summary>
@@ -125,31 +122,16 @@ internal sealed class WitnessLog
         return used++;
     }
 
-    private void Link(int slot, int newer, int at, int older)
-    {
-        if (newer == None)
-        {
-            newest[slot] = at;
-        }
-        else
-        {
-            entries[newer].Older = at;
-        }
-
-        if (older == None)
-        {
-            oldest[slot] = at;
-        }
-        else
-        {
-            entries[older].Newer = at;
-        }
-    }
-
     private void Remove(int slot, int at)
     {
-        int newer = entries[at].Newer;
-        int older = entries[at].Older;
+        Join(slot, entries[at].Newer, entries[at].Older);
+        entries[at].Older = free;
+        free = at;
+    }
+
+    /// <summary>Makes two entries of a body neighbours; in place of one that there is not, the other is the end of the list.</summary>
+    private void Join(int slot, int newer, int older)
+    {
         if (newer == None)
         {
             newest[slot] = older;
@@ -167,10 +149,6 @@ internal sealed class WitnessLog
         {
             entries[older].Newer = newer;
         }
-
-        entries[at].Older = free;
-        free = at;
-        Count--;
     }
 
     private struct Entry
