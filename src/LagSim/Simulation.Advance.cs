@@ -123,7 +123,7 @@ public sealed partial class Simulation
             case EventKind.Impact:
                 if (IsStale(slot, key))
                 {
-                    Predict(slot, alone: Has(HealingFault.GivesUpByBody) && MayBeAhead(key));
+                    Predict(slot, Has(HealingFault.GivesUpByBody) ? bodies[slot].Partner : NoPartner);
                     return;
                 }
 
@@ -176,6 +176,10 @@ public sealed partial class Simulation
         else if (segment.Law == MotionLaw.Ballistic && Scene.Box.Exists)
         {
             OpenFlight(slot, key, PositionAt(last, key.Time), segment.Velocity);
+        }
+        else if (segment.Law == MotionLaw.Resting)
+        {
+            EndWedgedRest(slot, key);
         }
         else if (segment.Acceleration != Vector3D.Zero)
         {

@@ -51,16 +51,25 @@ public sealed partial class Simulation
     private double HopSpeed(double acceleration) => Math.Sqrt(2 * acceleration * NearGap);
 
     /// <summary>
-    /// How many impacts in succession a body will have had with one at <paramref name="time"/>, each soon after the one before; no
-    /// further than to <see cref="SqueezedAfter"/>. A function of its newest segment, so that a timeline that was cut counts again as it did.
+    /// How many impacts in succession a body will have had with one at <paramref name="time"/>, each soon after the one before; beyond
+    /// <see cref="SqueezedAfter"/> only those without play count, and no further than to <see cref="WedgedAfter"/>. A function of its newest segment, so that a timeline that was
+    /// cut counts again as it did.
     /// </summary>
     private int CrowdingAt(int slot, SimTime time) => CrowdingAfter(timelines.Last(slot), time);
 
     private int CrowdingAfter(int segment, SimTime time)
     {
         ref readonly EventKey opened = ref timelines.Key(segment);
-        bool isSoon = opened.Kind == EventKind.Impact && time - opened.Time <= CrowdedWithin;
-        return isSoon ? Math.Min(timelines.Segment(segment).Crowding + 1, SqueezedAfter) : 0;
+        int count = timelines.Segment(segment).Crowding;
+        bool isWedged = count == WedgedAfter; // whose rest ends by itself, and does not count as time between impacts
+        SimDuration soon = isWedged && timelines.Segment(segment).Law == MotionLaw.Resting ? WedgedFor : CrowdedWithin;
+        if ((opened.Kind != EventKind.Impact && !isWedged) || time - opened.Time > soon)
+        {
+            return 0;
+        }
+
+        bool counts = count < SqueezedAfter || (IsWithoutPlay(opened, time) && !IgnoresWedges);
+        return counts ? Math.Min(count + 1, WedgedAfter) : count;
     }
 
     /// <summary>Whether a crowded body is so near to a static surface that it does not strike now that the surface takes part.</summary>
@@ -94,7 +103,8 @@ public sealed partial class Simulation
         }
 
         double gap = Gap(slot, mine, other, piece, time);
-        return gap <= reach && !((IsHeld(mine) || IsHeld(piece)) && IsInside(gap));
+        bool isPushed = IsHeld(mine) || IsHeld(piece);
+        return gap <= reach && !(isPushed && (IsInside(gap) || PushedFrom(IsHeld(mine) ? piece : mine, time) > time));
     }
 
     /// <summary>The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits whoever asks.</summary>

@@ -76,9 +76,17 @@ public sealed partial class Simulation
         contactCount = struck;
 
         EventKey canonical = CanonicalKey(key);
+        bool isLeftWedged = IsLeftWedged(key.Time);
         for (int i = 0; i < partyCount; i++)
         {
-            OpenAfterImpact(i, canonical, residual);
+            if (isLeftWedged)
+            {
+                RestWedged(canonical);
+            }
+            else
+            {
+                OpenAfterImpact(i, canonical, residual);
+            }
         }
 
         timelines.Join(parties.AsSpan(0, partyCount));

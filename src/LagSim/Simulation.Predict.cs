@@ -20,12 +20,15 @@ public sealed partial class Simulation
 
     private const double CollapseSpeed = 1e-6;
 
+    /// <summary>What an impact of squeezed bodies leaves of closing below this, in m/s, is its rounding: to solve it again in the same tick leaves as much.</summary>
+    private const double RoundingSpeed = 1e-12;
+
     private static readonly SimDuration CollapseWait = SimDuration.FromTicks(1L << 20);
 
     /// <summary>Finds the body's next event, the least of step or law end, external event and contact, and queues it in place of any other.</summary>
     /// <param name="slot">The body.</param>
-    /// <param name="alone">Meets no other body, whatever the paths say: only a fault put in on purpose asks for it.</param>
-    private void Predict(int slot, bool alone = false)
+    /// <param name="except">Another that is not met, whatever the paths say: only a fault put in on purpose names one.</param>
+    private void Predict(int slot, int except = NoPartner)
     {
         bool any = false;
         EventKey least = default;
@@ -59,7 +62,7 @@ public sealed partial class Simulation
             Span<int> candidates = index.Candidates(slot, bodies[slot].Spec.Radius, from, out SimTime until);
             foreach (int other in candidates)
             {
-                if (!alone && !flights.AreApart(slot, other, from, until) && TryMeet(slot, other, until, out int piece, out ContactTime contact, out uint round))
+                if (other != except && !flights.AreApart(slot, other, from, until) && TryMeet(slot, other, until, out int piece, out ContactTime contact, out uint round))
                 {
                     BodyId otherId = bodies[other].Id;
                     EventKey key = id < otherId
@@ -108,7 +111,7 @@ public sealed partial class Simulation
     private void Pend(int slot, in EventKey key, int partner, int piece)
     {
         bodies[slot].Partner = partner;
-        bodies[slot].PartnerSerial = partner == NoPartner ? 0 : timelines.Serial(piece);
+        bodies[slot].PartnerSerial = partner == NoPartner ? 0 : timelines.Serial(Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : piece);
         queue.Set(slot, key);
     }
 
@@ -143,7 +146,8 @@ public sealed partial class Simulation
 
             Vector3D normal = SurfaceNormal(surface, PositionAt(last, contact));
             double closing = -Vector3D.Dot(normal, VelocityAt(last, contact));
-            from = LookAgain(opened, round, closing, -Vector3D.Dot(normal, AccelerationAt(last, contact)), segment.End, isPushed: false);
+            from = LookAgain(
+                opened, round, closing, -Vector3D.Dot(normal, AccelerationAt(last, contact)), segment.End, isPushed: false, segment.Crowding >= SqueezedAfter);
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -255,12 +259,16 @@ public sealed partial class Simulation
         }
 
         double reach = bodies[a].Spec.Radius + bodies[b].Spec.Radius;
-        if (isPushed && IsInside(Gap(a, lastA, b, lastB, opened)))
+        SimTime from = opened;
+        if (isPushed)
         {
-            return false;
+            from = PushedFrom(segmentA.Law == MotionLaw.Held ? lastB : lastA, opened);
+            if (from > until || IsInside(Gap(a, lastA, b, lastB, from)))
+            {
+                return false;
+            }
         }
 
-        SimTime from = opened;
         while (from <= until && ContactFinder.WithSphere(
             segmentA, timelines.Dense(lastA), segmentB, timelines.Dense(lastB), reach, from, until, out contact))
         {
@@ -273,7 +281,7 @@ public sealed partial class Simulation
             Vector3D normal = Direction(Scene.Box.Nearest(PositionAt(lastA, contact) - PositionAt(lastB, contact)));
             double closing = -Vector3D.Dot(normal, VelocityAt(lastA, contact) - VelocityAt(lastB, contact));
             double pressing = -Vector3D.Dot(normal, AccelerationAt(lastA, contact) - AccelerationAt(lastB, contact));
-            from = LookAgain(opened, round, closing, pressing, until, isPushed);
+            from = LookAgain(opened, round, closing, pressing, until, isPushed, Math.Max(segmentA.Crowding, segmentB.Crowding) >= SqueezedAfter);
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -291,7 +299,7 @@ public sealed partial class Simulation
     /// is a thousandth of the resolution deep only after <see cref="CollapseWait"/>. <paramref name="opened"/> if it cannot wait,
     /// <see cref="SimTime.MaxValue"/> if the segments end before. A hand pushes a body that cannot give way for so many rounds, and then goes through it.
     /// </summary>
-    private SimTime LookAgain(SimTime opened, uint round, double closing, double pressing, SimTime end, bool isPushed)
+    private SimTime LookAgain(SimTime opened, uint round, double closing, double pressing, SimTime end, bool isPushed, bool isSqueezed)
     {
         double seconds = UntilDeep(2e-3 * Scene.Resolution, closing, pressing);
         SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
@@ -302,7 +310,8 @@ public sealed partial class Simulation
 
         if (wait < CollapseWait)
         {
-            if (round <= CollapseRound || (closing > CollapseSpeed && !isPushed))
+            bool isRounding = isSqueezed && round > 0 && closing < RoundingSpeed && !isPushed;
+            if (!isRounding && (round <= CollapseRound || (closing > CollapseSpeed && !isPushed)))
             {
                 return opened;
             }

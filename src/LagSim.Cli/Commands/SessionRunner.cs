@@ -26,9 +26,6 @@ internal sealed class SessionRunner : IDisposable
 
     private const int RoundTripsOfPatience = 4;
 
-    /// <summary>How far a world may be behind before it is said.</summary>
-    private static readonly SimDuration MostBehind = SimDuration.FromSeconds(2);
-
     /// <summary>How long a host waits, after its time is up and the history has passed, for a world that is behind.</summary>
     private static readonly SimDuration WorldPatience = SimDuration.FromSeconds(5);
 
@@ -53,7 +50,7 @@ internal sealed class SessionRunner : IDisposable
     private PlayerAction[]? actions; // of the deeds, once the scene is known
     private int done; // or given up
     private bool hasFailedDeed;
-    private bool hasToldPace;
+    private readonly PaceWatch pace = new();
     private SimTime? patienceEnd;
 
     internal SessionRunner(Session session, UdpPort port, SessionRequest request, SessionPrinter printer, CancellationToken stop)
@@ -184,9 +181,9 @@ internal sealed class SessionRunner : IDisposable
     /// <summary>Tells, once, of a world that this machine cannot simulate as fast as time passes.</summary>
     private void LookAtPace()
     {
-        if (!hasToldPace && session.World is { } world && session.SharedTime.Now - world.Simulation.SimulatedTo is var behind && behind > MostBehind)
+        SimTime now = session.SharedTime.Now;
+        if (session.World is { } world && now - world.Simulation.SimulatedTo is var behind && pace.Finds(now, behind))
         {
-            hasToldPace = true;
             printer.Problem(FormattableString.Invariant($"The world is {behind.ToSeconds():0.0} s behind: this machine cannot simulate it in real time."));
         }
     }

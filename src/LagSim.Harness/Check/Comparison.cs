@@ -115,18 +115,11 @@ internal sealed class Comparison
         return first;
     }
 
-    private FirstDifference Difference(int peer, BodyId body, TimelineEntry? should, TimelineEntry? entry)
-    {
-        SimTime time = should is TimelineEntry a && entry is TimelineEntry b ? SimTime.Min(a.Key.Time, b.Key.Time) : (should ?? entry)!.Value.Key.Time;
-        return new FirstDifference(
-            peer, body, (time - expected.Start).ToSeconds(), should?.Key, should?.State ?? default, entry?.Key, entry?.State ?? default);
-    }
+    private FirstDifference Difference(int peer, BodyId body, TimelineEntry? should, TimelineEntry? entry) =>
+        new(peer, body, expected.Start, should?.Key, should?.State ?? default, entry?.Key, entry?.State ?? default);
 
     private static FirstDifference? Earlier(FirstDifference? a, FirstDifference? b) =>
-        a is null || (b is not null && Key(b) < Key(a)) ? b : a;
-
-    private static EventKey Key(FirstDifference of) =>
-        of.ExpectedKey is EventKey should && of.ActualKey is EventKey there ? (should < there ? should : there) : (of.ExpectedKey ?? of.ActualKey)!.Value;
+        a is null || (b is not null && b.Key < a.Key) ? b : a;
 
     /// <summary>What happened to a body up to that time; that one has heard of it is no event.</summary>
     private static TimelineEntry[] Happened(Simulation simulation, BodyId body, SimTime to)

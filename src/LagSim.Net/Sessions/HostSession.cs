@@ -354,7 +354,7 @@ public sealed partial class HostSession : Session
         }
 
         logView.Reader = joiner;
-        bool hasMore = joiner.Outgoing.Fill(update, logView, now, joiner.Link.Patience + Options.ResendInterval, MostAckDelay, Options.ResendInterval);
+        bool hasMore = joiner.Outgoing.Fill(update, logView, now, TimesOf(joiner.Link));
 
         // The watermark is a promise about what comes after this update's last entry: the one at which the next entry was added, or as there is none, now's.
         uint last = update.FirstIndex + (uint)update.Held.Length - 1;

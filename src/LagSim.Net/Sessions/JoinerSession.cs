@@ -385,7 +385,7 @@ public sealed partial class JoinerSession : Session
         update.EventsReceived = incoming.Received;
         update.Ready = IsReady;
         update.Start = World?.Simulation.Start ?? SimTime.MinValue;
-        bool hasMore = outgoing.Fill(update, unjudged, now, to.Patience + Options.ResendInterval, MostAckDelay, Options.ResendInterval);
+        bool hasMore = outgoing.Fill(update, unjudged, now, TimesOf(to));
         SimDuration wait = !IsReady ? Pace : WaitAfterUpdate(outgoing.Acknowledged < lastUrgent || outgoing.HasLost, outgoing.Acknowledged < LastSequence, to, now, Options.KeepAlive);
         Send(to.Seal(hasMore ? now : now + wait), to);
         return hasMore;

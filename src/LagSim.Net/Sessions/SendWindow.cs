@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using LagSim.Events;
 using LagSim.Net.Wire;
 using LagSim.Time;
 
@@ -58,22 +57,20 @@ internal sealed class SendWindow
     /// <param name="update">The update.</param>
     /// <param name="source">The entries.</param>
     /// <param name="now">When it is sent.</param>
-    /// <param name="patience">What an answer takes at most, as far as is known.</param>
-    /// <param name="ackDelay">How much longer it may take for what later entries make up for.</param>
-    /// <param name="resend">After how long something goes out in any case.</param>
+    /// <param name="times">How long answers take, and to wait for them.</param>
     /// <returns>Whether more is to be sent at once.</returns>
-    internal bool Fill(UpdateDatagram update, IEntrySource source, SimTime now, SimDuration patience, SimDuration ackDelay, SimDuration resend)
+    internal bool Fill(UpdateDatagram update, IEntrySource source, SimTime now, in ResendTimes times)
     {
         uint last = source.Last - Acknowledged > MaxEntries ? Acknowledged + MaxEntries : source.Last;
-        bool mayRepeat = repeated == SimTime.MinValue || now - repeated >= resend;
+        bool mayRepeat = repeated == SimTime.MinValue || now - repeated >= times.Interval;
         while (flights.TryPeek(out Flight past) && past.Last <= Acknowledged)
         {
             flights.Dequeue();
         }
 
-        SimDuration wait = Wait(patience);
+        SimDuration wait = Wait(times.Answer);
         uint first = Acknowledged + 1;
-        HasLost |= IsOverdue(now, wait + ackDelay);
+        HasLost |= IsOverdue(now, wait + times.AckDelay);
         uint needed = HasLost ? first : FirstNeeded(source, last);
         if (Add(update, source, needed, last) == last)
         {
@@ -88,7 +85,11 @@ internal sealed class SendWindow
             return false;
         }
 
-        Add(update, source, first, last);
+        if (needed != first)
+        {
+            Add(update, source, first, last);
+        }
+
         if (mayRepeat && (stalls > 0 || (sent == last && !IsOverdue(now, wait))))
         {
             repeated = now; // from the oldest on, as it is already filled
@@ -109,7 +110,7 @@ internal sealed class SendWindow
             update.FirstIndex = sent + 1;
         }
 
-        return sent < last || IsOverdue(now, Wait(patience));
+        return sent < last || IsOverdue(now, Wait(times.Answer));
     }
 
     /// <summary>
@@ -120,7 +121,7 @@ internal sealed class SendWindow
     {
         for (uint number = Acknowledged + 1; number <= last; number++)
         {
-            if (!IsMadeUpFor(source[number]))
+            if (source[number].IsOwn || !Session.IsMadeUpFor(source[number].Event))
             {
                 return Acknowledged + 1;
             }
@@ -128,9 +129,6 @@ internal sealed class SendWindow
 
         return Math.Max(Acknowledged + 1, Math.Min(sent, last));
     }
-
-    /// <summary>Whether what comes after carries what this one would have.</summary>
-    private static bool IsMadeUpFor(in UpdateEntry entry) => !entry.IsOwn && entry.Event.Kind == EventKind.HoldKnot;
 
     /// <summary>Sends again what was in the datagram that was sent the longest ago, and what follows on it and was overdue as well.</summary>
     private void Repeat(UpdateDatagram update, IEntrySource source, SimTime now, SimDuration wait)
@@ -173,7 +171,7 @@ internal sealed class SendWindow
         return first;
     }
 
-    private SimDuration Wait(SimDuration patience) => patience * (1L << Math.Max(0, stalls - 1));
+    private SimDuration Wait(SimDuration answer) => answer * (1L << Math.Max(0, stalls - 1));
 
     private bool IsOverdue(SimTime now, SimDuration wait) => flights.TryPeek(out Flight oldest) && now - oldest.At >= wait;
 

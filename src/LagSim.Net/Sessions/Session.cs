@@ -249,8 +249,10 @@ public abstract partial class Session
     /// <summary>How long a silence is overdue. A host waits as long before it writes of itself: a joiner's keep-alives, which it answers, do for both.</summary>
     private protected SimDuration Overdue => Options.KeepAlive + (Options.KeepAlive / 4);
 
+    private protected ResendTimes TimesOf(UpdateLink link) => new(link.Patience + Options.ResendInterval, MostAckDelay, Options.ResendInterval);
+
     /// <summary>Whether the next of its kind carries what this one would have, if it is lost: it waits for its acknowledgement, and need not be sent again and again.</summary>
-    private protected static bool IsMadeUpFor(in ExternalEvent external) => external.Kind == EventKind.HoldKnot;
+    internal static bool IsMadeUpFor(in ExternalEvent external) => external.Kind == EventKind.HoldKnot;
 
     /// <summary>How long to wait before the next update, and how long where nothing is the matter.</summary>
     /// <param name="hasUrgent">Whether something is not acknowledged that nothing later makes up for.</param>
@@ -266,7 +268,8 @@ public abstract partial class Session
             return Options.ResendInterval;
         }
 
-        SimDuration answered = link.Patience + MostAckDelay + Options.ResendInterval;
+        ResendTimes times = TimesOf(link);
+        SimDuration answered = times.Answer + times.AckDelay;
         return hasUnacknowledged && answered < atRest ? answered : atRest;
     }
 

@@ -115,7 +115,7 @@ internal static class ContactFinder
     }
 
     /// <summary>Whether the two are apart, and no term of their distance ever brings them nearer.</summary>
-    private static bool OnlyGrows(Span<double> f, int terms)
+    internal static bool OnlyGrows(Span<double> f, int terms)
     {
         bool grows = f[0] > 0;
         for (int k = 1; k < terms && grows; k++)

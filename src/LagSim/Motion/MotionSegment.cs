@@ -55,6 +55,10 @@ internal readonly struct MotionSegment
     internal static MotionSegment AtRest(SimTime epoch, in Vector3D position, SupportSet supports = default) =>
         new(MotionLaw.Resting, epoch, SimTime.MaxValue, position, Vector3D.Zero, Vector3D.Zero, supports);
 
+    /// <summary>A body at rest for some time, that no plane alone carries.</summary>
+    internal static MotionSegment AtRest(SimTime epoch, in Vector3D position, SimTime end) =>
+        new(MotionLaw.Resting, epoch, end, position, Vector3D.Zero, Vector3D.Zero);
+
     /// <summary>The same piece of path, opened by the last of so many impacts on the spot.</summary>
     internal MotionSegment WithCrowding(int crowding) => new(Law, Epoch, End, Position, Velocity, Acceleration, Supports, crowding);
 

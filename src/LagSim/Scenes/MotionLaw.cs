@@ -15,7 +15,7 @@ public enum MotionLaw : byte
     /// <summary>Frictionless motion along one or two static planes, in closed form. Entered from flight, never a scene's choice.</summary>
     Sliding = 3,
 
-    /// <summary>At rest on static planes; costs nothing until something touches it. Entered from flight or sliding, never a scene's choice.</summary>
+    /// <summary>At rest on static planes, or wedged without play for 50 ms at a time; costs nothing until something touches it. Entered from flight or sliding, never a scene's choice.</summary>
     Resting = 4,
 
     /// <summary>In a hand, whose path it has, a cubic or parabola from knot to knot; nothing it meets changes that. Entered by a grab, never a scene's choice.</summary>

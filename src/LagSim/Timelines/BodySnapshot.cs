@@ -103,7 +103,7 @@ public readonly struct BodySnapshot
     /// <summary>How many planes carry it.</summary>
     public int SupportCount => Segment.Supports.Count;
 
-    /// <summary>How many impacts in succession came soon after the one before.</summary>
+    /// <summary>How many impacts in succession came soon after the one before: 0 to 128; beyond 64 only those count that left no room for a hop.</summary>
     public int Crowding => Segment.Crowding;
 
     /// <summary>Of an integrated step, or a held path, the coefficient of t^3, in m/s^3; else zero.</summary>

@@ -11,8 +11,8 @@ internal static class SnapshotCheck
     /// <summary>Furthest from the origin that an instant may lie: that of a start and the longest run.</summary>
     private const long MaxTicks = 3L << 61;
 
-    /// <summary>Higher than any count of impacts on the spot, which stop counting at 64.</summary>
-    private const int MaxCrowding = 64;
+    /// <summary>The highest count of impacts on the spot, where it stops.</summary>
+    private const int MaxCrowding = Simulation.WedgedAfter;
 
     internal static void Throw(WorldSnapshot snapshot, Scene scene)
     {
@@ -64,10 +64,12 @@ internal static class SnapshotCheck
             throw new SceneException($"The motion of {whose} is {body.Law}; it must be Sliding, Resting, Held, or its law of flight, {body.Spec.Flight}.");
         }
 
+        bool isWedged = body.Law == MotionLaw.Resting && body.Crowding == MaxCrowding && body.End == body.Opened.Time + Simulation.WedgedFor;
         bool isCarried = body.Law is MotionLaw.Sliding or MotionLaw.Resting;
-        if (isCarried != body.SupportCount > 0)
+        if ((isCarried && !isWedged) != body.SupportCount > 0)
         {
-            throw new SceneException($"{body.SupportCount} planes carry {whose}, which is {body.Law}; what slides or rests is carried, and nothing else.");
+            throw new SceneException(
+                $"{body.SupportCount} planes carry {whose}, which is {body.Law}; what slides or rests is carried, and nothing else, but for what rests wedged, after {MaxCrowding} impacts on the spot and for {Simulation.WedgedFor}.");
         }
 
         for (int n = 0; n < body.SupportCount; n++)

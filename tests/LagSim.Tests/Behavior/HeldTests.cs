@@ -245,7 +245,7 @@ public sealed class HeldTests
 
         bool IsDone(bool pressesOn)
         {
-            Simulation simulation = new(scene) { PressesOn = pressesOn };
+            Simulation simulation = new(scene) { PressesOn = pressesOn, IgnoresWedges = pressesOn };
             events.ForEach(e => simulation.Submit(e));
             long budget = 5_000;
             return simulation.TryAdvanceTo(At(1), ref budget);

@@ -101,7 +101,7 @@ public sealed class SnapshotTests
         { "Plane 1", b => With(b, law: MotionLaw.Resting, supports: [1]) },
         { "Plane -1", b => With(b, law: MotionLaw.Resting, supports: [-1]) },
         { "Plane 0", b => With(b, law: MotionLaw.Resting, supports: [0, 0]) },
-        { "on the spot", b => With(b, crowding: 65) },
+        { "on the spot", b => With(b, crowding: 129) },
         { "on the spot", b => With(b, crowding: -1) },
         { "opened by", b => With(b, opened: new EventKey(At(2), 0, EventKind.Impact, First, First, 0, 0)) },
         { "opened by", b => With(b, opened: new EventKey(At(-1), 0, EventKind.Impact, First, First, 0, 0)) },

@@ -24,6 +24,15 @@ public sealed class FirstDescentTests
         from length in Gen.Elements(0.005, 1.0, 1.0, 3.0, 1000.0)
         select (Make(kind, degree, draws, length), length)).ToArbitrary();
 
+    /// <summary>Polynomials whose terms are positive, but for one in half of them.</summary>
+    private static readonly Arbitrary<(double[] F, double Length)> MostlyGrowing = (
+        from terms in Gen.Choose(2, FirstDescent.MaxDegree + 1)
+        from sizes in Gen.Choose(0, 1_000).Select(x => Math.Pow(10, (x / 100.0) - 8)).ArrayOf(terms)
+        from isZero in Gen.Choose(0, 4).ArrayOf(terms)
+        from down in Gen.Choose(0, (2 * terms) - 1)
+        from length in Gen.Elements(0.005, 1.0, 1000.0)
+        select (sizes.Select((x, k) => isZero[k] == 0 ? 0 : k == down ? -x : x).ToArray(), length)).ToArbitrary();
+
     [Fact]
     public void Find_AnyPolynomial_IsTheFirstDescentAndNoOther()
     {
@@ -52,6 +61,26 @@ public sealed class FirstDescentTests
     public void Check_FinderThatMovesTheRootByAMillionth_IsSeenToFail()
     {
         Assert.ThrowsAny<Exception>(() => Check((f, length) => FirstDescent.Find((double[])f.Clone(), length) * (1 + 1e-6)));
+    }
+
+    [Fact]
+    public void OnlyGrows_AnyPolynomial_HasNoDescentThen()
+    {
+        // Curved paths are not searched where this says so: it may say so only where the search would find nothing.
+        Assert.True(Growing((f, terms) => ContactFinder.OnlyGrows(f, terms)) > 100);
+        Assert.ThrowsAny<Exception>(() => Growing((f, terms) => ContactFinder.OnlyGrows(f, terms - 1))); // the control
+
+        static int Growing(Func<double[], int, bool> onlyGrows)
+        {
+            int growing = 0;
+            Prop.ForAll(MostlyGrowing, p =>
+            {
+                bool grows = onlyGrows((double[])p.F.Clone(), p.F.Length);
+                growing += grows ? 1 : 0;
+                return !grows || double.IsNaN(FirstDescent.Find((double[])p.F.Clone(), p.Length));
+            }).Check(Many);
+            return growing;
+        }
     }
 
     [Fact]

@@ -1,0 +1,158 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Behavior;
+
+/// <summary>Bodies without play: what any push drives into something that cannot give way must not cost an impact every microsecond.</summary>
+public sealed class WedgeTests
+{
+    private static readonly BodyId Third = BodyId.OfScene(2);
+
+    [Fact]
+    public void Wedged_UnderAHandThatKeepsStill_IsLetThrough()
+    {
+        // Ball b lies between a wall, another and a dome, and the held ball on top leaves it no play: whatever impact it ends begins another.
+        Scene scene = UnderAHand();
+        ExternalEvent grab = ExternalEvent.Grab(At(0.25), 1, 1, Third, new Vector3D(0.0625, 0.0625, 0));
+        Assert.True(IsDone(scene, [grab], 2, ignoresWedges: false, out Simulation inTime));
+        Assert.False(IsDone(scene, [grab], 2, ignoresWedges: true, out _)); // the control: a million events a second
+
+        Simulation late = new(scene, KeepAll);
+        late.AdvanceTo(At(0.6));
+        late.Submit(grab);
+        late.AdvanceTo(At(2));
+        Assert.Equal(inTime.StateHash(At(2)), late.StateHash(At(2)));
+        Assert.Equal(inTime.EventHash(At(2)), late.EventHash(At(2)));
+    }
+
+    [Fact]
+    public void Wedged_BetweenStaticSurfaces_RestsUntilItIsMoved()
+    {
+        Scene scene = Notch();
+        BodyId ball = BodyId.OfScene(0);
+        Assert.True(IsDone(scene, [], 8, ignoresWedges: false, out Simulation simulation));
+        Assert.False(IsDone(scene, [], 8, ignoresWedges: true, out _)); // the control
+        Assert.Equal(MotionLaw.Resting, Read(simulation, ball, 8).Motion);
+        Near(Read(simulation, ball, 2).Position, Read(simulation, ball, 8).Position, 1e-8);
+
+        simulation.Submit(ExternalEvent.Impulse(At(7), 1, 1, ball, V(0, 300)));
+        simulation.AdvanceTo(At(8));
+        Assert.True(Read(simulation, ball, 7.2).Position.Y > 0.2, $"{Read(simulation, ball, 7.2).Position}");
+
+        simulation.Submit(ExternalEvent.Grab(At(5), 1, 1, ball));
+        simulation.Submit(ExternalEvent.HoldKnot(At(5.1), 1, 2, ball, V(0.3, 2, 0.3), V(0)));
+        simulation.AdvanceTo(At(8));
+        Near(V(0.3, 2, 0.3), Read(simulation, ball, 6).Position, 1e-9);
+    }
+
+    [Fact]
+    public void Wedged_AtRest_GivesWayToAHandThatPushesItOut()
+    {
+        Scene scene = Notch(withHand: true);
+        List<ExternalEvent> events = [ExternalEvent.Grab(At(0.01), 1, 1, BodyId.OfScene(1))];
+        for (uint n = 0; n < 20; n++)
+        {
+            double up = Math.Max(0, n - 10.0) * 0.3; // from one second on, 3 m/s from below
+            events.Add(ExternalEvent.HoldKnot(At(0.02 + (0.1 * n)), 1, n + 2, BodyId.OfScene(1), new Vector3D(0.1, -2 + up, 0.1), V(0, n > 10 ? 3 : 0)));
+        }
+
+        Assert.True(IsDone(scene, events, 2, ignoresWedges: false, out Simulation simulation));
+        Assert.True(Read(simulation, BodyId.OfScene(0), 2).Position.Y > 0.3, $"{Read(simulation, BodyId.OfScene(0), 2).Position}");
+    }
+
+    [Fact]
+    public void Pressed_AtRandom_IsDone()
+    {
+        for (int seed = 0; seed < 300; seed++)
+        {
+            (Scene scene, List<ExternalEvent> events) = Random(seed);
+            Assert.True(IsDone(scene, events, 3, ignoresWedges: false, out Simulation simulation), $"seed {seed}, at {(simulation.SimulatedTo - simulation.Start).ToSeconds()} s");
+        }
+    }
+
+    [Fact]
+    public void Snapshot_OfWhatRestsWedged_GoesOnAsItDid()
+    {
+        Simulation world = new(Notch(), KeepAll);
+        world.AdvanceTo(At(3));
+        WorldSnapshot snapshot = world.Snapshot(At(2));
+        BodySnapshot b = snapshot.Bodies[0];
+        Assert.Equal((MotionLaw.Resting, 0, 128), (b.Law, b.SupportCount, b.Crowding));
+        Simulation joined = new(world.Scene, snapshot, KeepAll);
+        joined.AdvanceTo(At(3));
+        Assert.Equal(world.StateHash(At(3)), joined.StateHash(At(3)));
+
+        foreach ((SimTime end, int crowding) in new[] { (b.End, 127), (SimTime.MaxValue, 128), (b.End + SimDuration.OneTick, 128) })
+        {
+            BodySnapshot forged = new(b.Id, b.Spec, b.Opened, b.Law, b.Epoch, end, b.Position, b.Velocity, b.Acceleration, crowding: crowding);
+            Assert.Contains("wedged", Assert.Throws<SceneException>(() => new Simulation(world.Scene, new WorldSnapshot(snapshot.Start, snapshot.Time, 0, [forged]))).Message, StringComparison.Ordinal);
+        }
+    }
+
+    private static bool IsDone(Scene scene, IEnumerable<ExternalEvent> events, double seconds, bool ignoresWedges, out Simulation simulation)
+    {
+        simulation = new Simulation(scene, KeepAll) { IgnoresWedges = ignoresWedges };
+        foreach (ExternalEvent external in events)
+        {
+            simulation.Submit(external);
+        }
+
+        long budget = 100_000;
+        return simulation.TryAdvanceTo(At(seconds), ref budget);
+    }
+
+    private static Scene UnderAHand() => new SceneBuilder("under a hand").WithSmallestRadius(0.125)
+        .AddPlane("wall", V(1), V(0), 1).AddPlane("back", new Vector3D(0, 0, 1), V(0), 0.9).AddStaticSphere("dome", new Vector3D(1, -0.5, 0.5), 1, 0.7)
+        .AddBody("a", Ball(0.25, 1, 0.3), new Vector3D(0.25, 2, 0.625), new Vector3D(-0.5, -1.5, -0.5))
+        .AddBody("b", Ball(0.25, 1, 0.3), new Vector3D(0.25, 0.5, 0.5), new Vector3D(0.5, 0, 0.5))
+        .AddBody("held", Ball(0.5, 1, 0.9), new Vector3D(0.75, 1.375, 0.875), new Vector3D(-1, -1, -0.5)).Build();
+
+    /// <summary>A ball that falls between two walls and a dome, where it just fits: the dome's normal there is all but level.</summary>
+    private static Scene Notch(bool withHand = false)
+    {
+        SceneBuilder builder = new SceneBuilder("notch").AddPlane("wall", V(1), V(0), 1).AddPlane("back", new Vector3D(0, 0, 1), V(0), 0.9)
+            .AddStaticSphere("dome", new Vector3D(1, -0.5, 0.5), 1, 0.7).AddBody("ball", Ball(0.1027, 100, 0.157), new Vector3D(0.15, 1.1, 0.15), new Vector3D(0.1, 0, -0.1));
+        return (withHand ? builder.AddBody("held", Ball(0.05, 1, 0.9), new Vector3D(0.1, -2, 0.1)) : builder).Build();
+    }
+
+    /// <summary>One to three balls, some of them heavy, in a corner, on a floor or a dome or neither, and a hand that comes down on them, fast or slow, and then keeps still.</summary>
+    private static (Scene Scene, List<ExternalEvent> Events) Random(int seed)
+    {
+        Random random = new(seed);
+        SceneBuilder builder = new SceneBuilder("random").AddPlane("wall", V(1), V(0), 1).AddPlane("back", new Vector3D(0, 0, 1), V(0), 0.9);
+        builder = random.Next(2) == 0 ? builder.AddPlane("floor", Vector3D.Up, V(0), 0.5) : builder;
+        builder = random.Next(2) == 0 ? builder.AddStaticSphere("dome", new Vector3D(1, -0.5, 0.5), 1, 0.7) : builder;
+        int balls = random.Next(1, 4);
+        double y = 1;
+        for (int i = 0; i < balls; i++)
+        {
+            double r = 0.1 + (0.2 * random.NextDouble());
+            BodySpec spec = Ball(r, random.Next(2) == 0 ? 1 : 100, random.NextDouble());
+            Vector3D place = new(r + (0.1 * random.NextDouble()), y + r, r + (0.1 * random.NextDouble()));
+            builder.AddBody($"ball {i}", spec, place, new Vector3D(Draw(random, 0.5), Draw(random, 0.5), Draw(random, 0.5)));
+            y += (2 * r) + 0.02;
+        }
+
+        Vector3D from = new(0.4, y + 0.5, 0.4);
+        BodyId held = BodyId.OfScene(balls);
+        Scene scene = builder.AddBody("held", Ball(0.4, 1, 0.9), from).Build();
+        double speed = Math.Pow(10, -3 + (4 * random.NextDouble()));
+        double depth = 0.2 + random.NextDouble();
+        List<ExternalEvent> events = [ExternalEvent.Grab(At(0.01), 1, 1, held)];
+        for (uint k = 0; k < 60; k++)
+        {
+            double gone = Math.Min(depth, speed * k * 0.05);
+            events.Add(ExternalEvent.HoldKnot(At(0.02 + (0.05 * k)), 1, k + 2, held, from - V(0, gone), V(0, gone < depth ? -speed : 0)));
+        }
+
+        return (scene, events);
+    }
+
+    private static double Draw(Random random, double most) => ((random.NextDouble() * 2) - 1) * most;
+}
