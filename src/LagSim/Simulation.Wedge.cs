@@ -40,8 +40,7 @@ public sealed partial class Simulation
     /// <summary>Whether the impact at hand leaves one wedged body, alone with what is static, at rest as far as collapses can tell.</summary>
     private bool IsLeftWedged(SimTime time) =>
         !Scene.Box.Exists // there all is in flight
-        && partyCount == 1 && CrowdingAt(parties[0], time) >= WedgedAfter
-        && bodies[parties[0]].Spec.Acceleration == 0 && partyVelocities[0].Length <= CollapseSpeed;
+        && partyCount == 1 && CrowdingAt(parties[0], time) >= WedgedAfter && partyVelocities[0].Length <= CollapseSpeed;
 
     private void RestWedged(in EventKey key)
     {

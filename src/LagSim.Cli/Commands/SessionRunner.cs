@@ -181,8 +181,14 @@ internal sealed class SessionRunner : IDisposable
     /// <summary>Tells, once, of a world that this machine cannot simulate as fast as time passes.</summary>
     private void LookAtPace()
     {
+        if (session.World is not { } world)
+        {
+            return; // and there is no shared time yet either
+        }
+
         SimTime now = session.SharedTime.Now;
-        if (session.World is { } world && now - world.Simulation.SimulatedTo is var behind && pace.Finds(now, behind))
+        SimDuration behind = now - world.Simulation.SimulatedTo;
+        if (pace.Finds(now, behind))
         {
             printer.Problem(FormattableString.Invariant($"The world is {behind.ToSeconds():0.0} s behind: this machine cannot simulate it in real time."));
         }

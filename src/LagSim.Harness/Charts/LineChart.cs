@@ -94,6 +94,8 @@ public sealed class LineChart
         double widest = yAxes.SelectMany(axis => axis.Ticks).Max(tick => SvgElements.TextWidth(tick.Label ?? ""));
         double left = 30.0 + widest, right = Math.Max(18.0, Panels.Max(PanelLayout.ReferenceWidth) + 6.0);
         Axis x = FitX(Width - left - right);
+        right = Math.Max(right, x.Ticks.Max(tick => tick.Pixel + (SvgElements.TextWidth(tick.Label ?? "") / 2.0)) - x.Length + 6.0); // the last label is centred on its line
+        x = FitX(Width - left - right);
         List<PanelLayout> layouts = Panels.Select((panel, i) => new PanelLayout(panel, x, yAxes[i])).ToList();
         double height = HeadHeight + layouts.Sum(l => l.HeaderHeight + l.Y.Length) + (PanelGap * (layouts.Count - 1)) + FootHeight;
 

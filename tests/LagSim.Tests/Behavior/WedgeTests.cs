@@ -51,6 +51,16 @@ public sealed class WedgeTests
         Near(V(0.3, 2, 0.3), Read(simulation, ball, 6).Position, 1e-9);
     }
 
+    [Theory]
+    [InlineData(MotionLaw.RungeKutta4, 0)]
+    [InlineData(MotionLaw.RungeKutta4, 1)]
+    public void Wedged_OfAnotherLaw_RestsAsWell(MotionLaw flight, byte force)
+    {
+        SceneBuilder builder = Slot(Ball(0.1027, 100, 0.157, flight, step: 0.01, force: force)).AddAcceleration(new Force((_, _, v) => v * -0.1));
+        Assert.True(IsDone(builder.Build(), [], 4, ignoresWedges: false, out Simulation simulation));
+        Assert.Equal(MotionLaw.Resting, Read(simulation, BodyId.OfScene(0), 4).Motion);
+    }
+
     [Fact]
     public void Wedged_AtRest_GivesWayToAHandThatPushesItOut()
     {
@@ -116,10 +126,12 @@ public sealed class WedgeTests
     /// <summary>A ball that falls between two walls and a dome, where it just fits: the dome's normal there is all but level.</summary>
     private static Scene Notch(bool withHand = false)
     {
-        SceneBuilder builder = new SceneBuilder("notch").AddPlane("wall", V(1), V(0), 1).AddPlane("back", new Vector3D(0, 0, 1), V(0), 0.9)
-            .AddStaticSphere("dome", new Vector3D(1, -0.5, 0.5), 1, 0.7).AddBody("ball", Ball(0.1027, 100, 0.157), new Vector3D(0.15, 1.1, 0.15), new Vector3D(0.1, 0, -0.1));
+        SceneBuilder builder = Slot(Ball(0.1027, 100, 0.157));
         return (withHand ? builder.AddBody("held", Ball(0.05, 1, 0.9), new Vector3D(0.1, -2, 0.1)) : builder).Build();
     }
+
+    private static SceneBuilder Slot(BodySpec ball) => new SceneBuilder("notch").AddPlane("wall", V(1), V(0), 1).AddPlane("back", new Vector3D(0, 0, 1), V(0), 0.9)
+        .AddStaticSphere("dome", new Vector3D(1, -0.5, 0.5), 1, 0.7).AddBody("ball", ball, new Vector3D(0.15, 1.1, 0.15), new Vector3D(0.1, 0, -0.1));
 
     /// <summary>One to three balls, some of them heavy, in a corner, on a floor or a dome or neither, and a hand that comes down on them, fast or slow, and then keeps still.</summary>
     private static (Scene Scene, List<ExternalEvent> Events) Random(int seed)
