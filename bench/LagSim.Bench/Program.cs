@@ -7,6 +7,9 @@ namespace LagSim.Bench;
 
 internal static class Program
 {
+    private const string All = "tables";
+    private const string Brief = "brief";
+
     private static readonly Dictionary<string, Action<bool>> Tables = new()
     {
         ["traffic"] = _ => TrafficTable.Print(),
@@ -19,18 +22,23 @@ internal static class Program
     };
 
     /// <summary>Benchmarks, or with the name of a table that table; <c>brief</c> after it for a run of seconds whose figures say little; <c>tables</c> for all but traffic.</summary>
-    internal static void Main(string[] arguments)
+    internal static int Main(string[] arguments)
     {
-        if (arguments.Length is 1 or 2 && (arguments.Length == 1 || arguments[1] == "brief"))
+        if (arguments.Length == 0 || arguments[0].StartsWith('-'))
         {
-            Action<bool>[] named = Tables.Where(t => t.Key == arguments[0] || (arguments[0] == "tables" && t.Key != "traffic")).Select(t => t.Value).ToArray();
-            if (named.Length > 0)
-            {
-                Array.ForEach(named, print => print(arguments.Length == 2));
-                return;
-            }
+            BenchmarkSwitcher.FromAssembly(typeof(Program).Assembly).Run(arguments);
+            return 0;
         }
 
-        BenchmarkSwitcher.FromAssembly(typeof(Program).Assembly).Run(arguments);
+        Action<bool>[] named = Tables.Where(t => t.Key == arguments[0] || (arguments[0] == All && t.Key != "traffic")).Select(t => t.Value).ToArray();
+        if (named.Length == 0 || arguments.Length > 2 || (arguments.Length == 2 && arguments[1] != Brief))
+        {
+            Console.Error.WriteLine(
+                $"'{string.Join(' ', arguments)}' must be {string.Join(", ", Tables.Keys)} or {All}, with or without '{Brief}' after it, or options of BenchmarkDotNet such as --filter '*'.");
+            return 2;
+        }
+
+        Array.ForEach(named, print => print(arguments.Length == 2));
+        return 0;
     }
 }

@@ -52,7 +52,7 @@ internal static class Program
         {
             foreach (System.CommandLine.Parsing.ParseError problem in parsed.Errors)
             {
-                error.WriteLine(problem.Message);
+                error.WriteLine(Sentence.Printable(problem.Message));
             }
 
             Command asked = parsed.CommandResult.Command;
@@ -76,13 +76,13 @@ internal static class Program
         }
         catch (UsageException mistake)
         {
-            error.WriteLine(mistake.Message);
+            error.WriteLine(Sentence.Printable(mistake.Message));
             return ExitCode.Usage;
         }
         catch (Exception failure) when (failure is SceneFileException or SceneException or SimulationException or PeerGroupException
             or HandMotionException or InputException or IOException or UnauthorizedAccessException)
         {
-            error.WriteLine(failure.Message);
+            error.WriteLine(Sentence.Printable(Sentence.Of(failure)));
             return ExitCode.Input;
         }
     }

@@ -80,7 +80,7 @@ internal static class CheckCommand
         }
         catch (ArgumentException mistake)
         {
-            throw new UsageException(mistake.Message); // numbers that the session does not have
+            throw new UsageException(Sentence.Of(mistake)); // numbers that the session does not have
         }
 
         if (folder is not null)

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.CommandLine;
 using System.Linq;
 using LagSim.Cli.Output;
+using LagSim.Events;
 using LagSim.Harness.Compare;
 using LagSim.Harness.Links;
 using LagSim.Harness.Scenes;
@@ -22,7 +23,7 @@ internal static class CompareCommand
         CommonOptions common = new();
         Option<string> scene = new("--scene")
         {
-            Description = $"What is played in: {string.Join(", ", BuiltInScenes.Names)}, or any other scene by name or file, of at most {CompareOptions.MaxBodies} bodies; default pair.",
+            Description = $"What is played in: {string.Join(", ", BuiltInScenes.Names)}, or any other scene by name or file, of at most {CompareOptions.MaxBodies} bodies with those that the players spawn; default pair.",
             DefaultValueFactory = _ => "pair",
             HelpName = "NAME",
         };
@@ -45,12 +46,14 @@ internal static class CompareCommand
             Scene played = SceneSource.Load(parsed.GetValue(scene)!);
             ulong seed = parsed.GetValue(common.Seed);
             int count = parsed.GetValue(peers);
-            if (played.Bodies.Count > CompareOptions.MaxBodies)
+            IReadOnlyList<PlannedDeed> plan = PlayerPlan.Draw(played, count, seed);
+            int spawned = plan.Count(deed => deed.Kind == EventKind.Spawn);
+            if (played.Bodies.Count + spawned > CompareOptions.MaxBodies)
             {
-                throw new UsageException($"--scene is '{played.Name}' with {played.Bodies.Count} bodies; at most {CompareOptions.MaxBodies} can be watched.");
+                throw new UsageException(
+                    $"--scene is '{played.Name}' with {played.Bodies.Count} bodies, and players spawn {spawned} more; at most {CompareOptions.MaxBodies} in all can be watched.");
             }
 
-            IReadOnlyList<PlannedDeed> plan = PlayerPlan.Draw(played, count, seed);
             CompareOptions[] runs = links.SelectMany(link => strategies.Select(name => new CompareOptions(played, plan, name, link)
             {
                 Peers = count,

@@ -68,7 +68,7 @@ internal static class HostCommand
         }
         catch (Exception failure) when (failure is ArgumentException or SceneException)
         {
-            throw new InputException(failure.Message, failure);
+            throw new InputException(Sentence.Of(failure), failure);
         }
     }
 }

@@ -91,7 +91,7 @@ internal static class RelayCommand
         }
         catch (ArgumentException failure)
         {
-            throw new InputException(failure.Message, failure);
+            throw new InputException(Sentence.Of(failure), failure);
         }
     }
 

@@ -344,10 +344,18 @@ internal sealed class SessionRunner : IDisposable
             isAwaitingVerdict = unjudged.Count > 0;
             if (entry.Verdict != Verdict.Accepted)
             {
-                Tell(() => Fail($"The host refused --do {deed.Text}: {entry.Verdict}."));
+                Tell(() => Fail($"The host refused --do {deed.Text}: {Why(entry.Verdict)}."));
             }
         }
     }
+
+    private static string Why(Verdict verdict) => verdict switch
+    {
+        Verdict.TooLate => "it came too late, when nothing could change any more what was to happen then (the host's --history-s)",
+        Verdict.TooEarly => "it is stamped too far in the future",
+        Verdict.NoRight => "this peer may not do that",
+        _ => "it makes no sense in this scene",
+    };
 
     private void OnCommitted(CommittedState state)
     {

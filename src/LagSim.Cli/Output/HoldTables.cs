@@ -74,9 +74,11 @@ internal static class HoldTables
     /// <summary>A row for each link and each peer that looks on.</summary>
     internal static IEnumerable<IReadOnlyList<string>> Views(IReadOnlyList<HoldRun> runs) => runs.SelectMany(run => run.Views.Select(view => new[]
     {
-        run.Options.Link.Name, PeerName(view.Peer), Millimetres(view.Simulated.RmsMetres), Millimetres(view.Simulated.MaxMetres), Millimetres(view.Predicted.RmsMetres),
-        Millimetres(view.Predicted.MaxMetres), Ratio(view.RatioToBest), Millimetres(view.HoldLastMetres), Millimetres(view.VelocityMetres), Millimetres(run.Own.RmsMetres),
+        run.Options.Link.Name, PeerName(view.Peer), Millimetres(view.Simulated.RmsMetres), Millimetres(view.Simulated.MaxMetres), Predicted(view, view.Predicted.RmsMetres),
+        Predicted(view, view.Predicted.MaxMetres), Ratio(view.RatioToBest), Predicted(view, view.HoldLastMetres), Predicted(view, view.VelocityMetres), Millimetres(run.Own.RmsMetres),
     }));
+
+    private static string Predicted(HeldView view, double metres) => view.Predicted.Samples == 0 ? "-" : Millimetres(metres);
 
     /// <summary>A row for each link.</summary>
     internal static IEnumerable<IReadOnlyList<string>> Sessions(IReadOnlyList<HoldRun> runs) => runs.Select(run =>

@@ -100,7 +100,7 @@ public sealed class CheckCommandTests
             return;
         }
 
-        Assert.Matches("^stopped early: [0-9,]+ of 100,000 sessions from seed 1 ", output);
+        Assert.Matches("^stopped early: [0-9,]+ of 100,000 sessions played from seed 1 ", output);
         Assert.Contains("failing seeds 0", output, StringComparison.Ordinal);
     }
 

@@ -1,0 +1,25 @@
+using System;
+using System.Globalization;
+using System.Text;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>What went wrong as a sentence for a terminal.</summary>
+internal static class Sentence
+{
+    /// <summary>A failure's message, without the name of a parameter that only a programmer knows.</summary>
+    internal static string Of(Exception failure) =>
+        failure is ArgumentException { ParamName: string name } ? failure.Message.Replace($" (Parameter '{name}')", "", StringComparison.Ordinal) : failure.Message;
+
+    /// <summary>The same text, in which control characters, that what was read may have brought along, are spelled out; lines stay lines.</summary>
+    internal static string Printable(string text)
+    {
+        StringBuilder printable = new(text.Length);
+        foreach (char c in text)
+        {
+            printable.Append(char.IsControl(c) && c != '\n' ? "\\u" + ((int)c).ToString("x4", CultureInfo.InvariantCulture) : c.ToString());
+        }
+
+        return printable.ToString();
+    }
+}
