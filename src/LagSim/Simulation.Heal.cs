@@ -299,13 +299,14 @@ public sealed partial class Simulation
         }
     }
 
-    /// <summary>Whether the impact that a body was looked at for has not been taken back since.</summary>
+    /// <summary>
+    /// Whether the impact that a body was looked at for has not been taken back since. What was taken back is not put back: all who took part were looked at too, and a heal that cuts such a
+    /// look goes on to the end.
+    /// </summary>
     private bool StillHappens(int witness, long mostSerial = long.MaxValue)
     {
-        int party = witnesses.Party(witness);
-        int before = timelines.Before(party, witnesses.Key(witness));
-        int at = before == TimelineStore.None ? timelines.First(party) : timelines.Next(before);
-        return at != TimelineStore.None && timelines.Key(at) == witnesses.Key(witness) && timelines.Serial(at) <= mostSerial;
+        long serial = witnesses.Serial(witness);
+        return timelines.Serial(witnesses.Segment(witness)) == serial && serial <= mostSerial;
     }
 
     /// <summary>Takes back what was brushed since; true.</summary>

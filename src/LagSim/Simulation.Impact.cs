@@ -76,12 +76,12 @@ public sealed partial class Simulation
         contactCount = struck;
 
         EventKey canonical = CanonicalKey(key);
-        bool isLeftWedged = IsLeftWedged(key.Time);
+        bool areLeftWedged = AreLeftWedged(key.Time);
         for (int i = 0; i < partyCount; i++)
         {
-            if (isLeftWedged)
+            if (areLeftWedged)
             {
-                RestWedged(canonical);
+                RestWedged(i, canonical);
             }
             else
             {
@@ -92,7 +92,7 @@ public sealed partial class Simulation
         timelines.Join(parties.AsSpan(0, partyCount));
         foreach (int seen in lookedAt)
         {
-            witnesses.Add(seen, canonical, parties[0], HistoryEdge);
+            witnesses.Add(seen, canonical, parties[0], timelines.Last(parties[0]), timelines.Serial(timelines.Last(parties[0])), HistoryEdge);
         }
 
         for (int i = 0; i < partyCount; i++)
@@ -289,7 +289,8 @@ public sealed partial class Simulation
             AddTouched(ref count, supports[k]);
         }
 
-        Open(slot, key, partyPositions[party], partyVelocities[party], -residual, touched.AsSpan(0, count), CrowdingAt(slot, key.Time));
+        int crowding = IsPushedOutOfRest(slot) ? 0 : CrowdingAt(slot, key.Time);
+        Open(slot, key, partyPositions[party], partyVelocities[party], -residual, touched.AsSpan(0, count), crowding);
     }
 
     private void AddTouched(ref int count, int plane)

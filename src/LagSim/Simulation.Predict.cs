@@ -310,7 +310,7 @@ public sealed partial class Simulation
 
         if (wait < CollapseWait)
         {
-            bool isRounding = isSqueezed && round > 0 && closing < RoundingSpeed && !isPushed;
+            bool isRounding = isSqueezed && !IgnoresWedges && round > 0 && closing < RoundingSpeed && !isPushed;
             if (!isRounding && (round <= CollapseRound || (closing > CollapseSpeed && !isPushed)))
             {
                 return opened;

@@ -1,3 +1,4 @@
+using System;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
@@ -9,15 +10,15 @@ namespace LagSim;
 /// <remarks>
 /// A hop parts what lasting contact brings together, where there is room for it. In a wedge there is none: each impact closes another contact, until the
 /// tick's collapse has taken the rest, and a microsecond later gravity begins anew. What has gone through that time after time is wedged: a hand goes through
-/// it, even one that keeps still, and what does not move any more, with nothing but static geometry about it, rests.
+/// it, even one that keeps still, and what does not move any more rests.
 /// </remarks>
 public sealed partial class Simulation
 {
     /// <summary>From this many impacts on the spot on, those after <see cref="SqueezedAfter"/> all without play, a body is wedged.</summary>
     internal const int WedgedAfter = 128;
 
-    /// <summary>So soon after an impact no hop ends: 4 microseconds, where one takes 900 under the earth's gravity.</summary>
-    private static readonly SimDuration NoPlay = SimDuration.FromTicks(1L << 22);
+    /// <summary>So soon after an impact no hop ends: 15 microseconds, where one takes 900 under the earth's gravity.</summary>
+    private static readonly SimDuration NoPlay = SimDuration.FromTicks(1L << 24);
 
     /// <summary>How long what is wedged rests, or lets a hand through, at a time: 50 ms, in which what a hand carried falls a centimetre.</summary>
     internal static readonly SimDuration WedgedFor = SimDuration.FromMilliseconds(50);
@@ -37,15 +38,29 @@ public sealed partial class Simulation
         return path.Law != MotionLaw.Resting && path.Crowding >= WedgedAfter && time <= until ? until + SimDuration.OneTick : time;
     }
 
-    /// <summary>Whether the impact at hand leaves one wedged body, alone with what is static, at rest as far as collapses can tell.</summary>
-    private bool IsLeftWedged(SimTime time) =>
-        !Scene.Box.Exists // there all is in flight
-        && partyCount == 1 && CrowdingAt(parties[0], time) >= WedgedAfter && partyVelocities[0].Length <= CollapseSpeed;
-
-    private void RestWedged(in EventKey key)
+    /// <summary>Whether the impact at hand is of wedged bodies alone, and leaves them at rest as far as collapses can tell.</summary>
+    private bool AreLeftWedged(SimTime time)
     {
-        Vector3D position = partyPositions[0].WithoutNegativeZero();
-        Append(parties[0], key, MotionSegment.AtRest(key.Time, position, key.Time + WedgedFor).WithCrowding(WedgedAfter), default);
+        bool areWedged = !Scene.Box.Exists; // there all is in flight
+        for (int i = 0; i < partyCount && areWedged; i++)
+        {
+            areWedged = CrowdingAt(parties[i], time) >= WedgedAfter && partyVelocities[i].Length <= CollapseSpeed && !IsHeld(timelines.Last(parties[i]));
+        }
+
+        return areWedged;
+    }
+
+    /// <summary>Whether a hand takes part in the impact at hand, and the body rested wedged until now: it may be pushed out, so it is not wedged any more before it has been found so again.</summary>
+    private bool IsPushedOutOfRest(int slot)
+    {
+        ref readonly MotionSegment path = ref timelines.Segment(timelines.Last(slot));
+        return path.Law == MotionLaw.Resting && path.Crowding == WedgedAfter && Array.IndexOf(partyMasses, double.PositiveInfinity, 0, partyCount) >= 0;
+    }
+
+    private void RestWedged(int party, in EventKey key)
+    {
+        Vector3D position = partyPositions[party].WithoutNegativeZero();
+        Append(parties[party], key, MotionSegment.AtRest(key.Time, position, key.Time + WedgedFor).WithCrowding(WedgedAfter), default);
     }
 
     /// <summary>What rested wedged is free again: if nothing has changed, the next impact leaves it at rest.</summary>

@@ -64,7 +64,8 @@ internal static class SnapshotCheck
             throw new SceneException($"The motion of {whose} is {body.Law}; it must be Sliding, Resting, Held, or its law of flight, {body.Spec.Flight}.");
         }
 
-        bool isWedged = body.Law == MotionLaw.Resting && body.Crowding == MaxCrowding && body.End == body.Opened.Time + Simulation.WedgedFor;
+        bool isWedged = body.Law == MotionLaw.Resting && body.Crowding == MaxCrowding && body.Velocity == Vector3D.Zero && body.Acceleration == Vector3D.Zero
+            && body.End == body.Opened.Time + Simulation.WedgedFor;
         bool isCarried = body.Law is MotionLaw.Sliding or MotionLaw.Resting;
         if ((isCarried && !isWedged) != body.SupportCount > 0)
         {

@@ -57,9 +57,15 @@ internal sealed class WitnessLog
     /// <summary>The slot of one that takes part in it.</summary>
     internal int Party(int entry) => entries[entry].Party;
 
-    /// <summary>The body was looked at for an impact; what lies before the edge is forgotten.</summary>
+    /// <summary>The segment that it opened for that one.</summary>
+    internal int Segment(int entry) => entries[entry].Segment;
+
+    /// <summary>The serial of that segment; while it has that, the impact happens.</summary>
+    internal long Serial(int entry) => entries[entry].Serial;
+
+    /// <summary>The body was looked at for an impact, that opened a segment for one who takes part; what lies before the edge is forgotten.</summary>
     /// <exception cref="TimelinesFullException">There are as many entries as may be.</exception>
-    internal void Add(int slot, in EventKey key, int party, SimTime edge)
+    internal void Add(int slot, in EventKey key, int party, int segment, long serial, SimTime edge)
     {
         while (oldest[slot] != None && entries[oldest[slot]].Key.Time < edge)
         {
@@ -76,12 +82,12 @@ internal sealed class WitnessLog
 
         if (older != None && entries[older].Key == key)
         {
-            entries[older].Party = party;
+            (entries[older].Party, entries[older].Segment, entries[older].Serial) = (party, segment, serial);
             return;
         }
 
         int at = Take(key);
-        entries[at] = new Entry { Key = key, Party = party };
+        entries[at] = new Entry { Key = key, Party = party, Segment = segment, Serial = serial };
         Join(slot, newer, at);
         Join(slot, at, older);
     }
@@ -155,6 +161,8 @@ internal sealed class WitnessLog
     {
         internal EventKey Key;
         internal int Party;
+        internal int Segment;
+        internal long Serial;
         internal int Older;
         internal int Newer;
     }
