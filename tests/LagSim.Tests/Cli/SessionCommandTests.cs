@@ -198,8 +198,8 @@ public sealed class SessionCommandTests
         using LiveTool relay = LiveTool.Run($"relay {host.Address} --profile delay-200ms");
         using LiveTool joiner = LiveTool.Run($"join {relay.Address} --for-s 1.9 --do set-velocity@1.8:2,9,0 --do teleport@1.85:0,12,0");
         joiner.Ends(3);
-        Assert.Contains("The host refused --do set-velocity@1.8:2,9,0: TooLate.", joiner.Error.ToString(), StringComparison.Ordinal);
-        Assert.Contains("The host refused --do teleport@1.85:0,12,0: TooLate.", joiner.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains("The host refused --do set-velocity@1.8:2,9,0: it came too late, ", joiner.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains("The host refused --do teleport@1.85:0,12,0: it came too late, ", joiner.Error.ToString(), StringComparison.Ordinal);
         Assert.Contains("events: 0 accepted, 2 refused", joiner.Output.ToString(), StringComparison.Ordinal);
     }
 
