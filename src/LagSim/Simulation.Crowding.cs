@@ -61,9 +61,9 @@ public sealed partial class Simulation
     {
         ref readonly EventKey opened = ref timelines.Key(segment);
         int count = timelines.Segment(segment).Crowding;
-        bool isWedged = count == WedgedAfter; // whose rest ends by itself, and does not count as time between impacts
-        SimDuration soon = isWedged && timelines.Segment(segment).Law == MotionLaw.Resting ? WedgedFor : CrowdedWithin;
-        if ((opened.Kind != EventKind.Impact && !isWedged) || time - opened.Time > soon)
+        SimDuration soon = RestsWedged(timelines.Segment(segment)) ? WedgedFor : CrowdedWithin; // to rest is no time between impacts
+        bool isOfImpacts = opened.Kind == EventKind.Impact || count == WedgedAfter; // wedged rest ends by itself
+        if (!isOfImpacts || time - opened.Time > soon)
         {
             return 0;
         }

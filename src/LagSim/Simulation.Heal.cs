@@ -174,7 +174,7 @@ public sealed partial class Simulation
             {
                 if (StillHappens(seen))
                 {
-                    cuts.Push((witnesses.Party(seen), witnesses.Key(seen)));
+                    cuts.Push((timelines.Owner(witnesses.Segment(seen)), witnesses.Key(seen)));
                 }
             }
 
@@ -293,7 +293,7 @@ public sealed partial class Simulation
                 int then = timelines.Before(other, key);
                 if (then != TimelineStore.None && timelines.Segment(then).IsPresent && Gap(slot, mine, other, then, key.Time) <= NearGap)
                 {
-                    brushed.Add((witnesses.Party(seen), RoundOfImpacts(key.Time, key.Round)));
+                    brushed.Add((timelines.Owner(witnesses.Segment(seen)), RoundOfImpacts(key.Time, key.Round)));
                 }
             }
         }

@@ -90,9 +90,10 @@ public sealed partial class Simulation
         }
 
         timelines.Join(parties.AsSpan(0, partyCount));
+        int opened = timelines.Last(parties[0]);
         foreach (int seen in lookedAt)
         {
-            witnesses.Add(seen, canonical, parties[0], timelines.Last(parties[0]), timelines.Serial(timelines.Last(parties[0])), HistoryEdge);
+            witnesses.Add(seen, canonical, opened, timelines.Serial(opened), HistoryEdge);
         }
 
         for (int i = 0; i < partyCount; i++)

@@ -53,9 +53,11 @@ public sealed partial class Simulation
     /// <summary>Whether a hand takes part in the impact at hand, and the body rested wedged until now: it may be pushed out, so it is not wedged any more before it has been found so again.</summary>
     private bool IsPushedOutOfRest(int slot)
     {
-        ref readonly MotionSegment path = ref timelines.Segment(timelines.Last(slot));
-        return path.Law == MotionLaw.Resting && path.Crowding == WedgedAfter && Array.IndexOf(partyMasses, double.PositiveInfinity, 0, partyCount) >= 0;
+        bool hasHand = Array.IndexOf(partyMasses, double.PositiveInfinity, 0, partyCount) >= 0;
+        return hasHand && RestsWedged(timelines.Segment(timelines.Last(slot)));
     }
+
+    private static bool RestsWedged(in MotionSegment path) => path.Law == MotionLaw.Resting && path.Crowding == WedgedAfter;
 
     private void RestWedged(int party, in EventKey key)
     {

@@ -54,18 +54,15 @@ internal sealed class WitnessLog
     /// <summary>The impact.</summary>
     internal ref readonly EventKey Key(int entry) => ref entries[entry].Key;
 
-    /// <summary>The slot of one that takes part in it.</summary>
-    internal int Party(int entry) => entries[entry].Party;
-
-    /// <summary>The segment that it opened for that one.</summary>
+    /// <summary>A segment that it opened, of one who takes part in it.</summary>
     internal int Segment(int entry) => entries[entry].Segment;
 
     /// <summary>The serial of that segment; while it has that, the impact happens.</summary>
     internal long Serial(int entry) => entries[entry].Serial;
 
-    /// <summary>The body was looked at for an impact, that opened a segment for one who takes part; what lies before the edge is forgotten.</summary>
+    /// <summary>The body was looked at for an impact, that opened a segment of one who takes part; what lies before the edge is forgotten.</summary>
     /// <exception cref="TimelinesFullException">There are as many entries as may be.</exception>
-    internal void Add(int slot, in EventKey key, int party, int segment, long serial, SimTime edge)
+    internal void Add(int slot, in EventKey key, int segment, long serial, SimTime edge)
     {
         while (oldest[slot] != None && entries[oldest[slot]].Key.Time < edge)
         {
@@ -82,12 +79,12 @@ internal sealed class WitnessLog
 
         if (older != None && entries[older].Key == key)
         {
-            (entries[older].Party, entries[older].Segment, entries[older].Serial) = (party, segment, serial);
+            (entries[older].Segment, entries[older].Serial) = (segment, serial);
             return;
         }
 
         int at = Take(key);
-        entries[at] = new Entry { Key = key, Party = party, Segment = segment, Serial = serial };
+        entries[at] = new Entry { Key = key, Segment = segment, Serial = serial };
         Join(slot, newer, at);
         Join(slot, at, older);
     }
@@ -160,7 +157,6 @@ internal sealed class WitnessLog
     private struct Entry
     {
         internal EventKey Key;
-        internal int Party;
         internal int Segment;
         internal long Serial;
         internal int Older;

@@ -33,6 +33,18 @@ public sealed class LineChartTests
         Assert.Single(svg.Descendants(Svg + "path"), p => (string?)p.Attribute("class") == "ref");
     }
 
+    [Theory]
+    [InlineData(10_000)]
+    [InlineData(1e12)]
+    public void ToSvg_LabelAtTheEndOfTheAxis_LiesInThePicture(double end)
+    {
+        XElement svg = XElement.Parse(new LineChart("t", "", [new ChartPanel("p", "m", [new ChartSeries("s", [0.01, end], [1, 2])])]) { XScale = ChartScale.Log10 }.ToSvg());
+        double width = double.Parse(svg.Attribute("width")!.Value, CultureInfo.InvariantCulture);
+        XElement[] labels = [.. svg.Descendants(Svg + "text").Where(t => (string?)t.Attribute("class") == "tick mid")];
+        double left = double.Parse(Regex.Match((string)labels[0].Parent!.Attribute("transform")!, "[0-9.]+").Value, CultureInfo.InvariantCulture);
+        Assert.All(labels, t => Assert.InRange(left + (double)t.Attribute("x")! + (6.9 / 2 * t.Value.Length), 0, width - 5));
+    }
+
     [Fact]
     public void ToSvg_TextWithMarkup_IsEscapedAndComesBackWhole()
     {

@@ -119,6 +119,7 @@ public sealed class CompareCommandTests
     [Theory]
     [InlineData("--scene", "no-such", 3, "no-such: this is neither a built-in scene", "billiards")]
     [InlineData("--scene", "crowd-501", 2, "501 bodies", "at most 500")]
+    [InlineData("--scene", "crowd-500", 2, "500 bodies, and players spawn 2 more", "at most 500")]
     [InlineData("--profile", "moon", 2, "'moon'", "loopback, lan")]
     [InlineData("--strategy", "hope", 2, "--strategy is 'hope'", "none, latency-forward, interpolation, full-rollback, healing, all")]
     [InlineData("--peers", "1", 2, "--peers is '1'", "between 2 and 9")]

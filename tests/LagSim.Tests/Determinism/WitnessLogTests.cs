@@ -38,7 +38,7 @@ public sealed class WitnessLogTests
                 SimTime edge = At(random.Next(4) == 0 ? random.Next(20) : 0);
                 Array.ForEach([.. should[slot].Keys.Where(k => k.Time < edge)], k => should[slot].Remove(k));
                 should[slot][key] = n;
-                log.Add(slot, key, n, n + 1, n + 2L, edge);
+                log.Add(slot, key, n, n + 1L, edge);
             }
 
             Assert.Equal(should[slot].Reverse().Select(e => (e.Key, e.Value)), Entries(log, slot));
@@ -51,26 +51,26 @@ public sealed class WitnessLogTests
         WitnessLog log = new(2);
         log.AddSlot(0);
         log.AddSlot(1);
-        log.Add(0, Key(1, 0), 0, 0, 1, default);
-        log.Add(1, Key(2, 0), 0, 0, 1, default);
-        log.Add(1, Key(2, 0), 3, 0, 1, default); // the same again is no other
-        Assert.Contains("2 looks", Assert.Throws<TimelinesFullException>(() => log.Add(0, Key(3, 0), 0, 0, 1, default)).Message, StringComparison.Ordinal);
+        log.Add(0, Key(1, 0), 0, 1, default);
+        log.Add(1, Key(2, 0), 0, 1, default);
+        log.Add(1, Key(2, 0), 3, 4, default); // the same again is no other
+        Assert.Contains("2 looks", Assert.Throws<TimelinesFullException>(() => log.Add(0, Key(3, 0), 0, 1, default)).Message, StringComparison.Ordinal);
         log.CutFrom(0, Key(1, 0));
-        log.Add(0, Key(3, 0), 0, 0, 1, default);
+        log.Add(0, Key(3, 0), 0, 1, default);
         log.AddSlot(1); // another body
         Assert.Empty(Entries(log, 1));
-        log.Add(1, Key(4, 0), 0, 0, 1, default);
+        log.Add(1, Key(4, 0), 0, 1, default);
     }
 
     private static EventKey Key(double seconds, uint round) => new(At(seconds), round, EventKind.Impact, First, Second, 0, 0);
 
-    private static List<(EventKey Key, int Party)> Entries(WitnessLog log, int slot)
+    private static List<(EventKey Key, int Segment)> Entries(WitnessLog log, int slot)
     {
         List<(EventKey, int)> entries = [];
         for (int at = log.Newest(slot); at != WitnessLog.None; at = log.Older(at))
         {
-            entries.Add((log.Key(at), log.Party(at)));
-            Assert.True(log.Serial(at) <= 1 || (log.Segment(at), log.Serial(at)) == (log.Party(at) + 1, log.Party(at) + 2L));
+            entries.Add((log.Key(at), log.Segment(at)));
+            Assert.Equal(log.Segment(at) + 1L, log.Serial(at));
         }
 
         return entries;
