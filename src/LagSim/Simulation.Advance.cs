@@ -168,10 +168,11 @@ public sealed partial class Simulation
         {
             HandleHoldEnd(slot, key);
         }
-        else if (segment.Law == MotionLaw.RungeKutta4)
+        else if (segment.IsDense)
         {
-            RungeKutta4.End(segment, timelines.Dense(last), out Vector3D position, out Vector3D velocity);
-            OpenFlight(slot, key, position, velocity);
+            double h = segment.End.SecondsSince(segment.Epoch);
+            DenseOutput dense = timelines.Dense(last);
+            OpenFlight(slot, key, segment.PositionAt(h, dense), segment.VelocityAt(h, dense));
         }
         else if (segment.Law == MotionLaw.Ballistic && Scene.Box.Exists)
         {

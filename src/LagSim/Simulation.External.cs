@@ -136,7 +136,7 @@ public sealed partial class Simulation
         {
             if (!isThere)
             {
-                bodies[slot].Spec = external.Spec;
+                bodies[slot].Spec = Chosen(external.Spec);
                 flights.SetRadius(slot, external.Spec.Radius);
                 if (log.IsForwarded(entry))
                 {

@@ -211,7 +211,7 @@ public sealed partial class Simulation
 
     /// <summary>Whether a body may come to rest or slide on what it hit: a plane, under an acceleration that is the same everywhere.</summary>
     private bool IsSupportable(in ContactPoint c) =>
-        c.Second == ContactPoint.Static && c.Surface < Scene.PlaneArray.Length && bodies[parties[c.First]].Spec.Acceleration == 0;
+        c.Second == ContactPoint.Static && c.Surface < Scene.PlaneArray.Length && bodies[parties[c.First]].Spec.Forces.IsEmpty;
 
     /// <summary>A body that is carried stays carried while it is hit: its supports push back as far as they must, and give nothing.</summary>
     private void AddSupports()

@@ -4,6 +4,7 @@ using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim;
 
@@ -28,7 +29,7 @@ public sealed partial class Simulation
         Vector3D v = velocity;
         if (carry != 0)
         {
-            Vector3D a = forces.At(bodies[slot].Spec.Acceleration, key.Time, -carry, position, velocity);
+            Vector3D a = forces.At(bodies[slot].Spec, key.Time, -carry, position, velocity);
             x += (v + (a * (0.5 * carry))) * carry;
             v += a * carry;
         }
@@ -42,22 +43,64 @@ public sealed partial class Simulation
         Vector3D v = velocity.WithoutNegativeZero();
         ref readonly BodySpec spec = ref bodies[slot].Spec;
         CheckState(slot, key, x, v);
-        if (spec.Flight == MotionLaw.RungeKutta4)
-        {
-            MotionSegment step = RungeKutta4.Step(forces, spec, key.Time, x, v, out DenseOutput dense);
-            if (!(step.Acceleration.IsFinite && dense.Cubic.IsFinite && dense.Quartic.IsFinite && dense.Quintic.IsFinite))
-            {
-                throw new SimulationException(
-                    $"In the step from {key.Time} the acceleration of body {bodies[slot].Id} became NaN or infinite; what supplied acceleration {spec.Acceleration} gives must be finite.");
-            }
-
-            Append(slot, key, step.WithCrowding(crowding), dense);
-        }
-        else
+        if (spec.Flight == MotionLaw.Ballistic)
         {
             SimTime end = Scene.Box.Exists ? EndOfFlight(key.Time, v) : EndOfRange(key.Time, v, Scene.Gravity);
             Append(slot, key, new MotionSegment(MotionLaw.Ballistic, key.Time, end, x, v, Scene.Gravity, crowding: crowding), default);
         }
+        else
+        {
+            MotionSegment piece = PieceOfFlight(slot, key.Time, x, v, out DenseOutput dense);
+            Append(slot, key, piece.WithCrowding(crowding), dense);
+        }
+    }
+
+    /// <summary>The first piece of a flight that is no parabola: a step of an integrator, or as much of a closed form as a polynomial follows.</summary>
+    private MotionSegment PieceOfFlight(int slot, SimTime from, in Vector3D x, in Vector3D v, out DenseOutput dense)
+    {
+        ref readonly BodySpec spec = ref bodies[slot].Spec;
+        double tooStiff = 0;
+        double tooLarge = 0;
+        MotionSegment piece = spec.Flight switch
+        {
+            MotionLaw.RungeKutta4 => RungeKutta4.Step(forces, spec, from, x, v, out dense, out tooStiff),
+            MotionLaw.ClosedForm when FlightLaws.AreLinear(spec, Scene.ForceArray) => new LinearFlight(Scene, spec).Piece(forces, from, x, v, out dense),
+            MotionLaw.ClosedForm => new KeplerFlight(Scene, spec).Piece(from, x, v, out dense, out tooLarge),
+            _ => DormandPrince54.Step(forces, spec, from, x, v, StepToTry(slot), out dense, out tooLarge),
+        };
+        if (!piece.Acceleration.IsFinite || (!dense.IsFinite && tooLarge == 0))
+        {
+            throw new SimulationException(
+                $"In the step from {from} the acceleration of body {bodies[slot].Id} became NaN or infinite; what the forces {spec.Forces} give must be finite.");
+        }
+
+        if (tooStiff > 0)
+        {
+            throw new SimulationException(
+                $"From {from} on the forces on body {bodies[slot].Id} act at a rate of {Limits.Text(tooStiff)} 1/s; RungeKutta4 follows at most {Limits.Text(RungeKutta4.MaxRateTimesStep / Limits.MinStep.ToSeconds())} 1/s, with the shortest step there is.");
+        }
+
+        if (tooLarge > 0)
+        {
+            throw new SimulationException(
+                $"From {from} on the forces on body {bodies[slot].Id} change so fast that a step of {StepSize.Shortest} still has {Limits.Text(tooLarge)} times the error of the tolerance, {Limits.Text(spec.Tolerance)}; allow more, or keep it out of the singularity.");
+        }
+
+        return piece;
+    }
+
+    /// <summary>What the step before proposes, if there was one; else nothing.</summary>
+    private SimDuration StepToTry(int slot)
+    {
+        int last = timelines.Last(slot);
+        return last == TimelineStore.None || timelines.Segment(last).Law != MotionLaw.DormandPrince54 ? SimDuration.Zero : timelines.Dense(last).NextStep;
+    }
+
+    /// <summary>A body with the law of flight that it asks for, or that is the cheapest for it.</summary>
+    private BodySpec Chosen(in BodySpec spec)
+    {
+        MotionLaw law = FlightLaws.Chosen(spec, Scene.Gravity, Scene.ForceArray);
+        return law == spec.Flight ? spec : spec.With(law, spec.Step);
     }
 
     /// <summary>
@@ -68,7 +111,7 @@ public sealed partial class Simulation
     private bool TryOpenSupported(
         int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, int crowding)
     {
-        if (bodies[slot].Spec.Acceleration != 0)
+        if (!bodies[slot].Spec.Forces.IsEmpty)
         {
             return false;
         }

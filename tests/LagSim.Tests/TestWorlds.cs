@@ -30,8 +30,8 @@ internal static class TestWorlds
     internal static Vector3D V(double x, double y = 0, double z = 0) => new(x, y, z);
 
     internal static BodySpec Ball(
-        double radius = 0.5, double mass = 1, double e = 1, MotionLaw flight = MotionLaw.Ballistic, double step = 0, byte force = 0) =>
-        new(radius, mass, e, flight, step == 0 ? default : SimDuration.FromSeconds(step), force);
+        double radius = 0.5, double mass = 1, double e = 1, MotionLaw flight = MotionLaw.Ballistic, double step = 0, int force = 0) =>
+        new(radius, mass, e, flight, step == 0 ? default : SimDuration.FromSeconds(step), force == 0 ? ForceSet.None : ForceSet.Of(force - 1));
 
     /// <summary>One ball of radius 0.5 m, its lowest point this high above a floor.</summary>
     internal static Scene Drop(double height, double e, MotionLaw flight = MotionLaw.Ballistic) =>
@@ -123,7 +123,7 @@ internal static class TestWorlds
 }
 
 /// <summary>An acceleration given by a function.</summary>
-internal sealed class Force(Func<double, Vector3D, Vector3D, Vector3D> function) : IAcceleration
+internal sealed class FunctionForce(Func<double, Vector3D, Vector3D, Vector3D> function) : IAcceleration
 {
     public string Name => "test force";
 

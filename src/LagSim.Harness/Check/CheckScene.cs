@@ -75,7 +75,7 @@ internal sealed class CheckScene
             .AddPlane("north", new Vector3D(0, 0, 1), new Vector3D(0, 0, -half), wall)
             .AddPlane("south", new Vector3D(0, 0, -1), new Vector3D(0, 0, half), wall)
             .AddPlane("ceiling", new Vector3D(0, -1, 0), new Vector3D(0, 2 * half, 0), wall)
-            .AddAcceleration(Accelerations[0]);
+            .AddForce(Force.Supplied(Accelerations[0]));
         if (!hasGravity)
         {
             builder.WithGravity(Vector3D.Zero);
@@ -99,7 +99,7 @@ internal sealed class CheckScene
         bool isIntegrated = random.IsLucky(integratedPercent);
         return new BodySpec(
             random.Pick(0.2, 0.2, 0.25, 0.3), random.Pick(masses), random.Pick(restitutions), isIntegrated ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic,
-            isIntegrated ? SimDuration.FromSeconds(random.Pick(0.03125, 0.05)) : default, (byte)(isIntegrated && hasForce ? 1 : 0));
+            isIntegrated ? SimDuration.FromSeconds(random.Pick(0.03125, 0.05)) : default, isIntegrated && hasForce ? ForceSet.Of(0) : ForceSet.None);
     }
 
     internal Vector3D DrawPosition() => new(

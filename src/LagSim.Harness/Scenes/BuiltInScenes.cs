@@ -131,7 +131,7 @@ public static class BuiltInScenes
     /// <param name="scene">The scene.</param>
     /// <param name="law">The law for all bodies.</param>
     /// <param name="step">The step of an integrating law; zero means <see cref="BodySpec.DefaultStep"/>. A closed form ignores it.</param>
-    /// <exception cref="SceneException">That law cannot move some body: a supplied acceleration needs an integrating one.</exception>
+    /// <exception cref="SceneException">That law cannot move some body: its forces have no such closed form.</exception>
     public static Scene WithMotion(Scene scene, MotionLaw law, SimDuration step)
     {
         ArgumentNullException.ThrowIfNull(scene);
@@ -151,16 +151,14 @@ public static class BuiltInScenes
             builder.AddStaticSphere(sphere.Name, sphere.Centre, sphere.Radius, sphere.Restitution);
         }
 
-        foreach (IAcceleration acceleration in scene.Accelerations)
+        foreach (Force force in scene.Forces)
         {
-            builder.AddAcceleration(acceleration);
+            builder.AddForce(force);
         }
 
         foreach (SceneBody body in scene.Bodies)
         {
-            BodySpec was = body.Spec;
-            builder.AddBody(
-                body.Name, new BodySpec(was.Radius, was.Mass, was.Restitution, law, step, was.Acceleration), body.Position, body.Velocity, body.Players);
+            builder.AddBody(body.Name, body.Spec.With(law, step), body.Position, body.Velocity, body.Players);
         }
 
         return builder.Build();

@@ -6,7 +6,7 @@ namespace LagSim.Harness.Scenes;
 /// <summary>What the motion laws are called in scene files, tables and on the command line.</summary>
 public static class MotionNames
 {
-    private static readonly string[] FlightNames = ["ballistic", "rk4"];
+    private static readonly string[] FlightNames = ["ballistic", "rk4", "closed-form", "dp54", "auto"];
 
     /// <summary>The laws that a scene can choose for a body's flight.</summary>
     public static IReadOnlyList<string> Flight => FlightNames;
@@ -16,6 +16,9 @@ public static class MotionNames
     {
         MotionLaw.Ballistic => "ballistic",
         MotionLaw.RungeKutta4 => "rk4",
+        MotionLaw.ClosedForm => "closed-form",
+        MotionLaw.DormandPrince54 => "dp54",
+        MotionLaw.Automatic => "auto",
         _ => law.ToString().ToLowerInvariant(),
     };
 
@@ -26,6 +29,9 @@ public static class MotionNames
         {
             "ballistic" => MotionLaw.Ballistic,
             "rk4" => MotionLaw.RungeKutta4,
+            "closed-form" => MotionLaw.ClosedForm,
+            "dp54" => MotionLaw.DormandPrince54,
+            "auto" => MotionLaw.Automatic,
             _ => MotionLaw.Absent,
         };
         return law != MotionLaw.Absent;

@@ -24,7 +24,7 @@ public static class EventFormat
     private const int HeadBytes = 14; // kind, peer, sequence, time
     private const int BodyBytes = 8;
     internal const int VectorBytes = 24;
-    internal const int SpecBytes = 34;
+    internal const int SpecBytes = 45;
 
     /// <summary>An event's length in bytes; 0 for a kind that does not travel.</summary>
     public static int EncodedLength(EventKind kind) => kind switch
@@ -119,10 +119,11 @@ public static class EventFormat
         spec.Radius is >= 1e-9 and <= 1e9
         && spec.Mass is >= 1e-30 and <= 1e30
         && spec.Restitution is >= 0 and <= 1
-        && spec.Flight is MotionLaw.Ballistic or MotionLaw.RungeKutta4
+        && spec.Flight is MotionLaw.Ballistic or MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54 or MotionLaw.Automatic
         && spec.Step >= MinStep
         && spec.Step <= MaxStep
-        && (spec.Acceleration == 0 || spec.Flight == MotionLaw.RungeKutta4);
+        && spec.Tolerance is >= 0 and <= 1
+        && (spec.Forces.IsEmpty || spec.Flight != MotionLaw.Ballistic);
 
     internal static void WriteSpec(ref WireWriter writer, in BodySpec spec)
     {
@@ -131,7 +132,8 @@ public static class EventFormat
         writer.WriteDouble(spec.Restitution);
         writer.WriteByte((byte)spec.Flight);
         writer.WriteInt64(spec.Step.Ticks);
-        writer.WriteByte(spec.Acceleration);
+        writer.WriteUInt32(spec.Forces.Mask);
+        writer.WriteDouble(spec.Tolerance);
     }
 
     internal static BodySpec ReadSpec(ref WireReader reader)
@@ -142,6 +144,8 @@ public static class EventFormat
         MotionLaw flight = (MotionLaw)reader.ReadByte();
         long step = reader.ReadInt64();
         reader.Require(step != 0); // which the constructor would take for "the default": one meaning, one form
-        return new BodySpec(radius, mass, restitution, flight, SimDuration.FromTicks(step), reader.ReadByte());
+        ForceSet forces = ForceSet.FromMask(reader.ReadUInt32());
+        reader.Require(flight != MotionLaw.Automatic || !forces.IsEmpty); // which is Ballistic
+        return new BodySpec(radius, mass, restitution, flight, SimDuration.FromTicks(step), forces, reader.ReadDouble());
     }
 }

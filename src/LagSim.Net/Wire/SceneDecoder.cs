@@ -61,7 +61,7 @@ internal ref struct SceneDecoder
         double smallest = reader.ReadDouble();
         builder.WithSmallestRadius(smallest);
         builder.WithSpawners(PeerSet.FromMask(reader.ReadUInt16()));
-        ReadAccelerations(builder);
+        ReadForces(builder);
         ReadPlanes(builder);
         ReadSpheres(builder);
         ReadBodies(builder);
@@ -75,19 +75,56 @@ internal ref struct SceneDecoder
         return IsTheOneForm(scene, smallest) ? scene : null;
     }
 
-    private void ReadAccelerations(SceneBuilder builder)
+    private void ReadForces(SceneBuilder builder)
     {
-        int count = Begin("supplied acceleration", byte.MaxValue, SceneFormat.AccelerationBytes);
+        int count = Begin("force", ForceSet.Most, SceneFormat.ForceBytes);
         while (IsSound && number < count)
         {
             number++;
-            string name = WireText.Read(ref reader);
-            int version = unchecked((int)reader.ReadUInt32());
-            if (IsSound && Known(name, version) is IAcceleration acceleration)
+            if (ReadForce() is Force force)
             {
-                builder.AddAcceleration(acceleration);
+                builder.AddForce(force);
             }
         }
+    }
+
+    private Force? ReadForce()
+    {
+        string name = WireText.Read(ref reader);
+        ForceKind kind = (ForceKind)reader.ReadByte();
+        int version = unchecked((int)reader.ReadUInt32());
+        double strength = reader.ReadDouble();
+        double damping = reader.ReadDouble();
+        Vector3D vector = reader.ReadVector();
+        int power = unchecked((sbyte)reader.ReadByte());
+        if (!IsSound)
+        {
+            return null;
+        }
+
+        if (kind > ForceKind.Central)
+        {
+            Refuse($"Force {number} of the scene is of kind {(byte)kind}; kinds are 0 to {(byte)ForceKind.Central}.");
+            return null;
+        }
+
+        Force? force = kind switch
+        {
+            ForceKind.LinearDrag => Force.LinearDrag(name, strength, vector),
+            ForceKind.QuadraticDrag => Force.QuadraticDrag(name, strength, vector),
+            ForceKind.Spring => Force.Spring(name, vector, strength, damping),
+            ForceKind.Magnetic => Force.Magnetic(name, vector, strength),
+            ForceKind.Central => Force.Central(name, vector, strength, power),
+            _ => Known(name, version) is IAcceleration known ? Force.Supplied(known) : null,
+        };
+        bool isPlain = force is null
+            || (force.Strength == strength && force.Damping == damping && force.Vector == vector && force.Power == power && (version == 0 || kind == ForceKind.Supplied));
+        if (!isPlain)
+        {
+            Refuse($"Force '{name}' of the scene, {kind}, has values that this kind does not use; on the wire they are 0.");
+        }
+
+        return force;
     }
 
     private void ReadPlanes(SceneBuilder builder)

@@ -5,7 +5,7 @@ using LagSim.Scenes;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>How a whole scene travels: all of it but the code of its supplied accelerations, which go by name and author's version.</summary>
+/// <summary>How a whole scene travels: all of it but the code of accelerations that a program supplies, which go by name and author's version.</summary>
 /// <remarks>
 /// <para>The layout stands in <c>docs/RECORDINGS.md</c>. A scene has one form: encoding again what was decoded gives the same bytes, but
 /// for a -0.0, which is accepted, read as 0.0, and never written.</para>
@@ -24,11 +24,11 @@ public static class SceneFormat
 
     /// <summary>The longest scene, in bytes.</summary>
     public const int MaxBytes = 1 + MaxTextBytes + HeadBytes
-        + (byte.MaxValue * (MaxTextBytes + AccelerationBytes))
+        + (ForceSet.Most * (MaxTextBytes + ForceBytes))
         + (2 * MaxStaticParts * (MaxTextBytes + StaticPartBytes))
         + (MaxBodies * (MaxTextBytes + BodyBytes)) + EventFormat.VectorBytes;
 
-    internal const int AccelerationBytes = 4;
+    internal const int ForceBytes = 22 + EventFormat.VectorBytes; // kind, author's version, strength, damping, vector, power
     internal const int StaticPartBytes = EventFormat.VectorBytes + 16; // both kinds: a vector and two numbers
     internal const int BodyBytes = EventFormat.SpecBytes + (2 * EventFormat.VectorBytes) + 2;
     private const int MaxTextBytes = 1 + WireText.MaxBytes;
@@ -49,11 +49,10 @@ public static class SceneFormat
         writer.WriteDouble(scene.Resolution);
         writer.WriteDouble(scene.SmallestRadius);
         writer.WriteUInt16(scene.Spawners.Mask);
-        writer.WriteByte((byte)scene.Accelerations.Count);
-        foreach (IAcceleration acceleration in scene.Accelerations)
+        writer.WriteByte((byte)scene.Forces.Count);
+        foreach (Force force in scene.Forces)
         {
-            WireText.Write(ref writer, acceleration.Name);
-            writer.WriteUInt32(unchecked((uint)acceleration.Version));
+            Write(ref writer, force);
         }
 
         writer.WriteUInt16((ushort)scene.Planes.Count);
@@ -109,15 +108,26 @@ public static class SceneFormat
         return scene is not null;
     }
 
+    private static void Write(ref WireWriter writer, Force force)
+    {
+        WireText.Write(ref writer, force.Name);
+        writer.WriteByte((byte)force.Kind);
+        writer.WriteUInt32(unchecked((uint)(force.Acceleration?.Version ?? 0)));
+        writer.WriteDouble(force.Strength);
+        writer.WriteDouble(force.Damping);
+        writer.WriteVector(force.Vector);
+        writer.WriteByte(unchecked((byte)force.Power));
+    }
+
     private static int EncodedLength(Scene scene)
     {
         Require(scene, scene.Planes.Count, MaxStaticParts, "planes");
         Require(scene, scene.StaticSpheres.Count, MaxStaticParts, "static spheres");
         Require(scene, scene.Bodies.Count, MaxBodies, "bodies");
         int length = 1 + WireText.EncodedLength(scene.Name, "A scene's name") + HeadBytes;
-        foreach (IAcceleration acceleration in scene.Accelerations)
+        foreach (Force force in scene.Forces)
         {
-            length += WireText.EncodedLength(acceleration.Name, "An acceleration's name") + AccelerationBytes;
+            length += WireText.EncodedLength(force.Name, "A force's name") + ForceBytes;
         }
 
         foreach (StaticPlane plane in scene.Planes)

@@ -15,7 +15,7 @@ namespace LagSim.Net.Wire;
 public static class SnapshotFormat
 {
     private const int HeadBytes = 28; // start, time, event hash, count
-    private const int MinBodyBytes = 167; // without supports, dense output and hold
+    private const int MinBodyBytes = 178; // without supports, dense output and hold
     private const int DenseBytes = 72;
     private const int HoldBytes = 57; // cubic, peer, offset, knot
 
@@ -79,7 +79,13 @@ public static class SnapshotFormat
         long length = HeadBytes;
         foreach (BodySnapshot body in snapshot.Bodies)
         {
-            int more = body.Law switch { MotionLaw.RungeKutta4 => DenseBytes, MotionLaw.Held => HoldBytes, _ => 0 };
+            int more = body.Law switch
+            {
+                MotionLaw.RungeKutta4 or MotionLaw.ClosedForm => DenseBytes,
+                MotionLaw.DormandPrince54 => DenseBytes + sizeof(long),
+                MotionLaw.Held => HoldBytes,
+                _ => 0,
+            };
             length += MinBodyBytes + (body.SupportCount * sizeof(uint)) + more;
         }
 
@@ -124,11 +130,16 @@ public static class SnapshotFormat
             writer.WriteUInt32(plane >= 0 ? (uint)plane : throw new ArgumentException($"Body {body.Id} cannot travel: plane {plane} carries it."));
         }
 
-        if (body.Law == MotionLaw.RungeKutta4)
+        if (IsDense(body.Law))
         {
             WriteExactly(ref writer, body.Cubic);
             WriteExactly(ref writer, body.Quartic);
             WriteExactly(ref writer, body.Quintic);
+        }
+
+        if (body.Law == MotionLaw.DormandPrince54)
+        {
+            writer.WriteInt64(body.NextStep.Ticks);
         }
     }
 
@@ -165,13 +176,17 @@ public static class SnapshotFormat
             planes[n] = (int)plane;
         }
 
-        bool dense = law == MotionLaw.RungeKutta4;
+        bool dense = IsDense(law);
         cubic = dense ? ReadExactly(ref reader) : cubic;
         Vector3D quartic = dense ? ReadExactly(ref reader) : default;
         Vector3D quintic = dense ? ReadExactly(ref reader) : default;
+        SimDuration nextStep = law == MotionLaw.DormandPrince54 ? SimDuration.FromTicks(reader.ReadInt64()) : SimDuration.Zero;
         return new BodySnapshot(
-            id, spec, opened, law, epoch, end, position, velocity, acceleration, planes.Slice(0, supports), crowding, cubic, quartic, quintic, hold);
+            id, spec, opened, law, epoch, end, position, velocity, acceleration, planes.Slice(0, supports), crowding, cubic, quartic, quintic, hold, nextStep);
     }
+
+    /// <summary>Whether a path of that law, in flight, has more than a parabola's coefficients.</summary>
+    private static bool IsDense(MotionLaw law) => law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54;
 
     // Also of zeros the sign: what goes on from here goes on from the very bits.
     private static void WriteExactly(ref WireWriter writer, in Vector3D value)

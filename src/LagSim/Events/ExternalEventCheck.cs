@@ -71,7 +71,7 @@ public static class ExternalEventCheck
 
     private static void CheckSpawn(in ExternalEvent external, Scene scene, Subject whose)
     {
-        Limits.CheckSpec(external.Spec, whose, scene.AccelerationArray.Length);
+        Limits.CheckSpec(external.Spec, whose, scene.Gravity, scene.ForceArray);
         if (external.Spec.Radius < scene.SmallestRadius)
         {
             throw new SceneException(

@@ -3,7 +3,7 @@ using LagSim.Time;
 
 namespace LagSim.Motion;
 
-/// <summary>The acceleration of a free body: uniform gravity, and what the scene supplies for it. Time is counted from the scene's start.</summary>
+/// <summary>The acceleration of a free body: uniform gravity, and the scene's forces that the body names. Time is counted from the scene's start.</summary>
 internal readonly struct Forces
 {
     private readonly Scene scene;
@@ -15,8 +15,50 @@ internal readonly struct Forces
         this.start = start;
     }
 
-    internal Vector3D At(byte supplied, SimTime epoch, double seconds, in Vector3D position, in Vector3D velocity) =>
-        supplied == 0
-            ? scene.Gravity
-            : scene.Gravity + scene.AccelerationArray[supplied - 1].At(epoch.SecondsSince(start) + seconds, position, velocity);
+    /// <summary>The acceleration in m/s², so many seconds after an epoch. Forces are added in the scene's order.</summary>
+    internal Vector3D At(in BodySpec spec, SimTime epoch, double seconds, in Vector3D position, in Vector3D velocity)
+    {
+        Vector3D sum = scene.Gravity;
+        uint left = spec.Forces.Mask;
+        for (int n = 0; left != 0; n++, left >>= 1)
+        {
+            if ((left & 1) != 0)
+            {
+                sum += scene.ForceArray[n].At(spec.Mass, epoch.SecondsSince(start) + seconds, position, velocity);
+            }
+        }
+
+        return sum;
+    }
+
+    /// <summary>How fast, in 1/s, a deviation changes at a state, as far as it is known: no less than the largest of the forces' own rates, no more than their sum.</summary>
+    internal double RateAt(in BodySpec spec, in Vector3D position, in Vector3D velocity)
+    {
+        double sum = 0;
+        uint left = spec.Forces.Mask;
+        for (int n = 0; left != 0; n++, left >>= 1)
+        {
+            if ((left & 1) != 0)
+            {
+                sum += scene.ForceArray[n].RateAt(spec.Mass, position, velocity);
+            }
+        }
+
+        return sum;
+    }
+
+    /// <summary>Whether a force that the body names is a program's own, whose rate is not known.</summary>
+    internal bool HasSupplied(in BodySpec spec)
+    {
+        uint left = spec.Forces.Mask;
+        for (int n = 0; left != 0; n++, left >>= 1)
+        {
+            if ((left & 1) != 0 && scene.ForceArray[n].Kind == ForceKind.Supplied)
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
 }

@@ -49,7 +49,7 @@ internal readonly struct MotionSegment
     internal bool IsPresent => Law != MotionLaw.Absent;
 
     /// <summary>Whether the formula has more terms than the acceleration's.</summary>
-    internal bool IsDense => Law is MotionLaw.RungeKutta4 or MotionLaw.Held;
+    internal bool IsDense => Law >= MotionLaw.Held || Law == MotionLaw.RungeKutta4;
 
     /// <summary>A path that never moves: a static sphere, or a body at rest.</summary>
     internal static MotionSegment AtRest(SimTime epoch, in Vector3D position, SupportSet supports = default) =>

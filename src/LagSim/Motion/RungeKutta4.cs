@@ -1,3 +1,4 @@
+using System;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -5,45 +6,74 @@ namespace LagSim.Motion;
 
 /// <summary>One step of the classical fourth-order Runge-Kutta method on position and velocity, with dense output between its ends.</summary>
 /// <remarks>
-/// Dense output is the quintic Hermite polynomial through position, velocity and acceleration at both ends. Its error, O(h^6) in the
-/// position and O(h^5) in the velocity, stays below the method's own, so a contact found inside a step keeps the order.
+/// <para>Dense output is the quintic Hermite polynomial through position, velocity and acceleration at both ends. Its error, O(h^6) in the
+/// position and O(h^5) in the velocity, stays below the method's own, so a contact found inside a step keeps the order.</para>
+/// <para>The method multiplies what decays at a rate lambda by more than one once lambda h is above 2.785 (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.2),
+/// and blows up. So a step is halved until the rate of the forces lets it be: of the scene's own forces it is known, of a program's it is estimated from the
+/// stages.</para>
 /// </remarks>
 internal static class RungeKutta4
 {
+    /// <summary>The largest product of rate and step: the end of the stability interval on the negative real axis, a little below that on the imaginary one.</summary>
+    internal const double MaxRateTimesStep = 2.785;
+
+    private const double Sqrt5 = 2.23606797749979;
+
+    /// <summary>One step from a state, of the body's step or so many halvings of it as its forces need.</summary>
+    /// <param name="forces">The accelerations.</param>
+    /// <param name="spec">The body.</param>
+    /// <param name="epoch">When the step begins.</param>
+    /// <param name="x0">The position then.</param>
+    /// <param name="v0">The velocity then.</param>
+    /// <param name="dense">The path's higher coefficients.</param>
+    /// <param name="rate">The rate in 1/s that was met, where no step that may be taken is short enough for it; the step is then not to be used. Else zero.</param>
     internal static MotionSegment Step(
-        in Forces forces, in BodySpec spec, SimTime epoch, in Vector3D x0, in Vector3D v0, out DenseOutput dense)
+        in Forces forces, in BodySpec spec, SimTime epoch, in Vector3D x0, in Vector3D v0, out DenseOutput dense, out double rate)
     {
-        SimTime end = epoch + spec.Step;
-        double h = spec.Step.ToSeconds();
-        byte field = spec.Acceleration;
+        SimDuration step = spec.Step;
+        double known = spec.Forces.IsEmpty ? 0 : forces.RateAt(spec, x0, v0);
+        bool estimates = !spec.Forces.IsEmpty && forces.HasSupplied(spec);
+        while (known * step.ToSeconds() > MaxRateTimesStep && step.Ticks >= 2 * Limits.MinStep.Ticks)
+        {
+            step = SimDuration.FromTicks(step.Ticks / 2);
+        }
 
-        Vector3D a0 = forces.At(field, epoch, 0, x0, v0);
-        Vector3D v2 = v0 + (a0 * (0.5 * h));
-        Vector3D a2 = forces.At(field, epoch, 0.5 * h, x0 + (v0 * (0.5 * h)), v2);
-        Vector3D v3 = v0 + (a2 * (0.5 * h));
-        Vector3D a3 = forces.At(field, epoch, 0.5 * h, x0 + (v2 * (0.5 * h)), v3);
-        Vector3D v4 = v0 + (a3 * h);
-        Vector3D a4 = forces.At(field, epoch, h, x0 + (v3 * h), v4);
-        Vector3D dx = (v0 + ((v2 + v3) * 2) + v4) * (h / 6);
-        Vector3D dv = (a0 + ((a2 + a3) * 2) + a4) * (h / 6);
-        Vector3D a1 = forces.At(field, epoch, h, x0 + dx, v0 + dv);
+        while (true)
+        {
+            double h = step.ToSeconds();
+            Vector3D a0 = forces.At(spec, epoch, 0, x0, v0);
+            Vector3D v2 = v0 + (a0 * (0.5 * h));
+            Vector3D a2 = forces.At(spec, epoch, 0.5 * h, x0 + (v0 * (0.5 * h)), v2);
+            Vector3D v3 = v0 + (a2 * (0.5 * h));
+            Vector3D a3 = forces.At(spec, epoch, 0.5 * h, x0 + (v2 * (0.5 * h)), v3);
+            Vector3D v4 = v0 + (a3 * h);
+            Vector3D a4 = forces.At(spec, epoch, h, x0 + (v3 * h), v4);
+            Vector3D dx = (v0 + ((v2 + v3) * 2) + v4) * (h / 6);
+            Vector3D dv = (a0 + ((a2 + a3) * 2) + a4) * (h / 6);
+            Vector3D a1 = forces.At(spec, epoch, h, x0 + dx, v0 + dv);
+            dense = DenseOutput.Between(h, dx, dv, v0, a0, a1);
 
-        // What the parabola from the start misses at the end, scaled to the size of a third derivative.
-        Vector3D p = (dx - ((v0 + (a0 * (0.5 * h))) * h)) / (h * h * h);
-        Vector3D q = (dv - (a0 * h)) / (h * h);
-        Vector3D r = (a1 - a0) / h;
-        dense = new DenseOutput(
-            (p * 10) - (q * 4) + (r * 0.5),
-            ((q * 7) - (p * 15) - r) / h,
-            ((p * 6) - (q * 3) + (r * 0.5)) / (h * h));
-        return new MotionSegment(MotionLaw.RungeKutta4, epoch, end, x0, v0, a0);
+            rate = estimates ? Math.Max(known, StageRate((v2 - v0) * (0.5 * h), v3 - v2, a3 - a2)) : known;
+            bool isStable = !(rate * h > MaxRateTimesStep); // also what is not a number: its cause is told elsewhere
+            if (isStable || step.Ticks < 2 * Limits.MinStep.Ticks)
+            {
+                rate = isStable ? 0 : rate;
+                return new MotionSegment(MotionLaw.RungeKutta4, epoch, epoch + step, x0, v0, a0);
+            }
+
+            step = SimDuration.FromTicks(step.Ticks / 2);
+        }
     }
 
-    /// <summary>The state at the step's end, which the next step starts from.</summary>
-    internal static void End(in MotionSegment step, in DenseOutput dense, out Vector3D position, out Vector3D velocity)
+    /// <summary>
+    /// The rate that the forces show in two stages at one time: the lambda with |da| = lambda |dv| + lambda² |dx|, for da is that of a damper and an oscillator of the true rate
+    /// together at most. Of a damper alone, where dx = dv / rate, that is the rate times (sqrt(5) - 1) / 2, by which it is divided; of an oscillator no more than the rate.
+    /// </summary>
+    private static double StageRate(in Vector3D dx, in Vector3D dv, in Vector3D da)
     {
-        double h = step.End.SecondsSince(step.Epoch);
-        position = step.PositionAt(h, dense);
-        velocity = step.VelocityAt(h, dense);
+        double a = da.Length;
+        double v = dv.Length;
+        double sum = v + Math.Sqrt((v * v) + (4 * dx.Length * a));
+        return sum > 0 ? (1 + Sqrt5) * a / sum : 0;
     }
 }

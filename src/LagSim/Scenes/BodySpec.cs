@@ -9,22 +9,36 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
     /// <summary>The step of <see cref="MotionLaw.RungeKutta4"/> where a scene names none: 1/200 s, as in the thesis.</summary>
     public static readonly SimDuration DefaultStep = SimDuration.FromSeconds(1.0 / 200.0);
 
+    /// <summary>The tolerance where a scene names none: 1 nm, which is also what a scene resolves of bounces.</summary>
+    public const double DefaultTolerance = 1e-9;
+
     /// <summary>A sphere of these properties.</summary>
     /// <param name="radius">Metres, 1e-9 to 1e9.</param>
     /// <param name="mass">Kilograms, 1e-30 to 1e30.</param>
     /// <param name="restitution">0 (stays) to 1 (elastic). Of two things that meet, the lesser counts.</param>
-    /// <param name="flight">The law of free flight: <see cref="MotionLaw.Ballistic"/> or <see cref="MotionLaw.RungeKutta4"/>.</param>
-    /// <param name="step">The step of an integrating law, 1 microsecond to 1 s; zero means <see cref="DefaultStep"/>. Ignored by closed forms.</param>
-    /// <param name="acceleration">0: gravity alone; n: gravity and the scene's n-th supplied acceleration, which needs an integrating law.</param>
+    /// <param name="flight">The law of free flight; by default <see cref="MotionLaw.Automatic"/>, the cheapest that is exact for the forces.</param>
+    /// <param name="step">The step of an integrating law, 1 microsecond to 1 s; zero means <see cref="DefaultStep"/>. Ignored by closed forms and under error control.</param>
+    /// <param name="forces">Those of the scene's forces that act on it besides gravity.</param>
+    /// <param name="tolerance">
+    /// 0 to 1. Of <see cref="MotionLaw.DormandPrince54"/> the estimated error that a step may have, in metres for the position and in m/s for the velocity; 0 means fixed steps.
+    /// Of <see cref="MotionLaw.ClosedForm"/> how far in metres the path may be off within a piece, at whose ends it is exact; 0 means to rounding. Ignored by the others.
+    /// </param>
     public BodySpec(
-        double radius, double mass, double restitution, MotionLaw flight = MotionLaw.Ballistic, SimDuration step = default, byte acceleration = 0)
+        double radius,
+        double mass,
+        double restitution,
+        MotionLaw flight = MotionLaw.Automatic,
+        SimDuration step = default,
+        ForceSet forces = default,
+        double tolerance = DefaultTolerance)
     {
         Radius = radius;
         Mass = mass;
         Restitution = restitution;
-        Flight = flight;
+        Flight = flight == MotionLaw.Automatic && forces.IsEmpty ? MotionLaw.Ballistic : flight;
         Step = step == SimDuration.Zero ? DefaultStep : step;
-        Acceleration = acceleration;
+        Forces = forces;
+        Tolerance = tolerance;
     }
 
     /// <summary>The radius in metres.</summary>
@@ -36,19 +50,29 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
     /// <summary>The coefficient of restitution, 0 to 1.</summary>
     public double Restitution { get; }
 
-    /// <summary>The law of free flight.</summary>
+    /// <summary>The law of free flight; <see cref="MotionLaw.Automatic"/> only with forces, until a scene or a simulation has chosen.</summary>
     public MotionLaw Flight { get; }
 
     /// <summary>The integrator's step.</summary>
     public SimDuration Step { get; }
 
-    /// <summary>0, or the number of the scene's supplied acceleration that acts besides gravity.</summary>
-    public byte Acceleration { get; }
+    /// <summary>The forces that act on it besides gravity.</summary>
+    public ForceSet Forces { get; }
+
+    /// <summary>What an error may be, in metres and m/s.</summary>
+    public double Tolerance { get; }
+
+    /// <summary>The same body on another law of flight.</summary>
+    /// <param name="flight">The law.</param>
+    /// <param name="step">See the constructor.</param>
+    /// <param name="tolerance">See the constructor; by default what it is.</param>
+    public BodySpec With(MotionLaw flight, SimDuration step = default, double? tolerance = null) =>
+        new(Radius, Mass, Restitution, flight, step, Forces, tolerance ?? Tolerance);
 
     /// <inheritdoc/>
     public bool Equals(BodySpec other) =>
         Radius.Equals(other.Radius) && Mass.Equals(other.Mass) && Restitution.Equals(other.Restitution)
-        && Flight == other.Flight && Step == other.Step && Acceleration == other.Acceleration;
+        && Flight == other.Flight && Step == other.Step && Forces == other.Forces && Tolerance.Equals(other.Tolerance);
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is BodySpec other && Equals(other);

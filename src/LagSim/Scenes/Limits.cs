@@ -14,17 +14,24 @@ internal static class Limits
     internal const double MinMass = 1e-30;
     internal const double MaxMass = 1e30;
 
+    /// <summary>The fastest that forces may change a deviation, in 1/s: what is stiffer is not moved by steps of which there are millions a second.</summary>
+    internal const double MaxRate = 1e6;
+
+    private const double MaxStrength = 1e30;
+    private const int MaxPower = 4;
+
     internal static readonly SimDuration MinStep = SimDuration.FromSeconds(1e-6);
     internal static readonly SimDuration MaxStep = SimDuration.FromSeconds(1);
 
-    internal static void CheckSpec<T>(in BodySpec spec, T whose, int accelerations)
+    internal static void CheckSpec<T>(in BodySpec spec, T whose, in Vector3D gravity, Force[] forces)
     {
         InRange(spec.Radius, MinRadius, MaxRadius, whose, "radius", "m");
         InRange(spec.Mass, MinMass, MaxMass, whose, "mass", "kg");
         InRange(spec.Restitution, 0, 1, whose, "restitution", "(no unit)");
-        if (spec.Flight is not (MotionLaw.Ballistic or MotionLaw.RungeKutta4))
+        InRange(spec.Tolerance, 0, 1, whose, "tolerance", "m");
+        if (spec.Flight is not (MotionLaw.Ballistic or MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54 or MotionLaw.Automatic))
         {
-            throw new SceneException($"The motion law of {whose} is {spec.Flight}; a body flies by Ballistic or RungeKutta4.");
+            throw new SceneException($"The motion law of {whose} is {spec.Flight}; a body flies by Ballistic, RungeKutta4, ClosedForm, DormandPrince54 or Automatic.");
         }
 
         if (spec.Step < MinStep || spec.Step > MaxStep)
@@ -32,16 +39,52 @@ internal static class Limits
             throw new SceneException($"The integrator step of {whose} is {spec.Step}; it must lie between 1 microsecond and 1 s.");
         }
 
-        if (spec.Acceleration > accelerations)
+        if (spec.Forces.UpTo > forces.Length)
         {
             throw new SceneException(
-                $"{Capital($"{whose}")} names supplied acceleration {spec.Acceleration}, but the scene supplies {accelerations}.");
+                $"{Capital($"{whose}")} names force {spec.Forces.UpTo - 1}, counted from 0, but the scene has {forces.Length}.");
         }
 
-        if (spec.Acceleration > 0 && spec.Flight == MotionLaw.Ballistic)
+        if (!spec.Forces.IsEmpty && spec.Flight == MotionLaw.Ballistic)
         {
             throw new SceneException(
-                $"{Capital($"{whose}")} flies by Ballistic, which is exact for gravity alone, and names a supplied acceleration; use RungeKutta4.");
+                $"{Capital($"{whose}")} flies by Ballistic, which is exact for gravity alone, and names the forces {spec.Forces}; use Automatic, ClosedForm, DormandPrince54 or RungeKutta4.");
+        }
+
+        if (spec.Flight == MotionLaw.ClosedForm && !FlightLaws.HasClosedForm(spec, gravity, forces))
+        {
+            throw new SceneException(
+                $"{Capital($"{whose}")} flies by ClosedForm and names the forces {spec.Forces}; a closed form there is for linear drag, springs and magnetic fields together with gravity, and for one inverse-square pull without gravity. Use Automatic, DormandPrince54 or RungeKutta4.");
+        }
+
+        CheckRate(spec, whose, forces);
+    }
+
+    /// <summary>A force has a finite strength of the right sign, and a place within the world.</summary>
+    internal static void CheckForce(Force force)
+    {
+        string whose = $"force '{force.Name}'";
+        double least = force.Kind is ForceKind.Magnetic or ForceKind.Central ? -MaxStrength : 0;
+        InRange(force.Strength, least, MaxStrength, whose, "strength", "(in the units of its kind)");
+        InRange(force.Damping, 0, MaxStrength, whose, "damping", "kg/s");
+        Components(force.Vector, MaxCoordinate, whose, "vector", "(in the units of its kind)");
+        if (force.Power is < -MaxPower or > MaxPower)
+        {
+            throw new SceneException($"The power of {whose} is {force.Power}; it must lie between {-MaxPower} and {MaxPower}.");
+        }
+    }
+
+    /// <summary>Forces whose rate does not depend on where the body is are not too stiff for its mass.</summary>
+    private static void CheckRate<T>(in BodySpec spec, T whose, Force[] forces)
+    {
+        for (int n = 0; n < forces.Length; n++)
+        {
+            if (spec.Forces.Contains(n) && forces[n].Kind is ForceKind.LinearDrag or ForceKind.Spring or ForceKind.Magnetic
+                && !(forces[n].RateAt(spec.Mass, Vector3D.Zero, Vector3D.Zero) <= MaxRate))
+            {
+                throw new SceneException(
+                    $"On {whose}, of {Text(spec.Mass)} kg, force '{forces[n].Name}' acts at a rate of {Text(forces[n].RateAt(spec.Mass, Vector3D.Zero, Vector3D.Zero))} 1/s; at most {Text(MaxRate)} 1/s is allowed.");
+            }
         }
     }
 

@@ -20,4 +20,19 @@ public enum MotionLaw : byte
 
     /// <summary>In a hand, whose path it has, a cubic or parabola from knot to knot; nothing it meets changes that. Entered by a grab, never a scene's choice.</summary>
     Held = 5,
+
+    /// <summary>
+    /// Free flight in closed form under forces that have one: gravity with linear drag, springs and magnetic fields in any mixture, or one centre that pulls as gravity does. One segment
+    /// for as long as a polynomial of degree five follows it within the body's tolerance.
+    /// </summary>
+    ClosedForm = 6,
+
+    /// <summary>Free flight integrated by the Runge-Kutta method of orders 5 and 4 by Dormand and Prince, with steps as long as the body's tolerance lets them be, or fixed ones.</summary>
+    DormandPrince54 = 7,
+
+    /// <summary>
+    /// The cheapest of the laws above that is exact for the forces that act on the body: <see cref="Ballistic"/> under gravity alone, <see cref="ClosedForm"/> where there is one, else
+    /// <see cref="DormandPrince54"/>. What a scene may ask for, never how a body moves.
+    /// </summary>
+    Automatic = 8,
 }

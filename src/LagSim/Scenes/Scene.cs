@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace LagSim.Scenes;
 
-/// <summary>What exists at the start: bodies, static geometry, gravity and supplied accelerations. Made by <see cref="SceneBuilder"/>.</summary>
+/// <summary>What exists at the start: bodies, static geometry, gravity and other forces. Made by <see cref="SceneBuilder"/>.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class Scene
 {
@@ -14,7 +14,7 @@ public sealed class Scene
         StaticPlane[] planes,
         StaticSphere[] spheres,
         SceneBody[] bodies,
-        IAcceleration[] accelerations,
+        Force[] forces,
         double smallestRadius,
         PeerSet spawners,
         PeriodicBox box)
@@ -25,7 +25,8 @@ public sealed class Scene
         PlaneArray = planes;
         SphereArray = spheres;
         BodyArray = bodies;
-        AccelerationArray = accelerations;
+        ForceArray = forces;
+        Accelerations = Supplied(forces);
         SmallestRadius = smallestRadius;
         Spawners = spawners;
         Box = box;
@@ -50,8 +51,8 @@ public sealed class Scene
     /// <summary>The bodies; body n has the identity (0, 0, n).</summary>
     public IReadOnlyList<SceneBody> Bodies => BodyArray;
 
-    /// <summary>The supplied accelerations; a body names the n-th as n, counted from 1.</summary>
-    public IReadOnlyList<IAcceleration> Accelerations => AccelerationArray;
+    /// <summary>The forces besides gravity, in the order in which they were added; see <see cref="ForceSet"/>.</summary>
+    public IReadOnlyList<Force> Forces => ForceArray;
 
     /// <summary>The least radius of a body in metres, of those at the start and those that may be spawned; it bounds the permitted speed.</summary>
     public double SmallestRadius { get; }
@@ -65,13 +66,16 @@ public sealed class Scene
     /// <summary>A hash of everything above but the name: equal on two peers exactly if they mean the same world (to 64 bits).</summary>
     public ulong Hash { get; }
 
+    /// <summary>Those of the forces that are a program's own, which a peer must have to share the scene.</summary>
+    public IReadOnlyList<IAcceleration> Accelerations { get; }
+
     internal StaticPlane[] PlaneArray { get; }
 
     internal StaticSphere[] SphereArray { get; }
 
     internal SceneBody[] BodyArray { get; }
 
-    internal IAcceleration[] AccelerationArray { get; }
+    internal Force[] ForceArray { get; }
 
     /// <summary>The identity of the body of that name.</summary>
     /// <exception cref="ArgumentException">No body of the scene has that name.</exception>
@@ -88,9 +92,38 @@ public sealed class Scene
         throw new ArgumentException($"Scene '{Name}' has no body named '{name}'.", nameof(name));
     }
 
-    /// <summary>The same world with its static geometry only.</summary>
+    /// <summary>The set of the force of that name alone.</summary>
+    /// <exception cref="ArgumentException">No force of the scene has that name.</exception>
+    public ForceSet ForceNamed(string name)
+    {
+        for (int i = 0; i < ForceArray.Length; i++)
+        {
+            if (string.Equals(ForceArray[i].Name, name, StringComparison.Ordinal))
+            {
+                return ForceSet.Of(i);
+            }
+        }
+
+        throw new ArgumentException($"Scene '{Name}' has no force named '{name}'.", nameof(name));
+    }
+
+    /// <summary>The same world with its static geometry and forces only.</summary>
     internal Scene WithoutBodies() =>
-        new(Name, Gravity, Resolution, PlaneArray, SphereArray, Array.Empty<SceneBody>(), AccelerationArray, SmallestRadius, Spawners, Box);
+        new(Name, Gravity, Resolution, PlaneArray, SphereArray, Array.Empty<SceneBody>(), ForceArray, SmallestRadius, Spawners, Box);
+
+    private static List<IAcceleration> Supplied(Force[] forces)
+    {
+        List<IAcceleration> supplied = new();
+        foreach (Force force in forces)
+        {
+            if (force.Acceleration is IAcceleration acceleration)
+            {
+                supplied.Add(acceleration);
+            }
+        }
+
+        return supplied;
+    }
 
     private ulong ComputeHash()
     {
@@ -114,11 +147,10 @@ public sealed class Scene
             hash.Add(sphere.Restitution);
         }
 
-        hash.Add((ulong)AccelerationArray.Length);
-        foreach (IAcceleration acceleration in AccelerationArray)
+        hash.Add((ulong)ForceArray.Length);
+        foreach (Force force in ForceArray)
         {
-            hash.Add(acceleration.Name);
-            hash.Add(acceleration.Version);
+            force.AddTo(ref hash);
         }
 
         hash.Add((ulong)BodyArray.Length);

@@ -13,6 +13,9 @@ public readonly struct SceneBody
         Players = players;
     }
 
+    /// <summary>The same place, name and rights with another law of flight.</summary>
+    internal SceneBody With(MotionLaw flight) => Spec.Flight == flight ? this : new(Name, Spec.With(flight, Spec.Step), Position, Velocity, Players);
+
     /// <summary>What it is called in the scene.</summary>
     public string Name { get; }
 

@@ -20,7 +20,7 @@ public sealed class SceneBuilder
     private readonly List<StaticPlane> planes = new();
     private readonly List<StaticSphere> spheres = new();
     private readonly List<SceneBody> bodies = new();
-    private readonly List<IAcceleration> accelerations = new();
+    private readonly List<Force> forces = new();
     private Vector3D gravity = DefaultGravity;
     private PeerSet spawners;
     private PeriodicBox box;
@@ -98,7 +98,7 @@ public sealed class SceneBuilder
 
     /// <summary>Puts everything in a box from the origin to <paramref name="size"/> whose opposite sides meet: what leaves it on one side comes in on the other.</summary>
     /// <remarks>
-    /// It goes with free flight alone: no gravity, planes, static spheres or supplied accelerations, and bodies that fly by Ballistic. Each side is at least
+    /// It goes with free flight alone: no gravity, planes, static spheres or other forces, and bodies that fly by Ballistic. Each side is at least
     /// five times the largest diameter; bodies start, and are spawned or put, inside. Their paths are opened anew after an eighth of the least side, so
     /// that no body meets two images of another at once.
     /// </remarks>
@@ -108,10 +108,19 @@ public sealed class SceneBuilder
         return this;
     }
 
-    /// <summary>Supplies an acceleration; the n-th supplied, counted from 1, is what a <see cref="BodySpec"/> names as n.</summary>
-    public SceneBuilder AddAcceleration(IAcceleration acceleration)
+    /// <summary>Adds a force; it acts on the bodies that name it.</summary>
+    /// <param name="force">The force; its name is no other part's.</param>
+    /// <param name="itself">The set of this force alone, for a <see cref="BodySpec"/>.</param>
+    public SceneBuilder AddForce(Force force, out ForceSet itself)
     {
-        accelerations.Add(acceleration ?? throw new ArgumentNullException(nameof(acceleration)));
+        itself = forces.Count < ForceSet.Most ? ForceSet.Of(forces.Count) : ForceSet.None; // there it ends with an error on Build
+        return AddForce(force);
+    }
+
+    /// <summary>Adds a force; the n-th added, counted from 0, is <see cref="ForceSet.Of"/> n.</summary>
+    public SceneBuilder AddForce(Force force)
+    {
+        forces.Add(force ?? throw new ArgumentNullException(nameof(force)));
         return this;
     }
 
@@ -121,10 +130,13 @@ public sealed class SceneBuilder
     {
         CheckWhole();
         double smallest = smallestSpawn ?? double.MaxValue;
-        for (int i = 0; i < bodies.Count; i++)
+        Force[] forceArray = forces.ToArray();
+        SceneBody[] bodyArray = bodies.ToArray();
+        for (int i = 0; i < bodyArray.Length; i++)
         {
-            Limits.CheckSpec(bodies[i].Spec, Whose(bodies[i]), accelerations.Count);
-            smallest = Math.Min(smallest, bodies[i].Spec.Radius);
+            Limits.CheckSpec(bodyArray[i].Spec, Whose(bodyArray[i]), gravity, forceArray);
+            bodyArray[i] = bodyArray[i].With(FlightLaws.Chosen(bodyArray[i].Spec, gravity, forceArray));
+            smallest = Math.Min(smallest, bodyArray[i].Spec.Radius);
         }
 
         smallest = smallest == double.MaxValue ? Limits.MaxRadius : smallest;
@@ -138,7 +150,7 @@ public sealed class SceneBuilder
         CheckNames();
         StartOverlap.Check(bodies, planes, spheres, box, resolution);
         return new Scene(
-            name, gravity.WithoutNegativeZero(), resolution, planes.ToArray(), spheres.ToArray(), bodies.ToArray(), accelerations.ToArray(), smallest, spawners, box);
+            name, gravity.WithoutNegativeZero(), resolution, planes.ToArray(), spheres.ToArray(), bodyArray, forceArray, smallest, spawners, box);
     }
 
     internal static string Whose(in SceneBody body) => $"body '{body.Name}'";
@@ -171,17 +183,14 @@ public sealed class SceneBuilder
             throw new SceneException($"Scene '{name}' has {bodies.Count} bodies; at most {MaxBodies} are allowed.");
         }
 
-        if (accelerations.Count > byte.MaxValue)
+        if (forces.Count > ForceSet.Most)
         {
-            throw new SceneException($"Scene '{name}' supplies {accelerations.Count} accelerations; at most 255 are allowed.");
+            throw new SceneException($"Scene '{name}' has {forces.Count} forces besides gravity; at most {ForceSet.Most} are allowed.");
         }
 
-        foreach (IAcceleration acceleration in accelerations)
+        foreach (Force force in forces)
         {
-            if (string.IsNullOrEmpty(acceleration.Name) || acceleration.Name.Length > 64)
-            {
-                throw new SceneException($"A supplied acceleration of scene '{name}' is named '{acceleration.Name}'; a name has 1 to 64 characters.");
-            }
+            Limits.CheckForce(force);
         }
 
         foreach (StaticPlane plane in planes)
@@ -206,10 +215,10 @@ public sealed class SceneBuilder
         }
 
         Limits.CheckPosition(box.Size, $"scene '{name}' (its periodic box)");
-        if (gravity != Vector3D.Zero || planes.Count + spheres.Count + accelerations.Count > 0)
+        if (gravity != Vector3D.Zero || planes.Count + spheres.Count + forces.Count > 0)
         {
             throw new SceneException(
-                $"Scene '{name}' has a periodic box, gravity {gravity} m/s^2, {planes.Count} planes, {spheres.Count} static spheres and {accelerations.Count} supplied accelerations; a periodic box goes with none of those.");
+                $"Scene '{name}' has a periodic box, gravity {gravity} m/s^2, {planes.Count} planes, {spheres.Count} static spheres and {forces.Count} other forces; a periodic box goes with none of those.");
         }
 
         Limits.CheckBox(box, smallestSpawn ?? 0, $"scene '{name}'");
@@ -222,6 +231,11 @@ public sealed class SceneBuilder
     private void CheckNames()
     {
         List<string> names = new();
+        foreach (Force force in forces)
+        {
+            names.Add(force.Name);
+        }
+
         foreach (StaticPlane plane in planes)
         {
             names.Add(plane.Name);

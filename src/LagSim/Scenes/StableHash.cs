@@ -45,8 +45,12 @@ internal struct StableHash
         Add(spec.Radius);
         Add(spec.Mass);
         Add(spec.Restitution);
-        Add((ulong)spec.Flight | ((ulong)spec.Acceleration << 8));
+        Add((ulong)spec.Flight | ((ulong)spec.Forces.Mask << 8));
         Add(spec.Step);
+        if (spec.Flight >= MotionLaw.ClosedForm)
+        {
+            Add(spec.Tolerance); // the others do not ask for it, and have the hash they always had
+        }
     }
 
     internal readonly ulong Value

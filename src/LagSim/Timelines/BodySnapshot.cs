@@ -29,6 +29,7 @@ public readonly struct BodySnapshot
     /// <param name="quartic">See <see cref="Quartic"/>.</param>
     /// <param name="quintic">See <see cref="Quintic"/>.</param>
     /// <param name="hold">See <see cref="Hold"/>.</param>
+    /// <param name="nextStep">See <see cref="NextStep"/>.</param>
     /// <exception cref="ArgumentException">There are more than <see cref="MaxSupports"/> supports.</exception>
     public BodySnapshot(
         BodyId id,
@@ -45,7 +46,8 @@ public readonly struct BodySnapshot
         in Vector3D cubic = default,
         in Vector3D quartic = default,
         in Vector3D quintic = default,
-        in Hold hold = default)
+        in Hold hold = default,
+        SimDuration nextStep = default)
     {
         if (supports.Length > MaxSupports)
         {
@@ -59,7 +61,7 @@ public readonly struct BodySnapshot
         supports.CopyTo(planes);
         SupportSet set = new(supports.Length, planes[0], planes[1], planes[2]);
         Segment = new MotionSegment(law, epoch, end, position, velocity, acceleration, set, crowding);
-        Dense = new DenseOutput(cubic, quartic, quintic);
+        Dense = new DenseOutput(cubic, quartic, quintic, nextStep);
         Hold = hold;
     }
 
@@ -114,6 +116,9 @@ public readonly struct BodySnapshot
 
     /// <summary>Of an integrated step the coefficient of t^5, in m/s^5; else zero.</summary>
     public Vector3D Quintic => Dense.Quintic;
+
+    /// <summary>Of a step under error control how long the next is to be tried; else zero.</summary>
+    public SimDuration NextStep => Dense.NextStep;
 
     /// <summary>Of a body in a hand who holds it; else the default.</summary>
     public Hold Hold { get; }

@@ -1,6 +1,7 @@
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
+using LagSim.Time;
 
 namespace LagSim.Timelines;
 
@@ -36,7 +37,7 @@ internal static class SnapshotCheck
     private static void CheckBody(in BodySnapshot body, WorldSnapshot snapshot, Scene scene)
     {
         string whose = $"body {body.Id} in the snapshot";
-        Limits.CheckSpec(body.Spec, whose, scene.Accelerations.Count);
+        Limits.CheckSpec(body.Spec, whose, scene.Gravity, scene.ForceArray);
         if (body.Spec.Radius < scene.SmallestRadius)
         {
             throw new SceneException($"The radius of {whose} is {Limits.Text(body.Spec.Radius)} m; the scene promises none below {Limits.Text(scene.SmallestRadius)} m.");
@@ -58,10 +59,14 @@ internal static class SnapshotCheck
         Limits.Components(body.Cubic, double.MaxValue, whose, "cubic coefficient", "m/s^3");
         Limits.Components(body.Quartic, double.MaxValue, whose, "quartic coefficient", "m/s^4");
         Limits.Components(body.Quintic, double.MaxValue, whose, "quintic coefficient", "m/s^5");
-        if (body.Law is not (MotionLaw.Ballistic or MotionLaw.RungeKutta4 or MotionLaw.Sliding or MotionLaw.Resting or MotionLaw.Held)
-            || (body.Law is MotionLaw.Ballistic or MotionLaw.RungeKutta4 && body.Law != body.Spec.Flight))
+        if (body.Law != body.Spec.Flight && body.Law is not (MotionLaw.Sliding or MotionLaw.Resting or MotionLaw.Held))
         {
             throw new SceneException($"The motion of {whose} is {body.Law}; it must be Sliding, Resting, Held, or its law of flight, {body.Spec.Flight}.");
+        }
+
+        if (body.NextStep != SimDuration.Zero && (body.NextStep < StepSize.Shortest || body.NextStep > StepSize.Longest))
+        {
+            throw new SceneException($"The next step of {whose} is {body.NextStep}; it must lie between {StepSize.Shortest} and {StepSize.Longest}, or be 0.");
         }
 
         bool isWedged = body.Law == MotionLaw.Resting && body.Crowding == MaxCrowding && body.Velocity == Vector3D.Zero && body.Acceleration == Vector3D.Zero

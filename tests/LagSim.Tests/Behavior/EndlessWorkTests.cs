@@ -16,7 +16,7 @@ public sealed class EndlessWorkTests
     {
         using CancellationTokenSource stop = new();
         int calls = 0;
-        Scene scene = new SceneBuilder("tick").AddAcceleration(new Force((_, _, _) =>
+        Scene scene = new SceneBuilder("tick").AddForce(Force.Supplied(new FunctionForce((_, _, _) =>
         {
             if (++calls == 400)
             {
@@ -24,7 +24,7 @@ public sealed class EndlessWorkTests
             }
 
             return Vector3D.Zero;
-        })).AddBody("x", Ball(flight: MotionLaw.RungeKutta4, force: 1), V(0), V(1)).Build();
+        }))).AddBody("x", Ball(flight: MotionLaw.RungeKutta4, force: 1), V(0), V(1)).Build();
         Simulation simulation = new(scene, new SimulationOptions(default, SimDuration.MaxValue, cancellation: stop.Token));
         Assert.Throws<OperationCanceledException>(() => simulation.AdvanceTo(At(100)));
         Assert.InRange(simulation.SimulatedTo.ToSeconds(), 0.2, 1);
@@ -46,7 +46,7 @@ public sealed class EndlessWorkTests
         // A nanosecond from wall to wall: some 1e9 impacts a second, and 33 ms are to be simulated at once.
         using ManualResetEventSlim isAtWork = new();
         Scene scene = new SceneBuilder("rattle").WithGravity(Floating).AddPlane("left", V(1), V(0)).AddPlane("right", V(-1), V(1.001))
-            .AddAcceleration(new Force((t, _, _) =>
+            .AddForce(Force.Supplied(new FunctionForce((t, _, _) =>
             {
                 if (t > 1e-5)
                 {
@@ -54,7 +54,7 @@ public sealed class EndlessWorkTests
                 }
 
                 return Vector3D.Zero;
-            }))
+            })))
             .AddBody("tells", Ball(flight: MotionLaw.RungeKutta4, step: 1e-6, force: 1), V(0.5005, 10), V(0))
             .AddBody("ball", Ball(), V(0.5005), V(1e6)).Build();
         SimulationHost host = new(scene, new StopwatchClock());

@@ -102,7 +102,7 @@ public sealed class NoPassingTests
     private static SceneBuilder Box(Vector3D gravity, double e) => new SceneBuilder("box").WithGravity(gravity)
         .AddPlane("floor", Vector3D.Up, V(0), e).AddPlane("west", V(1, 0.25), V(-2), e).AddPlane("east", V(-1), V(2), e)
         .AddPlane("south", V(0, 0, 1), V(0, 0, -1), e).AddPlane("north", V(0, 0, -1), V(0, 0, 1), e).AddPlane("roof", V(0, -1), V(0, 4), e)
-        .AddAcceleration(new Force((_, _, v) => v * (-0.2 * v.Length))).AddStaticSphere("stone", V(0, 0.2), 0.5, 0.8);
+        .AddForce(Force.Supplied(new FunctionForce((_, _, v) => v * (-0.2 * v.Length)))).AddStaticSphere("stone", V(0, 0.2), 0.5, 0.8);
 
     private static Scene RandomBox(int seed, bool contacts)
     {

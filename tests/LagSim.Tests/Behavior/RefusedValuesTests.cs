@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using LagSim.Events;
 using LagSim.Scenes;
 using Xunit;
@@ -22,9 +23,23 @@ public sealed class RefusedValuesTests
         ["restitution"] = (b => b.AddBody("x", Ball(e: 1.5), V(0, 9)), ["restitution", "'x'", "1.5"]),
         ["law"] = (b => b.AddBody("x", Ball(flight: MotionLaw.Resting), V(0, 9)), ["motion law", "'x'", "Resting"]),
         ["step"] = (b => b.AddBody("x", Ball(flight: MotionLaw.RungeKutta4, step: 2), V(0, 9)), ["step", "'x'", "2s"]),
-        ["no such force"] = (b => b.AddBody("x", Ball(flight: MotionLaw.RungeKutta4, force: 3), V(0, 9)), ["'x'", "acceleration 3"]),
+        ["no such force"] = (b => b.AddBody("x", Ball(flight: MotionLaw.RungeKutta4, force: 3), V(0, 9)), ["'x'", "force 2", "has 0"]),
         ["force on ballistic"] = (
-            b => b.AddAcceleration(new Force((_, _, _) => default)).AddBody("x", Ball(force: 1), V(0, 9)), ["'x'", "Ballistic", "RungeKutta4"]),
+            b => b.AddForce(Force.Supplied(new FunctionForce((_, _, _) => default))).AddBody("x", Ball(force: 1), V(0, 9)), ["'x'", "Ballistic", "RungeKutta4"]),
+        ["no closed form"] = (
+            b => b.AddForce(Force.QuadraticDrag("air", 0.1), out ForceSet air).AddBody("x", new BodySpec(0.5, 1, 1, MotionLaw.ClosedForm, forces: air), V(0, 9)),
+            ["'x'", "ClosedForm", "DormandPrince54"]),
+        ["too stiff"] = (
+            b => b.AddForce(Force.Spring("steel", V(0), 1e14), out ForceSet steel).AddBody("x", new BodySpec(0.5, 1, 1, forces: steel), V(0, 9)),
+            ["'x'", "'steel'", "10000000", "1000000"]),
+        ["tolerance"] = (b => b.AddBody("x", new BodySpec(0.5, 1, 1, tolerance: -1e-9), V(0, 9)), ["tolerance", "'x'", "-1E-09"]),
+        ["nan tolerance"] = (b => b.AddBody("x", new BodySpec(0.5, 1, 1, tolerance: double.NaN), V(0, 9)), ["tolerance", "'x'", "NaN"]),
+        ["negative drag"] = (b => b.AddForce(Force.LinearDrag("oil", -1)), ["strength", "'oil'", "-1"]),
+        ["nan field"] = (b => b.AddForce(Force.Magnetic("coil", V(double.NaN), 1)), ["vector", "'coil'", "NaN"]),
+        ["power"] = (b => b.AddForce(Force.Central("sun", V(0), 1, -5)), ["power", "'sun'", "-5", "4"]),
+        ["negative damping"] = (b => b.AddForce(Force.Spring("rubber", V(0), 1, -2)), ["damping", "'rubber'", "-2"]),
+        ["33 forces"] = (b => Enumerable.Range(0, 33).Aggregate(b, (all, n) => all.AddForce(Force.LinearDrag($"force {n}", 1))), ["33", "32"]),
+        ["force without name"] = (b => b.AddForce(Force.LinearDrag("", 1)), ["''", "name"]),
         ["overlap"] = (b => b.AddBody("x", Ball(), V(0, 0.25)), ["'x'", "0.25", "floor"]),
         ["overlap of two"] = (b => b.AddBody("x", Ball(), V(0, 9)).AddBody("y", Ball(), V(0, 9.5)), ["'y'", "'x'", "0.5"]),
         ["same name"] = (b => b.AddBody("floor", Ball(), V(0, 9)), ["'floor'", "unique"]),
@@ -103,7 +118,7 @@ public sealed class RefusedValuesTests
     [Fact]
     public void AdvanceTo_ForceThatGivesNaN_FaultsWithASentenceAndStaysFaulted()
     {
-        Scene scene = new SceneBuilder("nan").AddAcceleration(new Force((t, _, _) => V(t > 0.5 ? double.NaN : 0)))
+        Scene scene = new SceneBuilder("nan").AddForce(Force.Supplied(new FunctionForce((t, _, _) => V(t > 0.5 ? double.NaN : 0))))
             .AddBody("x", Ball(flight: MotionLaw.RungeKutta4, force: 1), V(0)).Build();
         Simulation simulation = new(scene, KeepAll);
         SimulationException failure = Assert.Throws<SimulationException>(() => simulation.AdvanceTo(At(1)));

@@ -56,7 +56,7 @@ public sealed class WedgeTests
     [InlineData(MotionLaw.RungeKutta4, 1)]
     public void Wedged_OfAnotherLaw_RestsAsWell(MotionLaw flight, byte force)
     {
-        SceneBuilder builder = Slot(Ball(0.1027, 100, 0.157, flight, step: 0.01, force: force)).AddAcceleration(new Force((_, _, v) => v * -0.1));
+        SceneBuilder builder = Slot(Ball(0.1027, 100, 0.157, flight, step: 0.01, force: force)).AddForce(Force.Supplied(new FunctionForce((_, _, v) => v * -0.1)));
         Assert.True(IsDone(builder.Build(), [], 4, ignoresWedges: false, out Simulation simulation));
         Assert.Equal(MotionLaw.Resting, Read(simulation, BodyId.OfScene(0), 4).Motion);
     }

@@ -143,7 +143,8 @@ public sealed partial class CorpusTests
 
     private static IEnumerable<string> Needed =>
     [
-        .. Enum.GetNames<MotionLaw>().Select(law => $"law {law}"),
+        .. Enum.GetNames<MotionLaw>().Where(law => law != nameof(MotionLaw.Automatic)).Select(law => $"law {law}"),
+        .. Enum.GetNames<ForceKind>().Select(kind => $"force {kind}"),
         .. new[] { "Spawn", "Teleport", "SetVelocity", "Impulse", "Grab", "HoldKnot", "Release", "Remove" }.Select(kind => $"event {kind}"),
         "a step's end", "an impact of two", "an impact of many", "a wake by impact", "sliding in a groove", "sliding on a plane", "crowding", "squeezing", "a late round",
         "masses sixty decades apart", "a supplied acceleration", "a late start", "a place far from the origin", "a subnormal speed", "a refused event", "two events at a tick",
@@ -164,6 +165,7 @@ public sealed partial class CorpusTests
         (string What, bool Is)[] facts =
         [
             .. Enum.GetValues<MotionLaw>().Select(law => ($"law {law}", all.Any(entry => entry.State.Motion == law))),
+            .. Enum.GetValues<ForceKind>().Select(kind => ($"force {kind}", world.Scene.Forces.Any(force => force.Kind == kind))),
             .. Enum.GetValues<EventKind>().Where(kind => kind is >= EventKind.Spawn and <= EventKind.Remove)
                 .Select(kind => ($"event {kind}", all.Any(entry => entry.Key.Kind == kind))),
             ("a step's end", all.Any(entry => entry.Key.Kind == EventKind.StepEnd)),

@@ -43,6 +43,8 @@ internal static class CorpusWorlds
         Subnormal(),
         Deeds(),
         Held(),
+        Forces(),
+        Orbits(),
     ];
 
     private static CorpusWorld World(string name, Scene scene, double seconds, params ExternalEvent[] events) =>
@@ -191,13 +193,47 @@ internal static class CorpusWorlds
     /// <summary>Accelerations written in C#, of time, place and velocity, at several steps, with contacts on the steps.</summary>
     private static CorpusWorld Supplied() => World(
         "supplied",
-        new SceneBuilder("supplied").AddPlane("floor", Vector3D.Up, V(0), 0.8).AddAcceleration(new DragAndSpring()).AddAcceleration(new Eddy())
+        new SceneBuilder("supplied").AddPlane("floor", Vector3D.Up, V(0), 0.8).AddForce(Force.Supplied(new DragAndSpring())).AddForce(Force.Supplied(new Eddy()))
             .AddBody("spring", Ball(0.25, 2, 0.9, MotionLaw.RungeKutta4, force: 1), V(2, 3), V(0, 1, 3))
             .AddBody("eddy", Ball(0.25, 1, 0.9, MotionLaw.RungeKutta4, 0.0125, 2), V(-1, 4, 1), V(1))
             .AddBody("coarse", Ball(0.25, 1, 0.5, MotionLaw.RungeKutta4, 0.05, 2), V(-2, 1, -1))
             .AddBody("free", Ball(0.25, 1, 0.9), V(0.5, 4), V(0, -1)).Build(),
         6, ExternalEvent.Impulse(At(2.2), 1, 1, Second, V(0, 3, 1)),
         ExternalEvent.Spawn(At(3), 1, 2, Ball(0.3, 1, 0.7, MotionLaw.RungeKutta4, force: 1), V(3, 5, 1)));
+
+    /// <summary>Every force of the library in one room, in closed form and under error control, and a law that a spawn leaves to the world.</summary>
+    private static CorpusWorld Forces()
+    {
+        SceneBuilder builder = new SceneBuilder("forces").WithSmallestRadius(0.25).AddPlane("floor", Vector3D.Up, V(0), 0.9).AddPlane("wall", V(1), V(-4), 0.8)
+            .AddForce(Force.LinearDrag("oil", 0.3, V(0.5)), out ForceSet oil).AddForce(Force.QuadraticDrag("air", 0.02, V(0, 0, -1)), out ForceSet air)
+            .AddForce(Force.Spring("spring", V(0, 4), 6, 0.1), out ForceSet spring).AddForce(Force.Magnetic("coil", V(0, 0.5, 2), 1.5), out ForceSet coil)
+            .AddForce(Force.Central("well", V(2, 1), 3, -1), out ForceSet well);
+        builder.AddBody("oily", new BodySpec(0.25, 1, 0.9, forces: oil), V(-3, 3), V(-1, 2))
+            .AddBody("on a spring", new BodySpec(0.3, 2, 0.9, forces: spring | oil), V(0, 6), V(1, 0, 1))
+            .AddBody("charged", new BodySpec(0.25, 0.5, 0.9, forces: coil, tolerance: 1e-6), V(2, 5), V(1))
+            .AddBody("all of it", new BodySpec(0.25, 1, 0.8, forces: oil | coil | spring, tolerance: 1e-7), V(3, 4, 1), V(0, 0, -1))
+            .AddBody("in the air", new BodySpec(0.25, 1, 0.9, forces: air), V(-2, 7, 0.1))
+            .AddBody("fixed steps", new BodySpec(0.25, 1, 0.9, MotionLaw.DormandPrince54, SimDuration.FromSeconds(0.02), air | well, 0), V(-2, 5, 0))
+            .AddBody("in the well", new BodySpec(0.25, 1, 0.9, forces: well | air, tolerance: 1e-6), V(3, 2), V(0, 0, 2))
+            .AddBody("free", new BodySpec(0.25, 1, 0.9), V(1, 3), V(0, 1));
+        return World(
+            "forces", builder.Build(), 4, ExternalEvent.Impulse(At(1.3), 1, 1, First, V(0, 3, 1)), ExternalEvent.SetVelocity(At(1.7), 1, 2, BodyId.OfScene(4), V(3)),
+            ExternalEvent.Spawn(At(2), 1, 3, new BodySpec(0.3, 1, 0.7, forces: air | coil), V(3, 5, 1)), ExternalEvent.Spawn(At(2.1), 2, 1, new BodySpec(0.3, 1, 0.7, forces: coil), V(-3, 5, 1)));
+    }
+
+    /// <summary>Ellipses of every eccentricity and a hyperbola about one centre, with a collision on the way.</summary>
+    private static CorpusWorld Orbits()
+    {
+        SceneBuilder builder = new SceneBuilder("orbits").WithGravity(Floating).AddForce(Force.Central("sun", V(1), 4), out ForceSet sun);
+        double[] speeds = [2, 1.5, 0.6, 0.1, 3];
+        for (int i = 0; i < speeds.Length; i++)
+        {
+            builder.AddBody($"planet {i}", new BodySpec(0.05, 1 + i, 1, forces: sun), V(2, i * 0.2), V(0, 0.1, speeds[i]));
+        }
+
+        builder.AddBody("against them", new BodySpec(0.05, 1, 1, forces: sun), V(2, 0, 1), V(0, 0.1, -1));
+        return World("orbits", builder.Build(), 2, ExternalEvent.Impulse(At(0.7), 1, 1, First, V(0, 0.3, 0.1)));
+    }
 
     /// <summary>All kinds of events of several players at equal ticks, at ticks of impacts, on bodies that are not there, and refused ones.</summary>
     private static CorpusWorld Ties()

@@ -50,7 +50,7 @@ public sealed class AllocationTests
 
     /// <summary>Two balls between walls, elastic: each hits the other, the floor and a wall again and again.</summary>
     private static Scene Pair(MotionLaw flight, byte force) => new SceneBuilder("pair")
-        .AddAcceleration(new Force((_, x, _) => V(new double[8].Length * 0.0, x.Y * 0)))
+        .AddForce(Force.Supplied(new FunctionForce((_, x, _) => V(new double[8].Length * 0.0, x.Y * 0))))
         .AddPlane("floor", Vector3D.Up, V(0)).AddPlane("west", V(1), V(-1)).AddPlane("east", V(-1), V(1))
         .AddBody("a", Ball(0.25, flight: flight, force: force), V(-0.5, 1), V(10)).AddBody("b", Ball(0.25, 2, flight: flight, force: force), V(0.5, 0.9), V(-7)).Build();
 }

@@ -281,7 +281,7 @@ public sealed class InvariantTests
 
         foreach (IAcceleration acceleration in scene.Accelerations)
         {
-            builder.AddAcceleration(acceleration);
+            builder.AddForce(Force.Supplied(acceleration));
         }
 
         for (int i = 0; i < scene.Bodies.Count; i++)

@@ -35,7 +35,7 @@ public sealed class PinnedHashTests
                 return Run(Drop(1, 0.8), 3);
             case "integrated":
                 Scene scene = new SceneBuilder("integrated").AddPlane("slope", V(0.6, 0.8), V(0), 0.7)
-                    .AddAcceleration(new Force((t, x, v) => (v * (-0.1 * v.Length)) + V(0, 0, t - x.Z)))
+                    .AddForce(Force.Supplied(new FunctionForce((t, x, v) => (v * (-0.1 * v.Length)) + V(0, 0, t - x.Z))))
                     .AddBody("dragged", Ball(0.25, 2, 0.9, MotionLaw.RungeKutta4, force: 1), V(0, 2), V(1, 0, 3))
                     .AddBody("free", Ball(0.25, 1, 0.9), V(0.5, 4), V(0, -1)).Build();
                 return Run(scene, 2);

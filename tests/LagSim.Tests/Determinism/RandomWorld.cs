@@ -165,7 +165,7 @@ internal sealed class RandomWorld
             builder.AddStaticSphere("dome", V(1, -4, 0), 5, Pick(Restitutions)); // its top is at 1 m
         }
 
-        builder.AddAcceleration(new Force((t, x, v) => (v * -0.3) + V(-x.X, t, 0)));
+        builder.AddForce(Force.Supplied(new FunctionForce((t, x, v) => (v * -0.3) + V(-x.X, t, 0))));
         bool oneHeight = random.Next(2) == 0;
         double height = 2 + (random.Next(8) / 8.0);
         int bodies = random.Next(2, 9);

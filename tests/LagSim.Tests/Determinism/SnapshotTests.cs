@@ -89,7 +89,7 @@ public sealed class SnapshotTests
         { "radius", b => With(b, spec: Ball(1e-12)) },
         { "promises none below", b => With(b, spec: Ball(0.1)) },
         { "mass", b => With(b, spec: Ball(mass: double.NaN)) },
-        { "supplied acceleration", b => With(b, spec: Ball(flight: MotionLaw.RungeKutta4, force: 1)) },
+        { "names force 0", b => With(b, spec: Ball(flight: MotionLaw.RungeKutta4, force: 1)) },
         { "position", b => With(b, position: V(double.NaN)) },
         { "velocity", b => With(b, velocity: V(1e300)) },
         { "acceleration", b => With(b, acceleration: V(0, double.NegativeInfinity)) },

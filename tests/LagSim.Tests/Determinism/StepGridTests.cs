@@ -11,7 +11,7 @@ namespace LagSim.Tests.Determinism;
 public sealed class StepGridTests
 {
     private static Scene Scene => new SceneBuilder("steps").WithGravity(Floating)
-        .AddAcceleration(new Force((t, x, v) => (x * -2) + (v * -0.1) + V(t)))
+        .AddForce(Force.Supplied(new FunctionForce((t, x, v) => (x * -2) + (v * -0.1) + V(t))))
         .AddBody("integrated", Ball(0.1, flight: MotionLaw.RungeKutta4, step: 0.05, force: 1), V(1), V(0, 1))
         .AddBody("target", Ball(0.1), V(0, 50)).Build();
 

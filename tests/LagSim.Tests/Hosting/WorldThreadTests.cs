@@ -163,7 +163,7 @@ public sealed class WorldThreadTests
     [Fact]
     public void Host_SimulationThatFaults_TellsTheCaller()
     {
-        Scene scene = new SceneBuilder("nan").AddAcceleration(new Force((t, _, _) => V(t > 0.01 ? double.NaN : 0)))
+        Scene scene = new SceneBuilder("nan").AddForce(Force.Supplied(new FunctionForce((t, _, _) => V(t > 0.01 ? double.NaN : 0))))
             .AddBody("x", Ball(flight: MotionLaw.RungeKutta4, force: 1), V(0)).Build();
         using SimulationHost host = new(scene, new ManualClock());
         host.Start();

@@ -41,6 +41,27 @@ public sealed class ConvergenceTests
     }
 
     [Fact]
+    public void DormandPrince54_FixedSteps_HasOrderFive()
+    {
+        AssertOrderFive(step => Engine(Driven, step, e: 0.9, floor: -100, law: MotionLaw.DormandPrince54).Position);
+        AssertOrderFive(step => Engine(Driven, step, e: 0.9, floor: -100, at: 1.987, law: MotionLaw.DormandPrince54).Position);
+        AssertOrderFive(step => Engine(Driven, step, e: 0.9, floor: -100, law: MotionLaw.DormandPrince54).Velocity);
+    }
+
+    [Fact]
+    public void DormandPrince54_FixedStepsThroughContacts_KeepsOrderFive()
+    {
+        AssertOrderFive(step => Engine(Driven, step, e: 0.9, floor: -0.3, law: MotionLaw.DormandPrince54).Position);
+        AssertOrderFive(step => Engine(Driven, step, e: 0.9, floor: -0.3, at: 1.987, law: MotionLaw.DormandPrince54).Position);
+        Simulation bouncing = Simulate(Driven, 1.0 / 64, e: 0.9, floor: -0.3, law: MotionLaw.DormandPrince54);
+        Assert.True(TestWorlds.Impacts(bouncing, TestWorlds.First).Count >= 1);
+    }
+
+    [Fact]
+    public void Order_OfRungeKutta4_FailsTheCheckForFive() =>
+        Assert.False(IsFive(Order(step => Engine(Driven, step, e: 0.9, floor: -0.3).Position, Engine(Driven, Finest, e: 0.9, floor: -0.3).Position)));
+
+    [Fact]
     public void RungeKutta4_HarmonicOscillator_LosesTheAmplitudeThatTheoryGives()
     {
         const double Omega = 8, Step = 1.0 / 32;
@@ -76,6 +97,14 @@ public sealed class ConvergenceTests
         Assert.True(IsFour(order), $"The measured order is {order:F3}.");
     }
 
+    private static void AssertOrderFive(Solution solve)
+    {
+        double order = Order(solve, solve(1.0 / 1024));
+        Assert.True(IsFive(order), $"The measured order is {order:F3}.");
+    }
+
+    private static bool IsFive(double order) => Math.Abs(order - 5) <= 0.3;
+
     private static bool IsFour(double order) => Math.Abs(order - 4) <= 0.1;
 
     private static double Order(Solution solve, Vector3D reference)
@@ -84,15 +113,17 @@ public sealed class ConvergenceTests
         return Fit.Line(Steps.Select(step => Math.Log(step)).ToArray(), errors).B;
     }
 
-    private static BodyState Engine(Func<double, Vector3D, Vector3D, Vector3D> force, double step, double e, double floor, double at = End) =>
-        TestWorlds.Read(Simulate(force, step, e, floor), TestWorlds.First, at);
+    private static BodyState Engine(
+        Func<double, Vector3D, Vector3D, Vector3D> force, double step, double e, double floor, double at = End, MotionLaw law = MotionLaw.RungeKutta4) =>
+        TestWorlds.Read(Simulate(force, step, e, floor, law: law), TestWorlds.First, at);
 
     private static Simulation Simulate(
-        Func<double, Vector3D, Vector3D, Vector3D> force, double step, double e, double floor, Vector3D? start = null, Vector3D? velocity = null)
+        Func<double, Vector3D, Vector3D, Vector3D> force, double step, double e, double floor, Vector3D? start = null, Vector3D? velocity = null,
+        MotionLaw law = MotionLaw.RungeKutta4)
     {
         Scene scene = new SceneBuilder("driven").WithGravity(default).AddPlane("floor", Vector3D.Up, TestWorlds.V(0, floor - 0.1))
-            .AddAcceleration(new Force(force))
-            .AddBody("ball", TestWorlds.Ball(0.1, e: e, flight: MotionLaw.RungeKutta4, step: step, force: 1), start ?? Start, velocity ?? Velocity).Build();
+            .AddForce(Force.Supplied(new FunctionForce(force)), out ForceSet driving)
+            .AddBody("ball", new BodySpec(0.1, 1, e, law, LagSim.Time.SimDuration.FromSeconds(step), driving, tolerance: 0), start ?? Start, velocity ?? Velocity).Build();
         return TestWorlds.Run(scene, End);
     }
 

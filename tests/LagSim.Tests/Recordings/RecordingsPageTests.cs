@@ -65,7 +65,7 @@ public sealed class RecordingsPageTests
             }
         }
 
-        Assert.Equal(3 + 4 + 4 + 25 + 2 + 3 + 3, rows); // of each table
+        Assert.Equal(3 + 4 + 4 + 30 + 2 + 3 + 3, rows); // of each table
     }
 
     [Fact]
@@ -80,7 +80,7 @@ public sealed class RecordingsPageTests
             Assert.Contains($" {limit.ToString("N0", CultureInfo.InvariantCulture)} ", page.Replace(';', ' '), StringComparison.Ordinal);
         }
 
-        Assert.Equal(34, EventFormat.SpecBytes);
+        Assert.Equal(45, EventFormat.SpecBytes);
         Assert.Contains($"| event | event | {EventFormat.MinBytes} to {EventFormat.MaxBytes} bytes", page, StringComparison.Ordinal);
         Assert.StartsWith($"# Recordings, version {RecordingFormat.Version}", page, StringComparison.Ordinal);
         Assert.Contains($"`{RecordingFormat.Extension}`", page, StringComparison.Ordinal);
@@ -94,8 +94,9 @@ public sealed class RecordingsPageTests
     /// <summary>A recording with every kind of record and part, all of whose neighbouring values differ.</summary>
     private static (byte[] Bytes, Recording Recording) Everything()
     {
-        IAcceleration force = new Force((_, _, v) => -v);
-        Scene scene = new SceneBuilder("all").WithSmallestRadius(0.125).AddAcceleration(force).AddPlane("floor", Vector3D.Up, -3.0, 0.5)
+        IAcceleration force = new FunctionForce((_, _, v) => -v);
+        Scene scene = new SceneBuilder("all").WithSmallestRadius(0.125).AddForce(Force.Supplied(force)).AddForce(Force.Spring("spring", V(8, 9, 10), 11, 12)).AddForce(Force.Central("pull", V(13, 14, 15), 16, -3))
+            .AddPlane("floor", Vector3D.Up, -3.0, 0.5)
             .AddStaticSphere("rock", V(5, 6, 7), 2, 0.25).AddBody("ball", Ball(0.5, 3, 0.75), V(1, 2, 3), V(4), PeerSet.Of(1, 4)).WithSpawners(PeerSet.Of(0, 9)).Build();
         Simulation world = new(scene, new SimulationOptions(Start, SimDuration.MaxValue));
         world.AdvanceTo(Start + Seconds(1));
@@ -187,14 +188,16 @@ public sealed class RecordingsPageTests
             ["resolution"] = scene.Resolution,
             ["smallest radius"] = scene.SmallestRadius,
             ["spawners"] = scene.Spawners.Mask,
-            ["accelerations"] = scene.Accelerations.Count,
+            ["forces"] = scene.Forces.Count,
             ["planes"] = scene.Planes.Count,
             ["static spheres"] = scene.StaticSpheres.Count,
             ["bodies"] = scene.Bodies.Count,
         };
         Dictionary<string, (string Prefix, IEnumerable<Dictionary<string, object>> Items)> lists = new()
         {
-            ["accelerations"] = ("acceleration ", scene.Accelerations.Select(a => LayoutPage.Values(("acceleration name", a.Name), ("acceleration version", a.Version)))),
+            ["forces"] = ("force ", scene.Forces.Select(f => LayoutPage.Values(
+                ("force name", f.Name), ("force kind", (byte)f.Kind), ("force version", f.Acceleration?.Version ?? 0), ("force strength", f.Strength),
+                ("force damping", f.Damping), ("force vector", f.Vector), ("force power", f.Power)))),
             ["planes"] = ("plane ", scene.Planes.Select(p => LayoutPage.Values(
                 ("plane name", p.Name), ("plane normal", p.Normal), ("plane offset", p.Offset), ("plane restitution", p.Restitution)))),
             ["static spheres"] = ("sphere ", scene.StaticSpheres.Select(s => LayoutPage.Values(

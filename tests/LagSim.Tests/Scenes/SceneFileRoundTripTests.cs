@@ -115,7 +115,7 @@ public sealed class SceneFileRoundTripTests
     [Fact]
     public void ToJson_SuppliedAcceleration_IsRefusedByName()
     {
-        Scene scene = new SceneBuilder("windy").AddAcceleration(new Wind()).Build();
+        Scene scene = new SceneBuilder("windy").AddForce(Force.Supplied(new Wind())).Build();
 
         SceneFileException refusal = Assert.Throws<SceneFileException>(() => SceneFile.ToJson(scene));
         Assert.Contains("scene 'windy': the scene supplies accelerations written in C#, the first is 'wind'", refusal.Message);

@@ -96,7 +96,7 @@ public sealed class ForgedEventTests
             ExternalEvent.Teleport(Now, liar.Peer, 3, First, V(0, -1)), // in the floor
             ExternalEvent.SetVelocity(Now, liar.Peer, 4, First, V(1e300)),
             ExternalEvent.Spawn(Now, liar.Peer, 5, Ball(0.1), V(0, 4)), // below what the scene promises
-            ExternalEvent.Spawn(Now, liar.Peer, 6, new BodySpec(0.3, 1, 1, MotionLaw.RungeKutta4, default, 9), V(0, 4)));
+            ExternalEvent.Spawn(Now, liar.Peer, 6, new BodySpec(0.3, 1, 1, MotionLaw.RungeKutta4, default, ForceSet.Of(9)), V(0, 4)));
         AssertGoesOn(accepted: 0, refused: 6);
     }
 

@@ -75,6 +75,8 @@ internal static class LayoutPage
         {
             case "u8":
                 return [Convert.ToByte(value, CultureInfo.InvariantCulture)];
+            case "i8":
+                return [unchecked((byte)Convert.ToSByte(value, CultureInfo.InvariantCulture))];
             case "u16":
                 return BitConverter.GetBytes(Convert.ToUInt16(value, CultureInfo.InvariantCulture));
             case "u32":
@@ -103,6 +105,8 @@ internal static class LayoutPage
                 return length < 128 ? [(byte)length] : [(byte)(128 + (length % 128)), .. Bytes("length", length / 128)];
             case "planes":
                 return ((int[])value).SelectMany(BitConverter.GetBytes).ToArray();
+            case "step?":
+                return ((long[])value).SelectMany(BitConverter.GetBytes).ToArray();
             case "dense":
                 return ((Vector3D[])value).SelectMany(c => Bytes("bits", c)).ToArray();
             case "hold":
@@ -114,7 +118,8 @@ internal static class LayoutPage
                 return
                 [
                     .. Bytes("f64", spec.Radius), .. Bytes("f64", spec.Mass), .. Bytes("f64", spec.Restitution),
-                    (byte)spec.Flight, .. BitConverter.GetBytes(spec.Step.Ticks), spec.Acceleration,
+                    (byte)spec.Flight, .. BitConverter.GetBytes(spec.Step.Ticks),
+                    .. BitConverter.GetBytes(spec.Forces.Mask), .. Bytes("f64", spec.Tolerance),
                 ];
             case "event":
                 ExternalEvent what = (ExternalEvent)value;

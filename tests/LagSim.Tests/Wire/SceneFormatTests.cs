@@ -22,7 +22,7 @@ public sealed class SceneFormatTests
     private const int ResolutionAt = 27;
     private const int SmallestAt = 35;
     private const int SpawnersAt = 43;
-    private const int AccelerationsAt = 45;
+    private const int ForcesAt = 45;
     private const int PlanesAt = 46;
     private const int PlaneNameAt = 48;
     private const int NormalAt = 50;
@@ -32,11 +32,12 @@ public sealed class SceneFormatTests
     private const int RestitutionAt = 154;
     private const int FlightAt = 162;
     private const int StepAt = 163;
-    private const int SpecAccelerationAt = 171;
-    private const int PositionAt = 172;
-    private const int VelocityAt = 196;
-    private const int PlayersAt = 220;
-    private const int Length = 222;
+    private const int SpecForcesAt = 171;
+    private const int ToleranceAt = 175;
+    private const int PositionAt = 183;
+    private const int VelocityAt = 207;
+    private const int PlayersAt = 231;
+    private const int Length = 233;
 
     [Fact]
     public void Encode_AnyScene_DecodesToTheSameWorldInTheSameBytes() => Prop.ForAll(
@@ -91,7 +92,7 @@ public sealed class SceneFormatTests
         byte[] bytes = SceneFormat.Encode(scene);
         Scene again = Decoded(bytes);
 
-        Assert.Equal([0x02, 0x02], bytes[SpawnersAt..AccelerationsAt]);
+        Assert.Equal([0x02, 0x02], bytes[SpawnersAt..ForcesAt]);
         Assert.Equal([0x01, 0x80], bytes[^2..]);
         Assert.Equal(PeerSet.Of(1, 9), again.Spawners);
         Assert.Equal([PeerSet.Nobody, PeerSet.Of(0, 15)], again.Bodies.Select(b => b.Players));
@@ -109,13 +110,13 @@ public sealed class SceneFormatTests
 
         Refused(whole.AsSpan(0, 0), "The 0 bytes of the scene end within the scene's head.");
         Refused(whole.AsSpan(0, PlanesAt), "The 46 bytes of the scene end within the scene's plane count.");
-        Refused(whole.AsSpan(0, Length - 1), "The 221 bytes of the scene end within body 1 of the scene.");
-        Refused(whole.AsSpan(0, Length - 2), "announces 1 parts of the kind 'body', of 85 bytes or more, and has 84 bytes left");
+        Refused(whole.AsSpan(0, Length - 1), "The 232 bytes of the scene end within body 1 of the scene.");
+        Refused(whole.AsSpan(0, Length - 2), "announces 1 parts of the kind 'body', of 96 bytes or more, and has 95 bytes left");
         Refused([.. whole, .. new byte[24]], "The scene's periodic box has no size");
         Refused([.. whole, .. new byte[25]], "The scene's periodic box has no size");
         for (int value = 0; value <= 255; value++)
         {
-            Refused([.. whole, (byte)value], "The 223 bytes of the scene end within the scene's periodic box.");
+            Refused([.. whole, (byte)value], "The 234 bytes of the scene end within the scene's periodic box.");
         }
     }
 
@@ -183,7 +184,8 @@ public sealed class SceneFormatTests
         Refused(With(SmallestAt, 0), "The smallest radius of scene 's' is 0;");
         Refused(WithByte(BodyNameAt, (byte)'p'), "Two parts of scene 's' are named 'p'");
         Refused(WithByte(FlightAt, 3), "The motion law of body 'b' is Sliding;");
-        Refused(WithByte(SpecAccelerationAt, 1), "names supplied acceleration 1, but the scene supplies 0");
+        Refused(WithByte(SpecForcesAt, 1), "names force 0, counted from 0, but the scene has 0");
+        Refused(With(ToleranceAt, 2), "The tolerance of body 'b' is 2;");
         Refused(WithInt64(StepAt, 5), "The integrator step of body 'b' is");
     }
 
@@ -233,14 +235,14 @@ public sealed class SceneFormatTests
     {
         Refused(WithByte(PlanesAt + 1, 0x10), "announces 4097 parts of the kind 'plane'; at most 1000 are allowed");
         Refused(WithByte(BodiesAt + 1, 0x80), "announces 32769 parts of the kind 'body'; at most 10000 are allowed");
-        Refused(WithByte(AccelerationsAt, 255), "announces 255 parts of the kind 'supplied acceleration'");
+        Refused(WithByte(ForcesAt, 255), "announces 255 parts of the kind 'force'; at most 32 are allowed");
         Refused(new byte[SceneFormat.MaxBytes + 1], $"The scene takes {SceneFormat.MaxBytes + 1} bytes; at most {SceneFormat.MaxBytes} are allowed.");
     }
 
     [Fact]
     public void TryDecode_AccelerationThatIsNotHere_IsRefusedWithNameAndVersion()
     {
-        byte[] bytes = SceneFormat.Encode(new SceneBuilder("s").AddAcceleration(new Wind("wind", -3)).Build());
+        byte[] bytes = SceneFormat.Encode(new SceneBuilder("s").AddForce(Force.Supplied(new Wind("wind", -3))).Build());
         Assert.NotNull(Decoded(bytes, [new Wind("tide", -3), new Wind("wind", 2), new Wind("wind", -3)]));
 
         Refused(bytes, "The scene needs the acceleration 'wind' of version -3, which is not here.", null);
@@ -257,7 +259,7 @@ public sealed class SceneFormatTests
         Unsendable(new SceneBuilder("s").AddPlane("\uDD1E\uD834", Vector3D.Up, 0).Build(), "A plane's name cannot travel");
         Unsendable(Row(SceneFormat.MaxBodies + 1), "it has 10001 bodies; at most 10000 are allowed");
 
-        Scene longest = new SceneBuilder("s").AddBody(new string('\uFFFD', 64), Ball(), V(0)).AddAcceleration(new Wind(new string('é', 64), 1)).Build();
+        Scene longest = new SceneBuilder("s").AddBody(new string('\uFFFD', 64), Ball(), V(0)).AddForce(Force.Supplied(new Wind(new string('é', 64), 1))).Build();
         Assert.True(IsSame(longest, Decoded(SceneFormat.Encode(longest), longest.Accelerations)));
     }
 
@@ -320,7 +322,7 @@ public sealed class SceneFormatTests
 
     private static bool Canonical(ReadOnlySpan<byte> bytes)
     {
-        IReadOnlyList<IAcceleration> known = [new Force((_, x, _) => -x)];
+        IReadOnlyList<IAcceleration> known = [new FunctionForce((_, x, _) => -x)];
         bool isAccepted = SceneFormat.TryDecode(bytes, known, out Scene? scene, out string? error);
         Assert.Equal(isAccepted, error is null);
         if (isAccepted)

@@ -215,7 +215,7 @@ public sealed class SnapshotFormatTests
     public void TryDecode_NumberNotFinite_IsRefusedInEveryField(double value)
     {
         byte[] good = SnapshotFormat.Encode(new WorldSnapshot(At(0), At(1), 7, [Plain(MotionLaw.RungeKutta4)]));
-        int[] numbers = [28 + 8, 28 + 16, 28 + 24, .. Enumerable.Range(0, 9).Select(n => 28 + 93 + (8 * n)), .. Enumerable.Range(0, 9).Select(n => 28 + 167 + (8 * n))];
+        int[] numbers = [28 + 8, 28 + 16, 28 + 24, .. Enumerable.Range(0, 9).Select(n => 28 + 104 + (8 * n)), .. Enumerable.Range(0, 9).Select(n => 28 + 178 + (8 * n))];
         foreach (int at in numbers)
         {
             byte[] bytes = (byte[])good.Clone();
@@ -234,9 +234,9 @@ public sealed class SnapshotFormatTests
         step.AsSpan(28 + 8 + 25, 8).Clear();
         Refused(WireRefusal.BadValue, step);
         byte[] supports = (byte[])good.Clone();
-        supports[28 + 166] = BodySnapshot.MaxSupports + 1;
+        supports[28 + 177] = BodySnapshot.MaxSupports + 1;
         Refused(WireRefusal.BadValue, [.. supports, .. new byte[16]]);
-        supports[28 + 166] = 1;
+        supports[28 + 177] = 1;
         Refused(WireRefusal.BadValue, [.. supports, 0, 0, 0, 0x80]);
         Decoded([.. supports, 0xFF, 0xFF, 0xFF, 0x7F]);
     }
@@ -316,6 +316,6 @@ public sealed class SnapshotFormatTests
 
     private static bool Same(BodySnapshot a, BodySnapshot b) =>
         a.Id == b.Id && a.Spec.Equals(b.Spec) && a.Opened.Equals(b.Opened) && a.Law == b.Law && a.Epoch == b.Epoch && a.End == b.End
-        && a.Crowding == b.Crowding && a.Hold.Peer == b.Hold.Peer && a.Hold.Knot == b.Hold.Knot && a.SupportCount == b.SupportCount && Enumerable.Range(0, a.SupportCount).All(n => a.Support(n) == b.Support(n))
+        && a.Crowding == b.Crowding && a.NextStep == b.NextStep && a.Hold.Peer == b.Hold.Peer && a.Hold.Knot == b.Hold.Knot && a.SupportCount == b.SupportCount && Enumerable.Range(0, a.SupportCount).All(n => a.Support(n) == b.Support(n))
         && Numbers(a).Select(BitConverter.DoubleToInt64Bits).SequenceEqual(Numbers(b).Select(BitConverter.DoubleToInt64Bits));
 }

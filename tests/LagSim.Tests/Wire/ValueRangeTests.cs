@@ -24,8 +24,9 @@ public class ValueRangeTests
     private const int RestitutionAt = 98;
     private const int FlightAt = 106;
     private const int StepAt = 107;
-    private const int AccelerationAt = 115;
-    private const int PositionAt = 116;
+    private const int ForcesAt = 115;
+    private const int ToleranceAt = 119;
+    private const int PositionAt = 127;
 
     private static readonly BodySpec Ball = new(0.5, 1, 0.8);
 
@@ -43,6 +44,7 @@ public class ValueRangeTests
         AssertBad(RadiusAt, BitConverter.DoubleToInt64Bits(value));
         AssertBad(MassAt, BitConverter.DoubleToInt64Bits(value));
         AssertBad(RestitutionAt, BitConverter.DoubleToInt64Bits(value));
+        AssertBad(ToleranceAt, BitConverter.DoubleToInt64Bits(value));
     }
 
     [Theory]
@@ -88,7 +90,7 @@ public class ValueRangeTests
     [InlineData(KindAt, 255)]
     [InlineData(FlightAt, (byte)MotionLaw.Absent)]
     [InlineData(FlightAt, (byte)MotionLaw.Resting)]
-    [InlineData(AccelerationAt, 1)]
+    [InlineData(ForcesAt, 1)]
     [InlineData(CountAt, UpdateDatagram.MaxEntries + 1)]
     public void TryDecode_ByteOutOfRange_IsRefused(int at, byte value)
     {
@@ -146,9 +148,9 @@ public class ValueRangeTests
         AssertHeader(WireRefusal.TooShort, 0x53, 0x4C, 3);
         AssertHeader(WireRefusal.NotLagSim, 0x4C, 0x53, 3, 1);
         AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, 1, 1);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 3, 0);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 3, 12);
-        AssertHeader(WireRefusal.None, 0x53, 0x4C, 3, 11);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 4, 0);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 4, 12);
+        AssertHeader(WireRefusal.None, 0x53, 0x4C, 4, 11);
     }
 
     [Fact]
@@ -228,7 +230,7 @@ public class ValueRangeTests
 
         removals.HasStateHash = spawns.HasStateHash = true;
         Assert.Equal(48, removals.Entries.Length);
-        Assert.Equal(11, spawns.Entries.Length);
+        Assert.Equal(10, spawns.Entries.Length);
         Assert.Equal(removals.EncodedLength, AnyDatagram.Bytes(removals.Encode).Length);
         Assert.Equal(spawns.EncodedLength, AnyDatagram.Bytes(spawns.Encode).Length);
         Assert.InRange(removals.EncodedLength, 1, WireFormat.MaxBytes);

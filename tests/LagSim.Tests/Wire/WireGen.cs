@@ -41,11 +41,12 @@ internal static class WireGen
         from radius in Gen.OneOf(Gen.Elements(1e-9, 0.5, 1e9), Gen.Choose(1, 1000000).Select(n => n * 1e-3))
         from mass in Gen.OneOf(Gen.Elements(1e-30, 1.0, 1e30), Gen.Choose(1, 1000000).Select(n => n * 1e-3))
         from restitution in Gen.Choose(0, 1000).Select(n => n / 1000.0)
-        from flight in Gen.Elements(MotionLaw.Ballistic, MotionLaw.RungeKutta4)
+        from flight in Gen.Elements(MotionLaw.Ballistic, MotionLaw.RungeKutta4, MotionLaw.ClosedForm, MotionLaw.DormandPrince54, MotionLaw.Automatic)
         from step in Gen.OneOf(
             Gen.Elements(EventFormat.MinStep, EventFormat.MaxStep), Gen.Choose(2, 999999).Select(n => SimDuration.FromSeconds(n * 1e-6)))
-        from acceleration in Byte
-        select new BodySpec(radius, mass, restitution, flight, step, flight == MotionLaw.Ballistic ? (byte)0 : acceleration);
+        from forces in Bits32.Select(ForceSet.FromMask)
+        from tolerance in Gen.OneOf(Gen.Elements(0, 1e-12, BodySpec.DefaultTolerance, 1), Gen.Choose(0, 1000000).Select(n => n * 1e-6))
+        select new BodySpec(radius, mass, restitution, flight, step, flight == MotionLaw.Ballistic ? ForceSet.None : forces, tolerance);
 
     internal static readonly Gen<ExternalEvent> Event =
         from kind in Gen.Elements(EventKind.Spawn, EventKind.Remove, EventKind.Teleport, EventKind.SetVelocity, EventKind.Impulse, EventKind.Grab, EventKind.HoldKnot, EventKind.Release)

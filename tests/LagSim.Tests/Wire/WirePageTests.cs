@@ -9,6 +9,7 @@ using FsCheck.Fluent;
 using LagSim.Events;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
+using LagSim.Time;
 using LagSim.Tests.Determinism;
 using LagSim.Timelines;
 using Xunit;
@@ -73,7 +74,7 @@ public sealed class WirePageTests
             }
         }
 
-        Assert.Equal(3 + 3 + 8 + 2 + 16 + 4 + 6 + 3 + 2 + 4 + 5 + 3 + 6 + 6 + 3 + 24, rows);
+        Assert.Equal(3 + 3 + 8 + 2 + 16 + 4 + 6 + 3 + 2 + 4 + 5 + 3 + 6 + 7 + 3 + 25, rows);
     }
 
     [Fact]
@@ -146,6 +147,14 @@ public sealed class WirePageTests
             BodySnapshot both = new(
                 b.Id, b.Spec, b.Opened, MotionLaw.RungeKutta4, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [7, 8, 9], 5, V(1, 2, 3), V(4, 5, 6), V(7, 8, 9));
             snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [both]);
+        }
+        else if (seed == 3)
+        {
+            BodySnapshot b = snapshot.Bodies[0];
+            BodySnapshot controlled = new(
+                b.Id, b.Spec, b.Opened, MotionLaw.DormandPrince54, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [], 0, V(1, 2, 3), V(4, 5, 6), V(7, 8, 9),
+                nextStep: SimDuration.FromSeconds(0.25));
+            snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [controlled]);
         }
         else if (seed == 2)
         {
@@ -299,7 +308,7 @@ public sealed class WirePageTests
         MemoryStream bytes = new();
         Write(bytes, Table(page, "### Spec"), Values(
             ("radius", spec.Radius), ("mass", spec.Mass), ("restitution", spec.Restitution), ("flight", (byte)spec.Flight), ("step", spec.Step.Ticks),
-            ("acceleration", spec.Acceleration)));
+            ("forces", spec.Forces.Mask), ("tolerance", spec.Tolerance)));
         return bytes.ToArray();
     }
 
@@ -327,6 +336,7 @@ public sealed class WirePageTests
         ("opened body", b.Opened.Body.Packed), ("opened other", b.Opened.Other.Packed), ("opened peer", b.Opened.Peer), ("opened sequence", b.Opened.Sequence),
         ("law", (byte)b.Law), ("epoch", b.Epoch), ("end", b.End), ("position", b.Position), ("velocity", b.Velocity), ("acceleration", b.Acceleration),
         ("crowding", (byte)b.Crowding), ("supports", (byte)b.SupportCount), ("carried by", Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray()),
-        ("dense output", b.Law == MotionLaw.RungeKutta4 ? new[] { b.Cubic, b.Quartic, b.Quintic } : []),
+        ("dense output", b.Law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54 ? new[] { b.Cubic, b.Quartic, b.Quintic } : []),
+        ("next step", b.Law == MotionLaw.DormandPrince54 ? new[] { b.NextStep.Ticks } : []),
         ("hold", b.Law == MotionLaw.Held ? (b.Hold, b.Cubic) : null!));
 }
