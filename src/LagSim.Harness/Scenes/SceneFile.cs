@@ -91,6 +91,11 @@ public static class SceneFile
         }
 
         CheckName(file, "name", scene.Name);
+        for (int i = 0; i < scene.Forces.Count; i++)
+        {
+            CheckName(file, $"forces[{i}].name", scene.Forces[i].Name);
+        }
+
         for (int i = 0; i < scene.Planes.Count; i++)
         {
             CheckName(file, $"planes[{i}].name", scene.Planes[i].Name);

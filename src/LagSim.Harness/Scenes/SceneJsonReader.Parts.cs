@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -84,9 +85,11 @@ internal ref partial struct SceneJsonReader
         double restitution = 0;
         Vector3D position = default;
         Vector3D velocity = default;
-        MotionLaw motion = MotionLaw.Ballistic;
+        MotionLaw motion = MotionLaw.Automatic;
         SimDuration step = BodySpec.DefaultStep;
         PeerSet players = PeerSet.Everyone;
+        List<string> forces = new();
+        double tolerance = BodySpec.DefaultTolerance;
         uint seen = 0;
         cursor.EnterObject();
         while (cursor.NextKey(BodyKeys, ref seen) is string key)
@@ -117,13 +120,24 @@ internal ref partial struct SceneJsonReader
                 case "players":
                     players = Peers();
                     break;
+                case "forces":
+                    forces = ForcesOnBody();
+                    break;
+                case "tolerance":
+                    tolerance = cursor.Number();
+                    break;
                 default:
                     step = Step();
                     break;
             }
         }
 
-        BodySpec spec = new(radius, mass, restitution, motion, step);
-        Add(b => b.AddBody(name, spec, position, velocity, players));
+        List<string> known = forceNames;
+        bool isAlone = locate; // and no force is there
+        Add(b =>
+        {
+            ForceSet set = isAlone ? ForceSet.None : SetOf(forces, known);
+            b.AddBody(name, new BodySpec(radius, mass, restitution, motion, step, set, tolerance), position, velocity, players);
+        });
     }
 }

@@ -9,17 +9,19 @@ namespace LagSim.Harness.Scenes;
 internal ref partial struct SceneJsonReader
 {
     private static readonly JsonKeys SceneKeys =
-        new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "smallest_radius_m", "spawners", "periodic_box_m", "planes", "static_spheres", "bodies"]);
+        new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "smallest_radius_m", "spawners", "periodic_box_m", "forces", "planes", "static_spheres", "bodies"]);
 
     private static readonly JsonKeys PlaneKeys = new(["name", "normal"], ["point_m", "offset_m", "restitution"]);
 
     private static readonly JsonKeys SphereKeys = new(["name", "centre_m", "radius_m"], ["restitution"]);
 
     private static readonly JsonKeys BodyKeys =
-        new(["name", "radius_m", "mass_kg", "restitution", "position_m"], ["velocity_m_per_s", "motion", "step_s", "players"]);
+        new(["name", "radius_m", "mass_kg", "restitution", "position_m"], ["velocity_m_per_s", "motion", "step_s", "forces", "tolerance", "players"]);
 
     private readonly bool locate;
     private readonly List<Action<SceneBuilder>> parts = new(); // what to build, once the name is known
+    private readonly List<string> forceNames = new();
+    private readonly List<(string Name, SceneFileException IfUnknown)> namedForces = new(); // a body may stand before the forces that it names
     private JsonCursor cursor;
 
     /// <param name="json">The document, known to be UTF-8.</param>
@@ -80,6 +82,7 @@ internal ref partial struct SceneJsonReader
         }
 
         cursor.Read(); // nothing may follow
+        CheckForceNames();
         SceneBuilder builder = new(name);
         parts.ForEach(add => add(builder));
         return builder.Build();
@@ -97,6 +100,9 @@ internal ref partial struct SceneJsonReader
                     break;
                 case "static_spheres":
                     ReadSphere();
+                    break;
+                case "forces":
+                    ReadForce();
                     break;
                 default:
                     ReadBody();

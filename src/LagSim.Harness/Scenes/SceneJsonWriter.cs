@@ -42,6 +42,11 @@ internal static class SceneJsonWriter
             Vector(json, "periodic_box_m", scene.Box.Size);
         }
 
+        if (scene.Forces.Count > 0)
+        {
+            List(json, "forces", scene.Forces, force => WriteForce(json, force));
+        }
+
         List(json, "planes", scene.Planes, plane =>
         {
             json.WriteString("name", plane.Name);
@@ -56,7 +61,7 @@ internal static class SceneJsonWriter
             json.WriteNumber("radius_m", sphere.Radius);
             json.WriteNumber("restitution", sphere.Restitution);
         });
-        List(json, "bodies", scene.Bodies, body => Body(json, body));
+        List(json, "bodies", scene.Bodies, body => Body(json, scene, body));
         json.WriteEndObject();
     }
 
@@ -101,7 +106,7 @@ internal static class SceneJsonWriter
         return least;
     }
 
-    private static void Body(Utf8JsonWriter json, in SceneBody body)
+    private static void Body(Utf8JsonWriter json, Scene scene, in SceneBody body)
     {
         json.WriteString("name", body.Name);
         json.WriteNumber("radius_m", body.Spec.Radius);
@@ -112,12 +117,58 @@ internal static class SceneJsonWriter
         json.WriteString("motion", MotionNames.Of(body.Spec.Flight));
 
         // A closed form ignores the step, but the scene's hash sees it.
-        if (body.Spec.Flight != MotionLaw.Ballistic || body.Spec.Step != BodySpec.DefaultStep)
+        if (body.Spec.Flight is MotionLaw.RungeKutta4 or MotionLaw.DormandPrince54 || body.Spec.Step != BodySpec.DefaultStep)
         {
             json.WriteNumber("step_s", Seconds(body.Spec.Step));
         }
 
+        if (!body.Spec.Forces.IsEmpty)
+        {
+            json.WriteStartArray("forces");
+            for (int n = 0; n < scene.Forces.Count; n++)
+            {
+                if (body.Spec.Forces.Contains(n))
+                {
+                    json.WriteStringValue(scene.Forces[n].Name);
+                }
+            }
+
+            json.WriteEndArray();
+        }
+
+        if (body.Spec.Tolerance != BodySpec.DefaultTolerance)
+        {
+            json.WriteNumber("tolerance", body.Spec.Tolerance);
+        }
+
         Peers(json, "players", body.Players);
+    }
+
+    private static void WriteForce(Utf8JsonWriter json, Force force)
+    {
+        json.WriteString("name", force.Name);
+        json.WriteString("kind", ForceKindNames.Of(force.Kind));
+        switch (force.Kind)
+        {
+            case ForceKind.LinearDrag or ForceKind.QuadraticDrag:
+                json.WriteNumber(force.Kind == ForceKind.LinearDrag ? "coefficient_kg_per_s" : "coefficient_kg_per_m", force.Strength);
+                Vector(json, "medium_m_per_s", force.Vector);
+                break;
+            case ForceKind.Spring:
+                Vector(json, "anchor_m", force.Vector);
+                json.WriteNumber("stiffness_n_per_m", force.Strength);
+                json.WriteNumber("damping_kg_per_s", force.Damping);
+                break;
+            case ForceKind.Magnetic:
+                Vector(json, "field_t", force.Vector);
+                json.WriteNumber("charge_c", force.Strength);
+                break;
+            default:
+                Vector(json, "centre_m", force.Vector);
+                json.WriteNumber("strength_m_per_s2", force.Strength);
+                json.WriteNumber("power", force.Power);
+                break;
+        }
     }
 
     /// <summary>The numbers of those who have a right, where not everyone has it.</summary>

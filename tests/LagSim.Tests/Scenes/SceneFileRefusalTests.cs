@@ -46,6 +46,13 @@ public sealed class SceneFileRefusalTests
     [InlineData(
         "\"planes\": [{\"name\": \"p\", \"normal\": [0, 1, 0], \"offset_m\": 0, \"restitution\": 1.5}]", "planes[0]", "restitution of plane 'p' is 1.5")]
     [InlineData("\"planes\": [{\"nrml\": 1}]", "planes[0].nrml", "unknown key; allowed are name, normal, point_m, offset_m, restitution")]
+    [InlineData("\"forces\": [{\"name\": \"f\", \"kind\": \"glue\"}]", "forces[0].kind", "\"glue\" is unknown; allowed are \"linear_drag\"")]
+    [InlineData("\"forces\": [{\"name\": \"f\", \"kind\": \"spring\", \"anchor_m\": [0, 0, 0]}]", "forces[0].stiffness_n_per_m", "required of a force of kind \"spring\"")]
+    [InlineData("\"forces\": [{\"name\": \"f\", \"kind\": \"magnetic\", \"field_t\": [0, 0, 1], \"charge_c\": 1, \"power\": 2}]", "forces[0].power", "has no such key; it has field_t, charge_c")]
+    [InlineData(
+        "\"forces\": [{\"name\": \"f\", \"kind\": \"central\", \"centre_m\": [0, 0, 1], \"strength_m_per_s2\": 1, \"power\": 0.5}]", "forces[0].power",
+        "the power is 0.5; it must be a whole number between -4 and 4")]
+    [InlineData("\"forces\": [{\"name\": \"f\", \"kind\": \"linear_drag\", \"coefficient_kg_per_s\": -2}]", "forces[0]", "The strength of force 'f' is -2")]
     [InlineData("\"static_spheres\": [{\"name\": \"a\"}]", "static_spheres[0].centre_m", "missing")]
     [InlineData(
         "\"static_spheres\": [{\"name\": \"a\", \"centre_m\": [0, 2e12, 0], \"radius_m\": 1}]", "static_spheres[0]", "position of static sphere 'a'")]
@@ -88,6 +95,9 @@ public sealed class SceneFileRefusalTests
     [InlineData("0.8", "0.8, \"players\": [0, 0.5]", "bodies[0].players[1]", "the peer 0.5 cannot be granted a right")]
     [InlineData("0.8", "0.8, \"players\": [3, 3]", "bodies[0].players[1]", "the peer 3 stands here twice")]
     [InlineData("0.8", "0.8, \"players\": 3", "bodies[0].players", "it is 3; it must be an array of the numbers of peers")]
+    [InlineData("0.8", "0.8, \"forces\": [\"air\"]", "bodies[0].forces[0]", "no force of the scene is named \"air\"")]
+    [InlineData("0.8", "0.8, \"forces\": [\"air\", \"air\"]", "bodies[0].forces[1]", "the force \"air\" stands here twice")]
+    [InlineData("0.8", "0.8, \"tolerance\": 2", "bodies[0]", "The tolerance of body 'ball' is 2; it must lie between 0 and 1 m")]
     [InlineData("\"ball\"", "\"\"", "bodies[0].name", "the name has 0 characters; a name has 1 to 64")]
     [InlineData("\"ball\"", "\"a\\u001bb\"", "bodies[0].name", "the control character U+001B")]
     [InlineData("\"ball\"", "\"\\ud800\"", "bodies[0].name", "half of a surrogate pair")]

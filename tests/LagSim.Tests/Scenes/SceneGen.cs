@@ -44,19 +44,37 @@ internal static class SceneGen
         from planes in Gen.Choose(0, 3)
         from planeSeeds in Gen.ArrayOf(Plane, planes)
         from spheres in Gen.ArrayOf(Log(-8, 8))
+        from forces in Gen.ArrayOf(AnyForce)
         from spawners in Peers
         from bodies in Gen.ArrayOf(Body)
-        select Build(name, gravity, resolution, smallest, planeSeeds, spheres, spawners, bodies);
+        select Build(name, gravity, resolution, smallest, planeSeeds, spheres, forces.Take(ForceSet.Most).ToArray(), spawners, bodies);
 
     private static Gen<(BodySpec Spec, Vector3D Velocity, PeerSet Players)> Body =>
         from radius in Log(-8, 8)
         from mass in Log(-29, 29)
         from restitution in Gen.OneOf(Unit, Gen.Elements(0.0, -0.0, 1.0))
-        from rk4 in Gen.Elements(true, false)
+        from law in Gen.Elements(MotionLaw.RungeKutta4, MotionLaw.DormandPrince54, MotionLaw.Automatic)
+        from forces in Gen.Choose(0, int.MaxValue)
+        from tolerance in Gen.OneOf(Gen.Elements(0, 1e-300, BodySpec.DefaultTolerance, 1), Unit)
         from step in Step
         from velocity in Within(100)
         from players in Peers
-        select (new BodySpec(radius, mass, restitution, rk4 ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic, step), velocity, players);
+        select (new BodySpec(radius, mass, restitution, law, step, ForceSet.FromMask((uint)forces), tolerance), velocity, players);
+
+    /// <summary>Weak ones, so that they are not too stiff for the lightest body.</summary>
+    private static Gen<Func<string, Force>> AnyForce =>
+        from kind in Gen.Choose(0, 4)
+        from strength in Unit.Select(u => 1e-25 * u)
+        from vector in Within(1e3)
+        from power in Gen.Choose(-4, 4)
+        select (Func<string, Force>)(name => kind switch
+        {
+            0 => Force.LinearDrag(name, strength, vector),
+            1 => Force.QuadraticDrag(name, strength, vector),
+            2 => Force.Spring(name, vector, strength * 1e-20, strength),
+            3 => Force.Magnetic(name, vector * 1e-3, strength),
+            _ => Force.Central(name, vector, strength, power),
+        });
 
     private static Gen<double> Log(int least, int most) =>
         from u in Unit from e in Gen.Choose(least, most - 1) select (1 + (9 * u)) * Math.Pow(10, e);
@@ -73,6 +91,7 @@ internal static class SceneGen
         double smallest,
         (Vector3D Normal, Vector3D Point)[] planes,
         double[] spheres,
+        Func<string, Force>[] forces,
         PeerSet spawners,
         (BodySpec Spec, Vector3D Velocity, PeerSet Players)[] bodies)
     {
@@ -81,6 +100,11 @@ internal static class SceneGen
         if (smallest > 0)
         {
             builder.WithSmallestRadius(smallest);
+        }
+
+        for (int i = 0; i < forces.Length; i++)
+        {
+            builder.AddForce(forces[i]($"{name}f{i}"));
         }
 
         // All parts stand in a row; a plane that would cut it is moved to the far side of it.
@@ -93,7 +117,9 @@ internal static class SceneGen
 
         for (int i = 0; i < bodies.Length; i++)
         {
-            (BodySpec spec, Vector3D velocity, PeerSet players) = bodies[i];
+            (BodySpec drawn, Vector3D velocity, PeerSet players) = bodies[i];
+            ForceSet set = ForceSet.FromMask(forces.Length == 0 ? 0 : drawn.Forces.Mask & (uint.MaxValue >> (32 - forces.Length)));
+            BodySpec spec = new(drawn.Radius, drawn.Mass, drawn.Restitution, drawn.Flight, drawn.Step, set, drawn.Tolerance);
             builder.AddBody($"{name}b{i}", spec, new Vector3D(x + spec.Radius, 0.1, 1e-17), velocity * (1e8 * least), players);
             x += (2.01 * spec.Radius) + 0.3;
         }
