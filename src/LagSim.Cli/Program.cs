@@ -40,6 +40,7 @@ internal static class Program
             FuzzCommand.Create(console),
             RunCommand.Create(console),
             ScenesCommand.Create(console),
+            ExplainCommand.Create(console),
             HostCommand.Create(console),
             JoinCommand.Create(console),
             RelayCommand.Create(console),

@@ -117,6 +117,8 @@ public sealed partial class Simulation
 
     internal int SlotAt(int n) => order[n];
 
+    internal int SlotNamed(BodyId id) => SlotOf(id);
+
     internal BodyId IdOfSlot(int slot) => bodies[slot].Id;
 
     internal double RadiusOfSlot(int slot) => bodies[slot].Spec.Radius;

@@ -24,7 +24,7 @@ internal static class RunCommand
         CommonOptions common = new();
         Argument<string> scene = new("SCENE") { Description = "A built-in scene's name, or a JSON file." };
         Option<double> until = CommonOptions.Number("--until-s", "How long to run", 10, 0, 1e6);
-        Option<string> motion = CommonOptions.Word("--motion", "The law of all bodies; by default the scene's own.", "scene", "scene", "rk4", "ballistic");
+        Option<string> motion = CommonOptions.Word("--motion", "The law of all bodies; by default the scene's own.", "scene", ["scene", .. MotionNames.Flight]);
         Option<string?> events = CommonOptions.File("--events", "Write every event to this CSV file; - is stdout.");
         Option<string?> samples = CommonOptions.File("--samples", "Write the state of all bodies, every so often, to this CSV file; - is stdout.");
         Option<double> every = CommonOptions.Number("--every-s", "The time between samples", 0.01, 1e-9, 1e6);
@@ -43,12 +43,11 @@ internal static class RunCommand
             }
 
             Scene loaded = SceneSource.Load(parsed.GetValue(scene)!);
-            loaded = parsed.GetValue(motion) switch
+            if (MotionNames.TryParseFlight(parsed.GetValue(motion)!, out MotionLaw law))
             {
-                "rk4" => BuiltInScenes.WithMotion(loaded, MotionLaw.RungeKutta4, BodySpec.DefaultStep),
-                "ballistic" => BuiltInScenes.WithMotion(loaded, MotionLaw.Ballistic, BodySpec.DefaultStep),
-                _ => loaded,
-            };
+                loaded = BuiltInScenes.WithMotion(loaded, law, BodySpec.DefaultStep);
+            }
+
             string? folder = parsed.GetValue(common.Out);
             if (folder is not null)
             {

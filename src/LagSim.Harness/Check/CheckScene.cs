@@ -7,7 +7,7 @@ namespace LagSim.Harness.Check;
 
 /// <summary>A random scene: a closed room in which 8 to 12 balls meet each other all the time.</summary>
 /// <remarks>
-/// With and without gravity, often flat, with any restitution and mass ratio, on either law of flight, sometimes around static spheres. Some are calm: what falls there
+/// With and without gravity, often flat, with any restitution and mass ratio, on any law of flight under any of the forces, sometimes around static spheres. Some are calm: what falls there
 /// comes to rest within a second or two, until something happens to it, and so news comes late for a body that rests by then.
 /// </remarks>
 internal sealed class CheckScene
@@ -18,6 +18,8 @@ internal sealed class CheckScene
     private static readonly double[] ExtremeMasses = [1e-6, 1e-2, 1, 1, 1e3, 1e9];
 
     private readonly SeededRandom random;
+    private readonly SeededRandom flights; // a stream of its own: what flies how changes nothing else that is drawn
+    private readonly int forcedPercent;
     private readonly double[] masses;
     private readonly double[] restitutions;
     private readonly double half;
@@ -34,6 +36,8 @@ internal sealed class CheckScene
     internal CheckScene(SeededRandom random)
     {
         this.random = random;
+        flights = random.Fork(1);
+        forcedPercent = flights.IsLucky(30) ? 30 : 0;
         masses = random.IsLucky(20) ? ExtremeMasses : Masses;
         isCalm = random.IsLucky(10);
         hasGravity = random.IsLucky(35) || isCalm;
@@ -75,7 +79,12 @@ internal sealed class CheckScene
             .AddPlane("north", new Vector3D(0, 0, 1), new Vector3D(0, 0, -half), wall)
             .AddPlane("south", new Vector3D(0, 0, -1), new Vector3D(0, 0, half), wall)
             .AddPlane("ceiling", new Vector3D(0, -1, 0), new Vector3D(0, 2 * half, 0), wall)
-            .AddForce(Force.Supplied(Accelerations[0]));
+            .AddForce(Force.Supplied(Accelerations[0]))
+            .AddForce(Force.LinearDrag("oil", 0.3, new Vector3D(0.5, 0, 0)))
+            .AddForce(Force.Spring("spring", new Vector3D(0, half, 0), 1.5, 0.1))
+            .AddForce(Force.Magnetic("coil", new Vector3D(0, 0.4, 1), 1.2))
+            .AddForce(Force.QuadraticDrag("air", 0.1, new Vector3D(0, 0.5, 0)))
+            .AddForce(Force.Central("well", new Vector3D(0.2, half, 0), 3, -1));
         if (!hasGravity)
         {
             builder.WithGravity(Vector3D.Zero);
@@ -97,9 +106,28 @@ internal sealed class CheckScene
     internal BodySpec DrawSpec()
     {
         bool isIntegrated = random.IsLucky(integratedPercent);
-        return new BodySpec(
+        BodySpec spec = new(
             random.Pick(0.2, 0.2, 0.25, 0.3), random.Pick(masses), random.Pick(restitutions), isIntegrated ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic,
             isIntegrated ? SimDuration.FromSeconds(random.Pick(0.03125, 0.05)) : default, isIntegrated && hasForce ? ForceSet.Of(0) : ForceSet.None);
+        return masses == Masses && flights.IsLucky(forcedPercent) ? Forced(spec) : spec;
+    }
+
+    /// <summary>The same ball under any of the forces, by the law that the world picks for them, or another.</summary>
+    private BodySpec Forced(in BodySpec spec)
+    {
+        ForceSet set = ForceSet.None;
+        while (set.IsEmpty)
+        {
+            bool isLinear = flights.IsLucky(50); // then there is a closed form
+            for (int n = isLinear ? 1 : 0; n <= (isLinear ? 3 : 5); n++)
+            {
+                set |= flights.IsLucky(40) ? ForceSet.Of(n) : ForceSet.None;
+            }
+        }
+
+        MotionLaw law = flights.Pick(MotionLaw.Automatic, MotionLaw.Automatic, MotionLaw.Automatic, MotionLaw.RungeKutta4, MotionLaw.DormandPrince54);
+        return new BodySpec(
+            spec.Radius, spec.Mass, spec.Restitution, law, SimDuration.FromSeconds(flights.Pick(0.03125, 0.05)), set, flights.Pick(1e-3, 1e-5));
     }
 
     internal Vector3D DrawPosition() => new(

@@ -64,7 +64,7 @@ public sealed class Force
     public static Force Magnetic(string name, Vector3D field, double charge) =>
         new(ForceKind.Magnetic, name) { Strength = charge, Vector = field.WithoutNegativeZero() };
 
-    /// <summary>A pull towards a centre that gives every mass the same acceleration, s |r|^p: gravity of a fixed body with p = -2.</summary>
+    /// <summary>A pull towards a centre that gives every mass the same acceleration, s |r|^p, and none at the centre itself: gravity of a fixed body with p = -2.</summary>
     /// <param name="name">1 to 64 characters.</param>
     /// <param name="centre">In m.</param>
     /// <param name="strength">s, within 1e30: the acceleration at 1 m in m/s²; below zero it pushes. With p = -2 it is the gravitational parameter in m³/s².</param>
@@ -92,7 +92,7 @@ public sealed class Force
                 return Vector3D.Cross(velocity, Vector) * (Strength / mass);
             case ForceKind.Central:
                 Vector3D from = position - Vector;
-                return from * (-Strength * DistanceToPower(from.LengthSquared, Power - 1));
+                return from == Vector3D.Zero ? Vector3D.Zero : from * (-Strength * DistanceToPower(from.LengthSquared, Power - 1));
             default:
                 return Acceleration!.At(seconds, position, velocity);
         }

@@ -75,6 +75,20 @@ public sealed class InvariantTests
         AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed, SimDuration.FromSeconds(0.2)));
     }
 
+    /// <summary>Forces of every kind, closed forms and steps under error control, whose lengths follow from the steps before.</summary>
+    [Theory]
+    [InlineData(HealingMode.CausalCone)]
+    [InlineData(HealingMode.FullRollback)]
+    public void State_UnderForces_IsTheSameToo(HealingMode mode)
+    {
+        foreach (int seed in Enumerable.Range(20_000, 60))
+        {
+            RandomWorld world = new(seed, hands: seed % 3 == 0, forced: true);
+            string? difference = RandomWorld.Difference(world.OnTime(), world.Shuffled(seed, mode: mode, inPieces: seed % 2 == 0, mostPairs: seed % 4 == 1 ? 0 : 64));
+            Assert.True(difference is null, $"seed {seed}: {difference}");
+        }
+    }
+
     [Fact]
     public void Keys_OfEveryTimeline_Ascend()
     {

@@ -20,10 +20,12 @@ internal sealed class RandomWorld
 
     private readonly Random random;
     private readonly double[] masses;
+    private readonly bool forced;
 
-    /// <summary>The world of a seed; with hands that take, move and let go of bodies besides, which nothing else in it depends on.</summary>
-    internal RandomWorld(int seed, bool hands = false)
+    /// <summary>The world of a seed; with hands that take, move and let go of bodies besides, which nothing else in it depends on; with forces of all kinds in closed form and under error control.</summary>
+    internal RandomWorld(int seed, bool hands = false, bool forced = false)
     {
+        this.forced = forced;
         random = new Random(seed);
         masses = seed % 4 == 3 ? ExtremeMasses : Masses;
         Scene = DrawScene();
@@ -166,6 +168,12 @@ internal sealed class RandomWorld
         }
 
         builder.AddForce(Force.Supplied(new FunctionForce((t, x, v) => (v * -0.3) + V(-x.X, t, 0))));
+        if (forced)
+        {
+            builder.AddForce(Force.LinearDrag("oil", 0.4, V(0.3))).AddForce(Force.Spring("spring", V(0, 3), 2, 0.1)).AddForce(Force.Magnetic("coil", V(0, 0.5, 1), 1.5))
+                .AddForce(Force.QuadraticDrag("air", 0.2)).AddForce(Force.Central("well", V(0.1, 3.1, 0.05), 2, -1));
+        }
+
         bool oneHeight = random.Next(2) == 0;
         double height = 2 + (random.Next(8) / 8.0);
         int bodies = random.Next(2, 9);
@@ -189,6 +197,14 @@ internal sealed class RandomWorld
 
     private BodySpec DrawSpec(int integrated)
     {
+        if (forced && random.Next(2) == 0)
+        {
+            ForceSet forces = Pick(ForceSet.Of(1), ForceSet.Of(2), ForceSet.Of(3), ForceSet.Of(1) | ForceSet.Of(2) | ForceSet.Of(3), ForceSet.Of(4), ForceSet.Of(5) | ForceSet.Of(0));
+            return new BodySpec(
+                Pick(0.25, 0.25, 0.3125), Pick(1.0, 1, 2, 50), Pick(Restitutions), Pick(MotionLaw.Automatic, MotionLaw.Automatic, MotionLaw.DormandPrince54),
+                LagSim.Time.SimDuration.FromSeconds(Pick(0.03125, 0.05)), forces, Pick(0, 1e-4, 1e-6));
+        }
+
         bool steps = integrated > random.Next(3);
         return Ball(
             Pick(0.25, 0.25, 0.3125), Pick(masses), Pick(Restitutions), steps ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic,

@@ -1,0 +1,34 @@
+using System.CommandLine;
+using LagSim.Cli.Output;
+using LagSim.Harness.Scenes;
+using LagSim.Scenes;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary><c>lagsim explain</c>: what a scene makes the engine simulate, what it leaves out, and why.</summary>
+internal static class ExplainCommand
+{
+    internal static Command Create(ToolConsole console)
+    {
+        CommonOptions common = new();
+        Argument<string> scene = new("SCENE") { Description = "A built-in scene, or a JSON file." };
+        Command command = new("explain", "Says what is modelled for a scene, what not, and why.") { scene };
+        common.AddSeedAndJsonTo(command);
+        command.SetAction(parsed =>
+        {
+            Scene loaded = SceneSource.Load(parsed.GetValue(scene)!);
+            SceneExplanation explanation = loaded.Explain();
+            if (parsed.GetValue(common.Json))
+            {
+                ExplainOutput.WriteJson(console.Output, loaded, explanation, parsed.GetValue(common.Seed));
+            }
+            else
+            {
+                ExplainOutput.WriteTables(console, loaded, explanation);
+            }
+
+            return ExitCode.Done;
+        });
+        return command;
+    }
+}

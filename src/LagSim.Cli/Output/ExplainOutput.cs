@@ -1,0 +1,88 @@
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using LagSim.Harness.Reports;
+using LagSim.Harness.Scenes;
+using LagSim.Scenes;
+using Spectre.Console;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>What the engine makes of a scene, as tables and as JSON.</summary>
+internal static class ExplainOutput
+{
+    private const int MostNames = 3;
+
+    internal static void WriteTables(ToolConsole console, Scene scene, SceneExplanation explanation)
+    {
+        console.Output.WriteLine($"lagsim {ToolVersion.Text}   explain   scene {scene.Name} {JsonDocumentWriter.Hash(scene.Hash)}");
+        Table bodies = NewTable("how each body moves", ["bodies", "motion", "pieces/s", "force calls/s", "why"]);
+        foreach (IGrouping<(MotionLaw Motion, string Why, string Pieces, string Calls), BodyExplanation> alike in explanation.Bodies.GroupBy(
+            body => (body.Motion, body.Why, NumberText.Short(body.SegmentsPerSecond), NumberText.Short(body.EvaluationsPerSecond))))
+        {
+            bodies.AddRow(
+                Markup.Escape(Names(alike.ToArray())), MotionNames.Of(alike.Key.Motion), alike.Key.Pieces, alike.Key.Calls, Markup.Escape(alike.Key.Why));
+        }
+
+        if (explanation.Bodies.Count > 0)
+        {
+            console.Rich.Write(bodies);
+        }
+
+        Table features = NewTable("what is modelled", ["what", "modelled", "why"]);
+        foreach (FeatureExplanation feature in explanation.Features)
+        {
+            features.AddRow(feature.Name, feature.IsModelled ? "yes" : "no", Markup.Escape(feature.Why));
+        }
+
+        console.Rich.Write(features);
+        console.Output.WriteLine("pieces/s: pieces of path in a simulated second where the body starts, besides those that impacts open; 0: one from impact to impact.");
+    }
+
+    internal static void WriteJson(TextWriter output, Scene scene, SceneExplanation explanation, ulong seed) =>
+        JsonDocumentWriter.Write(output, "explain", seed, scene.Name, scene.Hash, null, json =>
+        {
+            json.WriteStartArray("bodies");
+            foreach (BodyExplanation body in explanation.Bodies)
+            {
+                json.WriteStartObject();
+                json.WriteString("name", body.Body);
+                json.WriteString("motion", MotionNames.Of(body.Motion));
+                json.WriteString("why", body.Why);
+                json.WriteNumber("segments_per_s", body.SegmentsPerSecond);
+                json.WriteNumber("force_evaluations_per_s", body.EvaluationsPerSecond);
+                json.WriteEndObject();
+            }
+
+            json.WriteEndArray();
+            json.WriteStartArray("features");
+            foreach (FeatureExplanation feature in explanation.Features)
+            {
+                json.WriteStartObject();
+                json.WriteString("name", feature.Name);
+                json.WriteBoolean("modelled", feature.IsModelled);
+                json.WriteString("why", feature.Why);
+                json.WriteEndObject();
+            }
+
+            json.WriteEndArray();
+        });
+
+    /// <summary>A table whose last column is a sentence: it alone is broken into lines.</summary>
+    private static Table NewTable(string title, string[] columns)
+    {
+        Table table = DropTables.NewTable(title, columns);
+        foreach (TableColumn column in table.Columns)
+        {
+            column.NoWrap = true;
+        }
+
+        TableColumn last = table.Columns[^1];
+        last.NoWrap = false;
+        last.Alignment = Justify.Left;
+        return table;
+    }
+
+    private static string Names(IReadOnlyList<BodyExplanation> bodies) =>
+        string.Join(", ", bodies.Take(MostNames).Select(body => body.Body)) + (bodies.Count > MostNames ? $" and {bodies.Count - MostNames} more" : "");
+}

@@ -1,0 +1,22 @@
+namespace LagSim;
+
+/// <summary>Something that the engine can model, whether a scene has it modelled, and why.</summary>
+/// <remarks>Immutable, safe on any thread.</remarks>
+public sealed class FeatureExplanation
+{
+    internal FeatureExplanation(string name, bool isModelled, string why)
+    {
+        Name = name;
+        IsModelled = isModelled;
+        Why = why;
+    }
+
+    /// <summary>What it is called.</summary>
+    public string Name { get; }
+
+    /// <summary>Whether anything is computed for it.</summary>
+    public bool IsModelled { get; }
+
+    /// <summary>Why, in a sentence.</summary>
+    public string Why { get; }
+}

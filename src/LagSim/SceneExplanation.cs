@@ -1,0 +1,131 @@
+using System.Collections.Generic;
+using System.Globalization;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim;
+
+/// <summary>What the engine simulates for a scene, what it leaves out, and why: a scene pays only for what it uses.</summary>
+/// <remarks>Immutable, safe on any thread.</remarks>
+public sealed class SceneExplanation
+{
+    private SceneExplanation(IReadOnlyList<BodyExplanation> bodies, IReadOnlyList<FeatureExplanation> features)
+    {
+        Bodies = bodies;
+        Features = features;
+    }
+
+    /// <summary>The bodies, in the order of the scene.</summary>
+    public IReadOnlyList<BodyExplanation> Bodies { get; }
+
+    /// <summary>What can be modelled, always the same in the same order.</summary>
+    public IReadOnlyList<FeatureExplanation> Features { get; }
+
+    internal static SceneExplanation Of(Scene scene)
+    {
+        Simulation start = new(scene, new SimulationOptions());
+        List<BodyExplanation> bodies = new();
+        for (int i = 0; i < scene.BodyArray.Length; i++)
+        {
+            bodies.Add(OfBody(scene, scene.BodyArray[i], start, start.Timelines.Last(start.SlotNamed(BodyId.OfScene(i)))));
+        }
+
+        return new SceneExplanation(bodies, FeaturesOf(scene));
+    }
+
+    private static BodyExplanation OfBody(Scene scene, in SceneBody body, Simulation start, int piece)
+    {
+        BodySpec spec = body.Spec;
+        ref readonly MotionSegment first = ref start.Timelines.Segment(piece);
+        SimDuration next = start.Timelines.Dense(piece).NextStep; // under error control the first step is but a try
+        double length = next == SimDuration.Zero ? first.End.SecondsSince(first.Epoch) : next.ToSeconds();
+        double perSecond = first.IsDense ? 1 / length : 0;
+        int evaluations = spec.Flight switch
+        {
+            MotionLaw.RungeKutta4 => 5,
+            MotionLaw.DormandPrince54 => 7,
+            MotionLaw.ClosedForm => 1,
+            _ => 0,
+        };
+        return new BodyExplanation(body.Name, spec.Flight, Why(scene, spec), perSecond, perSecond * evaluations);
+    }
+
+    private static string Why(Scene scene, in BodySpec spec)
+    {
+        BodySpec free = spec.With(MotionLaw.Automatic, spec.Step);
+        MotionLaw cheapest = FlightLaws.Chosen(free, scene.Gravity, scene.ForceArray);
+        string exact = cheapest switch
+        {
+            MotionLaw.Ballistic => scene.Gravity == Vector3D.Zero ? "No force acts on it: a straight line is exact." : "Only uniform gravity acts on it: a parabola is exact.",
+            MotionLaw.ClosedForm when FlightLaws.AreLinear(spec, scene.ForceArray) => $"{Names(scene, spec)}: linear in position and velocity, so there is a closed form.",
+            MotionLaw.ClosedForm => $"{Names(scene, spec)}: one inverse-square pull alone, so there is a closed form, Kepler's.",
+            _ => $"{Names(scene, spec)}: together without a closed form here, so steps whose error is kept within {Text(spec.Tolerance)} m.",
+        };
+        return spec.Flight == cheapest
+            ? cheapest == MotionLaw.DormandPrince54 && spec.Tolerance == 0 ? $"{Names(scene, spec)}: without a closed form here; with a tolerance of 0 the scene asks for fixed steps." : exact
+            : $"The scene asks for {spec.Flight}. {cheapest} would be cheaper: {char.ToLowerInvariant(exact[0])}{exact.Substring(1)}";
+    }
+
+    private static string Names(Scene scene, in BodySpec spec)
+    {
+        List<string> names = new();
+        for (int n = 0; n < scene.ForceArray.Length; n++)
+        {
+            if (spec.Forces.Contains(n))
+            {
+                names.Add($"{scene.ForceArray[n].Name} ({scene.ForceArray[n].Kind})");
+            }
+        }
+
+        return (scene.Gravity == Vector3D.Zero ? "" : "Gravity, ") + string.Join(", ", names);
+    }
+
+    private static IReadOnlyList<FeatureExplanation> FeaturesOf(Scene scene)
+    {
+        int inPieces = 0;
+        int closed = 0;
+        uint used = 0;
+        foreach (SceneBody body in scene.BodyArray)
+        {
+            inPieces += body.Spec.Flight is MotionLaw.RungeKutta4 or MotionLaw.DormandPrince54 ? 1 : 0;
+            closed += body.Spec.Flight is MotionLaw.ClosedForm ? 1 : 0;
+            used |= body.Spec.Forces.Mask;
+        }
+
+        int bodies = scene.BodyArray.Length;
+        List<string> idle = new();
+        for (int n = 0; n < scene.ForceArray.Length; n++)
+        {
+            if (!ForceSet.FromMask(used).Contains(n))
+            {
+                idle.Add(scene.ForceArray[n].Name);
+            }
+        }
+
+        bool hasIndex = bodies > SimulationOptions.DefaultMostPairs;
+        bool canLast = scene.PlaneArray.Length > 0 && scene.Gravity != Vector3D.Zero;
+        return new[]
+        {
+            new FeatureExplanation(
+                "forces besides gravity", used != 0, used != 0 ? $"{Count(scene.ForceArray.Length - idle.Count, "force")} on bodies that name them." + Idle(idle) : "No body names one." + Idle(idle)),
+            new FeatureExplanation("integrator", inPieces > 0, inPieces > 0 ? $"{Count(inPieces, "body", "bodies")} of {bodies} in steps." : $"Every path has a closed form{(closed > 0 ? $", {closed} of {bodies} in pieces of degree five" : "")}."),
+            new FeatureExplanation("spin and friction", false, "Contacts are frictionless, so nothing would ever turn."),
+            new FeatureExplanation(
+                "rest on planes", canLast, canLast ? "Planes under gravity: bounces below the resolution end in sliding or rest, which cost nothing." : "There is no plane, or no gravity to press on it."),
+            new FeatureExplanation(
+                "static geometry", scene.PlaneArray.Length + scene.SphereArray.Length > 0,
+                $"{Count(scene.PlaneArray.Length, "plane")}, {Count(scene.SphereArray.Length, "static sphere")}: each is asked for every piece of path."),
+            new FeatureExplanation(
+                "contacts of bodies", bodies > 1 || scene.Spawners != PeerSet.Nobody,
+                hasIndex ? $"{bodies} bodies: an index of swept paths names those that come near." : $"{Count(bodies, "body", "bodies")}: up to {SimulationOptions.DefaultMostPairs} every pair is looked at, without an index."),
+            new FeatureExplanation("periodic box", scene.Box.Exists, scene.Box.Exists ? "A flight is opened anew after an eighth of the least side." : "The scene has none."),
+        };
+    }
+
+    private static string Idle(List<string> idle) => idle.Count == 0 ? "" : $" On no body of the scene: {string.Join(", ", idle)}.";
+
+    private static string Count(int count, string one, string? many = null) => $"{count.ToString(CultureInfo.InvariantCulture)} {(count == 1 ? one : many ?? one + "s")}";
+
+    private static string Text(double value) => value.ToString("R", CultureInfo.InvariantCulture);
+}

@@ -1,0 +1,69 @@
+using System;
+using System.Linq;
+using LagSim.Harness.Scenes;
+using LagSim.Scenes;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Scenes;
+
+/// <summary>What is said of a scene is what is done for it.</summary>
+public sealed class ExplainTests
+{
+    [Fact]
+    public void Explain_BallisticScene_LeavesOutAllElse()
+    {
+        SceneExplanation explanation = BuiltInScenes.Drop(law: MotionLaw.Ballistic).Explain();
+        BodyExplanation ball = Assert.Single(explanation.Bodies);
+        Assert.Equal((MotionLaw.Ballistic, 0, 0), (ball.Motion, ball.SegmentsPerSecond, ball.EvaluationsPerSecond));
+        Assert.Contains("parabola", ball.Why, StringComparison.Ordinal);
+        Assert.Equal(["rest on planes", "static geometry", "contacts of bodies"], explanation.Features.Where(f => f.IsModelled).Select(f => f.Name));
+    }
+
+    [Fact]
+    public void Explain_LawThatTheSceneAsksFor_NamesTheCheaperOne()
+    {
+        BodyExplanation ball = BuiltInScenes.Drop().Explain().Bodies[0];
+        Assert.Equal((MotionLaw.RungeKutta4, 200.0, 1000.0), (ball.Motion, Math.Round(ball.SegmentsPerSecond, 6), Math.Round(ball.EvaluationsPerSecond, 6)));
+        Assert.StartsWith("The scene asks for RungeKutta4. Ballistic would be cheaper: only uniform gravity", ball.Why, StringComparison.Ordinal);
+    }
+
+    /// <summary>The pieces that are foretold are those that a flight without impacts has.</summary>
+    [Fact]
+    public void Explain_PiecesPerSecond_AreWhatTheWorldMakes()
+    {
+        Scene scene = Forced();
+        Simulation world = Run(scene, 1);
+        foreach (BodyExplanation body in scene.Explain().Bodies)
+        {
+            int pieces = world.Timeline(scene.BodyNamed(body.Body)).Count - 1;
+            Assert.InRange(pieces, body.SegmentsPerSecond * 0.5, (body.SegmentsPerSecond * 2) + 1);
+        }
+    }
+
+    [Fact]
+    public void Explain_Forces_NamesThoseThatActAndThoseThatDoNot()
+    {
+        SceneExplanation explanation = Forced().Explain();
+        Assert.Equal([MotionLaw.ClosedForm, MotionLaw.DormandPrince54, MotionLaw.Ballistic], explanation.Bodies.Select(b => b.Motion));
+        Assert.Equal("Gravity, oil (LinearDrag): linear in position and velocity, so there is a closed form.", explanation.Bodies[0].Why);
+        Assert.Equal("Gravity, air (QuadraticDrag): together without a closed form here, so steps whose error is kept within 1E-09 m.", explanation.Bodies[1].Why);
+        FeatureExplanation forces = explanation.Features.Single(f => f.Name == "forces besides gravity");
+        Assert.True(forces.IsModelled);
+        Assert.Equal("2 forces on bodies that name them. On no body of the scene: unused.", forces.Why);
+    }
+
+    [Fact]
+    public void Explain_ManyBodies_SaysThatThereIsAnIndex()
+    {
+        Assert.Contains("without an index", Contacts(BuiltInScenes.Crowd(64)), StringComparison.Ordinal);
+        Assert.Contains("index of swept paths", Contacts(BuiltInScenes.Crowd(65)), StringComparison.Ordinal);
+
+        static string Contacts(Scene scene) => scene.Explain().Features.Single(f => f.Name == "contacts of bodies").Why;
+    }
+
+    private static Scene Forced() => new SceneBuilder("forced")
+        .AddForce(Force.LinearDrag("oil", 0.5), out ForceSet oil).AddForce(Force.QuadraticDrag("air", 0.1), out ForceSet air).AddForce(Force.LinearDrag("unused", 1))
+        .AddBody("oily", new BodySpec(0.5, 1, 1, forces: oil), V(0), V(5)).AddBody("airy", new BodySpec(0.5, 1, 1, forces: air), V(5), V(5, 5))
+        .AddBody("free", new BodySpec(0.5, 1, 1), V(10)).Build();
+}
