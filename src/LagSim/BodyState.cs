@@ -6,8 +6,9 @@ namespace LagSim;
 /// <remarks>Immutable, safe on any thread.</remarks>
 public readonly struct BodyState
 {
-    internal BodyState(Vector3D position, Vector3D velocity, MotionLaw motion)
+    internal BodyState(Vector3D position, Vector3D velocity, MotionLaw motion, Vector3D spin = default)
     {
+        Spin = spin;
         Position = position;
         Velocity = velocity;
         Motion = motion;
@@ -19,14 +20,17 @@ public readonly struct BodyState
     /// <summary>Metres per second.</summary>
     public Vector3D Velocity { get; }
 
+    /// <summary>How it turns, in radians per second about the vector; zero of what has no friction and was not given any.</summary>
+    public Vector3D Spin { get; }
+
     /// <summary>The law it moves by; <see cref="MotionLaw.Absent"/> if it is not there.</summary>
     public MotionLaw Motion { get; }
 
-    /// <summary>Whether every bit of position and velocity, and the law, are the same.</summary>
+    /// <summary>Whether every bit of position, velocity and spin, and the law, are the same.</summary>
     public bool IsSameBits(in BodyState other) =>
-        Motion == other.Motion && Bits(Position.X) == Bits(other.Position.X) && Bits(Position.Y) == Bits(other.Position.Y)
-        && Bits(Position.Z) == Bits(other.Position.Z) && Bits(Velocity.X) == Bits(other.Velocity.X)
-        && Bits(Velocity.Y) == Bits(other.Velocity.Y) && Bits(Velocity.Z) == Bits(other.Velocity.Z);
+        Motion == other.Motion && IsSame(Position, other.Position) && IsSame(Velocity, other.Velocity) && IsSame(Spin, other.Spin);
+
+    private static bool IsSame(in Vector3D a, in Vector3D b) => Bits(a.X) == Bits(b.X) && Bits(a.Y) == Bits(b.Y) && Bits(a.Z) == Bits(b.Z);
 
     // -0.0 counts as 0.0, as in every hash.
     private static long Bits(double value) => System.BitConverter.DoubleToInt64Bits(value + 0.0);

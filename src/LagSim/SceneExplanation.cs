@@ -110,7 +110,7 @@ public sealed class SceneExplanation
             new FeatureExplanation(
                 "forces besides gravity", used != 0, used != 0 ? $"{Count(scene.ForceArray.Length - idle.Count, "force")} on bodies that name them." + Idle(idle) : "No body names one." + Idle(idle)),
             new FeatureExplanation("integrator", inPieces > 0, inPieces > 0 ? $"{Count(inPieces, "body", "bodies")} of {bodies} in steps." : $"Every path has a closed form{(closed > 0 ? $", {closed} of {bodies} in pieces of degree five" : "")}."),
-            new FeatureExplanation("spin and friction", false, "Contacts are frictionless, so nothing would ever turn."),
+            SpinAndFriction(scene),
             new FeatureExplanation(
                 "rest on planes", canLast, canLast ? "Planes under gravity: bounces below the resolution end in sliding or rest, which cost nothing." : "There is no plane, or no gravity to press on it."),
             new FeatureExplanation(
@@ -121,6 +121,22 @@ public sealed class SceneExplanation
                 hasIndex ? $"{bodies} bodies: an index of swept paths names those that come near." : $"{Count(bodies, "body", "bodies")}: up to {SimulationOptions.DefaultMostPairs} every pair is looked at, without an index."),
             new FeatureExplanation("periodic box", scene.Box.Exists, scene.Box.Exists ? "A flight is opened anew after an eighth of the least side." : "The scene has none."),
         };
+    }
+
+    private static FeatureExplanation SpinAndFriction(Scene scene)
+    {
+        int rough = 0;
+        int turning = 0;
+        foreach (SceneBody body in scene.BodyArray)
+        {
+            rough += body.Spec.Friction > 0 ? 1 : 0;
+            turning += body.Spin != Vector3D.Zero ? 1 : 0;
+        }
+
+        string why = rough > 0 ? $"{Count(rough, "body", "bodies")} of {scene.BodyArray.Length} with friction: impacts turn them, on planes they slip, roll and rest."
+            : turning > 0 ? $"{Count(turning, "body", "bodies")} of {scene.BodyArray.Length} turn, evenly and for ever, since none has friction."
+            : "No body has friction or turns at the start, so nothing ever turns.";
+        return new FeatureExplanation("spin and friction", rough + turning > 0, why);
     }
 
     private static string Idle(List<string> idle) => idle.Count == 0 ? "" : $" On no body of the scene: {string.Join(", ", idle)}.";

@@ -172,15 +172,24 @@ public sealed partial class Simulation
         {
             double h = segment.End.SecondsSince(segment.Epoch);
             DenseOutput dense = timelines.Dense(last);
-            OpenFlight(slot, key, segment.PositionAt(h, dense), segment.VelocityAt(h, dense));
+            OpenFlight(slot, key, segment.PositionAt(h, dense), segment.VelocityAt(h, dense), spin: timelines.SpinOf(last).At(h));
         }
         else if (segment.Law == MotionLaw.Ballistic && Scene.Box.Exists)
         {
-            OpenFlight(slot, key, PositionAt(last, key.Time), segment.Velocity);
+            OpenFlight(slot, key, PositionAt(last, key.Time), segment.Velocity, spin: timelines.SpinOf(last).AtEpoch);
         }
         else if (segment.Law == MotionLaw.Resting)
         {
             EndWedgedRest(slot, key);
+        }
+        else if (segment.Supports.Count == 1 && FrictionOn(slot, segment.Supports[0]) > 0)
+        {
+            // It has stopped slipping, or rolling, or turned a little.
+            double seconds = segment.End.SecondsSince(segment.Epoch);
+            Span<int> carrier = stackalloc int[] { segment.Supports[0] };
+            Open(
+                slot, key, segment.PositionAt(seconds, default), segment.VelocityAt(seconds, default), 0, carrier, segment.Crowding,
+                timelines.SpinOf(last).At(seconds));
         }
         else if (segment.Acceleration != Vector3D.Zero)
         {
@@ -190,11 +199,11 @@ public sealed partial class Simulation
         else
         {
             // The limit of a bounce sequence: what was carried along on the supports has come to rest on them.
-            Append(slot, key, MotionSegment.AtRest(key.Time, segment.Position, segment.Supports), default);
+            Append(slot, key, MotionSegment.AtRest(key.Time, segment.Position, segment.Supports), default, spin: timelines.SpinOf(last));
         }
     }
 
-    private void Append(int slot, in EventKey key, in MotionSegment segment, in DenseOutput dense, in Hold hold = default)
+    private void Append(int slot, in EventKey key, in MotionSegment segment, in DenseOutput dense, in Hold hold = default, in Spin spin = default)
     {
         timelines.DropBefore(slot, HistoryEdge);
         if (key.Time <= front)
@@ -202,7 +211,7 @@ public sealed partial class Simulation
             CountHealed(slot); // also who had nothing to be cut, because what struck him now comes after all he did
         }
 
-        timelines.Append(slot, bodies[slot].Id, key, segment, dense, hold);
+        timelines.Append(slot, bodies[slot].Id, key, segment, dense, hold, spin);
     }
 
     /// <summary>The round of something at <paramref name="time"/> on the body's newest segment: what a tick's own event causes at it comes a round later.</summary>

@@ -187,7 +187,8 @@ public sealed partial class Simulation
 
             if (isPermitted)
             {
-                Open(slot, key, position, velocity, 0, carriers.Slice(0, count));
+                Vector3D spin = external.Kind == EventKind.Teleport ? Vector3D.Zero : timelines.SpinOf(last).At(seconds);
+                Open(slot, key, position, velocity, 0, carriers.Slice(0, count), 0, spin);
             }
         }
     }

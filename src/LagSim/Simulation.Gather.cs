@@ -115,6 +115,8 @@ public sealed partial class Simulation
             Array.Resize(ref partyPositions, size);
             Array.Resize(ref partyVelocities, size);
             Array.Resize(ref partyTrial, size);
+            Array.Resize(ref partySpins, size);
+            Array.Resize(ref partyRadii, size);
             Array.Resize(ref partyAccelerations, size);
         }
 

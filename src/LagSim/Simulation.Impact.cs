@@ -24,11 +24,15 @@ public sealed partial class Simulation
     private const double LeastRebound = 1e-9;
 
     private readonly ImpactSolver solver = new();
+    private readonly ImpactFriction friction = new();
     private int[] parties = new int[4];
     private double[] partyMasses = new double[4];
     private Vector3D[] partyPositions = new Vector3D[4];
     private Vector3D[] partyVelocities = new Vector3D[4];
     private Vector3D[] partyTrial = new Vector3D[4];
+    private Vector3D[] partySpins = new Vector3D[4];
+    private double[] partyRadii = new double[4];
+    private double[] coefficients = new double[8];
     private Vector3D[] partyAccelerations = new Vector3D[4];
     private ContactPoint[] contacts = new ContactPoint[8];
     private int[] touched = new int[8];
@@ -72,6 +76,7 @@ public sealed partial class Simulation
             Unite();
         }
 
+        Rub();
         LimitSpeeds();
         contactCount = struck;
 
@@ -159,6 +164,8 @@ public sealed partial class Simulation
             partyPositions[i] = segment.PositionAt(seconds, dense);
             partyVelocities[i] = segment.VelocityAt(seconds, dense);
             partyAccelerations[i] = segment.AccelerationAt(seconds, dense);
+            partySpins[i] = timelines.SpinOf(last).At(seconds);
+            partyRadii[i] = bodies[parties[i]].Spec.Radius;
         }
     }
 
@@ -206,6 +213,45 @@ public sealed partial class Simulation
         double second = c.Second != ContactPoint.Static ? bodies[parties[c.Second]].Spec.Restitution
             : c.Surface < Scene.PlaneArray.Length ? Scene.PlaneArray[c.Surface].Restitution
             : Scene.SphereArray[c.Surface - Scene.PlaneArray.Length].Restitution;
+        return Math.Min(first, second);
+    }
+
+    /// <summary>Friction in the impact at hand, if any of its parties has some.</summary>
+    private void Rub()
+    {
+        bool rubs = false;
+        for (int i = 0; i < partyCount; i++)
+        {
+            rubs |= bodies[parties[i]].Spec.Friction > 0;
+        }
+
+        if (!rubs)
+        {
+            return;
+        }
+
+        if (contactCount > coefficients.Length)
+        {
+            coefficients = new double[contactCount * 2];
+        }
+
+        for (int i = 0; i < contactCount; i++)
+        {
+            coefficients[i] = Friction(contacts[i]);
+        }
+
+        friction.Solve(
+            contacts.AsSpan(0, contactCount), coefficients.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount), partyRadii.AsSpan(0, partyCount),
+            partyVelocities.AsSpan(0, partyCount), partySpins.AsSpan(0, partyCount));
+    }
+
+    /// <summary>The lesser of the two parties' coefficients of friction.</summary>
+    private double Friction(in ContactPoint c)
+    {
+        double first = bodies[parties[c.First]].Spec.Friction;
+        double second = c.Second != ContactPoint.Static ? bodies[parties[c.Second]].Spec.Friction
+            : c.Surface < Scene.PlaneArray.Length ? Scene.PlaneArray[c.Surface].Friction
+            : Scene.SphereArray[c.Surface - Scene.PlaneArray.Length].Friction;
         return Math.Min(first, second);
     }
 
@@ -291,7 +337,7 @@ public sealed partial class Simulation
         }
 
         int crowding = IsPushedOutOfRest(slot) ? 0 : CrowdingAt(slot, key.Time);
-        Open(slot, key, partyPositions[party], partyVelocities[party], -residual, touched.AsSpan(0, count), crowding);
+        Open(slot, key, partyPositions[party], partyVelocities[party], -residual, touched.AsSpan(0, count), crowding, partySpins[party]);
     }
 
     private void AddTouched(ref int count, int plane)

@@ -18,9 +18,9 @@ public sealed partial class Simulation
     /// Opens the body's next segment from a state that holds <paramref name="carry"/> seconds before the key's tick (under a tick, either
     /// way): at rest on or sliding along those of the touched planes that carry it, else in free flight.
     /// </summary>
-    private void Open(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, int crowding = 0)
+    private void Open(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, int crowding, in Vector3D spin)
     {
-        if (touchedPlanes.Length > 0 && TryOpenSupported(slot, key, position, velocity, carry, touchedPlanes, crowding))
+        if (touchedPlanes.Length > 0 && TryOpenSupported(slot, key, position, velocity, carry, touchedPlanes, crowding, spin))
         {
             return;
         }
@@ -29,15 +29,15 @@ public sealed partial class Simulation
         Vector3D v = velocity;
         if (carry != 0)
         {
-            Vector3D a = forces.At(bodies[slot].Spec, key.Time, -carry, position, velocity);
+            Vector3D a = forces.At(bodies[slot].Spec, key.Time, -carry, position, velocity, spin);
             x += (v + (a * (0.5 * carry))) * carry;
             v += a * carry;
         }
 
-        OpenFlight(slot, key, x, v, crowding);
+        OpenFlight(slot, key, x, v, crowding, spin);
     }
 
-    private void OpenFlight(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, int crowding = 0)
+    private void OpenFlight(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, int crowding = 0, in Vector3D spin = default)
     {
         Vector3D x = Scene.Box.Wrap(position.WithoutNegativeZero());
         Vector3D v = velocity.WithoutNegativeZero();
@@ -46,27 +46,27 @@ public sealed partial class Simulation
         if (spec.Flight == MotionLaw.Ballistic)
         {
             SimTime end = Scene.Box.Exists ? EndOfFlight(key.Time, v) : EndOfRange(key.Time, v, Scene.Gravity);
-            Append(slot, key, new MotionSegment(MotionLaw.Ballistic, key.Time, end, x, v, Scene.Gravity, crowding: crowding), default);
+            Append(slot, key, new MotionSegment(MotionLaw.Ballistic, key.Time, end, x, v, Scene.Gravity, crowding: crowding), default, spin: new Spin(spin));
         }
         else
         {
-            MotionSegment piece = PieceOfFlight(slot, key.Time, x, v, out DenseOutput dense);
-            Append(slot, key, piece.WithCrowding(crowding), dense);
+            MotionSegment piece = PieceOfFlight(slot, key.Time, x, v, spin, out DenseOutput dense);
+            Append(slot, key, piece.WithCrowding(crowding), dense, spin: new Spin(spin));
         }
     }
 
     /// <summary>The first piece of a flight that is no parabola: a step of an integrator, or as much of a closed form as a polynomial follows.</summary>
-    private MotionSegment PieceOfFlight(int slot, SimTime from, in Vector3D x, in Vector3D v, out DenseOutput dense)
+    private MotionSegment PieceOfFlight(int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, out DenseOutput dense)
     {
         ref readonly BodySpec spec = ref bodies[slot].Spec;
         double tooStiff = 0;
         double tooLarge = 0;
         MotionSegment piece = spec.Flight switch
         {
-            MotionLaw.RungeKutta4 => RungeKutta4.Step(forces, spec, from, x, v, out dense, out tooStiff),
-            MotionLaw.ClosedForm when FlightLaws.AreLinear(spec, Scene.ForceArray) => new LinearFlight(Scene, spec).Piece(forces, from, x, v, out dense),
+            MotionLaw.RungeKutta4 => RungeKutta4.Step(forces, spec, from, x, v, spin, out dense, out tooStiff),
+            MotionLaw.ClosedForm when FlightLaws.AreLinear(spec, Scene.ForceArray) => new LinearFlight(Scene, spec, spin).Piece(forces, from, x, v, out dense),
             MotionLaw.ClosedForm => new KeplerFlight(Scene, spec).Piece(from, x, v, out dense, out tooLarge),
-            _ => DormandPrince54.Step(forces, spec, from, x, v, StepToTry(slot), out dense, out tooLarge),
+            _ => DormandPrince54.Step(forces, spec, from, x, v, spin, StepToTry(slot), out dense, out tooLarge),
         };
         if (!piece.Acceleration.IsFinite || (!dense.IsFinite && tooLarge == 0))
         {
@@ -109,7 +109,7 @@ public sealed partial class Simulation
     /// the plane, and it rests from the end of that time on. Tangential motion goes on unchanged: frictionless bounces do not touch it.
     /// </summary>
     private bool TryOpenSupported(
-        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, int crowding)
+        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, int crowding, in Vector3D spin)
     {
         if (!bodies[slot].Spec.Forces.IsEmpty)
         {
@@ -137,16 +137,22 @@ public sealed partial class Simulation
         Vector3D tangential = PlaneSupport.Tangential(velocity, supports, Scene.PlaneArray);
         Vector3D start = OntoSupports(slot, supports, position + (tangential * carry));
         tangential = (tangential + (acceleration * carry)).WithoutNegativeZero();
+        if (supports.Count == 1 && FrictionOn(slot, supports[0]) > 0)
+        {
+            OpenRubbing(slot, key, start, tangential, spin, supports, acceleration, crowding, left);
+            return true;
+        }
+
         CheckState(slot, key, start, tangential);
         bool rests = tangential == Vector3D.Zero && acceleration == Vector3D.Zero;
         if (rests && left == SimDuration.Zero)
         {
-            Append(slot, key, MotionSegment.AtRest(key.Time, start, supports).WithCrowding(crowding), default);
+            Append(slot, key, MotionSegment.AtRest(key.Time, start, supports).WithCrowding(crowding), default, spin: new Spin(spin));
         }
         else
         {
             SimTime end = rests ? key.Time + left : EndOfRange(key.Time, tangential, acceleration);
-            Append(slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, end, start, tangential, acceleration, supports, crowding), default);
+            Append(slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, end, start, tangential, acceleration, supports, crowding), default, spin: new Spin(spin));
         }
 
         return true;

@@ -45,6 +45,11 @@ public sealed partial class Simulation
                 hash.Add((ulong)state.Motion);
                 hash.Add(state.Position);
                 hash.Add(state.Velocity);
+                if (state.Spin != Vector3D.Zero)
+                {
+                    hash.Add(state.Spin);
+                }
+
                 if (state.Motion == MotionLaw.Held)
                 {
                     hash.Add((ulong)timelines.HoldOf(timelines.At(slot, time)).Peer);
@@ -87,7 +92,7 @@ public sealed partial class Simulation
         {
             MotionSegment segment = timelines.Segment(at);
             double seconds = SecondsInto(at, timelines.Key(at).Time);
-            entries.Add(new TimelineEntry(timelines.Key(at), StateOf(segment, seconds, timelines.Dense(at), Scene.Box)));
+            entries.Add(new TimelineEntry(timelines.Key(at), StateOf(segment, seconds, timelines.Dense(at), Scene.Box, timelines.SpinOf(at))));
         }
 
         return entries;
@@ -123,15 +128,15 @@ public sealed partial class Simulation
 
     internal double RadiusOfSlot(int slot) => bodies[slot].Spec.Radius;
 
-    internal static BodyState StateOf(in MotionSegment segment, double seconds, in DenseOutput dense, in PeriodicBox box) =>
+    internal static BodyState StateOf(in MotionSegment segment, double seconds, in DenseOutput dense, in PeriodicBox box, in Spin spin) =>
         segment.IsPresent
-            ? new BodyState(box.Wrap(segment.PositionAt(seconds, dense)), segment.VelocityAt(seconds, dense), segment.Law)
+            ? new BodyState(box.Wrap(segment.PositionAt(seconds, dense)), segment.VelocityAt(seconds, dense), segment.Law, spin.At(seconds))
             : default;
 
     private BodyState StateAt(int slot, SimTime time)
     {
         int at = timelines.At(slot, time);
-        return at == TimelineStore.None ? default : StateOf(timelines.Segment(at), SecondsInto(at, time), timelines.Dense(at), Scene.Box);
+        return at == TimelineStore.None ? default : StateOf(timelines.Segment(at), SecondsInto(at, time), timelines.Dense(at), Scene.Box, timelines.SpinOf(at));
     }
 
     private void CheckReadable(SimTime time)

@@ -40,7 +40,7 @@ public sealed partial class Simulation
         foreach (ref readonly BodySnapshot body in snapshot.BodyArray.AsSpan())
         {
             int slot = AddBody(body.Id, body.Spec);
-            timelines.Append(slot, body.Id, body.Opened, body.Segment, body.Dense, body.Hold);
+            timelines.Append(slot, body.Id, body.Opened, body.Segment, body.Dense, body.Hold, body.SpinPath);
         }
 
         timelines.ContinueFrom(snapshot.EventHash);
@@ -67,7 +67,7 @@ public sealed partial class Simulation
             int at = timelines.At(slot, last);
             if (at != TimelineStore.None && timelines.Segment(at).IsPresent)
             {
-                there.Add(new BodySnapshot(bodies[slot].Id, bodies[slot].Spec, timelines.Key(at), timelines.Segment(at), timelines.Dense(at), timelines.HoldOf(at)));
+                there.Add(new BodySnapshot(bodies[slot].Id, bodies[slot].Spec, timelines.Key(at), timelines.Segment(at), timelines.Dense(at), timelines.HoldOf(at), timelines.SpinOf(at)));
             }
         }
 

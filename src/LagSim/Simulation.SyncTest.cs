@@ -99,7 +99,7 @@ public sealed partial class Simulation
 
         ref readonly MotionSegment x = ref expected.timelines.Segment(a);
         ref readonly MotionSegment y = ref actual.timelines.Segment(b);
-        return x.IsSameAs(y) && expected.timelines.HoldOf(a) == actual.timelines.HoldOf(b)
+        return x.IsSameAs(y) && expected.timelines.HoldOf(a) == actual.timelines.HoldOf(b) && expected.timelines.SpinOf(a).IsSameAs(actual.timelines.SpinOf(b))
             && (!x.IsDense || expected.timelines.Dense(a).IsSameAs(actual.timelines.Dense(b)));
     }
 

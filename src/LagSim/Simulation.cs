@@ -60,7 +60,7 @@ public sealed partial class Simulation
             ref readonly SceneBody body = ref scene.BodyArray[i];
             int slot = AddBody(BodyId.OfScene(i), body.Spec);
             EventKey key = new(Start, 0, EventKind.Start, bodies[slot].Id, bodies[slot].Id, 0, 0);
-            OpenFlight(slot, key, body.Position, body.Velocity);
+            OpenFlight(slot, key, body.Position, body.Velocity, spin: body.Spin);
         }
 
         PredictAll();

@@ -7,7 +7,7 @@ namespace LagSim.Harness.Check;
 
 /// <summary>A random scene: a closed room in which 8 to 12 balls meet each other all the time.</summary>
 /// <remarks>
-/// With and without gravity, often flat, with any restitution and mass ratio, on any law of flight under any of the forces, sometimes around static spheres. Some are calm: what falls there
+/// With and without gravity, often flat, with any restitution and mass ratio, on any law of flight under any of the forces, with and without friction, sometimes around static spheres. Some are calm: what falls there
 /// comes to rest within a second or two, until something happens to it, and so news comes late for a body that rests by then.
 /// </remarks>
 internal sealed class CheckScene
@@ -20,6 +20,8 @@ internal sealed class CheckScene
     private readonly SeededRandom random;
     private readonly SeededRandom flights; // a stream of its own: what flies how changes nothing else that is drawn
     private readonly int forcedPercent;
+    private readonly int roughPercent;
+    private readonly double rolling;
     private readonly double[] masses;
     private readonly double[] restitutions;
     private readonly double half;
@@ -37,10 +39,13 @@ internal sealed class CheckScene
     {
         this.random = random;
         flights = random.Fork(1);
-        forcedPercent = flights.IsLucky(30) ? 30 : 0;
+        bool isForced = flights.IsLucky(45);
+        roughPercent = flights.IsLucky(30) ? 70 : 0;
+        rolling = flights.Pick(0, 0.01, 0.05);
         masses = random.IsLucky(20) ? ExtremeMasses : Masses;
         isCalm = random.IsLucky(10);
         hasGravity = random.IsLucky(35) || isCalm;
+        forcedPercent = isForced && !hasGravity ? 30 : 0; // what a force presses on a floor hops on it a thousand times a second
         restitutions = isCalm ? CalmRestitutions : random.IsLucky(hasGravity ? 85 : 30) ? [0.9, 1, 1] : Restitutions; // what falls and loses speed piles up
         half = random.NextDouble(1.6, 2.1);
         isFlat = random.IsLucky(60) && !isCalm; // there they would lie on top of each other
@@ -80,11 +85,11 @@ internal sealed class CheckScene
             .AddPlane("south", new Vector3D(0, 0, -1), new Vector3D(0, 0, half), wall)
             .AddPlane("ceiling", new Vector3D(0, -1, 0), new Vector3D(0, 2 * half, 0), wall)
             .AddForce(Force.Supplied(Accelerations[0]))
-            .AddForce(Force.LinearDrag("oil", 0.3, new Vector3D(0.5, 0, 0)))
+            .AddForce(Force.LinearDrag("oil", 0.3))
             .AddForce(Force.Spring("spring", new Vector3D(0, half, 0), 1.5, 0.1))
             .AddForce(Force.Magnetic("coil", new Vector3D(0, 0.4, 1), 1.2))
-            .AddForce(Force.QuadraticDrag("air", 0.1, new Vector3D(0, 0.5, 0)))
-            .AddForce(Force.Central("well", new Vector3D(0.2, half, 0), 3, -1));
+            .AddForce(Force.QuadraticDrag("air", 0.1))
+            .AddForce(Force.Central("well", new Vector3D(0.2, half, 0), 1.5, 1));
         if (!hasGravity)
         {
             builder.WithGravity(Vector3D.Zero);
@@ -97,7 +102,7 @@ internal sealed class CheckScene
 
         foreach (int i in kept)
         {
-            builder.AddBody($"ball {i}", bodies[i].Spec, bodies[i].Position, bodies[i].Velocity);
+            builder.AddBody($"ball {i}", bodies[i].Spec, bodies[i].Position, bodies[i].Velocity, spin: bodies[i].Spec.Friction > 0 ? new Vector3D(0, 3, i - 4) : Vector3D.Zero);
         }
 
         return builder.Build();
@@ -109,10 +114,14 @@ internal sealed class CheckScene
         BodySpec spec = new(
             random.Pick(0.2, 0.2, 0.25, 0.3), random.Pick(masses), random.Pick(restitutions), isIntegrated ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic,
             isIntegrated ? SimDuration.FromSeconds(random.Pick(0.03125, 0.05)) : default, isIntegrated && hasForce ? ForceSet.Of(0) : ForceSet.None);
-        return masses == Masses && flights.IsLucky(forcedPercent) ? Forced(spec) : spec;
+        return masses != Masses ? spec : flights.IsLucky(forcedPercent) ? Forced(spec) : flights.IsLucky(roughPercent) ? Rough(spec) : spec;
     }
 
-    /// <summary>The same ball under any of the forces, by the law that the world picks for them, or another.</summary>
+    /// <summary>The same ball with friction.</summary>
+    private BodySpec Rough(in BodySpec spec) => new(
+        spec.Radius, spec.Mass, spec.Restitution, spec.Flight, spec.Step, spec.Forces, spec.Tolerance, flights.Pick(0.1, 0.4, 1), rolling);
+
+    /// <summary>The same ball under any of the forces, with and without friction, by the law that the world picks for them, or another.</summary>
     private BodySpec Forced(in BodySpec spec)
     {
         ForceSet set = ForceSet.None;
@@ -127,7 +136,7 @@ internal sealed class CheckScene
 
         MotionLaw law = flights.Pick(MotionLaw.Automatic, MotionLaw.Automatic, MotionLaw.Automatic, MotionLaw.RungeKutta4, MotionLaw.DormandPrince54);
         return new BodySpec(
-            spec.Radius, spec.Mass, spec.Restitution, law, SimDuration.FromSeconds(flights.Pick(0.03125, 0.05)), set, flights.Pick(1e-3, 1e-5));
+            spec.Radius, spec.Mass, spec.Restitution, law, SimDuration.FromSeconds(flights.Pick(0.03125, 0.05)), set, flights.Pick(1e-3, 1e-5), flights.IsLucky(roughPercent) ? 0.3 : 0);
     }
 
     internal Vector3D DrawPosition() => new(

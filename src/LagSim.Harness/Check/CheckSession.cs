@@ -153,6 +153,7 @@ internal sealed class CheckSession
         SessionOptions sessionOptions = new()
         {
             Accelerations = drawn.Accelerations,
+            MaxGivenSpeed = double.PositiveInfinity, // a light ball among heavy ones gets faster than any player may make it
             Window = new(drawn.History, drawn.LookAhead),
             ExtraHistory = drawn.ExtraHistory,
             PicturePast = SimDuration.Zero,

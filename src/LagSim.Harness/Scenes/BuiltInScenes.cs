@@ -143,12 +143,12 @@ public static class BuiltInScenes
             .WithPeriodicBox(scene.Box.Size);
         foreach (StaticPlane plane in scene.Planes)
         {
-            builder.AddPlane(plane.Name, plane.Normal, plane.Offset, plane.Restitution);
+            builder.AddPlane(plane.Name, plane.Normal, plane.Offset, plane.Restitution, plane.Friction);
         }
 
         foreach (StaticSphere sphere in scene.StaticSpheres)
         {
-            builder.AddStaticSphere(sphere.Name, sphere.Centre, sphere.Radius, sphere.Restitution);
+            builder.AddStaticSphere(sphere.Name, sphere.Centre, sphere.Radius, sphere.Restitution, sphere.Friction);
         }
 
         foreach (Force force in scene.Forces)
@@ -158,7 +158,7 @@ public static class BuiltInScenes
 
         foreach (SceneBody body in scene.Bodies)
         {
-            builder.AddBody(body.Name, body.Spec.With(law, step), body.Position, body.Velocity, body.Players);
+            builder.AddBody(body.Name, body.Spec.With(law, step), body.Position, body.Velocity, body.Players, body.Spin);
         }
 
         return builder.Build();

@@ -14,6 +14,7 @@ internal static class ForceKindNames
         (ForceKind.QuadraticDrag, "quadratic_drag", new(["coefficient_kg_per_m"], ["medium_m_per_s"])),
         (ForceKind.Spring, "spring", new(["anchor_m", "stiffness_n_per_m"], ["damping_kg_per_s"])),
         (ForceKind.Magnetic, "magnetic", new(["field_t", "charge_c"], [])),
+        (ForceKind.Magnus, "magnus", new(["coefficient_kg"], [])),
         (ForceKind.Central, "central", new(["centre_m", "strength_m_per_s2"], ["power"])),
     ];
 

@@ -10,7 +10,7 @@ internal ref partial struct SceneJsonReader
 {
     private static readonly JsonKeys ForceKeys = new(
         ["name", "kind"],
-        ["coefficient_kg_per_s", "coefficient_kg_per_m", "medium_m_per_s", "anchor_m", "stiffness_n_per_m", "damping_kg_per_s", "field_t", "charge_c", "centre_m", "strength_m_per_s2", "power"]);
+        ["coefficient_kg_per_s", "coefficient_kg_per_m", "medium_m_per_s", "anchor_m", "stiffness_n_per_m", "damping_kg_per_s", "field_t", "charge_c", "coefficient_kg", "centre_m", "strength_m_per_s2", "power"]);
 
     private void ReadForce()
     {
@@ -66,6 +66,7 @@ internal ref partial struct SceneJsonReader
             ForceKind.LinearDrag => Force.LinearDrag(name, numbers["coefficient_kg_per_s"], vectors.GetValueOrDefault("medium_m_per_s")),
             ForceKind.QuadraticDrag => Force.QuadraticDrag(name, numbers["coefficient_kg_per_m"], vectors.GetValueOrDefault("medium_m_per_s")),
             ForceKind.Spring => Force.Spring(name, vectors["anchor_m"], numbers["stiffness_n_per_m"], numbers.GetValueOrDefault("damping_kg_per_s")),
+            ForceKind.Magnus => Force.Magnus(name, numbers["coefficient_kg"]),
             ForceKind.Magnetic => Force.Magnetic(name, vectors["field_t"], numbers["charge_c"]),
             _ => Force.Central(name, vectors["centre_m"], numbers["strength_m_per_s2"], Power(numbers.GetValueOrDefault("power", -2))),
         };

@@ -7,6 +7,9 @@ namespace LagSim.Harness.Scenes;
 /// <content>Planes, static spheres and bodies.</content>
 internal ref partial struct SceneJsonReader
 {
+    /// <summary>What a surface has that leaves friction to the bodies.</summary>
+    internal const double MostFriction = 100;
+
     private void ReadPlane()
     {
         string name = "";
@@ -14,6 +17,7 @@ internal ref partial struct SceneJsonReader
         Vector3D? point = null;
         double? offset = null;
         double restitution = 1;
+        double friction = MostFriction;
         uint seen = 0;
         cursor.EnterObject();
         while (cursor.NextKey(PlaneKeys, ref seen) is string key)
@@ -32,6 +36,9 @@ internal ref partial struct SceneJsonReader
                 case "offset_m":
                     offset = cursor.Number();
                     break;
+                case "friction":
+                    friction = cursor.Number();
+                    break;
                 default:
                     restitution = cursor.Number();
                     break;
@@ -44,7 +51,7 @@ internal ref partial struct SceneJsonReader
             throw cursor.FailAt(key, $"a plane needs point_m or offset_m, exactly one; {count} here");
         }
 
-        Add(b => _ = point is Vector3D through ? b.AddPlane(name, normal, through, restitution) : b.AddPlane(name, normal, offset!.Value, restitution));
+        Add(b => _ = point is Vector3D through ? b.AddPlane(name, normal, through, restitution, friction) : b.AddPlane(name, normal, offset!.Value, restitution, friction));
     }
 
     private void ReadSphere()
@@ -53,6 +60,7 @@ internal ref partial struct SceneJsonReader
         Vector3D centre = default;
         double radius = 0;
         double restitution = 1;
+        double friction = MostFriction;
         uint seen = 0;
         cursor.EnterObject();
         while (cursor.NextKey(SphereKeys, ref seen) is string key)
@@ -68,13 +76,16 @@ internal ref partial struct SceneJsonReader
                 case "radius_m":
                     radius = cursor.Number();
                     break;
+                case "friction":
+                    friction = cursor.Number();
+                    break;
                 default:
                     restitution = cursor.Number();
                     break;
             }
         }
 
-        Add(b => b.AddStaticSphere(name, centre, radius, restitution));
+        Add(b => b.AddStaticSphere(name, centre, radius, restitution, friction));
     }
 
     private void ReadBody()
@@ -90,6 +101,9 @@ internal ref partial struct SceneJsonReader
         PeerSet players = PeerSet.Everyone;
         List<string> forces = new();
         double tolerance = BodySpec.DefaultTolerance;
+        double friction = 0;
+        double rollingResistance = 0;
+        Vector3D spin = default;
         uint seen = 0;
         cursor.EnterObject();
         while (cursor.NextKey(BodyKeys, ref seen) is string key)
@@ -126,6 +140,15 @@ internal ref partial struct SceneJsonReader
                 case "tolerance":
                     tolerance = cursor.Number();
                     break;
+                case "friction":
+                    friction = cursor.Number();
+                    break;
+                case "rolling_resistance":
+                    rollingResistance = cursor.Number();
+                    break;
+                case "spin_rad_per_s":
+                    spin = cursor.Vector();
+                    break;
                 default:
                     step = Step();
                     break;
@@ -137,7 +160,7 @@ internal ref partial struct SceneJsonReader
         Add(b =>
         {
             ForceSet set = isAlone ? ForceSet.None : SetOf(forces, known);
-            b.AddBody(name, new BodySpec(radius, mass, restitution, motion, step, set, tolerance), position, velocity, players);
+            b.AddBody(name, new BodySpec(radius, mass, restitution, motion, step, set, tolerance, friction, rollingResistance), position, velocity, players, spin);
         });
     }
 }

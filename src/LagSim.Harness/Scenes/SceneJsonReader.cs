@@ -11,12 +11,12 @@ internal ref partial struct SceneJsonReader
     private static readonly JsonKeys SceneKeys =
         new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "smallest_radius_m", "spawners", "periodic_box_m", "forces", "planes", "static_spheres", "bodies"]);
 
-    private static readonly JsonKeys PlaneKeys = new(["name", "normal"], ["point_m", "offset_m", "restitution"]);
+    private static readonly JsonKeys PlaneKeys = new(["name", "normal"], ["point_m", "offset_m", "restitution", "friction"]);
 
-    private static readonly JsonKeys SphereKeys = new(["name", "centre_m", "radius_m"], ["restitution"]);
+    private static readonly JsonKeys SphereKeys = new(["name", "centre_m", "radius_m"], ["restitution", "friction"]);
 
     private static readonly JsonKeys BodyKeys =
-        new(["name", "radius_m", "mass_kg", "restitution", "position_m"], ["velocity_m_per_s", "motion", "step_s", "forces", "tolerance", "players"]);
+        new(["name", "radius_m", "mass_kg", "restitution", "position_m"], ["velocity_m_per_s", "motion", "step_s", "forces", "tolerance", "friction", "rolling_resistance", "spin_rad_per_s", "players"]);
 
     private readonly bool locate;
     private readonly List<Action<SceneBuilder>> parts = new(); // what to build, once the name is known

@@ -53,6 +53,7 @@ internal static class SceneJsonWriter
             Vector(json, "normal", plane.Normal);
             json.WriteNumber("offset_m", plane.Offset);
             json.WriteNumber("restitution", plane.Restitution);
+            Friction(json, plane.Friction, SceneJsonReader.MostFriction);
         });
         List(json, "static_spheres", scene.StaticSpheres, sphere =>
         {
@@ -60,6 +61,7 @@ internal static class SceneJsonWriter
             Vector(json, "centre_m", sphere.Centre);
             json.WriteNumber("radius_m", sphere.Radius);
             json.WriteNumber("restitution", sphere.Restitution);
+            Friction(json, sphere.Friction, SceneJsonReader.MostFriction);
         });
         List(json, "bodies", scene.Bodies, body => Body(json, scene, body));
         json.WriteEndObject();
@@ -141,7 +143,26 @@ internal static class SceneJsonWriter
             json.WriteNumber("tolerance", body.Spec.Tolerance);
         }
 
+        Friction(json, body.Spec.Friction, 0);
+        if (body.Spec.RollingResistance != 0)
+        {
+            json.WriteNumber("rolling_resistance", body.Spec.RollingResistance);
+        }
+
+        if (body.Spin != Vector3D.Zero)
+        {
+            Vector(json, "spin_rad_per_s", body.Spin);
+        }
+
         Peers(json, "players", body.Players);
+    }
+
+    private static void Friction(Utf8JsonWriter json, double friction, double byDefault)
+    {
+        if (friction != byDefault)
+        {
+            json.WriteNumber("friction", friction);
+        }
     }
 
     private static void WriteForce(Utf8JsonWriter json, Force force)
@@ -158,6 +179,9 @@ internal static class SceneJsonWriter
                 Vector(json, "anchor_m", force.Vector);
                 json.WriteNumber("stiffness_n_per_m", force.Strength);
                 json.WriteNumber("damping_kg_per_s", force.Damping);
+                break;
+            case ForceKind.Magnus:
+                json.WriteNumber("coefficient_kg", force.Strength);
                 break;
             case ForceKind.Magnetic:
                 Vector(json, "field_t", force.Vector);

@@ -24,7 +24,7 @@ public static class EventFormat
     private const int HeadBytes = 14; // kind, peer, sequence, time
     private const int BodyBytes = 8;
     internal const int VectorBytes = 24;
-    internal const int SpecBytes = 45;
+    internal const int SpecBytes = 61;
 
     /// <summary>An event's length in bytes; 0 for a kind that does not travel.</summary>
     public static int EncodedLength(EventKind kind) => kind switch
@@ -123,6 +123,8 @@ public static class EventFormat
         && spec.Step >= MinStep
         && spec.Step <= MaxStep
         && spec.Tolerance is >= 0 and <= 1
+        && spec.Friction is >= 0 and <= 100
+        && spec.RollingResistance is >= 0 and <= 1
         && (spec.Forces.IsEmpty || spec.Flight != MotionLaw.Ballistic);
 
     internal static void WriteSpec(ref WireWriter writer, in BodySpec spec)
@@ -134,6 +136,8 @@ public static class EventFormat
         writer.WriteInt64(spec.Step.Ticks);
         writer.WriteUInt32(spec.Forces.Mask);
         writer.WriteDouble(spec.Tolerance);
+        writer.WriteDouble(spec.Friction);
+        writer.WriteDouble(spec.RollingResistance);
     }
 
     internal static BodySpec ReadSpec(ref WireReader reader)
@@ -146,6 +150,6 @@ public static class EventFormat
         reader.Require(step != 0); // which the constructor would take for "the default": one meaning, one form
         ForceSet forces = ForceSet.FromMask(reader.ReadUInt32());
         reader.Require(flight != MotionLaw.Automatic || !forces.IsEmpty); // which is Ballistic
-        return new BodySpec(radius, mass, restitution, flight, SimDuration.FromTicks(step), forces, reader.ReadDouble());
+        return new BodySpec(radius, mass, restitution, flight, SimDuration.FromTicks(step), forces, reader.ReadDouble(), reader.ReadDouble(), reader.ReadDouble());
     }
 }

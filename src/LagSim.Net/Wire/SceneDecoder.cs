@@ -102,9 +102,9 @@ internal ref struct SceneDecoder
             return null;
         }
 
-        if (kind > ForceKind.Central)
+        if (kind > ForceKind.Magnus)
         {
-            Refuse($"Force {number} of the scene is of kind {(byte)kind}; kinds are 0 to {(byte)ForceKind.Central}.");
+            Refuse($"Force {number} of the scene is of kind {(byte)kind}; kinds are 0 to {(byte)ForceKind.Magnus}.");
             return null;
         }
 
@@ -114,6 +114,7 @@ internal ref struct SceneDecoder
             ForceKind.QuadraticDrag => Force.QuadraticDrag(name, strength, vector),
             ForceKind.Spring => Force.Spring(name, vector, strength, damping),
             ForceKind.Magnetic => Force.Magnetic(name, vector, strength),
+            ForceKind.Magnus => Force.Magnus(name, strength),
             ForceKind.Central => Force.Central(name, vector, strength, power),
             _ => Known(name, version) is IAcceleration known ? Force.Supplied(known) : null,
         };
@@ -137,9 +138,10 @@ internal ref struct SceneDecoder
             Vector3D normal = reader.ReadVector();
             double offset = reader.ReadDouble();
             double restitution = reader.ReadDouble();
+            double friction = reader.ReadDouble();
             if (IsSound)
             {
-                builder.AddPlane(name, normal, offset, restitution);
+                builder.AddPlane(name, normal, offset, restitution, friction);
                 normals.Add(normal);
             }
         }
@@ -155,9 +157,10 @@ internal ref struct SceneDecoder
             Vector3D centre = reader.ReadVector();
             double radius = reader.ReadDouble();
             double restitution = reader.ReadDouble();
+            double friction = reader.ReadDouble();
             if (IsSound)
             {
-                builder.AddStaticSphere(name, centre, radius, restitution);
+                builder.AddStaticSphere(name, centre, radius, restitution, friction);
             }
         }
     }
@@ -173,9 +176,10 @@ internal ref struct SceneDecoder
             Vector3D position = reader.ReadVector();
             Vector3D velocity = reader.ReadVector();
             PeerSet players = PeerSet.FromMask(reader.ReadUInt16());
+            Vector3D spin = reader.ReadVector();
             if (IsSound)
             {
-                builder.AddBody(name, spec, position, velocity, players);
+                builder.AddBody(name, spec, position, velocity, players, spin);
             }
         }
     }

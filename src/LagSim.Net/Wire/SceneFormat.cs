@@ -29,8 +29,8 @@ public static class SceneFormat
         + (MaxBodies * (MaxTextBytes + BodyBytes)) + EventFormat.VectorBytes;
 
     internal const int ForceBytes = 22 + EventFormat.VectorBytes; // kind, author's version, strength, damping, vector, power
-    internal const int StaticPartBytes = EventFormat.VectorBytes + 16; // both kinds: a vector and two numbers
-    internal const int BodyBytes = EventFormat.SpecBytes + (2 * EventFormat.VectorBytes) + 2;
+    internal const int StaticPartBytes = EventFormat.VectorBytes + 24; // both kinds: a vector and three numbers
+    internal const int BodyBytes = EventFormat.SpecBytes + (3 * EventFormat.VectorBytes) + 2;
     private const int MaxTextBytes = 1 + WireText.MaxBytes;
     private const int HeadBytes = EventFormat.VectorBytes + 16 + 2 + 1 + (3 * 2); // gravity, resolution, smallest radius, spawners, four counts
 
@@ -62,6 +62,7 @@ public static class SceneFormat
             writer.WriteVector(plane.Normal);
             writer.WriteDouble(plane.Offset);
             writer.WriteDouble(plane.Restitution);
+            writer.WriteDouble(plane.Friction);
         }
 
         writer.WriteUInt16((ushort)scene.StaticSpheres.Count);
@@ -71,6 +72,7 @@ public static class SceneFormat
             writer.WriteVector(sphere.Centre);
             writer.WriteDouble(sphere.Radius);
             writer.WriteDouble(sphere.Restitution);
+            writer.WriteDouble(sphere.Friction);
         }
 
         writer.WriteUInt16((ushort)scene.Bodies.Count);
@@ -81,6 +83,7 @@ public static class SceneFormat
             writer.WriteVector(body.Position);
             writer.WriteVector(body.Velocity);
             writer.WriteUInt16(body.Players.Mask);
+            writer.WriteVector(body.Spin);
         }
 
         if (scene.Box.Exists)

@@ -15,8 +15,9 @@ namespace LagSim.Net.Wire;
 public static class SnapshotFormat
 {
     private const int HeadBytes = 28; // start, time, event hash, count
-    private const int MinBodyBytes = 178; // without supports, dense output and hold
+    private const int MinBodyBytes = 195; // without supports, dense output and hold
     private const int DenseBytes = 72;
+    private const int SpinBytes = 48; // spin and its rate
     private const int HoldBytes = 57; // cubic, peer, offset, knot
 
     /// <summary>The bytes of a snapshot.</summary>
@@ -86,7 +87,7 @@ public static class SnapshotFormat
                 MotionLaw.Held => HoldBytes,
                 _ => 0,
             };
-            length += MinBodyBytes + (body.SupportCount * sizeof(uint)) + more;
+            length += MinBodyBytes + (body.SupportCount * sizeof(uint)) + more + (Turns(body) ? SpinBytes : 0);
         }
 
         return length;
@@ -141,7 +142,16 @@ public static class SnapshotFormat
         {
             writer.WriteInt64(body.NextStep.Ticks);
         }
+
+        writer.WriteByte(Turns(body) ? (byte)1 : (byte)0);
+        if (Turns(body))
+        {
+            WriteExactly(ref writer, body.Spin);
+            WriteExactly(ref writer, body.SpinRate);
+        }
     }
+
+    private static bool Turns(in BodySnapshot body) => body.Spin != Vector3D.Zero || body.SpinRate != Vector3D.Zero;
 
     private static BodySnapshot Read(ref WireReader reader)
     {
@@ -181,8 +191,13 @@ public static class SnapshotFormat
         Vector3D quartic = dense ? ReadExactly(ref reader) : default;
         Vector3D quintic = dense ? ReadExactly(ref reader) : default;
         SimDuration nextStep = law == MotionLaw.DormandPrince54 ? SimDuration.FromTicks(reader.ReadInt64()) : SimDuration.Zero;
+        byte turns = reader.ReadByte();
+        reader.Require(turns <= 1);
+        Vector3D spin = turns == 1 ? ReadExactly(ref reader) : default;
+        Vector3D spinRate = turns == 1 ? ReadExactly(ref reader) : default;
+        reader.Require(turns == 0 || spin != Vector3D.Zero || spinRate != Vector3D.Zero); // one form
         return new BodySnapshot(
-            id, spec, opened, law, epoch, end, position, velocity, acceleration, planes.Slice(0, supports), crowding, cubic, quartic, quintic, hold, nextStep);
+            id, spec, opened, law, epoch, end, position, velocity, acceleration, planes.Slice(0, supports), crowding, cubic, quartic, quintic, hold, nextStep, spin, spinRate);
     }
 
     /// <summary>Whether a path of that law, in flight, has more than a parabola's coefficients.</summary>

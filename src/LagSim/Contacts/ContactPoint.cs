@@ -17,6 +17,7 @@ internal struct ContactPoint
         Normal = default;
         Target = 0;
         Restored = 0;
+        Impulse = 0;
         IsStruck = true;
     }
 
@@ -43,4 +44,7 @@ internal struct ContactPoint
 
     /// <summary>What of the target is restitution, in m/s; the rest is given so that a lasting contact comes to an end.</summary>
     internal double Restored;
+
+    /// <summary>What the contact exchanged along the normal, in N s; the solver sets it.</summary>
+    internal double Impulse;
 }

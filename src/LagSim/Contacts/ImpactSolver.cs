@@ -57,7 +57,7 @@ internal sealed class ImpactSolver
     {
         if (contacts.Length == 1)
         {
-            Single(contacts[0], masses, velocities);
+            Single(ref contacts[0], masses, velocities);
             return;
         }
 
@@ -73,6 +73,11 @@ internal sealed class ImpactSolver
         {
             velocities[b] += change[b];
         }
+
+        for (int i = 0; i < contacts.Length; i++)
+        {
+            contacts[i].Impulse = Math.Max(0, impulse[i]);
+        }
     }
 
     /// <summary>How fast the two of a contact part; negative while they close.</summary>
@@ -82,7 +87,7 @@ internal sealed class ImpactSolver
             contact.Second == ContactPoint.Static ? velocities[contact.First] : velocities[contact.First] - velocities[contact.Second]);
 
     // By mass fractions instead of impulses: a few ulp at any mass ratio, and an elastic bounce off a plane is exactly a mirror.
-    private static void Single(in ContactPoint c, Span<double> masses, Span<Vector3D> velocities)
+    private static void Single(ref ContactPoint c, Span<double> masses, Span<Vector3D> velocities)
     {
         double change = c.Target - Opening(c, velocities);
         if (!(change > 0))
@@ -93,6 +98,7 @@ internal sealed class ImpactSolver
         if (c.Second == ContactPoint.Static)
         {
             velocities[c.First] += c.Normal * change;
+            c.Impulse = change * masses[c.First];
             return;
         }
 
@@ -100,10 +106,12 @@ internal sealed class ImpactSolver
         {
             velocities[c.First] += IsHand(masses[c.First]) ? Vector3D.Zero : c.Normal * change;
             velocities[c.Second] -= IsHand(masses[c.Second]) ? Vector3D.Zero : c.Normal * change;
+            c.Impulse = change * (IsHand(masses[c.First]) ? masses[c.Second] : masses[c.First]); // of two hands nothing that counts
             return;
         }
 
         double whole = masses[c.First] + masses[c.Second];
+        c.Impulse = change * masses[c.First] * (masses[c.Second] / whole);
         velocities[c.First] += c.Normal * (change * (masses[c.Second] / whole));
         velocities[c.Second] -= c.Normal * (change * (masses[c.First] / whole));
     }

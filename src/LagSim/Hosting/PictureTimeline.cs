@@ -53,7 +53,7 @@ internal sealed class PictureTimeline
         at = store.Last(slot);
         for (int i = fresh - 1; i >= 0; i--)
         {
-            entries[end + i] = new Entry(store.Serial(at), store.Key(at).Time, store.Segment(at), store.Dense(at));
+            entries[end + i] = new Entry(store.Serial(at), store.Key(at).Time, store.Segment(at), store.Dense(at), store.SpinOf(at));
             at = store.Previous(at);
         }
 
@@ -115,7 +115,7 @@ internal sealed class PictureTimeline
     }
 
     private static BodyState State(in Entry entry, SimTime time, in PeriodicBox box) =>
-        Simulation.StateOf(entry.Segment, time.SecondsSince(entry.Segment.Epoch), entry.Dense, box);
+        Simulation.StateOf(entry.Segment, time.SecondsSince(entry.Segment.Epoch), entry.Dense, box, entry.Spin);
 
     private void Reserve(int fresh)
     {
@@ -134,12 +134,13 @@ internal sealed class PictureTimeline
 
     private readonly struct Entry
     {
-        internal Entry(long serial, SimTime opened, in MotionSegment segment, in DenseOutput dense)
+        internal Entry(long serial, SimTime opened, in MotionSegment segment, in DenseOutput dense, in Spin spin)
         {
             Serial = serial;
             Opened = opened;
             Segment = segment;
             Dense = dense;
+            Spin = spin;
         }
 
         internal long Serial { get; }
@@ -149,5 +150,7 @@ internal sealed class PictureTimeline
         internal MotionSegment Segment { get; }
 
         internal DenseOutput Dense { get; }
+
+        internal Spin Spin { get; }
     }
 }

@@ -28,41 +28,42 @@ internal static class DormandPrince54
     /// <param name="epoch">When the step begins.</param>
     /// <param name="x0">The position then.</param>
     /// <param name="v0">The velocity then.</param>
+    /// <param name="spin">How the body turns, all the step.</param>
     /// <param name="tried">How long a step to try first, as the step before proposes it; zero if nothing does.</param>
     /// <param name="dense">The path's higher coefficients, and the next step to try.</param>
     /// <param name="error">The error in tolerances that even the shortest step has, which is then not to be used. Else zero.</param>
     internal static MotionSegment Step(
-        in Forces forces, in BodySpec spec, SimTime epoch, in Vector3D x0, in Vector3D v0, SimDuration tried, out DenseOutput dense, out double error)
+        in Forces forces, in BodySpec spec, SimTime epoch, in Vector3D x0, in Vector3D v0, in Vector3D spin, SimDuration tried, out DenseOutput dense, out double error)
     {
         bool isFixed = spec.Tolerance == 0;
         SimDuration step = isFixed ? spec.Step : tried == SimDuration.Zero ? FirstTried : tried;
-        Vector3D a1 = forces.At(spec, epoch, 0, x0, v0);
+        Vector3D a1 = forces.At(spec, epoch, 0, x0, v0, spin);
         while (true)
         {
             double h = step.ToSeconds();
             Vector3D v2 = v0 + (a1 * (h / 5));
-            Vector3D a2 = forces.At(spec, epoch, h / 5, x0 + (v0 * (h / 5)), v2);
+            Vector3D a2 = forces.At(spec, epoch, h / 5, x0 + (v0 * (h / 5)), v2, spin);
 
             Vector3D x3 = x0 + (((v0 * (3.0 / 40)) + (v2 * (9.0 / 40))) * h);
             Vector3D v3 = v0 + (((a1 * (3.0 / 40)) + (a2 * (9.0 / 40))) * h);
-            Vector3D a3 = forces.At(spec, epoch, h * (3.0 / 10), x3, v3);
+            Vector3D a3 = forces.At(spec, epoch, h * (3.0 / 10), x3, v3, spin);
 
             Vector3D x4 = x0 + (((v0 * (44.0 / 45)) - (v2 * (56.0 / 15)) + (v3 * (32.0 / 9))) * h);
             Vector3D v4 = v0 + (((a1 * (44.0 / 45)) - (a2 * (56.0 / 15)) + (a3 * (32.0 / 9))) * h);
-            Vector3D a4 = forces.At(spec, epoch, h * (4.0 / 5), x4, v4);
+            Vector3D a4 = forces.At(spec, epoch, h * (4.0 / 5), x4, v4, spin);
 
             Vector3D x5 = x0 + (((v0 * (19372.0 / 6561)) - (v2 * (25360.0 / 2187)) + (v3 * (64448.0 / 6561)) - (v4 * (212.0 / 729))) * h);
             Vector3D v5 = v0 + (((a1 * (19372.0 / 6561)) - (a2 * (25360.0 / 2187)) + (a3 * (64448.0 / 6561)) - (a4 * (212.0 / 729))) * h);
-            Vector3D a5 = forces.At(spec, epoch, h * (8.0 / 9), x5, v5);
+            Vector3D a5 = forces.At(spec, epoch, h * (8.0 / 9), x5, v5, spin);
 
             Vector3D x6 = x0 + (((v0 * (9017.0 / 3168)) - (v2 * (355.0 / 33)) + (v3 * (46732.0 / 5247)) + (v4 * (49.0 / 176)) - (v5 * (5103.0 / 18656))) * h);
             Vector3D v6 = v0 + (((a1 * (9017.0 / 3168)) - (a2 * (355.0 / 33)) + (a3 * (46732.0 / 5247)) + (a4 * (49.0 / 176)) - (a5 * (5103.0 / 18656))) * h);
-            Vector3D a6 = forces.At(spec, epoch, h, x6, v6);
+            Vector3D a6 = forces.At(spec, epoch, h, x6, v6, spin);
 
             Vector3D dx = Fifth(v0, v3, v4, v5, v6) * h;
             Vector3D dv = Fifth(a1, a3, a4, a5, a6) * h;
             Vector3D v7 = v0 + dv;
-            Vector3D a7 = forces.At(spec, epoch, h, x0 + dx, v7);
+            Vector3D a7 = forces.At(spec, epoch, h, x0 + dx, v7, spin);
             if (isFixed)
             {
                 error = 0;

@@ -16,7 +16,7 @@ internal readonly struct Forces
     }
 
     /// <summary>The acceleration in m/s², so many seconds after an epoch. Forces are added in the scene's order.</summary>
-    internal Vector3D At(in BodySpec spec, SimTime epoch, double seconds, in Vector3D position, in Vector3D velocity)
+    internal Vector3D At(in BodySpec spec, SimTime epoch, double seconds, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         Vector3D sum = scene.Gravity;
         uint left = spec.Forces.Mask;
@@ -24,7 +24,7 @@ internal readonly struct Forces
         {
             if ((left & 1) != 0)
             {
-                sum += scene.ForceArray[n].At(spec.Mass, epoch.SecondsSince(start) + seconds, position, velocity);
+                sum += scene.ForceArray[n].At(spec.Mass, epoch.SecondsSince(start) + seconds, position, velocity, spin);
             }
         }
 
@@ -32,7 +32,7 @@ internal readonly struct Forces
     }
 
     /// <summary>How fast, in 1/s, a deviation changes at a state, as far as it is known: no less than the largest of the forces' own rates, no more than their sum.</summary>
-    internal double RateAt(in BodySpec spec, in Vector3D position, in Vector3D velocity)
+    internal double RateAt(in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         double sum = 0;
         uint left = spec.Forces.Mask;
@@ -40,7 +40,7 @@ internal readonly struct Forces
         {
             if ((left & 1) != 0)
             {
-                sum += scene.ForceArray[n].RateAt(spec.Mass, position, velocity);
+                sum += scene.ForceArray[n].RateAt(spec.Mass, position, velocity, spin);
             }
         }
 

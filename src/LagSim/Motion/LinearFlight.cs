@@ -4,7 +4,7 @@ using LagSim.Time;
 namespace LagSim.Motion;
 
 /// <summary>
-/// Flight under forces that are linear in position and velocity, in closed form: gravity, linear drag, springs with dampers, magnetic fields, together
+/// Flight under forces that are linear in position and velocity, in closed form: gravity, linear drag, springs with dampers, magnetic fields, the Magnus force of a body that turns evenly, together
 /// x'' = f - kappa x - gamma v + Omega x v.
 /// </summary>
 /// <remarks>
@@ -19,11 +19,13 @@ internal readonly struct LinearFlight
     private readonly Vector3D omega;
     private readonly double turn;
     private readonly BodySpec spec;
+    private readonly Vector3D spin;
 
     /// <summary>The flight of a body.</summary>
-    internal LinearFlight(Scene scene, in BodySpec spec)
+    internal LinearFlight(Scene scene, in BodySpec spec, in Vector3D spin)
     {
         this.spec = spec;
+        this.spin = spin;
         gamma = 0;
         kappa = 0;
         omega = Vector3D.Zero;
@@ -33,9 +35,10 @@ internal readonly struct LinearFlight
             if ((left & 1) != 0)
             {
                 Force force = scene.ForceArray[n];
-                gamma += (force.Kind == ForceKind.LinearDrag ? force.Strength : force.Damping) / spec.Mass;
+                gamma += (force.Kind == ForceKind.LinearDrag ? force.Strength : force.Damping) / spec.Mass; // only a spring has damping
                 kappa += force.Kind == ForceKind.Spring ? force.Strength / spec.Mass : 0;
                 omega -= force.Kind == ForceKind.Magnetic ? force.Vector * (force.Strength / spec.Mass) : Vector3D.Zero;
+                omega += force.Kind == ForceKind.Magnus ? spin * (force.Strength / spec.Mass) : Vector3D.Zero;
             }
         }
 
@@ -45,7 +48,7 @@ internal readonly struct LinearFlight
     /// <summary>A piece of the flight from a state on, as long as a quintic follows it within the body's tolerance.</summary>
     internal MotionSegment Piece(in Forces forces, SimTime epoch, in Vector3D x, in Vector3D v, out DenseOutput dense)
     {
-        Vector3D still = forces.At(spec, epoch, 0, x, Vector3D.Zero);
+        Vector3D still = forces.At(spec, epoch, 0, x, Vector3D.Zero, spin);
         Vector3D a = Damped(v) + still;
         SimDuration step = Length(x, v, a);
         double h = step.ToSeconds();

@@ -49,7 +49,10 @@ internal readonly struct MotionSegment
     internal bool IsPresent => Law != MotionLaw.Absent;
 
     /// <summary>Whether the formula has more terms than the acceleration's.</summary>
-    internal bool IsDense => Law >= MotionLaw.Held || Law == MotionLaw.RungeKutta4;
+    internal bool IsDense => ((1 << (int)Law) & DenseLaws) != 0;
+
+    private const int DenseLaws =
+        (1 << (int)MotionLaw.RungeKutta4) | (1 << (int)MotionLaw.Held) | (1 << (int)MotionLaw.ClosedForm) | (1 << (int)MotionLaw.DormandPrince54);
 
     /// <summary>A path that never moves: a static sphere, or a body at rest.</summary>
     internal static MotionSegment AtRest(SimTime epoch, in Vector3D position, SupportSet supports = default) =>

@@ -25,13 +25,14 @@ internal static class RungeKutta4
     /// <param name="epoch">When the step begins.</param>
     /// <param name="x0">The position then.</param>
     /// <param name="v0">The velocity then.</param>
+    /// <param name="spin">How the body turns, all the step.</param>
     /// <param name="dense">The path's higher coefficients.</param>
     /// <param name="rate">The rate in 1/s that was met, where no step that may be taken is short enough for it; the step is then not to be used. Else zero.</param>
     internal static MotionSegment Step(
-        in Forces forces, in BodySpec spec, SimTime epoch, in Vector3D x0, in Vector3D v0, out DenseOutput dense, out double rate)
+        in Forces forces, in BodySpec spec, SimTime epoch, in Vector3D x0, in Vector3D v0, in Vector3D spin, out DenseOutput dense, out double rate)
     {
         SimDuration step = spec.Step;
-        double known = spec.Forces.IsEmpty ? 0 : forces.RateAt(spec, x0, v0);
+        double known = spec.Forces.IsEmpty ? 0 : forces.RateAt(spec, x0, v0, spin);
         bool estimates = !spec.Forces.IsEmpty && forces.HasSupplied(spec);
         while (known * step.ToSeconds() > MaxRateTimesStep && step.Ticks >= 2 * Limits.MinStep.Ticks)
         {
@@ -41,16 +42,16 @@ internal static class RungeKutta4
         while (true)
         {
             double h = step.ToSeconds();
-            Vector3D a0 = forces.At(spec, epoch, 0, x0, v0);
+            Vector3D a0 = forces.At(spec, epoch, 0, x0, v0, spin);
             Vector3D v2 = v0 + (a0 * (0.5 * h));
-            Vector3D a2 = forces.At(spec, epoch, 0.5 * h, x0 + (v0 * (0.5 * h)), v2);
+            Vector3D a2 = forces.At(spec, epoch, 0.5 * h, x0 + (v0 * (0.5 * h)), v2, spin);
             Vector3D v3 = v0 + (a2 * (0.5 * h));
-            Vector3D a3 = forces.At(spec, epoch, 0.5 * h, x0 + (v2 * (0.5 * h)), v3);
+            Vector3D a3 = forces.At(spec, epoch, 0.5 * h, x0 + (v2 * (0.5 * h)), v3, spin);
             Vector3D v4 = v0 + (a3 * h);
-            Vector3D a4 = forces.At(spec, epoch, h, x0 + (v3 * h), v4);
+            Vector3D a4 = forces.At(spec, epoch, h, x0 + (v3 * h), v4, spin);
             Vector3D dx = (v0 + ((v2 + v3) * 2) + v4) * (h / 6);
             Vector3D dv = (a0 + ((a2 + a3) * 2) + a4) * (h / 6);
-            Vector3D a1 = forces.At(spec, epoch, h, x0 + dx, v0 + dv);
+            Vector3D a1 = forces.At(spec, epoch, h, x0 + dx, v0 + dv, spin);
             dense = DenseOutput.Between(h, dx, dv, v0, a0, a1);
 
             rate = estimates ? Math.Max(known, StageRate((v2 - v0) * (0.5 * h), v3 - v2, a3 - a2)) : known;

@@ -23,6 +23,10 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
     /// 0 to 1. Of <see cref="MotionLaw.DormandPrince54"/> the estimated error that a step may have, in metres for the position and in m/s for the velocity; 0 means fixed steps.
     /// Of <see cref="MotionLaw.ClosedForm"/> how far in metres the path may be off within a piece, at whose ends it is exact; 0 means to rounding. Ignored by the others.
     /// </param>
+    /// <param name="friction">
+    /// The coefficient of Coulomb friction, 0 (none, the default) to 100. Of two things that meet, the lesser counts. Bodies are solid spheres: their moment of inertia is 2/5 m r².
+    /// </param>
+    /// <param name="rollingResistance">The coefficient of rolling resistance, 0 (rolls on, the default) to 1: the part of its weight that holds a rolling body back. Without friction nothing rolls.</param>
     public BodySpec(
         double radius,
         double mass,
@@ -30,7 +34,9 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
         MotionLaw flight = MotionLaw.Automatic,
         SimDuration step = default,
         ForceSet forces = default,
-        double tolerance = DefaultTolerance)
+        double tolerance = DefaultTolerance,
+        double friction = 0,
+        double rollingResistance = 0)
     {
         Radius = radius;
         Mass = mass;
@@ -39,6 +45,8 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
         Step = step == SimDuration.Zero ? DefaultStep : step;
         Forces = forces;
         Tolerance = tolerance;
+        Friction = friction;
+        RollingResistance = rollingResistance;
     }
 
     /// <summary>The radius in metres.</summary>
@@ -62,17 +70,24 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
     /// <summary>What an error may be, in metres and m/s.</summary>
     public double Tolerance { get; }
 
+    /// <summary>The coefficient of Coulomb friction.</summary>
+    public double Friction { get; }
+
+    /// <summary>The coefficient of rolling resistance.</summary>
+    public double RollingResistance { get; }
+
     /// <summary>The same body on another law of flight.</summary>
     /// <param name="flight">The law.</param>
     /// <param name="step">See the constructor.</param>
     /// <param name="tolerance">See the constructor; by default what it is.</param>
     public BodySpec With(MotionLaw flight, SimDuration step = default, double? tolerance = null) =>
-        new(Radius, Mass, Restitution, flight, step, Forces, tolerance ?? Tolerance);
+        new(Radius, Mass, Restitution, flight, step, Forces, tolerance ?? Tolerance, Friction, RollingResistance);
 
     /// <inheritdoc/>
     public bool Equals(BodySpec other) =>
         Radius.Equals(other.Radius) && Mass.Equals(other.Mass) && Restitution.Equals(other.Restitution)
-        && Flight == other.Flight && Step == other.Step && Forces == other.Forces && Tolerance.Equals(other.Tolerance);
+        && Flight == other.Flight && Step == other.Step && Forces == other.Forces && Tolerance.Equals(other.Tolerance)
+        && Friction.Equals(other.Friction) && RollingResistance.Equals(other.RollingResistance);
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is BodySpec other && Equals(other);

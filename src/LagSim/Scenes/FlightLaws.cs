@@ -19,7 +19,7 @@ internal static class FlightLaws
     {
         for (int n = 0; n < forces.Length; n++)
         {
-            if (spec.Forces.Contains(n) && forces[n].Kind is not (ForceKind.LinearDrag or ForceKind.Spring or ForceKind.Magnetic))
+            if (spec.Forces.Contains(n) && forces[n].Kind is not (ForceKind.LinearDrag or ForceKind.Spring or ForceKind.Magnetic or ForceKind.Magnus))
             {
                 return false;
             }

@@ -19,7 +19,7 @@ public sealed class Force
 
     /// <summary>
     /// How strong: of linear drag c in kg/s; of quadratic drag k in kg/m, half of density times drag coefficient times cross-section; of a spring its stiffness in N/m; of a
-    /// magnetic field the body's charge in C; of a central pull s, in m/s² at 1 m from the centre.
+    /// magnetic field the body's charge in C; of a central pull s, in m/s² at 1 m from the centre; of a Magnus force s in kg.
     /// </summary>
     public double Strength { get; private set; }
 
@@ -72,12 +72,17 @@ public sealed class Force
     public static Force Central(string name, Vector3D centre, double strength, int power = -2) =>
         new(ForceKind.Central, name) { Strength = strength, Vector = centre.WithoutNegativeZero(), Power = power };
 
+    /// <summary>The Magnus force, F = s w x v, which bends the path of a body that turns and leaves its speed.</summary>
+    /// <param name="name">1 to 64 characters.</param>
+    /// <param name="coefficient">s in kg, within 1e30; of a smooth sphere in a medium of density rho at low speed it is pi rho r³ (Rubinow and Keller 1961).</param>
+    public static Force Magnus(string name, double coefficient) => new(ForceKind.Magnus, name) { Strength = coefficient };
+
     /// <summary>An acceleration in C#, which travels by name and author's version: a peer that does not have it is refused.</summary>
     public static Force Supplied(IAcceleration acceleration) =>
         new(ForceKind.Supplied, (acceleration ?? throw new ArgumentNullException(nameof(acceleration))).Name) { Acceleration = acceleration };
 
     /// <summary>What it adds to the acceleration of a body, in m/s².</summary>
-    internal Vector3D At(double mass, double seconds, in Vector3D position, in Vector3D velocity)
+    internal Vector3D At(double mass, double seconds, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         switch (Kind)
         {
@@ -90,6 +95,8 @@ public sealed class Force
                 return ((position - Vector) * (-Strength / mass)) + (velocity * (-Damping / mass));
             case ForceKind.Magnetic:
                 return Vector3D.Cross(velocity, Vector) * (Strength / mass);
+            case ForceKind.Magnus:
+                return Vector3D.Cross(spin, velocity) * (Strength / mass);
             case ForceKind.Central:
                 Vector3D from = position - Vector;
                 return from == Vector3D.Zero ? Vector3D.Zero : from * (-Strength * DistanceToPower(from.LengthSquared, Power - 1));
@@ -102,7 +109,7 @@ public sealed class Force
     /// How fast, in 1/s, a deviation changes under the force at a state: the size of the largest eigenvalue that it adds to the equations of motion. Zero of what a program
     /// supplies, of which it is not known.
     /// </summary>
-    internal double RateAt(double mass, in Vector3D position, in Vector3D velocity)
+    internal double RateAt(double mass, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         switch (Kind)
         {
@@ -114,6 +121,8 @@ public sealed class Force
                 return Math.Max(Math.Sqrt(Strength / mass), Damping / mass);
             case ForceKind.Magnetic:
                 return Math.Abs(Strength) / mass * Vector.Length;
+            case ForceKind.Magnus:
+                return Math.Abs(Strength) / mass * spin.Length;
             case ForceKind.Central:
                 double gradient = Math.Abs(Strength) * Math.Max(1, Math.Abs(Power)) * DistanceToPower((position - Vector).LengthSquared, Power - 1);
                 return Math.Sqrt(gradient);

@@ -20,4 +20,7 @@ public enum ForceKind : byte
 
     /// <summary>A pull to a centre, the same acceleration for every mass: a = -s |r|^p r / |r|, r = x - c.</summary>
     Central = 5,
+
+    /// <summary>What a medium does to a body that turns: F = s w x v, w the spin.</summary>
+    Magnus = 6,
 }

@@ -17,6 +17,9 @@ internal static class Limits
     /// <summary>The fastest that forces may change a deviation, in 1/s: what is stiffer is not moved by steps of which there are millions a second.</summary>
     internal const double MaxRate = 1e6;
 
+    /// <summary>The largest coefficient of friction, which leaves it to whatever touches.</summary>
+    internal const double MaxFriction = 100;
+
     private const double MaxStrength = 1e30;
     private const int MaxPower = 4;
 
@@ -29,6 +32,8 @@ internal static class Limits
         InRange(spec.Mass, MinMass, MaxMass, whose, "mass", "kg");
         InRange(spec.Restitution, 0, 1, whose, "restitution", "(no unit)");
         InRange(spec.Tolerance, 0, 1, whose, "tolerance", "m");
+        InRange(spec.Friction, 0, MaxFriction, whose, "friction", "(no unit)");
+        InRange(spec.RollingResistance, 0, 1, whose, "rolling resistance", "(no unit)");
         if (spec.Flight is not (MotionLaw.Ballistic or MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54 or MotionLaw.Automatic))
         {
             throw new SceneException($"The motion law of {whose} is {spec.Flight}; a body flies by Ballistic, RungeKutta4, ClosedForm, DormandPrince54 or Automatic.");
@@ -54,17 +59,28 @@ internal static class Limits
         if (spec.Flight == MotionLaw.ClosedForm && !FlightLaws.HasClosedForm(spec, gravity, forces))
         {
             throw new SceneException(
-                $"{Capital($"{whose}")} flies by ClosedForm and names the forces {spec.Forces}; a closed form there is for linear drag, springs and magnetic fields together with gravity, and for one inverse-square pull without gravity. Use Automatic, DormandPrince54 or RungeKutta4.");
+                $"{Capital($"{whose}")} flies by ClosedForm and names the forces {spec.Forces}; a closed form there is for linear drag, springs, magnetic fields and Magnus forces together with gravity, and for one inverse-square pull without gravity. Use Automatic, DormandPrince54 or RungeKutta4.");
         }
 
         CheckRate(spec, whose, forces);
+    }
+
+    /// <summary>No point of a body's surface turns faster than a body may be given to move.</summary>
+    internal static void CheckSpin<T>(in Vector3D spin, double radius, double smallestRadius, T whose)
+    {
+        Components(spin, double.MaxValue, whose, "spin", "rad/s");
+        double limit = MaxGivenSpeed(smallestRadius) / radius;
+        if (!(spin.Length <= limit))
+        {
+            throw new SceneException($"The spin of {whose} is {spin} rad/s; at most {Text(limit)} rad/s is allowed, at which its surface moves as fast as a body may be given to.");
+        }
     }
 
     /// <summary>A force has a finite strength of the right sign, and a place within the world.</summary>
     internal static void CheckForce(Force force)
     {
         string whose = $"force '{force.Name}'";
-        double least = force.Kind is ForceKind.Magnetic or ForceKind.Central ? -MaxStrength : 0;
+        double least = force.Kind is ForceKind.Magnetic or ForceKind.Central or ForceKind.Magnus ? -MaxStrength : 0;
         InRange(force.Strength, least, MaxStrength, whose, "strength", "(in the units of its kind)");
         InRange(force.Damping, 0, MaxStrength, whose, "damping", "kg/s");
         Components(force.Vector, MaxCoordinate, whose, "vector", "(in the units of its kind)");
@@ -80,10 +96,10 @@ internal static class Limits
         for (int n = 0; n < forces.Length; n++)
         {
             if (spec.Forces.Contains(n) && forces[n].Kind is ForceKind.LinearDrag or ForceKind.Spring or ForceKind.Magnetic
-                && !(forces[n].RateAt(spec.Mass, Vector3D.Zero, Vector3D.Zero) <= MaxRate))
+                && !(forces[n].RateAt(spec.Mass, Vector3D.Zero, Vector3D.Zero, Vector3D.Zero) <= MaxRate))
             {
                 throw new SceneException(
-                    $"On {whose}, of {Text(spec.Mass)} kg, force '{forces[n].Name}' acts at a rate of {Text(forces[n].RateAt(spec.Mass, Vector3D.Zero, Vector3D.Zero))} 1/s; at most {Text(MaxRate)} 1/s is allowed.");
+                    $"On {whose}, of {Text(spec.Mass)} kg, force '{forces[n].Name}' acts at a rate of {Text(forces[n].RateAt(spec.Mass, Vector3D.Zero, Vector3D.Zero, Vector3D.Zero))} 1/s; at most {Text(MaxRate)} 1/s is allowed.");
             }
         }
     }

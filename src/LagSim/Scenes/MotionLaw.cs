@@ -12,10 +12,10 @@ public enum MotionLaw : byte
     /// <summary>Free flight integrated by the classical fourth-order Runge-Kutta method with a fixed step, one segment a step.</summary>
     RungeKutta4 = 2,
 
-    /// <summary>Frictionless motion along one or two static planes, in closed form. Entered from flight, never a scene's choice.</summary>
+    /// <summary>Motion along one or two static planes, in closed form: without friction, or slipping on one against it. Entered from flight, never a scene's choice.</summary>
     Sliding = 3,
 
-    /// <summary>At rest on static planes, or wedged without play for 50 ms at a time; costs nothing until something touches it. Entered from flight or sliding, never a scene's choice.</summary>
+    /// <summary>At rest on static planes, or wedged without play for 50 ms at a time; costs nothing until something touches it. Entered from flight, sliding or rolling, never a scene's choice.</summary>
     Resting = 4,
 
     /// <summary>In a hand, whose path it has, a cubic or parabola from knot to knot; nothing it meets changes that. Entered by a grab, never a scene's choice.</summary>
@@ -35,4 +35,9 @@ public enum MotionLaw : byte
     /// <see cref="DormandPrince54"/>. What a scene may ask for, never how a body moves.
     /// </summary>
     Automatic = 8,
+
+    /// <summary>
+    /// Rolling on one static plane without slipping, in closed form. Entered when friction has stopped the slip, ends at rest where there is rolling resistance; never a scene's choice.
+    /// </summary>
+    Rolling = 9,
 }

@@ -162,12 +162,45 @@ public sealed class Scene
         }
 
         AddRights(ref hash);
+        AddFriction(ref hash);
         if (Box.Exists)
         {
             hash.Add(Box.Size); // as above: a scene without has the hash it always had
         }
 
         return hash.Value;
+    }
+
+    // Only where the scene says something of it, so that any other has the hash it always had.
+    private void AddFriction(ref StableHash hash)
+    {
+        for (int i = 0; i < PlaneArray.Length; i++)
+        {
+            AddUnlessLeftToBodies(ref hash, PlaneArray[i].Friction, (ulong)(uint)i | (1UL << 61));
+        }
+
+        for (int i = 0; i < SphereArray.Length; i++)
+        {
+            AddUnlessLeftToBodies(ref hash, SphereArray[i].Friction, (ulong)(uint)i | (1UL << 60));
+        }
+
+        for (int i = 0; i < BodyArray.Length; i++)
+        {
+            if (BodyArray[i].Spin != Vector3D.Zero)
+            {
+                hash.Add((ulong)(uint)i | (1UL << 59));
+                hash.Add(BodyArray[i].Spin);
+            }
+        }
+    }
+
+    private static void AddUnlessLeftToBodies(ref StableHash hash, double friction, ulong mark)
+    {
+        if (friction != Limits.MaxFriction)
+        {
+            hash.Add(mark);
+            hash.Add(friction);
+        }
     }
 
     // Only where somebody is kept from something, so that a scene in which all may do all has the hash it always had.

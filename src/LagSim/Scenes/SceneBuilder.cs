@@ -53,27 +53,27 @@ public sealed class SceneBuilder
     }
 
     /// <summary>Adds a plane through a point; bodies live on the side the normal, of any length, points to.</summary>
-    public SceneBuilder AddPlane(string planeName, Vector3D normal, Vector3D point, double restitution = 1)
+    public SceneBuilder AddPlane(string planeName, Vector3D normal, Vector3D point, double restitution = 1, double friction = Limits.MaxFriction)
     {
         if (!point.IsFinite)
         {
             throw new SceneException($"The point of plane '{planeName}' is {point}; every component must be finite.");
         }
 
-        return AddPlane(planeName, normal, Vector3D.Dot(Unit(planeName, normal), point), restitution);
+        return AddPlane(planeName, normal, Vector3D.Dot(Unit(planeName, normal), point), restitution, friction);
     }
 
     /// <summary>Adds the plane of the points p with n . p = <paramref name="offset"/> (metres), n the normal at unit length, towards the bodies.</summary>
-    public SceneBuilder AddPlane(string planeName, Vector3D normal, double offset, double restitution = 1)
+    public SceneBuilder AddPlane(string planeName, Vector3D normal, double offset, double restitution = 1, double friction = Limits.MaxFriction)
     {
-        planes.Add(new StaticPlane(planeName, Unit(planeName, normal), offset + 0.0, restitution));
+        planes.Add(new StaticPlane(planeName, Unit(planeName, normal), offset + 0.0, restitution, friction));
         return this;
     }
 
     /// <summary>Adds a sphere that never moves.</summary>
-    public SceneBuilder AddStaticSphere(string sphereName, Vector3D centre, double radius, double restitution = 1)
+    public SceneBuilder AddStaticSphere(string sphereName, Vector3D centre, double radius, double restitution = 1, double friction = Limits.MaxFriction)
     {
-        spheres.Add(new StaticSphere(sphereName, centre.WithoutNegativeZero(), radius, restitution));
+        spheres.Add(new StaticSphere(sphereName, centre.WithoutNegativeZero(), radius, restitution, friction));
         return this;
     }
 
@@ -83,9 +83,11 @@ public sealed class SceneBuilder
     /// <param name="position">Where its centre starts, in metres.</param>
     /// <param name="velocity">In m/s; default none.</param>
     /// <param name="players">Which peers may do something to it, in a session; default everyone.</param>
-    public SceneBuilder AddBody(string bodyName, BodySpec spec, Vector3D position, Vector3D velocity = default, PeerSet players = default)
+    /// <param name="spin">How it turns, in rad/s about the vector; default not at all. It matters where something has friction, or under a Magnus force.</param>
+    public SceneBuilder AddBody(
+        string bodyName, BodySpec spec, Vector3D position, Vector3D velocity = default, PeerSet players = default, Vector3D spin = default)
     {
-        bodies.Add(new SceneBody(bodyName, spec, position.WithoutNegativeZero(), velocity.WithoutNegativeZero(), players));
+        bodies.Add(new SceneBody(bodyName, spec, position.WithoutNegativeZero(), velocity.WithoutNegativeZero(), players, spin.WithoutNegativeZero()));
         return this;
     }
 
@@ -145,6 +147,7 @@ public sealed class SceneBuilder
         {
             Limits.CheckPosition(body.Position, Whose(body));
             Limits.CheckVelocity(body.Velocity, smallest, Whose(body));
+            Limits.CheckSpin(body.Spin, body.Spec.Radius, smallest, Whose(body));
         }
 
         CheckNames();
@@ -196,6 +199,7 @@ public sealed class SceneBuilder
         foreach (StaticPlane plane in planes)
         {
             Limits.InRange(plane.Restitution, 0, 1, $"plane '{plane.Name}'", "restitution", "(no unit)");
+            Limits.InRange(plane.Friction, 0, Limits.MaxFriction, $"plane '{plane.Name}'", "friction", "(no unit)");
             Limits.InRange(plane.Offset, -Limits.MaxCoordinate, Limits.MaxCoordinate, $"plane '{plane.Name}'", "offset", "m");
         }
 
@@ -204,6 +208,7 @@ public sealed class SceneBuilder
             Limits.CheckPosition(sphere.Centre, $"static sphere '{sphere.Name}'");
             Limits.InRange(sphere.Radius, Limits.MinRadius, Limits.MaxRadius, $"static sphere '{sphere.Name}'", "radius", "m");
             Limits.InRange(sphere.Restitution, 0, 1, $"static sphere '{sphere.Name}'", "restitution", "(no unit)");
+            Limits.InRange(sphere.Friction, 0, Limits.MaxFriction, $"static sphere '{sphere.Name}'", "friction", "(no unit)");
         }
     }
 

@@ -51,6 +51,13 @@ internal struct StableHash
         {
             Add(spec.Tolerance); // the others do not ask for it, and have the hash they always had
         }
+
+        if (spec.Friction != 0 || spec.RollingResistance != 0)
+        {
+            Add(0xF81C710EUL); // as above: only where a scene asks for it
+            Add(spec.Friction);
+            Add(spec.RollingResistance);
+        }
     }
 
     internal readonly ulong Value

@@ -4,12 +4,13 @@ namespace LagSim.Scenes;
 /// <remarks>Immutable, safe on any thread. A scene checks and normalises it.</remarks>
 public readonly struct StaticPlane
 {
-    internal StaticPlane(string name, Vector3D normal, double offset, double restitution)
+    internal StaticPlane(string name, Vector3D normal, double offset, double restitution, double friction)
     {
         Name = name;
         Normal = normal;
         Offset = offset;
         Restitution = restitution;
+        Friction = friction;
     }
 
     /// <summary>What it is called in a scene.</summary>
@@ -23,6 +24,9 @@ public readonly struct StaticPlane
 
     /// <summary>The coefficient of restitution, 0 to 1; in a contact the lesser of the two parties' counts.</summary>
     public double Restitution { get; }
+
+    /// <summary>The coefficient of friction, 0 to 100; in a contact the lesser of the two parties' counts.</summary>
+    public double Friction { get; }
 
     /// <summary>The distance in metres between the plane and a sphere; negative where they overlap.</summary>
     public double Gap(in Vector3D centre, double radius) => Vector3D.Dot(Normal, centre) - Offset - radius;

@@ -4,12 +4,13 @@ namespace LagSim.Scenes;
 /// <remarks>Immutable, safe on any thread. A scene checks it.</remarks>
 public readonly struct StaticSphere
 {
-    internal StaticSphere(string name, Vector3D centre, double radius, double restitution)
+    internal StaticSphere(string name, Vector3D centre, double radius, double restitution, double friction)
     {
         Name = name;
         Centre = centre;
         Radius = radius;
         Restitution = restitution;
+        Friction = friction;
     }
 
     /// <summary>What it is called in a scene.</summary>
@@ -23,4 +24,7 @@ public readonly struct StaticSphere
 
     /// <summary>The coefficient of restitution, 0 to 1; in a contact the lesser of the two parties' counts.</summary>
     public double Restitution { get; }
+
+    /// <summary>The coefficient of friction, 0 to 100; in a contact the lesser of the two parties' counts.</summary>
+    public double Friction { get; }
 }

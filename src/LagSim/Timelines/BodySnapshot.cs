@@ -30,6 +30,8 @@ public readonly struct BodySnapshot
     /// <param name="quintic">See <see cref="Quintic"/>.</param>
     /// <param name="hold">See <see cref="Hold"/>.</param>
     /// <param name="nextStep">See <see cref="NextStep"/>.</param>
+    /// <param name="spin">See <see cref="Spin"/>.</param>
+    /// <param name="spinRate">See <see cref="SpinRate"/>.</param>
     /// <exception cref="ArgumentException">There are more than <see cref="MaxSupports"/> supports.</exception>
     public BodySnapshot(
         BodyId id,
@@ -47,7 +49,9 @@ public readonly struct BodySnapshot
         in Vector3D quartic = default,
         in Vector3D quintic = default,
         in Hold hold = default,
-        SimDuration nextStep = default)
+        SimDuration nextStep = default,
+        in Vector3D spin = default,
+        in Vector3D spinRate = default)
     {
         if (supports.Length > MaxSupports)
         {
@@ -63,9 +67,10 @@ public readonly struct BodySnapshot
         Segment = new MotionSegment(law, epoch, end, position, velocity, acceleration, set, crowding);
         Dense = new DenseOutput(cubic, quartic, quintic, nextStep);
         Hold = hold;
+        SpinPath = new Spin(spin, spinRate);
     }
 
-    internal BodySnapshot(BodyId id, in BodySpec spec, in EventKey opened, in MotionSegment segment, in DenseOutput dense, in Hold hold)
+    internal BodySnapshot(BodyId id, in BodySpec spec, in EventKey opened, in MotionSegment segment, in DenseOutput dense, in Hold hold, in Spin spin)
     {
         Id = id;
         Spec = spec;
@@ -73,6 +78,7 @@ public readonly struct BodySnapshot
         Segment = segment;
         Dense = dense;
         Hold = hold;
+        SpinPath = spin;
     }
 
     /// <summary>Who it is.</summary>
@@ -122,6 +128,14 @@ public readonly struct BodySnapshot
 
     /// <summary>Of a body in a hand who holds it; else the default.</summary>
     public Hold Hold { get; }
+
+    /// <summary>How the body turns at the epoch, in rad/s.</summary>
+    public Vector3D Spin => SpinPath.AtEpoch;
+
+    /// <summary>How its spin changes on this piece of path, in rad/s².</summary>
+    public Vector3D SpinRate => SpinPath.Rate;
+
+    internal Spin SpinPath { get; }
 
     internal MotionSegment Segment { get; }
 

@@ -89,6 +89,7 @@ internal sealed class CutPaths
             Segment = timelines.Segment(segment),
             Dense = timelines.Dense(segment),
             Hold = timelines.HoldOf(segment),
+            Spin = timelines.SpinOf(segment),
             Later = bodies[n].Earliest,
         });
         bodies[n] = (slot, pieces.Count - 1);
@@ -135,7 +136,7 @@ internal sealed class CutPaths
             for (; from < order.Count && pieces[order[from]].Key == key; from++)
             {
                 Piece piece = pieces[order[from]];
-                timelines.Append(piece.Slot, idOf(piece.Slot), piece.Key, piece.Segment, piece.Dense, piece.Hold);
+                timelines.Append(piece.Slot, idOf(piece.Slot), piece.Key, piece.Segment, piece.Dense, piece.Hold, piece.Spin);
                 if (count == joined.Length)
                 {
                     Array.Resize(ref joined, count * 2);
@@ -173,7 +174,8 @@ internal sealed class CutPaths
         return timelines.Key(last) == pieces[old].Key
             && timelines.Segment(last).IsSameAs(pieces[old].Segment)
             && (!timelines.Segment(last).IsDense || timelines.Dense(last).IsSameAs(pieces[old].Dense))
-            && timelines.HoldOf(last) == pieces[old].Hold;
+            && timelines.HoldOf(last) == pieces[old].Hold
+            && timelines.SpinOf(last).IsSameAs(pieces[old].Spin);
     }
 
     private struct Piece
@@ -184,5 +186,6 @@ internal sealed class CutPaths
         internal MotionSegment Segment;
         internal DenseOutput Dense;
         internal Hold Hold;
+        internal Spin Spin;
     }
 }

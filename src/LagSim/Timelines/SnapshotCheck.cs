@@ -64,6 +64,8 @@ internal static class SnapshotCheck
             throw new SceneException($"The motion of {whose} is {body.Law}; it must be Sliding, Resting, Held, or its law of flight, {body.Spec.Flight}.");
         }
 
+        Limits.Components(body.Spin, double.MaxValue, whose, "spin", "rad/s");
+        Limits.Components(body.SpinRate, double.MaxValue, whose, "rate of spin", "rad/s^2");
         if (body.NextStep != SimDuration.Zero && (body.NextStep < StepSize.Shortest || body.NextStep > StepSize.Longest))
         {
             throw new SceneException($"The next step of {whose} is {body.NextStep}; it must lie between {StepSize.Shortest} and {StepSize.Longest}, or be 0.");

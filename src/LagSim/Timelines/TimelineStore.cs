@@ -29,6 +29,7 @@ internal sealed class TimelineStore
     private MotionSegment[] segments = new MotionSegment[32];
     private DenseOutput[] dense = Array.Empty<DenseOutput>(); // only once something is integrated
     private Hold[] holds = Array.Empty<Hold>(); // only once something is held
+    private Spin[] spins = Array.Empty<Spin>(); // only once something turns
     private EventKey[] keys = new EventKey[32];
     private long[] serials = new long[32];
     private int[] previous = new int[32];
@@ -101,6 +102,9 @@ internal sealed class TimelineStore
     /// <summary>Of a held segment who holds; of any other the default.</summary>
     internal Hold HoldOf(int segment) => segments[segment].Law == MotionLaw.Held ? holds[segment] : default;
 
+    /// <summary>How the body turns on the segment.</summary>
+    internal Spin SpinOf(int segment) => segment < spins.Length ? spins[segment] : default;
+
     /// <summary>The key of the event that opened the segment.</summary>
     internal ref readonly EventKey Key(int segment) => ref keys[segment];
 
@@ -139,7 +143,7 @@ internal sealed class TimelineStore
 
     /// <summary>Opens the body's next segment.</summary>
     /// <exception cref="TimelinesFullException">There are as many as may be.</exception>
-    internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output, in Hold hold = default)
+    internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output, in Hold hold = default, in Spin spin = default)
     {
         if (free == None && used == segments.Length && used >= Large)
         {
@@ -185,6 +189,16 @@ internal sealed class TimelineStore
             }
 
             holds[at] = hold;
+        }
+
+        if (spins.Length > 0 || !spin.IsNone)
+        {
+            if (at >= spins.Length)
+            {
+                Array.Resize(ref spins, segments.Length);
+            }
+
+            spins[at] = spin;
         }
 
         keys[at] = key;
@@ -319,6 +333,13 @@ internal sealed class TimelineStore
             hash.Add(dense[segment].Cubic);
         }
 
+        Spin spin = SpinOf(segment);
+        if (!spin.IsNone)
+        {
+            hash.Add(spin.AtEpoch);
+            hash.Add(spin.Rate);
+        }
+
         return hash.Value;
     }
 
@@ -362,6 +383,11 @@ internal sealed class TimelineStore
         if (holds.Length > 0)
         {
             Array.Resize(ref holds, size);
+        }
+
+        if (spins.Length > 0)
+        {
+            Array.Resize(ref spins, size);
         }
     }
 }

@@ -44,6 +44,7 @@ public sealed class InvariantCheckTests
         Assert.Contains(cases, c => c.Scene.StaticSpheres.Count > 0);
         MotionLaw[] flights = [.. cases.SelectMany(c => c.Scene.Bodies).Select(b => b.Spec.Flight).Distinct()];
         Assert.Superset(new HashSet<MotionLaw> { MotionLaw.Ballistic, MotionLaw.RungeKutta4, MotionLaw.ClosedForm, MotionLaw.DormandPrince54 }, flights.ToHashSet());
+        Assert.Contains(cases, c => c.Scene.Bodies.Any(b => b.Spec.Friction > 0 && b.Spin != Vector3D.Zero));
         Assert.All(Enumerable.Range(0, 6), n => Assert.Contains(cases.SelectMany(c => c.Scene.Bodies), b => b.Spec.Forces.Contains(n)));
         Assert.Contains(cases, c => c.Scene.Bodies.Any(b => b.Spec.Restitution == 0));
         Assert.Contains(cases, c => c.Scene.Bodies.Max(b => b.Spec.Mass) >= 1e6 * c.Scene.Bodies.Min(b => b.Spec.Mass));

@@ -75,11 +75,11 @@ public sealed class InvariantTests
         AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed, SimDuration.FromSeconds(0.2)));
     }
 
-    /// <summary>Forces of every kind, closed forms and steps under error control, whose lengths follow from the steps before.</summary>
+    /// <summary>Forces of every kind, friction and spin, closed forms and steps under error control, whose lengths follow from the steps before.</summary>
     [Theory]
     [InlineData(HealingMode.CausalCone)]
     [InlineData(HealingMode.FullRollback)]
-    public void State_UnderForces_IsTheSameToo(HealingMode mode)
+    public void State_UnderForcesAndFriction_IsTheSameToo(HealingMode mode)
     {
         foreach (int seed in Enumerable.Range(20_000, 60))
         {

@@ -22,7 +22,7 @@ internal sealed class RandomWorld
     private readonly double[] masses;
     private readonly bool forced;
 
-    /// <summary>The world of a seed; with hands that take, move and let go of bodies besides, which nothing else in it depends on; with forces of all kinds in closed form and under error control.</summary>
+    /// <summary>The world of a seed; with hands that take, move and let go of bodies besides, which nothing else in it depends on; with forces of all kinds in closed form and under error control, friction and spin.</summary>
     internal RandomWorld(int seed, bool hands = false, bool forced = false)
     {
         this.forced = forced;
@@ -181,7 +181,7 @@ internal sealed class RandomWorld
         for (int i = 0; i < bodies; i++)
         {
             Vector3D x = V(-2 + (0.75 * (i % 4)) + 0.5, (oneHeight ? height : height + (random.Next(4) / 4.0)) + (i / 4 * 2), random.Next(2) / 8.0);
-            builder.AddBody($"ball {i}", DrawSpec(integrated), x, V(Pick(-1.0, 0, 0, 1), Pick(0, 0, -2.0), Pick(0, 0, 0.5)));
+            builder.AddBody($"ball {i}", DrawSpec(integrated), x, V(Pick(-1.0, 0, 0, 1), Pick(0, 0, -2.0), Pick(0, 0, 0.5)), spin: forced && i % 3 == 0 ? V(3, -2, 5) : Vector3D.Zero);
         }
 
         if (random.Next(2) == 0)
@@ -202,7 +202,12 @@ internal sealed class RandomWorld
             ForceSet forces = Pick(ForceSet.Of(1), ForceSet.Of(2), ForceSet.Of(3), ForceSet.Of(1) | ForceSet.Of(2) | ForceSet.Of(3), ForceSet.Of(4), ForceSet.Of(5) | ForceSet.Of(0));
             return new BodySpec(
                 Pick(0.25, 0.25, 0.3125), Pick(1.0, 1, 2, 50), Pick(Restitutions), Pick(MotionLaw.Automatic, MotionLaw.Automatic, MotionLaw.DormandPrince54),
-                LagSim.Time.SimDuration.FromSeconds(Pick(0.03125, 0.05)), forces, Pick(0, 1e-4, 1e-6));
+                LagSim.Time.SimDuration.FromSeconds(Pick(0.03125, 0.05)), forces, Pick(0, 1e-4, 1e-6), Pick(0, 0.5), 0.01);
+        }
+
+        if (forced && random.Next(3) > 0)
+        {
+            return new BodySpec(Pick(0.25, 0.25, 0.3125), Pick(1.0, 1, 2, 50), Pick(Restitutions), friction: Pick(0.1, 0.5, 2), rollingResistance: Pick(0, 0.05));
         }
 
         bool steps = integrated > random.Next(3);

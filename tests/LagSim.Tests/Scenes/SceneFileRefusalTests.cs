@@ -49,6 +49,7 @@ public sealed class SceneFileRefusalTests
     [InlineData("\"forces\": [{\"name\": \"f\", \"kind\": \"glue\"}]", "forces[0].kind", "\"glue\" is unknown; allowed are \"linear_drag\"")]
     [InlineData("\"forces\": [{\"name\": \"f\", \"kind\": \"spring\", \"anchor_m\": [0, 0, 0]}]", "forces[0].stiffness_n_per_m", "required of a force of kind \"spring\"")]
     [InlineData("\"forces\": [{\"name\": \"f\", \"kind\": \"magnetic\", \"field_t\": [0, 0, 1], \"charge_c\": 1, \"power\": 2}]", "forces[0].power", "has no such key; it has field_t, charge_c")]
+    [InlineData("\"planes\": [{\"name\": \"p\", \"normal\": [0, 1, 0], \"offset_m\": 0, \"friction\": -1}]", "planes[0]", "The friction of plane 'p' is -1; it must lie between 0 and 100")]
     [InlineData(
         "\"forces\": [{\"name\": \"f\", \"kind\": \"central\", \"centre_m\": [0, 0, 1], \"strength_m_per_s2\": 1, \"power\": 0.5}]", "forces[0].power",
         "the power is 0.5; it must be a whole number between -4 and 4")]
@@ -97,6 +98,9 @@ public sealed class SceneFileRefusalTests
     [InlineData("0.8", "0.8, \"players\": 3", "bodies[0].players", "it is 3; it must be an array of the numbers of peers")]
     [InlineData("0.8", "0.8, \"forces\": [\"air\"]", "bodies[0].forces[0]", "no force of the scene is named \"air\"")]
     [InlineData("0.8", "0.8, \"forces\": [\"air\", \"air\"]", "bodies[0].forces[1]", "the force \"air\" stands here twice")]
+    [InlineData("0.8", "0.8, \"friction\": 101", "bodies[0]", "The friction of body 'ball' is 101; it must lie between 0 and 100")]
+    [InlineData("0.8", "0.8, \"rolling_resistance\": 2", "bodies[0]", "The rolling resistance of body 'ball' is 2")]
+    [InlineData("0.8", "0.8, \"spin_rad_per_s\": [1e12, 0, 0]", "bodies[0]", "The spin of body 'ball' is (1000000000000, 0, 0) rad/s; at most")]
     [InlineData("0.8", "0.8, \"tolerance\": 2", "bodies[0]", "The tolerance of body 'ball' is 2; it must lie between 0 and 1 m")]
     [InlineData("\"ball\"", "\"\"", "bodies[0].name", "the name has 0 characters; a name has 1 to 64")]
     [InlineData("\"ball\"", "\"a\\u001bb\"", "bodies[0].name", "the control character U+001B")]

@@ -59,11 +59,13 @@ internal static class SceneGen
         from step in Step
         from velocity in Within(100)
         from players in Peers
-        select (new BodySpec(radius, mass, restitution, law, step, ForceSet.FromMask((uint)forces), tolerance), velocity, players);
+        from friction in Gen.OneOf(Gen.Elements(0.0, 100), Unit)
+        from rolling in Gen.OneOf(Gen.Elements(0.0, 1), Unit)
+        select (new BodySpec(radius, mass, restitution, law, step, ForceSet.FromMask((uint)forces), tolerance, friction, rolling), velocity, players);
 
     /// <summary>Weak ones, so that they are not too stiff for the lightest body.</summary>
     private static Gen<Func<string, Force>> AnyForce =>
-        from kind in Gen.Choose(0, 4)
+        from kind in Gen.Choose(0, 5)
         from strength in Unit.Select(u => 1e-25 * u)
         from vector in Within(1e3)
         from power in Gen.Choose(-4, 4)
@@ -72,6 +74,7 @@ internal static class SceneGen
             0 => Force.LinearDrag(name, strength, vector),
             1 => Force.QuadraticDrag(name, strength, vector),
             2 => Force.Spring(name, vector, strength * 1e-20, strength),
+            5 => Force.Magnus(name, strength),
             3 => Force.Magnetic(name, vector * 1e-3, strength),
             _ => Force.Central(name, vector, strength, power),
         });
@@ -111,7 +114,7 @@ internal static class SceneGen
         double x = 0.1;
         for (int i = 0; i < spheres.Length; i++)
         {
-            builder.AddStaticSphere($"{name}s{i}", new Vector3D(x + spheres[i], 1 / 3.0, -0.0), spheres[i], 0.7);
+            builder.AddStaticSphere($"{name}s{i}", new Vector3D(x + spheres[i], 1 / 3.0, -0.0), spheres[i], 0.7, spheres[i] > 1 ? 0.3 : 100);
             x += (2.01 * spheres[i]) + 0.3;
         }
 
@@ -119,8 +122,8 @@ internal static class SceneGen
         {
             (BodySpec drawn, Vector3D velocity, PeerSet players) = bodies[i];
             ForceSet set = ForceSet.FromMask(forces.Length == 0 ? 0 : drawn.Forces.Mask & (uint.MaxValue >> (32 - forces.Length)));
-            BodySpec spec = new(drawn.Radius, drawn.Mass, drawn.Restitution, drawn.Flight, drawn.Step, set, drawn.Tolerance);
-            builder.AddBody($"{name}b{i}", spec, new Vector3D(x + spec.Radius, 0.1, 1e-17), velocity * (1e8 * least), players);
+            BodySpec spec = new(drawn.Radius, drawn.Mass, drawn.Restitution, drawn.Flight, drawn.Step, set, drawn.Tolerance, drawn.Friction, drawn.RollingResistance);
+            builder.AddBody($"{name}b{i}", spec, new Vector3D(x + spec.Radius, 0.1, 1e-17), velocity * (1e8 * least), players, velocity * (drawn.Friction > 50 ? 0 : 1e6 * least / spec.Radius));
             x += (2.01 * spec.Radius) + 0.3;
         }
 
@@ -129,7 +132,7 @@ internal static class SceneGen
             Vector3D unit = new SceneBuilder("u").AddPlane("u", planes[i].Normal, 0).Build().Planes[0].Normal;
             double offset = Vector3D.Dot(unit, planes[i].Point);
             Vector3D far = offset > -4 * (x + 1) ? unit * (-5 * (x + 1) * (1 + Math.Abs(offset) / 1e11)) : planes[i].Point;
-            builder.AddPlane($"{name}p{i}", planes[i].Normal, far, i / 3.0);
+            builder.AddPlane($"{name}p{i}", planes[i].Normal, far, i / 3.0, i == 1 ? 100 : i / 7.0);
         }
 
         return builder.Build();

@@ -107,7 +107,7 @@ internal static class LayoutPage
                 return ((int[])value).SelectMany(BitConverter.GetBytes).ToArray();
             case "step?":
                 return ((long[])value).SelectMany(BitConverter.GetBytes).ToArray();
-            case "dense":
+            case "dense" or "spin":
                 return ((Vector3D[])value).SelectMany(c => Bytes("bits", c)).ToArray();
             case "hold":
                 return ((Hold Hold, Vector3D Cubic)?)value is var (hold, cubic) ? [.. Bytes("bits", cubic), hold.Peer, .. Bytes("bits", hold.Offset), .. Bytes("ticks", hold.Knot)] : [];
@@ -120,6 +120,7 @@ internal static class LayoutPage
                     .. Bytes("f64", spec.Radius), .. Bytes("f64", spec.Mass), .. Bytes("f64", spec.Restitution),
                     (byte)spec.Flight, .. BitConverter.GetBytes(spec.Step.Ticks),
                     .. BitConverter.GetBytes(spec.Forces.Mask), .. Bytes("f64", spec.Tolerance),
+                    .. Bytes("f64", spec.Friction), .. Bytes("f64", spec.RollingResistance),
                 ];
             case "event":
                 ExternalEvent what = (ExternalEvent)value;

@@ -26,18 +26,18 @@ public sealed class SceneFormatTests
     private const int PlanesAt = 46;
     private const int PlaneNameAt = 48;
     private const int NormalAt = 50;
-    private const int SpheresAt = 90;
-    private const int BodiesAt = 134;
-    private const int BodyNameAt = 137;
-    private const int RestitutionAt = 154;
-    private const int FlightAt = 162;
-    private const int StepAt = 163;
-    private const int SpecForcesAt = 171;
-    private const int ToleranceAt = 175;
-    private const int PositionAt = 183;
-    private const int VelocityAt = 207;
-    private const int PlayersAt = 231;
-    private const int Length = 233;
+    private const int SpheresAt = 98;
+    private const int BodiesAt = 150;
+    private const int BodyNameAt = 153;
+    private const int RestitutionAt = 170;
+    private const int FlightAt = 178;
+    private const int StepAt = 179;
+    private const int SpecForcesAt = 187;
+    private const int ToleranceAt = 191;
+    private const int PositionAt = 215;
+    private const int VelocityAt = 239;
+    private const int PlayersAt = 263;
+    private const int Length = 289;
 
     [Fact]
     public void Encode_AnyScene_DecodesToTheSameWorldInTheSameBytes() => Prop.ForAll(
@@ -86,14 +86,14 @@ public sealed class SceneFormatTests
     [Fact]
     public void Encode_Rights_AreTheBitsOfThePeersThatHaveThem()
     {
-        Assert.Equal([0xFF, 0xFF], SceneFormat.Encode(One())[PlayersAt..]);
+        Assert.Equal([0xFF, 0xFF], SceneFormat.Encode(One())[PlayersAt..(PlayersAt + 2)]);
         Scene scene = new SceneBuilder("s").WithSpawners(PeerSet.Of(1, 9)).AddBody("b", Ball(), V(0), players: PeerSet.Nobody)
             .AddBody("c", Ball(), V(3), players: PeerSet.Of(0, 15)).Build();
         byte[] bytes = SceneFormat.Encode(scene);
         Scene again = Decoded(bytes);
 
         Assert.Equal([0x02, 0x02], bytes[SpawnersAt..ForcesAt]);
-        Assert.Equal([0x01, 0x80], bytes[^2..]);
+        Assert.Equal([0x01, 0x80], bytes[^26..^24]); // its spin follows
         Assert.Equal(PeerSet.Of(1, 9), again.Spawners);
         Assert.Equal([PeerSet.Nobody, PeerSet.Of(0, 15)], again.Bodies.Select(b => b.Players));
     }
@@ -110,13 +110,13 @@ public sealed class SceneFormatTests
 
         Refused(whole.AsSpan(0, 0), "The 0 bytes of the scene end within the scene's head.");
         Refused(whole.AsSpan(0, PlanesAt), "The 46 bytes of the scene end within the scene's plane count.");
-        Refused(whole.AsSpan(0, Length - 1), "The 232 bytes of the scene end within body 1 of the scene.");
-        Refused(whole.AsSpan(0, Length - 2), "announces 1 parts of the kind 'body', of 96 bytes or more, and has 95 bytes left");
+        Refused(whole.AsSpan(0, Length - 1), "The 288 bytes of the scene end within body 1 of the scene.");
+        Refused(whole.AsSpan(0, Length - 2), "announces 1 parts of the kind 'body', of 136 bytes or more, and has 135 bytes left");
         Refused([.. whole, .. new byte[24]], "The scene's periodic box has no size");
         Refused([.. whole, .. new byte[25]], "The scene's periodic box has no size");
         for (int value = 0; value <= 255; value++)
         {
-            Refused([.. whole, (byte)value], "The 234 bytes of the scene end within the scene's periodic box.");
+            Refused([.. whole, (byte)value], "The 290 bytes of the scene end within the scene's periodic box.");
         }
     }
 

@@ -215,7 +215,7 @@ public sealed class SnapshotFormatTests
     public void TryDecode_NumberNotFinite_IsRefusedInEveryField(double value)
     {
         byte[] good = SnapshotFormat.Encode(new WorldSnapshot(At(0), At(1), 7, [Plain(MotionLaw.RungeKutta4)]));
-        int[] numbers = [28 + 8, 28 + 16, 28 + 24, .. Enumerable.Range(0, 9).Select(n => 28 + 104 + (8 * n)), .. Enumerable.Range(0, 9).Select(n => 28 + 178 + (8 * n))];
+        int[] numbers = [28 + 8, 28 + 16, 28 + 24, .. Enumerable.Range(0, 9).Select(n => 28 + 120 + (8 * n)), .. Enumerable.Range(0, 9).Select(n => 28 + 194 + (8 * n))];
         foreach (int at in numbers)
         {
             byte[] bytes = (byte[])good.Clone();
@@ -234,11 +234,17 @@ public sealed class SnapshotFormatTests
         step.AsSpan(28 + 8 + 25, 8).Clear();
         Refused(WireRefusal.BadValue, step);
         byte[] supports = (byte[])good.Clone();
-        supports[28 + 177] = BodySnapshot.MaxSupports + 1;
+        supports[28 + 193] = BodySnapshot.MaxSupports + 1;
         Refused(WireRefusal.BadValue, [.. supports, .. new byte[16]]);
-        supports[28 + 177] = 1;
-        Refused(WireRefusal.BadValue, [.. supports, 0, 0, 0, 0x80]);
-        Decoded([.. supports, 0xFF, 0xFF, 0xFF, 0x7F]);
+        supports[28 + 193] = 1;
+        Refused(WireRefusal.BadValue, [.. supports[..^1], 0, 0, 0, 0x80, 0]);
+        Decoded([.. supports[..^1], 0xFF, 0xFF, 0xFF, 0x7F, 0]);
+        byte[] turns = (byte[])good.Clone();
+        turns[^1] = 2;
+        Refused(WireRefusal.BadValue, turns);
+        turns[^1] = 1;
+        Refused(WireRefusal.BadValue, [.. turns, .. new byte[48]]); // turning not at all has another form
+        Decoded([.. turns, 1, .. new byte[47]]);
     }
 
     [Fact]
@@ -308,7 +314,7 @@ public sealed class SnapshotFormatTests
     }
 
     private static IEnumerable<double> Numbers(BodySnapshot b) =>
-        new[] { b.Position, b.Velocity, b.Acceleration, b.Cubic, b.Quartic, b.Quintic, b.Hold.Offset }.SelectMany(v => new[] { v.X, v.Y, v.Z });
+        new[] { b.Position, b.Velocity, b.Acceleration, b.Cubic, b.Quartic, b.Quintic, b.Hold.Offset, b.Spin, b.SpinRate }.SelectMany(v => new[] { v.X, v.Y, v.Z });
 
     /// <summary>Every field of both, and of numbers every bit.</summary>
     private static bool Same(WorldSnapshot a, WorldSnapshot b) =>

@@ -26,7 +26,9 @@ public class ValueRangeTests
     private const int StepAt = 107;
     private const int ForcesAt = 115;
     private const int ToleranceAt = 119;
-    private const int PositionAt = 127;
+    private const int FrictionAt = 127;
+    private const int RollingAt = 135;
+    private const int PositionAt = 143;
 
     private static readonly BodySpec Ball = new(0.5, 1, 0.8);
 
@@ -45,6 +47,8 @@ public class ValueRangeTests
         AssertBad(MassAt, BitConverter.DoubleToInt64Bits(value));
         AssertBad(RestitutionAt, BitConverter.DoubleToInt64Bits(value));
         AssertBad(ToleranceAt, BitConverter.DoubleToInt64Bits(value));
+        AssertBad(FrictionAt, BitConverter.DoubleToInt64Bits(value));
+        AssertBad(RollingAt, BitConverter.DoubleToInt64Bits(value));
     }
 
     [Theory]
@@ -230,7 +234,7 @@ public class ValueRangeTests
 
         removals.HasStateHash = spawns.HasStateHash = true;
         Assert.Equal(48, removals.Entries.Length);
-        Assert.Equal(10, spawns.Entries.Length);
+        Assert.Equal(9, spawns.Entries.Length);
         Assert.Equal(removals.EncodedLength, AnyDatagram.Bytes(removals.Encode).Length);
         Assert.Equal(spawns.EncodedLength, AnyDatagram.Bytes(spawns.Encode).Length);
         Assert.InRange(removals.EncodedLength, 1, WireFormat.MaxBytes);

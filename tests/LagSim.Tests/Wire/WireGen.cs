@@ -46,7 +46,9 @@ internal static class WireGen
             Gen.Elements(EventFormat.MinStep, EventFormat.MaxStep), Gen.Choose(2, 999999).Select(n => SimDuration.FromSeconds(n * 1e-6)))
         from forces in Bits32.Select(ForceSet.FromMask)
         from tolerance in Gen.OneOf(Gen.Elements(0, 1e-12, BodySpec.DefaultTolerance, 1), Gen.Choose(0, 1000000).Select(n => n * 1e-6))
-        select new BodySpec(radius, mass, restitution, flight, step, flight == MotionLaw.Ballistic ? ForceSet.None : forces, tolerance);
+        from friction in Gen.Elements(0, 0.3, 100)
+        from rolling in Gen.Elements(0, 0.01, 1)
+        select new BodySpec(radius, mass, restitution, flight, step, flight == MotionLaw.Ballistic ? ForceSet.None : forces, tolerance, friction, rolling);
 
     internal static readonly Gen<ExternalEvent> Event =
         from kind in Gen.Elements(EventKind.Spawn, EventKind.Remove, EventKind.Teleport, EventKind.SetVelocity, EventKind.Impulse, EventKind.Grab, EventKind.HoldKnot, EventKind.Release)

@@ -74,7 +74,7 @@ public sealed class WirePageTests
             }
         }
 
-        Assert.Equal(3 + 3 + 8 + 2 + 16 + 4 + 6 + 3 + 2 + 4 + 5 + 3 + 6 + 7 + 3 + 25, rows);
+        Assert.Equal(3 + 3 + 8 + 2 + 16 + 4 + 6 + 3 + 2 + 4 + 5 + 3 + 6 + 9 + 3 + 27, rows);
     }
 
     [Fact]
@@ -153,7 +153,7 @@ public sealed class WirePageTests
             BodySnapshot b = snapshot.Bodies[0];
             BodySnapshot controlled = new(
                 b.Id, b.Spec, b.Opened, MotionLaw.DormandPrince54, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [], 0, V(1, 2, 3), V(4, 5, 6), V(7, 8, 9),
-                nextStep: SimDuration.FromSeconds(0.25));
+                nextStep: SimDuration.FromSeconds(0.25), spin: V(10, 11, 12), spinRate: V(13, 14, 15));
             snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [controlled]);
         }
         else if (seed == 2)
@@ -308,7 +308,7 @@ public sealed class WirePageTests
         MemoryStream bytes = new();
         Write(bytes, Table(page, "### Spec"), Values(
             ("radius", spec.Radius), ("mass", spec.Mass), ("restitution", spec.Restitution), ("flight", (byte)spec.Flight), ("step", spec.Step.Ticks),
-            ("forces", spec.Forces.Mask), ("tolerance", spec.Tolerance)));
+            ("forces", spec.Forces.Mask), ("tolerance", spec.Tolerance), ("friction", spec.Friction), ("rolling resistance", spec.RollingResistance)));
         return bytes.ToArray();
     }
 
@@ -338,5 +338,7 @@ public sealed class WirePageTests
         ("crowding", (byte)b.Crowding), ("supports", (byte)b.SupportCount), ("carried by", Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray()),
         ("dense output", b.Law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54 ? new[] { b.Cubic, b.Quartic, b.Quintic } : []),
         ("next step", b.Law == MotionLaw.DormandPrince54 ? new[] { b.NextStep.Ticks } : []),
+        ("turns", b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? 1 : 0),
+        ("spin", b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? new[] { b.Spin, b.SpinRate } : []),
         ("hold", b.Law == MotionLaw.Held ? (b.Hold, b.Cubic) : null!));
 }

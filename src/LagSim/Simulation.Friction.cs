@@ -1,0 +1,108 @@
+using System;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim;
+
+/// <content>Friction on a plane: slipping, rolling, rest.</content>
+/// <remarks>
+/// A solid sphere that slips with u = v - r w x n is slowed down by mu g_n against u and turned by 5/2 as much, so u' = g_t - 7/2 mu g_n u/|u|, with g_n and g_t what gravity has across
+/// and along the plane. Once u is zero it rolls, with 5/7 of g_t, if 2/7 of that is no more than friction can hold. Rolling resistance c takes 5/7 c g_n from that, against v, and
+/// holds at rest what gravity pulls by no more than c g_n.
+/// </remarks>
+public sealed partial class Simulation
+{
+    /// <summary>Slower than this, in m/s, is what rounding times and states leave of zero.</summary>
+    private const double Stopped = 1e-10;
+
+    /// <summary>By how much a direction of slip or rolling may turn in one piece of path, in radians, where gravity pulls aslant.</summary>
+    private const double MostTurn = 1.0 / 128;
+
+    private double FrictionOn(int slot, int plane) => Math.Min(bodies[slot].Spec.Friction, Scene.PlaneArray[plane].Friction);
+
+    /// <summary>Opens slipping, rolling or rest on the one plane that carries a body.</summary>
+    private void OpenRubbing(
+        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D spin, SupportSet supports, in Vector3D pull, int crowding, SimDuration left)
+    {
+        ref readonly BodySpec spec = ref bodies[slot].Spec;
+        Vector3D n = Scene.PlaneArray[supports[0]].Normal;
+        double pressing = -Vector3D.Dot(n, Scene.Gravity);
+        double mu = FrictionOn(slot, supports[0]);
+        double resistance = Math.Min(spec.RollingResistance, mu) * pressing;
+        Vector3D slip = velocity - (Vector3D.Cross(spin, n) * spec.Radius);
+        slip -= n * Vector3D.Dot(n, slip);
+        bool slips = slip.Length > Stopped + (1e-12 * velocity.Length);
+        bool holds = 2.0 / 7 * pull.Length <= mu * pressing;
+        if (slips || !holds)
+        {
+            Vector3D along = slips ? slip / slip.Length : pull / pull.Length;
+            Vector3D rate = pull - (along * (3.5 * mu * pressing));
+            SimTime end = EndOfTurning(key.Time, slip, along, pull, Vector3D.Dot(along, rate));
+            along = Midway(slip, along, rate, key.Time, end);
+            Vector3D held = along * (mu * pressing);
+            Vector3D turning = Vector3D.Cross(n, held) * (2.5 / spec.Radius);
+            Append(
+                slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, end, position, velocity, (pull - held).WithoutNegativeZero(), supports, crowding), default,
+                spin: new Spin(spin, turning));
+            return;
+        }
+
+        Vector3D pivot = n * Vector3D.Dot(n, spin); // what turns about the normal goes on turning
+        bool moves = velocity.Length > Stopped;
+        if (!moves && pull.Length <= resistance)
+        {
+            if (left > SimDuration.Zero)
+            {
+                // Until the bounces that are left out would have been over.
+                Append(
+                    slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, key.Time + left, position, Vector3D.Zero, Vector3D.Zero, supports, crowding), default, spin: new Spin(pivot));
+                return;
+            }
+
+            Append(slot, key, MotionSegment.AtRest(key.Time, position, supports).WithCrowding(crowding), default, spin: new Spin(pivot));
+            return;
+        }
+
+        Vector3D start = moves ? velocity : Vector3D.Zero;
+        Vector3D heading = moves ? velocity / velocity.Length : pull / pull.Length;
+        Vector3D change = (pull - (heading * resistance)) * (5.0 / 7);
+        SimTime stop = EndOfTurning(key.Time, start, heading, pull, Vector3D.Dot(heading, change));
+        heading = Midway(start, heading, change, key.Time, stop);
+        change = ((pull - (heading * resistance)) * (5.0 / 7)).WithoutNegativeZero();
+        Append(
+            slot, key, new MotionSegment(MotionLaw.Rolling, key.Time, stop, position, start, change, supports, crowding), default,
+            spin: new Spin((Vector3D.Cross(n, start) / spec.Radius) + pivot, Vector3D.Cross(n, change) / spec.Radius));
+    }
+
+    /// <summary>
+    /// When something that slips or rolls with that velocity has stopped doing so, or has turned so far that a new piece is due; never, if neither comes.
+    /// </summary>
+    private SimTime EndOfTurning(SimTime from, in Vector3D velocity, in Vector3D along, in Vector3D pull, double rate)
+    {
+        double seconds = rate < 0 ? -velocity.Length / rate : double.PositiveInfinity;
+        double aslant = Vector3D.Cross(along, pull).Length;
+        if (aslant > 1e-13 * pull.Length && velocity.Length > 0)
+        {
+            seconds = Math.Min(seconds, MostTurn * velocity.Length / aslant);
+        }
+
+        return TickConversion.TryFromSeconds(seconds, out long ticks) && ticks <= SimTime.MaxValue.Ticks - Math.Max(0, from.Ticks)
+            ? from + SimDuration.FromTicks(Math.Max(1, ticks))
+            : EndOfRange(from, velocity, pull);
+    }
+
+    /// <summary>The direction at the middle of a piece, which makes it right to the second order; as it was where it does not turn.</summary>
+    private static Vector3D Midway(in Vector3D velocity, in Vector3D along, in Vector3D rate, SimTime from, SimTime end)
+    {
+        if (end == SimTime.MaxValue || Vector3D.Cross(along, rate).Length <= 1e-13 * rate.Length)
+        {
+            return along;
+        }
+
+        Vector3D middle = velocity + (rate * (0.5 * end.SecondsSince(from)));
+        double length = middle.Length;
+        return length > 0 ? middle / length : along;
+    }
+}
