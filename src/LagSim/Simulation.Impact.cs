@@ -76,7 +76,11 @@ public sealed partial class Simulation
             Unite();
         }
 
-        Rub();
+        if (key.Round < CollapseRound)
+        {
+            Rub(); // from there on a tick is only to end
+        }
+
         LimitSpeeds();
         contactCount = struck;
 

@@ -66,7 +66,7 @@ public sealed partial class Simulation
             MotionLaw.RungeKutta4 => RungeKutta4.Step(forces, spec, from, x, v, spin, out dense, out tooStiff),
             MotionLaw.ClosedForm when FlightLaws.AreLinear(spec, Scene.ForceArray) => new LinearFlight(Scene, spec, spin).Piece(forces, from, x, v, out dense),
             MotionLaw.ClosedForm => new KeplerFlight(Scene, spec).Piece(from, x, v, out dense, out tooLarge),
-            _ => DormandPrince54.Step(forces, spec, from, x, v, spin, StepToTry(slot), out dense, out tooLarge),
+            _ => DormandPrince54.Step(forces, spec, from, x, v, spin, StepToTry(slot), out dense, out tooLarge, out tooStiff),
         };
         if (!piece.Acceleration.IsFinite || (!dense.IsFinite && tooLarge == 0))
         {
@@ -77,7 +77,7 @@ public sealed partial class Simulation
         if (tooStiff > 0)
         {
             throw new SimulationException(
-                $"From {from} on the forces on body {bodies[slot].Id} act at a rate of {Limits.Text(tooStiff)} 1/s; RungeKutta4 follows at most {Limits.Text(RungeKutta4.MaxRateTimesStep / Limits.MinStep.ToSeconds())} 1/s, with the shortest step there is.");
+                $"From {from} on the forces on body {bodies[slot].Id} act at a rate of {Limits.Text(tooStiff)} 1/s; {spec.Flight} with fixed steps follows at most {Limits.Text(MaxRate(spec.Flight))} 1/s, with the shortest step there is.");
         }
 
         if (tooLarge > 0)
@@ -88,6 +88,9 @@ public sealed partial class Simulation
 
         return piece;
     }
+
+    private static double MaxRate(MotionLaw law) =>
+        (law == MotionLaw.RungeKutta4 ? RungeKutta4.MaxRateTimesStep : DormandPrince54.MaxRateTimesStep) / Limits.MinStep.ToSeconds();
 
     /// <summary>What the step before proposes, if there was one; else nothing.</summary>
     private SimDuration StepToTry(int slot)

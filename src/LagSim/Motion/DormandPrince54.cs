@@ -12,12 +12,16 @@ namespace LagSim.Motion;
 /// <para>Goes on with the fifth order (local extrapolation). The seventh stage is the acceleration at the end, which the quintic Hermite polynomial between the ends needs too;
 /// with an error of O(h^6) in the position it keeps the order where a contact is found inside a step.</para>
 /// <para>A step is accepted if the estimate of its error is within the body's tolerance, in metres for the position and in m/s for the velocity, or within a few roundings of them. The
-/// next one is 0.9 (tolerance / error)^(1/5) times as long, at least a fifth and at most five times. So stiff forces are sub-stepped, and never blow up.</para>
+/// next one is 0.9 (tolerance / error)^(1/5) times as long, at least a fifth and at most five times. So stiff forces are sub-stepped, and never blow up; fixed steps are halved until
+/// the rate of the forces lets them be, as those of <see cref="RungeKutta4"/>.</para>
 /// </remarks>
 internal static class DormandPrince54
 {
     /// <summary>The first step that is tried of a flight: 1/64 s. What is smooth gets to the longest in three steps.</summary>
     private static readonly SimDuration FirstTried = SimDuration.FromTicks(1L << 34);
+
+    /// <summary>The largest product of rate and step of fixed steps: the end of the stability interval on the imaginary axis, which is less than a third of that on the negative real one.</summary>
+    internal const double MaxRateTimesStep = 1;
 
     /// <summary>What an estimate cannot be below, in parts of what it was subtracted from.</summary>
     private const double Rounding = 4 * 2.220446049250313e-16;
@@ -32,9 +36,12 @@ internal static class DormandPrince54
     /// <param name="tried">How long a step to try first, as the step before proposes it; zero if nothing does.</param>
     /// <param name="dense">The path's higher coefficients, and the next step to try.</param>
     /// <param name="error">The error in tolerances that even the shortest step has, which is then not to be used. Else zero.</param>
+    /// <param name="rate">Of fixed steps the rate in 1/s that was met, where no step that may be taken is short enough for it; the step is then not to be used. Else zero.</param>
     internal static MotionSegment Step(
-        in Forces forces, in BodySpec spec, SimTime epoch, in Vector3D x0, in Vector3D v0, in Vector3D spin, SimDuration tried, out DenseOutput dense, out double error)
+        in Forces forces, in BodySpec spec, SimTime epoch, in Vector3D x0, in Vector3D v0, in Vector3D spin, SimDuration tried, out DenseOutput dense, out double error,
+        out double rate)
     {
+        rate = 0;
         bool isFixed = spec.Tolerance == 0;
         SimDuration step = isFixed ? spec.Step : tried == SimDuration.Zero ? FirstTried : tried;
         Vector3D a1 = forces.At(spec, epoch, 0, x0, v0, spin);
@@ -67,6 +74,15 @@ internal static class DormandPrince54
             if (isFixed)
             {
                 error = 0;
+                rate = Math.Max(forces.RateAt(spec, x0, v0, spin), forces.HasSupplied(spec) ? Stiffness.Rate(x0 + dx - x6, v7 - v6, a7 - a6) : 0);
+                bool isStable = !(rate * h > MaxRateTimesStep); // also what is not a number: its cause is told elsewhere
+                if (!isStable && step.Ticks >= 2 * Limits.MinStep.Ticks)
+                {
+                    step = SimDuration.FromTicks(step.Ticks / 2);
+                    continue;
+                }
+
+                rate = isStable ? 0 : rate;
                 dense = DenseOutput.Between(h, dx, dv, v0, a1, a7);
                 return new MotionSegment(MotionLaw.DormandPrince54, epoch, epoch + step, x0, v0, a1);
             }

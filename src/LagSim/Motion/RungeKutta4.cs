@@ -17,8 +17,6 @@ internal static class RungeKutta4
     /// <summary>The largest product of rate and step: the end of the stability interval on the negative real axis, a little below that on the imaginary one.</summary>
     internal const double MaxRateTimesStep = 2.785;
 
-    private const double Sqrt5 = 2.23606797749979;
-
     /// <summary>One step from a state, of the body's step or so many halvings of it as its forces need.</summary>
     /// <param name="forces">The accelerations.</param>
     /// <param name="spec">The body.</param>
@@ -54,7 +52,7 @@ internal static class RungeKutta4
             Vector3D a1 = forces.At(spec, epoch, h, x0 + dx, v0 + dv, spin);
             dense = DenseOutput.Between(h, dx, dv, v0, a0, a1);
 
-            rate = estimates ? Math.Max(known, StageRate((v2 - v0) * (0.5 * h), v3 - v2, a3 - a2)) : known;
+            rate = estimates ? Math.Max(known, Stiffness.Rate((v2 - v0) * (0.5 * h), v3 - v2, a3 - a2)) : known;
             bool isStable = !(rate * h > MaxRateTimesStep); // also what is not a number: its cause is told elsewhere
             if (isStable || step.Ticks < 2 * Limits.MinStep.Ticks)
             {
@@ -64,17 +62,5 @@ internal static class RungeKutta4
 
             step = SimDuration.FromTicks(step.Ticks / 2);
         }
-    }
-
-    /// <summary>
-    /// The rate that the forces show in two stages at one time: the lambda with |da| = lambda |dv| + lambda² |dx|, for da is that of a damper and an oscillator of the true rate
-    /// together at most. Of a damper alone, where dx = dv / rate, that is the rate times (sqrt(5) - 1) / 2, by which it is divided; of an oscillator no more than the rate.
-    /// </summary>
-    private static double StageRate(in Vector3D dx, in Vector3D dv, in Vector3D da)
-    {
-        double a = da.Length;
-        double v = dv.Length;
-        double sum = v + Math.Sqrt((v * v) + (4 * dx.Length * a));
-        return sum > 0 ? (1 + Sqrt5) * a / sum : 0;
     }
 }

@@ -55,6 +55,20 @@ public sealed class DormandPrinceTests
         Assert.True(world.Timeline(First).Count > 12, "The step of 0.1 s was to be divided.");
     }
 
+    /// <summary>Fixed steps too: forces of the library's own, whose rate is known, and a program's, whose rate is estimated.</summary>
+    [Fact]
+    public void FixedSteps_UnderStiffForces_AreSubStepped()
+    {
+        foreach (Force force in new[] { Force.LinearDrag("glue", 5000), Force.Supplied(new FunctionForce((_, _, v) => v * -5000)) })
+        {
+            Scene scene = new SceneBuilder("glue").WithGravity(default).AddForce(force, out ForceSet glue)
+                .AddBody("ball", new BodySpec(0.1, 1, 1, MotionLaw.DormandPrince54, SimDuration.FromSeconds(0.01), glue, 0), V(0), V(5)).Build();
+            BodyState end = Read(Run(scene, 0.2), First, 0.2);
+            Near(5.0 / 5000, end.Position.X, 1e-5);
+            Near(V(0), end.Velocity, 1e-9);
+        }
+    }
+
     /// <summary>The control: at the same step a Runge-Kutta method without sub-steps leaves the world at once.</summary>
     [Fact]
     public void StiffDrag_OfAnUndividedStep_BlowsUp()
