@@ -27,7 +27,8 @@ internal sealed class GrazeCase : IHardCase
     {
         // Who looks at distances once a millisecond, at whichever instants those are, misses what touches for less.
         yield return Row("spheres", MotionLaw.Ballistic, (off, isHit) =>
-            Enumerable.Range(0, 3000).Any(n => new Vector3D(-3 + (2 * ((n + 0.5) / 1000)), 1 + off, 0).Length < 1) == isHit) with { Note = "looked at once a millisecond" };
+            Enumerable.Range(0, 3000).Any(n => new Vector3D(-3 + (2 * ((n + 0.5) / 1000)), 1 + off, 0).Length < 1) == isHit) with
+        { Note = "looked at once a millisecond" };
         yield return Row("ceiling", MotionLaw.Ballistic, (off, isHit) => Reaches(context, MotionLaw.Ballistic, off - 1e-9) == isHit) with { Note = "a ceiling a nanometre too low" };
     }
 

@@ -16,7 +16,8 @@ internal sealed class LinearDragCase : IHardCase
     private const double K = 0.5;
     private const double E = 0.9;
 
-    private static readonly double Terminal = -Gravity / K;
+    private static readonly LinearDragFall Fall = new(Gravity, K);
+    private static readonly double Terminal = Fall.Terminal;
 
     public string Name => "drag-linear";
 
@@ -52,7 +53,7 @@ internal sealed class LinearDragCase : IHardCase
         double steps = end / step;
         double own = Math.Abs(Terminal) / K * Math.Abs(Math.Pow(Stability(-K * step), steps) - Math.Exp(-K * end));
         return new HardRow(
-            Name, FormattableString.Invariant($"falls {end} s, step 1/{1 / step:0} s"), Math.Abs(y - Place(0, 0, end)), "position_m",
+            Name, FormattableString.Invariant($"falls {end} s, step 1/{1 / step:0} s"), Math.Abs(y - Fall.Height(0, 0, end)), "position_m",
             own + RoundingOf(steps, 40),
             "what the method itself leaves, |u|/k |R(-kh)^n - exp(-knh)|, and 40 roundings a step of some 40 m",
             "y = u t - (u/k)(1 - exp(-kt))");
@@ -68,8 +69,8 @@ internal sealed class LinearDragCase : IHardCase
         ErrorSources off = new();
         foreach (double impact in seen)
         {
-            double flight = Root(y, v);
-            double before = Speed(v, flight);
+            double flight = Fall.Landing(y, v);
+            double before = Fall.Speed(v, flight);
             t += flight;
             worst = Math.Max(worst, Math.Abs(impact - t));
 
@@ -95,21 +96,4 @@ internal sealed class LinearDragCase : IHardCase
     private static double Stability(double z) => 1 + (z * (1 + (z / 2 * (1 + (z / 3 * (1 + (z / 4)))))));
 
     private static double RoundingOf(double steps, double metres) => 40 * metres * Rounding.Unit * steps;
-
-    private static double Speed(double v, double t) => Terminal + ((v - Terminal) * Math.Exp(-K * t));
-
-    private static double Place(double y, double v, double t) => y + (Terminal * t) + ((v - Terminal) / K * (1 - Math.Exp(-K * t)));
-
-    /// <summary>When the ball is down again.</summary>
-    private static double Root(double y, double v)
-    {
-        double low = v > 0 ? Math.Log((v - Terminal) / -Terminal) / K : 0, high = 100; // the apex
-        for (int n = 0; n < 200; n++)
-        {
-            double middle = 0.5 * (low + high);
-            (low, high) = Place(y, v, middle) > 0 ? (middle, high) : (low, middle);
-        }
-
-        return high;
-    }
 }
