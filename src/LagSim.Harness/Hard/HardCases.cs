@@ -31,6 +31,8 @@ public static class HardCases
         new HardSphereGasCase(),
         new HaffCase(),
         new CollapseCase(),
+        new EventOrderCase(),
+        new ScalesCase(),
     ];
 
     /// <summary>The case of that name.</summary>

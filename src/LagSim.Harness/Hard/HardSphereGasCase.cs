@@ -21,7 +21,7 @@ internal sealed class HardSphereGasCase : IHardCase
         int bodies = context.Size(512, 4096);
         foreach (double fraction in context.Sizes([0.2], [0.1, 0.2, 0.3, 0.4]))
         {
-            Measured seen = Measure(context, BuiltInScenes.Gas(bodies, fraction), context.Size(60_000L, 1_000_000L));
+            Measured seen = Measure(context, BuiltInScenes.Gas(bodies, fraction), context.Size(30_000L, 1_000_000L));
             foreach (HardRow row in RowsOf(bodies, fraction, fraction, seen))
             {
                 yield return row;
