@@ -10,6 +10,8 @@ internal sealed class LagSimMethod(MotionLaw law) : IWorkMethod
 {
     internal const string EngineName = "lagsim";
 
+    private Built? last;
+
     public string Name => $"LagSim {law}";
 
     public string Engine => EngineName;
@@ -22,7 +24,21 @@ internal sealed class LagSimMethod(MotionLaw law) : IWorkMethod
 
     public IReadOnlyList<WorkSetting> Settings(WorkScene scene) => IsClosedForm ? [WorkSetting.None] : [.. scene.IntegratorRates.Append(2 * scene.IntegratorRates[^1]).Select(WorkSetting.Rate)];
 
-    public IWorkRun Start(WorkScene scene, WorkSetting setting) => new Run(IsClosedForm ? scene.Scene : scene.Build(law, SimDuration.FromSeconds(setting.StepSeconds)));
+    public IWorkRun Start(WorkScene scene, WorkSetting setting) => new Run(IsClosedForm ? scene.Scene : Build(scene, setting.StepSeconds));
+
+    /// <summary>The scene is given, as it is to the other engines: that it was built is not part of a run.</summary>
+    private Scene Build(WorkScene scene, double step)
+    {
+        Built? kept = last;
+        if (kept is null || kept.Work != scene || kept.Step != step)
+        {
+            last = kept = new Built(scene, step, scene.Build(law, SimDuration.FromSeconds(step)));
+        }
+
+        return kept.Scene;
+    }
+
+    private sealed record Built(WorkScene Work, double Step, Scene Scene);
 
     /// <summary>A simulation that keeps the default second of history, as one of a game without a session does.</summary>
     internal sealed class Run(Scene scene) : IWorkRun

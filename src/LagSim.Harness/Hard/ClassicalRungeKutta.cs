@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using LagSim.Scenes;
 using static LagSim.Harness.Hard.HardWorlds;
 
@@ -38,6 +39,25 @@ internal static class ClassicalRungeKutta
         (x, v) = Step(f, t, x, v, h);
         return (x, x.Y < floor && v.Y < 0 ? V(v.X, -e * v.Y, v.Z) : v);
     };
+
+    /// <summary>When a body that starts at rest bounces on y = 0 if each contact acts at the end of its step.</summary>
+    internal static double[] SnappedTimes(Acceleration f, Vector3D x, double e, double h, int steps)
+    {
+        List<double> times = [];
+        Vector3D v = default;
+        Method method = Snapped(0, e);
+        for (int n = 0; n < steps; n++)
+        {
+            double falling = v.Y;
+            (x, v) = method(f, n * h, x, v, h);
+            if (falling < 0 && v.Y > 0)
+            {
+                times.Add((n + 1) * h);
+            }
+        }
+
+        return [.. times];
+    }
 
     /// <summary>So many steps from a state at time zero.</summary>
     internal static (Vector3D X, Vector3D V) Run(Method method, Acceleration f, Vector3D x, Vector3D v, double h, long steps)

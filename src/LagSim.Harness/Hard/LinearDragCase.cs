@@ -15,6 +15,8 @@ internal sealed class LinearDragCase : IHardCase
 {
     private const double K = 0.5;
     private const double E = 0.9;
+    private const double Height = 2;
+    private const double Seconds = 6; // of bouncing
 
     private static readonly LinearDragFall Fall = new(Gravity, K);
     private static readonly double Terminal = Fall.Terminal;
@@ -28,7 +30,7 @@ internal sealed class LinearDragCase : IHardCase
         foreach (double step in context.Sizes([1.0 / 32], [1.0 / 16, 1.0 / 64, 1.0 / 256]))
         {
             yield return FallRow(context, new LinearDrag(K), step);
-            yield return BounceRow(context, new LinearDrag(K), step);
+            yield return BounceRow(step, Bounces(context, new LinearDrag(K), step));
         }
     }
 
@@ -36,7 +38,9 @@ internal sealed class LinearDragCase : IHardCase
     {
         const double step = 1.0 / 32;
         yield return FallRow(context, new LinearDrag(K * (1 + 1e-6)), step) with { Note = "k off by a millionth" };
-        yield return BounceRow(context, new LinearDrag(K * (1 + 1e-6)), step) with { Note = "k off by a millionth" };
+        yield return BounceRow(step, Bounces(context, new LinearDrag(K * (1 + 1e-6)), step)) with { Note = "k off by a millionth" };
+        double[] snapped = ClassicalRungeKutta.SnappedTimes(ClassicalRungeKutta.Of(new LinearDrag(K), V(0, -Gravity)), V(0, Height), E, step, (int)(Seconds / step));
+        yield return BounceRow(step, snapped) with { Note = "contacts moved to the end of their step" };
         (Vector3D x, _) = ClassicalRungeKutta.Run(ClassicalRungeKutta.ThesisStep, ClassicalRungeKutta.Of(new LinearDrag(K), V(0, -Gravity)), default, default, step, 128);
         yield return FallRow(step, 4, x.Y) with { Note = "the thesis's update of the position" };
     }
@@ -59,13 +63,16 @@ internal sealed class LinearDragCase : IHardCase
             "y = u t - (u/k)(1 - exp(-kt))");
     }
 
-    private HardRow BounceRow(HardContext context, IAcceleration drag, double step)
+    private static double[] Bounces(HardContext context, IAcceleration drag, double step)
     {
-        const double height = 2;
         Scene scene = new SceneBuilder("bounce").AddPlane("floor", Vector3D.Up, V(0, -0.5)).AddAcceleration(drag)
-            .AddBody("ball", Stepped(step, e: E), V(0, height)).Build();
-        double[] seen = ImpactTimes(context.Run(scene, 6), First);
-        double y = height, v = 0, t = 0, worst = 0, bound = 0;
+            .AddBody("ball", Stepped(step, e: E), V(0, Height)).Build();
+        return ImpactTimes(context.Run(scene, Seconds), First);
+    }
+
+    private HardRow BounceRow(double step, double[] seen)
+    {
+        double y = Height, v = 0, t = 0, worst = 0, bound = 0;
         ErrorSources off = new();
         foreach (double impact in seen)
         {

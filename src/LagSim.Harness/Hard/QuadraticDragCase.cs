@@ -15,6 +15,8 @@ internal sealed class QuadraticDragCase : IHardCase
 {
     private const double K = 0.02; // per metre
     private const double E = 0.9;
+    private const double Height = 5;
+    private const double Seconds = 8; // of bouncing
 
     private static readonly double Terminal = Math.Sqrt(Gravity / K);
 
@@ -27,7 +29,7 @@ internal sealed class QuadraticDragCase : IHardCase
         foreach (double step in context.Sizes([1.0 / 32], [1.0 / 16, 1.0 / 64, 1.0 / 256]))
         {
             yield return FallRow(context, new QuadraticDrag(K), step);
-            yield return BounceRow(context, new QuadraticDrag(K), step);
+            yield return BounceRow(step, Bounces(context, new QuadraticDrag(K), step));
         }
     }
 
@@ -35,7 +37,9 @@ internal sealed class QuadraticDragCase : IHardCase
     {
         const double step = 1.0 / 32;
         yield return FallRow(context, new QuadraticDrag(K * (1 + 1e-4)), step) with { Note = "k off by 1e-4" };
-        yield return BounceRow(context, new QuadraticDrag(K * (1 + 1e-3)), step) with { Note = "k off by 1e-3" };
+        yield return BounceRow(step, Bounces(context, new QuadraticDrag(K * (1 + 1e-3)), step)) with { Note = "k off by 1e-3" };
+        double[] snapped = ClassicalRungeKutta.SnappedTimes(ClassicalRungeKutta.Of(new QuadraticDrag(K), V(0, -Gravity)), V(0, Height), E, step, (int)(Seconds / step));
+        yield return BounceRow(step, snapped) with { Note = "contacts moved to the end of their step" };
         (Vector3D x, _) = ClassicalRungeKutta.Run(ClassicalRungeKutta.ThesisStep, ClassicalRungeKutta.Of(new QuadraticDrag(K), V(0, -Gravity)), default, default, step, 128);
         yield return FallRow(step, 4, x.Y) with { Note = "the thesis's update of the position" };
     }
@@ -58,13 +62,16 @@ internal sealed class QuadraticDragCase : IHardCase
             "y = -(u^2/g) ln cosh(g t/u)");
     }
 
-    private HardRow BounceRow(HardContext context, IAcceleration drag, double step)
+    private static double[] Bounces(HardContext context, IAcceleration drag, double step)
     {
-        const double height = 5;
         Scene scene = new SceneBuilder("bounce").AddPlane("floor", Vector3D.Up, V(0, -0.5)).AddAcceleration(drag)
-            .AddBody("ball", Stepped(step, e: E), V(0, height)).Build();
-        double[] seen = ImpactTimes(context.Run(scene, 8), First);
-        double t = 0, up = 0, worst = 0, bound = 0, rise = height;
+            .AddBody("ball", Stepped(step, e: E), V(0, Height)).Build();
+        return ImpactTimes(context.Run(scene, Seconds), First);
+    }
+
+    private HardRow BounceRow(double step, double[] seen)
+    {
+        double t = 0, up = 0, worst = 0, bound = 0, rise = Height;
         ErrorSources off = new();
         foreach (double impact in seen)
         {

@@ -1,61 +1,44 @@
 using System;
-using System.Runtime.InteropServices;
 
 namespace LagSim.Harness.Accuracy.Peers;
 
-/// <summary>While it lasts, what native code prints to stdout is thrown away; on Unix alone, and nothing managed may be printed meanwhile.</summary>
-internal sealed class NativeSilence : IDisposable
+/// <summary>While it lasts, what native code prints to C's <c>stdout</c> is thrown away. What .NET prints is not: it does not go that way. On Linux with glibc and on macOS; elsewhere it does nothing.</summary>
+internal sealed unsafe class NativeSilence : IDisposable
 {
-    private const int StandardOutput = 1;
-    private const int WriteOnly = 1;
-
-    private readonly int kept = -1;
+    private readonly NativeFunctions library = OperatingSystem.IsMacOS() ? new NativeFunctions("libSystem.dylib") : OperatingSystem.IsLinux() ? new NativeFunctions("libc.so.6") : new NativeFunctions();
+    private readonly nint* stream;
+    private readonly nint kept;
 
     internal NativeSilence()
     {
-        if (OperatingSystem.IsWindows())
+        if (!library.IsThere)
         {
             return;
         }
 
-        Flush(0);
-        kept = Duplicate(StandardOutput);
-        int nowhere = Open("/dev/null", WriteOnly);
-        if (nowhere >= 0)
+        // C's stdout is a variable there, which may be assigned to; the file descriptor below it stays everybody's.
+        delegate* unmanaged[Cdecl]<byte*, byte*, nint> open = (delegate* unmanaged[Cdecl]<byte*, byte*, nint>)library.Find("fopen");
+        nint nowhere;
+        fixed (byte* path = "/dev/null"u8, mode = "w"u8)
         {
-            DuplicateTo(nowhere, StandardOutput);
-            Close(nowhere);
+            nowhere = open(path, mode);
+        }
+
+        if (nowhere != 0)
+        {
+            stream = (nint*)library.Find(OperatingSystem.IsMacOS() ? "__stdoutp" : "stdout");
+            (kept, *stream) = (*stream, nowhere);
         }
     }
 
     /// <inheritdoc/>
     public void Dispose()
     {
-        if (kept >= 0)
+        if (stream != null)
         {
-            Flush(0); // what is still buffered would come out later
-            DuplicateTo(kept, StandardOutput);
-            Close(kept);
+            nint nowhere = *stream;
+            *stream = kept;
+            ((delegate* unmanaged[Cdecl]<nint, int>)library.Find("fclose"))(nowhere);
         }
     }
-
-    [DllImport("libc", EntryPoint = "fflush")]
-    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
-    private static extern int Flush(nint stream);
-
-    [DllImport("libc", EntryPoint = "dup")]
-    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
-    private static extern int Duplicate(int file);
-
-    [DllImport("libc", EntryPoint = "dup2")]
-    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
-    private static extern int DuplicateTo(int file, int to);
-
-    [DllImport("libc", EntryPoint = "open", CharSet = CharSet.Ansi, BestFitMapping = false, ThrowOnUnmappableChar = true)]
-    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
-    private static extern int Open(string path, int flags);
-
-    [DllImport("libc", EntryPoint = "close")]
-    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
-    private static extern int Close(int file);
 }
