@@ -88,7 +88,7 @@ public static class WorkSweep
     {
         double least = double.MaxValue, all = 0;
         int runs = 0;
-        while (all < options.TimingSeconds || (runs < 3 && least < Long))
+        while (all < options.TimingSeconds || (runs < options.FewestRuns && least < Long))
         {
             cancellation.ThrowIfCancellationRequested();
             double began = ThreadClock.Microseconds;
