@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
+using LagSim.Harness.Metrics;
 using LagSim.Harness.Scenes;
 using LagSim.Scenes;
 using LagSim.Time;

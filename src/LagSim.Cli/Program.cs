@@ -37,6 +37,8 @@ internal static class Program
             DropCommand.Create(console),
             CompareCommand.Create(console),
             HoldCommand.Create(console),
+            AccuracyCommand.Create(console),
+            HardCommand.Create(console),
             FuzzCommand.Create(console),
             RunCommand.Create(console),
             ScenesCommand.Create(console),

@@ -59,6 +59,9 @@ public sealed class ChartSeries
     /// <summary>How the series is drawn.</summary>
     public SeriesStyle Style { get; }
 
+    /// <summary>Whether each point has a dot besides the line, for a series of few points.</summary>
+    public bool HasDots { get; init; }
+
     /// <summary>The palette slot, or null for the series' place in its panel.</summary>
     public int? Colour { get; }
 }

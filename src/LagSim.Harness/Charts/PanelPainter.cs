@@ -19,8 +19,12 @@ internal static class PanelPainter
         for (int i = 0; i < layout.Panel.Series.Count; i++)
         {
             ChartSeries series = layout.Panel.Series[i];
-            string curve = SvgElements.Curve(Decimation.Thin(series.X, series.Y), layout.X, layout.Y, series.Style);
-            svg.Path(curve, CurveClass(series.Style, series.Colour ?? i));
+            List<(double X, double Y)> points = Decimation.Thin(series.X, series.Y);
+            svg.Path(SvgElements.Curve(points, layout.X, layout.Y, series.Style), CurveClass(series.Style, series.Colour ?? i));
+            if (series.HasDots)
+            {
+                svg.Path(SvgElements.Curve(points, layout.X, layout.Y, SeriesStyle.Points), CurveClass(SeriesStyle.Points, series.Colour ?? i));
+            }
         }
     }
 
@@ -35,6 +39,10 @@ internal static class PanelPainter
             {
                 string sample = series.Style == SeriesStyle.Points ? "m4 0h0m8 0h0m8 0h0" : "h24";
                 svg.Path($"M{SvgElements.Pixels(entry.X)} {SvgElements.Pixels(y - 4)}{sample}", CurveClass(series.Style, entry.Slot));
+                if (series.HasDots)
+                {
+                    svg.Path($"M{SvgElements.Pixels(entry.X + 12)} {SvgElements.Pixels(y - 4)}h0", CurveClass(SeriesStyle.Points, entry.Slot));
+                }
             }
             else
             {

@@ -46,6 +46,19 @@ public sealed class LineChartTests
     }
 
     [Fact]
+    public void ToSvg_SeriesWithDots_HasOneForEachPointAndOneInTheLegend()
+    {
+        static int Dots(bool hasDots)
+        {
+            XElement svg = XElement.Parse(new LineChart("t", "", [new ChartPanel("p", "m", [new ChartSeries("s", [1, 2, 3], [1, 2, 1]) { HasDots = hasDots }])]).ToSvg());
+            return svg.Descendants(Svg + "path").Where(p => ((string)p.Attribute("class")!).EndsWith(" dots", StringComparison.Ordinal)).Sum(p => Regex.Count((string)p.Attribute("d")!, "h0"));
+        }
+
+        Assert.Equal(4, Dots(hasDots: true));
+        Assert.Equal(0, Dots(hasDots: false));
+    }
+
+    [Fact]
     public void ToSvg_TextWithMarkup_IsEscapedAndComesBackWhole()
     {
         const string Nasty = "a<b & \"c\" 'd' \u0001 ]]> \ud83d\ude00 \ud800";

@@ -2,21 +2,21 @@ using System;
 using System.Diagnostics;
 using System.Runtime.InteropServices;
 
-namespace LagSim.Bench;
+namespace LagSim.Harness.Metrics;
 
 /// <summary>
 /// The time that this thread has had a core: what others take on a shared machine is not counted, so a tail is the program's own. Where the system does not tell (anything but Linux) wall
 /// clock.
 /// </summary>
-internal static class ThreadClock
+public static class ThreadClock
 {
     private const int ThreadCpuTime = 3; // CLOCK_THREAD_CPUTIME_ID
 
     /// <summary>What the figures are.</summary>
-    internal static string Name => OperatingSystem.IsLinux() ? "CPU time" : "wall clock";
+    public static string Name => OperatingSystem.IsLinux() ? "CPU time" : "wall clock";
 
     /// <summary>Microseconds from some beginning.</summary>
-    internal static double Microseconds
+    public static double Microseconds
     {
         get
         {

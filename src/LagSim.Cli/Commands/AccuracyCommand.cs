@@ -1,0 +1,75 @@
+using System;
+using System.Collections.Generic;
+using System.CommandLine;
+using System.Linq;
+using LagSim.Cli.Output;
+using LagSim.Harness.Accuracy;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary><c>lagsim accuracy</c>: speed against error, LagSim beside other engines and integrators.</summary>
+internal static class AccuracyCommand
+{
+    private const string All = "all";
+    private const string None = "none";
+
+    internal static Command Create(ToolConsole console)
+    {
+        CommonOptions common = new();
+        Argument<string> which = new("SCENE")
+        {
+            Description = $"{All}, or one of {string.Join(", ", WorkScenes.All.Select(scene => scene.Name))}.",
+            DefaultValueFactory = _ => All,
+        };
+        Option<string> peers = CommonOptions.Word("--peers", $"Which engines and integrators besides LagSim: {All}, {None}, or one of {string.Join(", ", WorkMethods.Peers)}.", All, [All, None, .. WorkMethods.Peers]);
+        Option<bool> quick = new("--quick") { Description = "Few settings and short runs: some seconds in all, figures of speed not to be trusted." };
+        Option<double> longest = CommonOptions.Number("--longest-s", "The longest that a single run may take by its coarser neighbour; finer settings are left out", new WorkOptions().LongestSeconds, 1e-3, 1e5);
+        Command command = new("accuracy", "Speed against error: each scene by each method, its step swept; tables, CSV and charts.") { which, peers, quick, longest };
+        common.AddTo(command);
+        command.SetAction(parsed =>
+        {
+            string name = parsed.GetValue(which)!, peer = parsed.GetValue(peers)!;
+            IReadOnlyList<WorkScene> scenes = name == All ? WorkScenes.All
+                : WorkScenes.TryGet(name, out WorkScene? found) ? [found]
+                : throw new UsageException($"SCENE is '{name}'; it must be {All} or one of {string.Join(", ", WorkScenes.All.Select(scene => scene.Name))}.");
+            IWorkMethod[] methods = [.. WorkMethods.All.Where(method => peer == All || method.Engine == peer || !WorkMethods.Peers.Contains(method.Engine))];
+            bool isQuick = parsed.GetValue(quick);
+            WorkOptions options = isQuick ? WorkOptions.Quick : new WorkOptions { LongestSeconds = parsed.GetValue(longest) };
+            if (isQuick && parsed.GetResult(longest) is { Implicit: false })
+            {
+                throw new UsageException("--quick and --longest-s exclude each other: a quick look has its own limit.");
+            }
+
+            return Run(console, scenes, methods, options, parsed.GetValue(common.Seed), parsed.GetValue(common.Out), parsed.GetValue(common.Json));
+        });
+        return command;
+    }
+
+    private static int Run(
+        ToolConsole console, IReadOnlyList<WorkScene> scenes, IReadOnlyList<IWorkMethod> methods, WorkOptions options, ulong seed, string? folder, bool json)
+    {
+        if (folder is not null)
+        {
+            OutputFolder.ThrowIfNotWritable(folder);
+        }
+
+        string title = scenes.Count == 1 ? $"accuracy {scenes[0].Name}" : "accuracy";
+        WorkReport work = console.WithProgress(title, 1, progress => WorkSweep.Run(scenes, methods, options, progress, console.Stop));
+        AccuracyReport report = new(scenes, work, options == WorkOptions.Quick, seed);
+        if (folder is not null)
+        {
+            AccuracyFiles.Write(folder, report);
+        }
+
+        if (json)
+        {
+            AccuracyJson.Write(console.Output, report);
+        }
+        else
+        {
+            AccuracyTables.Write(console, report, folder);
+        }
+
+        return ExitCode.Done;
+    }
+}

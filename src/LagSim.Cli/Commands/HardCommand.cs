@@ -1,0 +1,69 @@
+using System.Collections.Generic;
+using System.CommandLine;
+using System.Diagnostics;
+using System.Linq;
+using LagSim.Cli.Output;
+using LagSim.Harness.Hard;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary><c>lagsim hard</c>: the numerical hard cases against exact references.</summary>
+internal static class HardCommand
+{
+    private const string All = "all";
+
+    internal static Command Create(ToolConsole console)
+    {
+        CommonOptions common = new();
+        Argument<string> which = new("CASE")
+        {
+            Description = $"{All}, or one of {string.Join(", ", HardCases.All.Select(c => c.Name))}.",
+            DefaultValueFactory = _ => All,
+        };
+        Option<string> scale = CommonOptions.Word("--scale", "full: the sizes of the catalogue, some minutes; small: what tests run, some seconds.", "full", "full", "small");
+        Option<bool> controls = new("--controls") { Description = "Run deliberately wrong methods through the same checks; each of them must fail." };
+        Command command = new("hard", "Numerical hard cases against exact references, each with a bound that is argued from rounding or order.") { which, scale, controls };
+        common.AddTo(command);
+        command.SetAction(parsed =>
+        {
+            string name = parsed.GetValue(which)!;
+            IReadOnlyList<IHardCase> cases = name == All ? HardCases.All
+                : HardCases.TryGet(name, out IHardCase? found) ? [found]
+                : throw new UsageException($"CASE is '{name}'; it must be {All} or one of {string.Join(", ", HardCases.All.Select(c => c.Name))}.");
+            HardScale size = parsed.GetValue(scale) == "small" ? HardScale.Small : HardScale.Full;
+            return Run(console, cases, size, parsed.GetValue(controls), parsed.GetValue(common.Seed), parsed.GetValue(common.Out), parsed.GetValue(common.Json));
+        });
+        return command;
+    }
+
+    /// <summary>What did not pass is a failed check; of deliberately wrong methods, what did.</summary>
+    internal static int ExitCodeOf(HardReport report) => report.AsItShouldBe == report.Rows.Count ? ExitCode.Done : ExitCode.CheckFailed;
+
+    private static int Run(ToolConsole console, IReadOnlyList<IHardCase> cases, HardScale scale, bool areControls, ulong seed, string? folder, bool json)
+    {
+        if (folder is not null)
+        {
+            OutputFolder.ThrowIfNotWritable(folder);
+        }
+
+        long began = Stopwatch.GetTimestamp();
+        IReadOnlyList<HardRow> rows = console.WithProgress(
+            cases.Count == 1 ? $"hard {cases[0].Name}" : "hard", cases.Count, progress => HardCases.Run(cases, scale, seed, areControls, (done, _) => progress(done), console.Stop));
+        HardReport report = new(rows, scale, areControls, seed, Stopwatch.GetElapsedTime(began).TotalSeconds);
+        if (folder is not null)
+        {
+            HardFiles.Write(folder, report);
+        }
+
+        if (json)
+        {
+            HardJson.Write(console.Output, report);
+        }
+        else
+        {
+            HardTables.Write(console, report, folder);
+        }
+
+        return ExitCodeOf(report);
+    }
+}

@@ -1,0 +1,52 @@
+using System.IO;
+using LagSim.Harness.Accuracy;
+using LagSim.Harness.Charts;
+using LagSim.Harness.Reports;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>Speed against error as files: a CSV with a row a point and kind of error, two charts a scene, and a page that shows them.</summary>
+internal static class AccuracyFiles
+{
+    internal static void Write(string folder, AccuracyReport report)
+    {
+        Directory.CreateDirectory(folder);
+        using (StreamWriter file = new(Path.Combine(folder, "accuracy.csv")))
+        {
+            CsvFile csv = new(file, "scene", "method", "setting", "error", "error_kind", "cpu_s", "simulated_s", "events");
+            foreach (WorkPoint point in report.Work.Points)
+            {
+                csv.WriteRow(point.Scene, point.Method, point.Setting, point.Error, point.ErrorKind, point.CpuSeconds, point.SimulatedSeconds, point.Events);
+            }
+        }
+
+        HtmlReport page = new(
+            "LagSim: speed against error",
+            "Each claim of speed beside its error: every scene by every method, its step swept. " + WorkFindings.Caution,
+            new ReportFooter("lagsim", ToolVersion.Text, report.Seed, null));
+        foreach (WorkScene scene in report.Scenes)
+        {
+            page.AddHeading($"{scene.Name}: {scene.Title}");
+            Chart(AccuracyChart.OfWork(report, scene), $"accuracy-{scene.Name}-work.svg");
+            Chart(AccuracyChart.OfSteps(report, scene), $"accuracy-{scene.Name}-steps.svg");
+            page.AddTable(new ReportTable(AccuracyTables.Title(scene), AccuracyTables.Headings, [.. AccuracyTables.Rows(report, scene)]));
+        }
+
+        page.AddHeading("What this says, and what is left out");
+        foreach (string line in AccuracyTables.Footnotes(report))
+        {
+            page.AddParagraph(line);
+        }
+
+        page.Save(Path.Combine(folder, "report.html"));
+
+        void Chart(LineChart? chart, string name)
+        {
+            if (chart is not null)
+            {
+                chart.Save(Path.Combine(folder, name));
+                page.AddChart(chart, WorkFindings.Caution);
+            }
+        }
+    }
+}

@@ -1,0 +1,77 @@
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Harness.Accuracy;
+using LagSim.Harness.Metrics;
+using LagSim.Harness.Reports;
+using Spectre.Console;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>Speed against error as tables for a person.</summary>
+internal static class AccuracyTables
+{
+    internal static IReadOnlyList<string> Headings { get; } = ["method", "setting", "error", "simulated s per CPU s", "CPU s", "events", "order"];
+
+    internal static void Write(ToolConsole console, AccuracyReport report, string? folder)
+    {
+        console.Output.WriteLine($"lagsim {ToolVersion.Text}   accuracy   seed {report.Seed}");
+        foreach (WorkScene scene in report.Scenes)
+        {
+            Table table = DropTables.NewTable(Title(scene), [.. Headings]);
+            foreach (IReadOnlyList<string> row in Rows(report, scene))
+            {
+                table.AddRow([.. row.Select(Markup.Escape)]);
+            }
+
+            console.Rich.Write(table);
+        }
+
+        foreach (string line in Footnotes(report))
+        {
+            console.Output.WriteLine(line);
+        }
+
+        if (folder is not null)
+        {
+            console.Output.WriteLine($"Charts, CSV and report.html are in {folder}.");
+        }
+    }
+
+    internal static string Title(WorkScene scene) => $"{scene.Name}: {scene.ErrorKinds[0]} against {scene.Reference}";
+
+    /// <summary>A row a point; other kinds of error than the first follow in the same cell.</summary>
+    internal static IEnumerable<IReadOnlyList<string>> Rows(AccuracyReport report, WorkScene scene)
+    {
+        foreach (IGrouping<(string Method, string Setting), WorkPoint> at in report.Work.Points.Where(p => p.Scene == scene.Name).GroupBy(p => (p.Method, p.Setting)))
+        {
+            WorkPoint point = at.First();
+            WorkOrder? order = report.Work.Orders.FirstOrDefault(o => o.Scene == scene.Name && o.Method == point.Method);
+            bool isFirst = report.Work.Points.First(p => p.Scene == scene.Name && p.Method == point.Method) == point;
+            yield return
+            [
+                point.Method, point.Setting, string.Join("; ", at.Select(p => double.IsNaN(p.Error) ? "not finite" : NumberText.Short(p.Error))), NumberText.Short(point.Speed),
+                NumberText.Short(point.CpuSeconds), NumberText.Short(point.Events), isFirst && order is not null ? NumberText.Short(order.Slope) : "",
+            ];
+        }
+    }
+
+    internal static IEnumerable<string> Footnotes(AccuracyReport report)
+    {
+        foreach (WorkScene scene in report.Scenes.Where(scene => scene.ErrorKinds.Count > 1))
+        {
+            yield return $"errors of {scene.Name}: {string.Join("; ", scene.ErrorKinds)}.";
+        }
+
+        yield return $"Speed is by {ThreadClock.Name}, the least of several runs after a warm-up, building the world included. A method without steps counts events, any other its steps.";
+        yield return "order: slope of error against step, logarithmic, least squares over the finest four points above a hundred times rounding and below a tenth of the scene's size.";
+        if (report.IsQuick)
+        {
+            yield return "A quick look: few settings, short runs; its figures of speed are not to be trusted.";
+        }
+
+        foreach (string sentence in WorkFindings.Sentences(report.Work.Points).Concat(report.Work.LeftOut).Append(WorkFindings.Caution))
+        {
+            yield return sentence;
+        }
+    }
+}

@@ -1,0 +1,20 @@
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Harness.Hard;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>All that <c>lagsim hard</c> found out, however it is told. Immutable.</summary>
+/// <param name="Rows">What was checked.</param>
+/// <param name="Scale">How large the sizes were.</param>
+/// <param name="AreControls">Whether deliberately wrong methods were run, which must fail.</param>
+/// <param name="Seed">The luck of it.</param>
+/// <param name="WallSeconds">How long it took.</param>
+internal sealed record HardReport(IReadOnlyList<HardRow> Rows, HardScale Scale, bool AreControls, ulong Seed, double WallSeconds)
+{
+    /// <summary>How many rows came out as they should: passed, or for a wrong method failed.</summary>
+    internal int AsItShouldBe => Rows.Count(row => row.Passed != AreControls);
+
+    /// <summary>The word for a row's outcome.</summary>
+    internal static string Outcome(HardRow row) => row.Passed ? "passed" : row.IsModelled ? "FAILED" : "NOT MODELLED";
+}

@@ -1,0 +1,52 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Harness.Forces;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Harness.Accuracy;
+
+/// <summary>An orbit of eccentricity 0.5 around a centre: where it is after three times round.</summary>
+internal sealed class KeplerWork : WorkScene
+{
+    private const double E = 0.5;
+    private const double Period = 2;
+    private const double Motion = 2 * Math.PI / Period;
+
+    public override string Name => "kepler";
+
+    public override string Title => "an orbit of eccentricity 0.5 and 1 m, three times round, 6 s";
+
+    public override string Reference => "Kepler's equation";
+
+    public override double Seconds => 3 * Period;
+
+    public override IReadOnlyList<string> ErrorKinds { get; } = ["max_position_error_m"];
+
+    public override double Floor => 1e-13;
+
+    public override double Ceiling => 1;
+
+    public override IReadOnlyList<double> IntegratorRates => [15, 30, 60, 120, 240, 480, 960, 1920, 3840];
+
+    public override IAcceleration Force { get; } = new CentralGravity(Motion * Motion);
+
+    public override Scene Build(MotionLaw law, SimDuration step) => new SceneBuilder(Name).WithGravity(Vector3D.Zero).AddAcceleration(Force)
+        .AddBody("planet", new BodySpec(0.01, 1, 1, law, step, 1), Exact(0), new Vector3D(0, -Motion * Math.Sqrt((1 - E) / (1 + E)), 0)).Build();
+
+    public override (double X, double Y)? Flat(in Vector3D v, int body) => (v.X, v.Y);
+
+    protected override IWatch Watch() => new PathWatch(Exact);
+
+    /// <summary>It starts at its far end.</summary>
+    private static Vector3D Exact(double seconds)
+    {
+        double mean = Math.PI + (Motion * seconds), anomaly = mean;
+        for (int n = 0; n < 50; n++)
+        {
+            anomaly -= (anomaly - (E * Math.Sin(anomaly)) - mean) / (1 - (E * Math.Cos(anomaly)));
+        }
+
+        return new Vector3D(Math.Cos(anomaly) - E, Math.Sqrt(1 - (E * E)) * Math.Sin(anomaly), 0);
+    }
+}

@@ -1,0 +1,23 @@
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Harness.Accuracy.Peers;
+using LagSim.Scenes;
+
+namespace LagSim.Harness.Accuracy;
+
+/// <summary>The methods of the work-precision diagrams.</summary>
+public static class WorkMethods
+{
+    /// <summary>All of them, LagSim's own first.</summary>
+    public static IReadOnlyList<IWorkMethod> All { get; } =
+    [
+        new LagSimMethod(MotionLaw.Ballistic),
+        new LagSimMethod(MotionLaw.RungeKutta4),
+        new MathNetMethod(),
+        new OdeMethod(),
+        new ChipmunkMethod(),
+    ];
+
+    /// <summary>The engines besides LagSim, each once.</summary>
+    public static IReadOnlyList<string> Peers { get; } = [.. All.Select(method => method.Engine).Where(engine => engine != LagSimMethod.EngineName).Distinct()];
+}

@@ -1,0 +1,9 @@
+using System.Collections.Generic;
+
+namespace LagSim.Harness.Accuracy;
+
+/// <summary>What came of holding speed against error. Immutable.</summary>
+/// <param name="Points">Every scene, method, setting and kind of error, in that order.</param>
+/// <param name="Orders">The measured order of each method that has steps.</param>
+/// <param name="LeftOut">What was left out and why, a sentence each; missing engines among them.</param>
+public sealed record WorkReport(IReadOnlyList<WorkPoint> Points, IReadOnlyList<WorkOrder> Orders, IReadOnlyList<string> LeftOut);

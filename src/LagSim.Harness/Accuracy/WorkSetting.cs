@@ -1,0 +1,15 @@
+using System;
+
+namespace LagSim.Harness.Accuracy;
+
+/// <summary>One setting of a method. Immutable.</summary>
+/// <param name="Text">In words: <c>1/60 s</c>, <c>exact</c>.</param>
+/// <param name="StepSeconds">The step in seconds; NaN for none.</param>
+public sealed record WorkSetting(string Text, double StepSeconds)
+{
+    /// <summary>That many steps a second.</summary>
+    internal static WorkSetting Rate(double hertz) => new(FormattableString.Invariant($"1/{hertz:0.###} s"), 1 / hertz);
+
+    /// <summary>A method without a step.</summary>
+    internal static WorkSetting None { get; } = new("no step", double.NaN);
+}

@@ -1,0 +1,105 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Threading;
+using LagSim.Harness.Metrics;
+
+namespace LagSim.Harness.Accuracy;
+
+/// <summary>Speed against error: each method on each scene, its step swept, every point measured for its error and timed apart from that.</summary>
+public static class WorkSweep
+{
+    private const double Long = 1; // seconds: what takes longer is timed once, after the run that measured its error
+
+    /// <summary>Runs some scenes by some methods.</summary>
+    /// <param name="scenes">The scenes.</param>
+    /// <param name="methods">The methods; those that are missing or do not suit a scene are left out with a sentence.</param>
+    /// <param name="options">How thoroughly.</param>
+    /// <param name="progress">Is told which part of all points is done, 0 to 1.</param>
+    /// <param name="cancellation">Ends it between two runs, by an <see cref="OperationCanceledException"/>.</param>
+    public static WorkReport Run(
+        IReadOnlyList<WorkScene> scenes, IReadOnlyList<IWorkMethod> methods, WorkOptions options, Action<double>? progress = null, CancellationToken cancellation = default)
+    {
+        ArgumentNullException.ThrowIfNull(scenes);
+        ArgumentNullException.ThrowIfNull(methods);
+        ArgumentNullException.ThrowIfNull(options);
+        List<WorkPoint> points = [];
+        List<WorkOrder> orders = [];
+        List<string> leftOut = [.. methods.Where(method => method.Missing is not null).DistinctBy(method => method.Engine).Select(method => $"{method.Name} is left out: {method.Missing}.")];
+        (WorkScene Scene, IWorkMethod Method)[] sweeps =
+            [.. scenes.SelectMany(scene => methods.Where(method => method.Missing is null).Select(method => (scene, method)))];
+        for (int n = 0; n < sweeps.Length; n++)
+        {
+            (WorkScene scene, IWorkMethod method) = sweeps[n];
+            if (method.Excludes(scene) is string why)
+            {
+                leftOut.Add($"{scene.Name}: {method.Name} is left out: {why}.");
+                continue;
+            }
+
+            int done = n;
+            List<WorkPoint> swept = Sweep(scene, method, options, leftOut, part => progress?.Invoke((done + part) / sweeps.Length), cancellation);
+            points.AddRange(swept);
+            if (WorkOrder.Of(scene, swept.Where(point => point.ErrorKind == scene.ErrorKinds[0])) is WorkOrder order)
+            {
+                orders.Add(order);
+            }
+        }
+
+        return new WorkReport(points, orders, leftOut);
+    }
+
+    private static List<WorkPoint> Sweep(
+        WorkScene scene, IWorkMethod method, WorkOptions options, List<string> leftOut, Action<double> progress, CancellationToken cancellation)
+    {
+        List<WorkPoint> points = [];
+        WorkSetting[] settings = [.. method.Settings(scene).Take(options.MostSettings)];
+        for (int n = 0; n < settings.Length; n++)
+        {
+            cancellation.ThrowIfCancellationRequested();
+            progress((double)n / settings.Length);
+            WorkSetting setting = settings[n];
+            double expected = points.Count == 0 ? 0 : points[^1].CpuSeconds * points[^1].StepSeconds / setting.StepSeconds;
+            if (expected > options.LongestSeconds)
+            {
+                leftOut.Add(FormattableString.Invariant(
+                    $"{scene.Name}: {method.Name} at {setting.Text}{(n + 1 < settings.Length ? " and finer" : "")} is left out: it would take about {expected:0.#} s a run, and {options.LongestSeconds} s are allowed."));
+                break;
+            }
+
+            IReadOnlyList<double> errors;
+            long events;
+            using (IWorkRun run = method.Start(scene, setting))
+            {
+                errors = scene.Measure(run); // a warm-up too
+                events = run.Events;
+            }
+
+            (double cpu, int runs) = Time(scene, method, setting, options, cancellation);
+            points.AddRange(errors.Select((error, kind) => new WorkPoint(
+                scene.Name, method.Name, setting.Text, setting.StepSeconds, error, scene.ErrorKinds[kind], cpu, runs, scene.Seconds, events)));
+        }
+
+        return points;
+    }
+
+    /// <summary>The least of several runs, building the world included and reading nothing.</summary>
+    private static (double Seconds, int Runs) Time(WorkScene scene, IWorkMethod method, WorkSetting setting, WorkOptions options, CancellationToken cancellation)
+    {
+        double least = double.MaxValue, all = 0;
+        int runs = 0;
+        while (all < options.TimingSeconds || (runs < options.FewestRuns && least < Long))
+        {
+            cancellation.ThrowIfCancellationRequested();
+            double began = ThreadClock.Microseconds;
+            using IWorkRun run = method.Start(scene, setting);
+            run.AdvanceTo(scene.Seconds);
+            double spent = (ThreadClock.Microseconds - began) * 1e-6;
+            least = Math.Min(least, spent);
+            all += Math.Max(spent, 1e-7);
+            runs++;
+        }
+
+        return (least, runs);
+    }
+}

@@ -1,0 +1,174 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Harness.Accuracy;
+using LagSim.Scenes;
+using Xunit;
+
+namespace LagSim.Tests.Accuracy;
+
+/// <summary>What the methods reach on the scenes. Nothing here looks at how long anything took.</summary>
+public sealed class WorkSweepTests
+{
+    private static readonly WorkOptions Short = new() { TimingSeconds = 1e-6, LongestSeconds = 1e9, FewestRuns = 1 };
+
+    [Theory]
+    [InlineData("drop", 1e-11)]
+    [InlineData("elastic49", 1e-12)]
+    [InlineData("gas", 1e-9)]
+    [InlineData("billiards", 1e-9)]
+    public void ClosedForm_IsExactToRounding(string scene, double bound)
+    {
+        WorkPoint[] points = Sweep(scene, "LagSim Ballistic", 1);
+        Assert.All(points, point => Assert.True(point.Error <= bound, $"{point}"));
+        Assert.Equal(Scene(scene).ErrorKinds, points.Select(point => point.ErrorKind));
+    }
+
+    [Theory]
+    [InlineData("spring")]
+    [InlineData("drag")]
+    [InlineData("kepler")]
+    public void RungeKutta4_OnItsSteps_HasOrderFour(string scene)
+    {
+        WorkOrder order = Order(scene, Method("LagSim RungeKutta4"));
+        Assert.True(IsFour(order), $"{order}");
+        Assert.Equal(WorkOrder.Most, order.Points);
+    }
+
+    [Theory]
+    [InlineData("spring")]
+    [InlineData("drag")]
+    public void SemiImplicitEuler_IsSeenNotToHaveOrderFour(string scene)
+    {
+        WorkOrder order = Order(scene, new SemiImplicitEuler());
+        Assert.False(IsFour(order), $"{order}");
+        Assert.InRange(order.Slope, 0.7, 1.3);
+    }
+
+    [Theory]
+    [InlineData("ode", "ODE", 0.32)]
+    [InlineData("chipmunk", "Chipmunk", 0.49)]
+    public void Peer_ThatIsThere_DropsAsItWasMeasuredBefore(string engine, string name, double published)
+    {
+        IWorkMethod method = Method(name);
+        Assert.Equal(engine, method.Engine);
+        Assert.SkipWhen(method.Missing is not null, method.Missing ?? "");
+        WorkPoint[] points = Sweep("drop", name, 3);
+        Assert.InRange(points[0].Error, 0.9 * published, 1.1 * published);
+        Assert.True(points[2].Error < points[0].Error / 5, $"{points[2]}"); // 1/1000 s
+        Assert.Equal([180, 600, 3000], points.Select(point => point.Events));
+    }
+
+    [Theory]
+    [InlineData("kepler", "ODE", 3)]
+    [InlineData("kepler", "Chipmunk", 3)]
+    [InlineData("spring", "ODE", 3)]
+    [InlineData("spring", "Chipmunk", 3)]
+    [InlineData("gas", "ODE", 1)]
+    [InlineData("billiards", "Chipmunk", 1)]
+    public void Peer_ThatIsThere_MovesAsTheSceneSays(string scene, string name, int settings)
+    {
+        Assert.SkipWhen(Method(name).Missing is not null, Method(name).Missing ?? "");
+        WorkPoint[] points = [.. Sweep(scene, name, settings).Where(point => point.ErrorKind == Scene(scene).ErrorKinds[0])];
+        Assert.All(points, point => Assert.InRange(point.Error, 1e-6, 0.5));
+        Assert.All(points.Skip(1).Zip(points), pair => Assert.True(pair.First.Error < 0.6 * pair.Second.Error, $"{pair}")); // the force acts, on the places of the step
+    }
+
+    [Fact]
+    public void MathNet_ThroughContacts_IsAsExactAsItsMethod()
+    {
+        WorkPoint[] drop = Sweep("drop", "MathNet RungeKutta4", 2), elastic = Sweep("elastic49", "MathNet RungeKutta4", 1);
+        Assert.All([.. drop, .. elastic], point => Assert.True(point.Error <= 1e-12, $"{point}"));
+    }
+
+    [Fact]
+    public void WhatIsLeftOut_IsSaidWithItsReason()
+    {
+        WorkReport report = WorkSweep.Run(
+            [Scene("drag"), Scene("billiards")], [Method("LagSim Ballistic"), Method("MathNet RungeKutta4"), new Absent()], Short with { MostSettings = 1 }, null, TestContext.Current.CancellationToken);
+        Assert.Equal(
+            [
+                "absent is left out: nobody has it.",
+                "drag: LagSim Ballistic is left out: it is exact for gravity alone, and a force acts here.",
+                "billiards: MathNet RungeKutta4 is left out: it is an integrator; contacts of bodies with each other are not in it.",
+            ],
+            report.LeftOut);
+        WorkReport hurried = WorkSweep.Run([Scene("spring")], [Method("LagSim RungeKutta4")], Short with { LongestSeconds = 1e-12 }, null, TestContext.Current.CancellationToken);
+        Assert.Single(hurried.Points);
+        Assert.Contains("spring: LagSim RungeKutta4 at 1/20 s and finer is left out: it would take about ", Assert.Single(hurried.LeftOut), StringComparison.Ordinal);
+    }
+
+    private static bool IsFour(WorkOrder order) => Math.Abs(order.Slope - 4) <= 0.1;
+
+    private static WorkOrder Order(string scene, IWorkMethod method) => Assert.Single(WorkSweep.Run([Scene(scene)], [method], Short, null, TestContext.Current.CancellationToken).Orders);
+
+    private static WorkPoint[] Sweep(string scene, string method, int settings) =>
+        [.. WorkSweep.Run([Scene(scene)], [Method(method)], Short with { MostSettings = settings }, null, TestContext.Current.CancellationToken).Points];
+
+    private static WorkScene Scene(string name) => WorkScenes.TryGet(name, out WorkScene? found) ? found : throw new ArgumentException(name);
+
+    private static IWorkMethod Method(string name) => WorkMethods.All.Single(method => method.Name == name);
+
+    /// <summary>The velocity first, then the place with it, and contacts at the ends of steps: what most engines do.</summary>
+    private sealed class SemiImplicitEuler : IWorkMethod
+    {
+        public string Name => "semi-implicit Euler";
+
+        public string Engine => "euler";
+
+        public string? Missing => null;
+
+        public string? Excludes(WorkScene scene) => null;
+
+        public IReadOnlyList<WorkSetting> Settings(WorkScene scene) => [.. new[] { 100.0, 200, 400, 800, 1600, 3200 }.Select(rate => new WorkSetting("step", 1 / rate))];
+
+        public IWorkRun Start(WorkScene scene, WorkSetting setting) => new Run(scene, setting.StepSeconds);
+
+        private sealed class Run(WorkScene scene, double step) : IWorkRun
+        {
+            private Vector3D x = scene.Scene.Bodies[0].Position;
+            private Vector3D v = scene.Scene.Bodies[0].Velocity;
+
+            public double Seconds => Events * step;
+
+            public long Events { get; private set; }
+
+            public void AdvanceTo(double seconds)
+            {
+                BodySpec spec = scene.Scene.Bodies[0].Spec;
+                for (long end = (long)Math.Round(seconds / step); Events < end; Events++)
+                {
+                    v += (scene.Scene.Gravity + scene.Force!.At(Seconds, x, v)) * step;
+                    x += v * step;
+                    if (scene.Scene.Planes.Count > 0 && x.Y < spec.Radius && v.Y < 0)
+                    {
+                        v = new Vector3D(v.X, -spec.Restitution * v.Y, v.Z);
+                    }
+                }
+            }
+
+            public Vector3D Position(int body) => x;
+
+            public Vector3D Velocity(int body) => v;
+
+            public void Dispose()
+            {
+            }
+        }
+    }
+
+    private sealed class Absent : IWorkMethod
+    {
+        public string Name => "absent";
+
+        public string Engine => "absent";
+
+        public string? Missing => "nobody has it";
+
+        public string? Excludes(WorkScene scene) => null;
+
+        public IReadOnlyList<WorkSetting> Settings(WorkScene scene) => throw new InvalidOperationException("It is not there.");
+
+        public IWorkRun Start(WorkScene scene, WorkSetting setting) => throw new InvalidOperationException("It is not there.");
+    }
+}

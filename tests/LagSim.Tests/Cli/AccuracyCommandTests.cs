@@ -1,0 +1,66 @@
+using System;
+using System.IO;
+using System.Linq;
+using System.Text.Json;
+using System.Xml.Linq;
+using LagSim.Harness.Accuracy;
+using Xunit;
+
+namespace LagSim.Tests.Cli;
+
+public sealed class AccuracyCommandTests
+{
+    [Fact]
+    public void Json_OfAScene_HasTheKeysOfTheContract()
+    {
+        using JsonDocument document = JsonDocument.Parse(Tool.Run("accuracy", "spring", "--quick", "--peers", "mathnet", "--json").Done().Output);
+        JsonElement root = document.RootElement;
+        Assert.Equal(
+            ["tool", "version", "command", "seed", "scene", "scene_hash", "state_hash", "quick", "clock", "points", "orders", "findings", "left_out", "caution"],
+            root.EnumerateObject().Select(p => p.Name));
+        JsonElement[] points = [.. root.GetProperty("points").EnumerateArray()];
+        Assert.Equal(6, points.Length); // three settings of two methods
+        Assert.All(points, point => Assert.Equal(
+            ["scene", "method", "setting", "step_s", "error", "error_kind", "cpu_s", "runs", "simulated_s", "events"], point.EnumerateObject().Select(p => p.Name)));
+        Assert.Equal("spring", root.GetProperty("scene").GetString());
+        Assert.Equal(16, root.GetProperty("scene_hash").GetString()!.Length);
+        Assert.All(root.GetProperty("orders").EnumerateObject(), order => Assert.InRange(order.Value.GetDouble(), 3.5, 4.5));
+        Assert.Equal(WorkFindings.Caution, root.GetProperty("caution").GetString());
+    }
+
+    [Fact]
+    public void Files_AreATableTwoChartsASceneAndAPageThatNeverShowsThemWithoutTheCaution()
+    {
+        using TemporaryFolder folder = new();
+        Tool tool = Tool.Run("accuracy", "drag", "--quick", "--peers", "none", "--out", folder["out"]).Done();
+        Assert.Contains(WorkFindings.Caution, tool.Output, StringComparison.Ordinal);
+        Assert.Equal(
+            ["accuracy-drag-steps.svg", "accuracy-drag-work.svg", "accuracy.csv", "report.html"],
+            Directory.EnumerateFiles(folder["out"]).Select(Path.GetFileName).Order(StringComparer.Ordinal));
+        string[] rows = File.ReadAllLines(folder["out/accuracy.csv"]);
+        Assert.Equal("scene,method,setting,error,error_kind,cpu_s,simulated_s,events", rows[0]);
+        Assert.Equal(4, rows.Length);
+        Assert.Contains("stacks, friction and joints do not", File.ReadAllText(folder["out/report.html"]), StringComparison.Ordinal);
+        Assert.Contains("order 4", XElement.Load(folder["out/accuracy-drag-steps.svg"]).Value, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Json_OfAPeerWhoseLibraryPrints_IsAllThereIsOnStdout()
+    {
+        using ToolProcess tool = ToolProcess.Start("accuracy drop --quick --peers chipmunk --json");
+        tool.Ends(0);
+        using JsonDocument document = JsonDocument.Parse(tool.Output.ToString());
+        bool isThere = WorkMethods.All.Single(method => method.Engine == "chipmunk").Missing is null;
+        Assert.Equal(isThere, document.RootElement.GetProperty("points").EnumerateArray().Any(point => point.GetProperty("method").GetString() == "Chipmunk"));
+        Assert.Equal(isThere, !document.RootElement.GetProperty("left_out").EnumerateArray().Any(line => line.GetString()!.Contains("apt-get install libchipmunk7", StringComparison.Ordinal)));
+    }
+
+    [Fact]
+    public void Refusals_NameTheValueAndWhatThereIs()
+    {
+        Tool.Refuses(2, ["accuracy", "stack"], "'stack'", "all or one of drop, elastic49");
+        Tool.Refuses(2, ["accuracy", "--peers", "havok"], "'havok'", "all, none, mathnet, ode, chipmunk");
+        Tool.Refuses(2, ["accuracy", "--quick", "--longest-s", "3"], "--quick and --longest-s exclude each other");
+        Tool.Refuses(2, ["accuracy", "--longest-s", "0"], "'0'", "--longest-s");
+    }
+}
