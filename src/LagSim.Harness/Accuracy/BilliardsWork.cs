@@ -33,7 +33,7 @@ internal sealed class BilliardsWork : WorkScene
 
     public override IReadOnlyList<double> EngineRates => [60, 200, 1000, 5000, 10_000, 50_000];
 
-    public override Scene Build(MotionLaw law, SimDuration step) =>
+    public override Scene Build(MotionLaw law, SimDuration step, double tolerance) =>
         law == MotionLaw.Ballistic ? BuiltInScenes.Billiards() : BuiltInScenes.WithMotion(BuiltInScenes.Billiards(), law, step);
 
     /// <summary>Seen from above: balls never leave the table.</summary>

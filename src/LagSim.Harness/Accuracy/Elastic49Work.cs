@@ -24,7 +24,7 @@ internal sealed class Elastic49Work : WorkScene
 
     public override double Ceiling => 1;
 
-    public override Scene Build(MotionLaw law, SimDuration step)
+    public override Scene Build(MotionLaw law, SimDuration step, double tolerance)
     {
         SceneBuilder builder = new SceneBuilder(Name).AddPlane("floor", Vector3D.Up, Vector3D.Zero);
         BodySpec ball = new(0.5, 1, 1, law, step);

@@ -34,7 +34,7 @@ internal sealed class GasWork : WorkScene
 
     public override IReadOnlyList<double> EngineRates => [60, 200, 1000];
 
-    public override Scene Build(MotionLaw law, SimDuration step)
+    public override Scene Build(MotionLaw law, SimDuration step, double tolerance)
     {
         double side = Math.Cbrt(Side * Side * Side * 4.0 / 3 * Math.PI * Radius * Radius * Radius / Fraction), cell = side / Side;
         SceneBuilder builder = new SceneBuilder(Name).WithGravity(Vector3D.Zero);

@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using LagSim.Harness.Forces;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -29,10 +28,10 @@ internal sealed class KeplerWork : WorkScene
 
     public override IReadOnlyList<double> IntegratorRates => [15, 30, 60, 120, 240, 480, 960, 1920, 3840];
 
-    public override IAcceleration Force { get; } = new CentralGravity(Motion * Motion);
+    public override Force? Acting { get; } = Force.Central("sun", Vector3D.Zero, Motion * Motion);
 
-    public override Scene Build(MotionLaw law, SimDuration step) => new SceneBuilder(Name).WithGravity(Vector3D.Zero).AddAcceleration(Force)
-        .AddBody("planet", new BodySpec(0.01, 1, 1, law, step, 1), Exact(0), new Vector3D(0, -Motion * Math.Sqrt((1 - E) / (1 + E)), 0)).Build();
+    public override Scene Build(MotionLaw law, SimDuration step, double tolerance) => new SceneBuilder(Name).WithGravity(Vector3D.Zero).AddForce(Acting!)
+        .AddBody("planet", new BodySpec(0.01, 1, 1, law, step, ForceSet.Of(0), tolerance), Exact(0), new Vector3D(0, -Motion * Math.Sqrt((1 - E) / (1 + E)), 0)).Build();
 
     public override (double X, double Y)? Flat(in Vector3D v, int body) => (v.X, v.Y);
 

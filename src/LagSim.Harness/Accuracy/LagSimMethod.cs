@@ -10,6 +10,8 @@ internal sealed class LagSimMethod(MotionLaw law) : IWorkMethod
 {
     internal const string EngineName = "lagsim";
 
+    private static readonly double[] Tolerances = [1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14];
+
     private Built? last;
 
     public string Name => $"LagSim {law}";
@@ -18,27 +20,37 @@ internal sealed class LagSimMethod(MotionLaw law) : IWorkMethod
 
     public string? Missing => null;
 
-    private bool IsClosedForm => law == MotionLaw.Ballistic;
+    public string? Excludes(WorkScene scene) => law switch
+    {
+        MotionLaw.Ballistic when scene.Acting is not null => "it is exact for gravity alone, and a force acts here",
+        MotionLaw.ClosedForm or MotionLaw.DormandPrince54 when scene.Acting is null => "gravity alone acts here, for which Ballistic is exact",
+        _ => null,
+    };
 
-    public string? Excludes(WorkScene scene) => IsClosedForm && scene.Force is not null ? "it is exact for gravity alone, and a force acts here" : null;
+    public IReadOnlyList<WorkSetting> Settings(WorkScene scene) => law switch
+    {
+        MotionLaw.Ballistic => [WorkSetting.None],
+        MotionLaw.RungeKutta4 => [.. scene.IntegratorRates.Append(2 * scene.IntegratorRates[^1]).Select(WorkSetting.Rate)],
+        _ => [.. Tolerances.Select(WorkSetting.Within)],
+    };
 
-    public IReadOnlyList<WorkSetting> Settings(WorkScene scene) => IsClosedForm ? [WorkSetting.None] : [.. scene.IntegratorRates.Append(2 * scene.IntegratorRates[^1]).Select(WorkSetting.Rate)];
-
-    public IWorkRun Start(WorkScene scene, WorkSetting setting) => new Run(IsClosedForm ? scene.Scene : Build(scene, setting.StepSeconds));
+    public IWorkRun Start(WorkScene scene, WorkSetting setting) => new Run(Build(scene, setting));
 
     /// <summary>The scene is given, as it is to the other engines: that it was built is not part of a run.</summary>
-    private Scene Build(WorkScene scene, double step)
+    private Scene Build(WorkScene scene, WorkSetting setting)
     {
         Built? kept = last;
-        if (kept is null || kept.Work != scene || kept.Step != step)
+        if (kept is null || kept.Work != scene || kept.Setting != setting)
         {
-            last = kept = new Built(scene, step, scene.Build(law, SimDuration.FromSeconds(step)));
+            SimDuration step = double.IsNaN(setting.StepSeconds) ? BodySpec.DefaultStep : SimDuration.FromSeconds(setting.StepSeconds);
+            double tolerance = double.IsNaN(setting.Tolerance) ? BodySpec.DefaultTolerance : setting.Tolerance;
+            last = kept = new Built(scene, setting, scene.Build(law, step, tolerance));
         }
 
         return kept.Scene;
     }
 
-    private sealed record Built(WorkScene Work, double Step, Scene Scene);
+    private sealed record Built(WorkScene Work, WorkSetting Setting, Scene Scene);
 
     /// <summary>A simulation that keeps the default second of history, as one of a game without a session does.</summary>
     internal sealed class Run(Scene scene) : IWorkRun

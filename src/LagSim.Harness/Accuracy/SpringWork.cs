@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using LagSim.Harness.Forces;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -27,10 +26,10 @@ internal sealed class SpringWork : WorkScene
 
     public override IReadOnlyList<double> IntegratorRates => [10, 20, 40, 80, 160, 320, 640, 1280];
 
-    public override IAcceleration Force { get; } = new LinearSpring(Omega);
+    public override Force? Acting { get; } = Force.Spring("spring", Vector3D.Zero, Omega * Omega);
 
-    public override Scene Build(MotionLaw law, SimDuration step) => new SceneBuilder(Name).WithGravity(Vector3D.Zero).AddAcceleration(Force)
-        .AddBody("body", new BodySpec(0.01, 1, 1, law, step, 1), new Vector3D(1, 0, 0)).Build();
+    public override Scene Build(MotionLaw law, SimDuration step, double tolerance) => new SceneBuilder(Name).WithGravity(Vector3D.Zero).AddForce(Acting!)
+        .AddBody("body", new BodySpec(0.01, 1, 1, law, step, ForceSet.Of(0), tolerance), new Vector3D(1, 0, 0)).Build();
 
     public override (double X, double Y)? Flat(in Vector3D v, int body) => (v.X, v.Y);
 

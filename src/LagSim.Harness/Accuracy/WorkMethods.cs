@@ -12,7 +12,9 @@ public static class WorkMethods
     public static IReadOnlyList<IWorkMethod> All { get; } =
     [
         new LagSimMethod(MotionLaw.Ballistic),
+        new LagSimMethod(MotionLaw.ClosedForm),
         new LagSimMethod(MotionLaw.RungeKutta4),
+        new LagSimMethod(MotionLaw.DormandPrince54),
         new MathNetMethod(),
         new OdeMethod(),
         new ChipmunkMethod(),

@@ -39,17 +39,17 @@ public abstract partial class WorkScene
     /// <summary>The steps a second of engines.</summary>
     public virtual IReadOnlyList<double> EngineRates => [60, 200, 1000, 5000, 10_000];
 
-    /// <summary>A force besides gravity, per unit of mass; null for none.</summary>
-    public virtual IAcceleration? Force => null;
+    /// <summary>A force besides gravity; null for none.</summary>
+    public virtual Force? Acting => null;
 
     /// <summary>Whether bodies meet each other, not only planes.</summary>
     public virtual bool HasPairs => false;
 
-    /// <summary>The scene with closed-form flight, or where a force acts with the default step.</summary>
-    public Scene Scene => scene ??= Build(Force is null ? MotionLaw.Ballistic : MotionLaw.RungeKutta4, BodySpec.DefaultStep);
+    /// <summary>The scene by the law that the world picks.</summary>
+    public Scene Scene => scene ??= Build(MotionLaw.Automatic, BodySpec.DefaultStep, BodySpec.DefaultTolerance);
 
-    /// <summary>The scene under a law, with its step.</summary>
-    public abstract Scene Build(MotionLaw law, SimDuration step);
+    /// <summary>The scene under a law, with its step or tolerance.</summary>
+    public abstract Scene Build(MotionLaw law, SimDuration step, double tolerance);
 
     /// <summary>Where a body is in the plane of a two-dimensional engine; null if the scene is not plane.</summary>
     public virtual (double X, double Y)? Flat(in Vector3D v, int body) => null;
@@ -59,6 +59,10 @@ public abstract partial class WorkScene
 
     /// <summary>Back from the plane.</summary>
     public virtual Vector3D Unflat(double x, double y, int body) => new(x, y, 0);
+
+    /// <summary>What the force besides gravity adds to a body's acceleration, for engines that are told of forces; zero for none.</summary>
+    internal Vector3D Push(double mass, double seconds, in Vector3D position, in Vector3D velocity) =>
+        Acting is null ? Vector3D.Zero : Acting.At(mass, seconds, position, velocity, Vector3D.Zero);
 
     /// <summary>Begins to watch a run.</summary>
     protected abstract IWatch Watch();

@@ -19,9 +19,9 @@ internal static class HardWorlds
 
     internal static BodySpec Ball(double radius = 0.5, double mass = 1, double e = 1) => new(radius, mass, e);
 
-    /// <summary>A ball on Runge-Kutta steps under the scene's first acceleration.</summary>
-    internal static BodySpec Stepped(double step, double radius = 0.5, double e = 1, byte force = 1) =>
-        new(radius, 1, e, MotionLaw.RungeKutta4, SimDuration.FromSeconds(step), force);
+    /// <summary>A ball on Runge-Kutta steps under the scene's first force.</summary>
+    internal static BodySpec Stepped(double step, double radius = 0.5, double e = 1) =>
+        new(radius, 1, e, MotionLaw.RungeKutta4, SimDuration.FromSeconds(step), ForceSet.Of(0));
 
     internal static SceneBuilder Floating(string name) => new SceneBuilder(name).WithGravity(Vector3D.Zero);
 

@@ -23,7 +23,7 @@ internal sealed class KeplerCase : IHardCase
         foreach ((double e, int steps) in Orbits(context))
         {
             Orbit orbit = new(e, steps);
-            Scene scene = Floating("kepler").AddAcceleration(new CentralGravity(orbit.Mu)).AddBody("planet", Stepped(Step, 1e-6), orbit.Position(0), orbit.Velocity).Build();
+            Scene scene = Floating("kepler").AddForce(Force.Supplied(new CentralGravity(orbit.Mu))).AddBody("planet", Stepped(Step, 1e-6), orbit.Position(0), orbit.Velocity).Build();
             Simulation simulation = context.Simulate(scene);
             Vector3D[] seen = new Vector3D[Places];
             for (int n = 0; n < Places; n++)

@@ -28,7 +28,7 @@ internal sealed class MagneticCase : IHardCase
         {
             foreach (double gravity in new[] { 0, Gravity })
             {
-                Scene scene = new SceneBuilder("gyration").WithGravity(V(0, -gravity)).AddAcceleration(new MagneticForce(V(0, 0, z / Step)))
+                Scene scene = new SceneBuilder("gyration").WithGravity(V(0, -gravity)).AddForce(Force.Supplied(new MagneticForce(V(0, 0, z / Step))))
                     .AddBody("ball", Stepped(Step, 0.01), default, Start).Build();
                 Simulation simulation = context.Simulate(scene);
                 simulation.AdvanceTo(SimTime.FromSeconds(steps * Step));

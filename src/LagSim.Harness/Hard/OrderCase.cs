@@ -45,7 +45,7 @@ internal sealed class OrderCase : IHardCase
 
     private static BodyState Engine(HardContext context, double step, double floor, double at)
     {
-        Scene scene = Floating("driven").AddPlane("floor", Vector3D.Up, V(0, floor - 0.1)).AddAcceleration(new Driven())
+        Scene scene = Floating("driven").AddPlane("floor", Vector3D.Up, V(0, floor - 0.1)).AddForce(Force.Supplied(new Driven()))
             .AddBody("ball", Stepped(step, 0.1, E), Start, StartVelocity).Build();
         return Read(context.Run(scene, End), 0, at);
     }

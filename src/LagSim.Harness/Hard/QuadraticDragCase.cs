@@ -47,7 +47,7 @@ internal sealed class QuadraticDragCase : IHardCase
     private HardRow FallRow(HardContext context, IAcceleration drag, double step)
     {
         const double end = 4;
-        Scene scene = new SceneBuilder("fall").AddAcceleration(drag).AddBody("ball", Stepped(step), default).Build();
+        Scene scene = new SceneBuilder("fall").AddForce(Force.Supplied(drag)).AddBody("ball", Stepped(step), default).Build();
         return FallRow(step, end, Read(context.Run(scene, end), 0, end).Position.Y);
     }
 
@@ -64,7 +64,7 @@ internal sealed class QuadraticDragCase : IHardCase
 
     private static double[] Bounces(HardContext context, IAcceleration drag, double step)
     {
-        Scene scene = new SceneBuilder("bounce").AddPlane("floor", Vector3D.Up, V(0, -0.5)).AddAcceleration(drag)
+        Scene scene = new SceneBuilder("bounce").AddPlane("floor", Vector3D.Up, V(0, -0.5)).AddForce(Force.Supplied(drag))
             .AddBody("ball", Stepped(step, e: E), V(0, Height)).Build();
         return ImpactTimes(context.Run(scene, Seconds), First);
     }

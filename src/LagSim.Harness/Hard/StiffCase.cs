@@ -42,7 +42,7 @@ internal sealed class StiffCase : IHardCase
 
     private static double Speed(HardContext context, double z)
     {
-        Scene scene = Floating("damped").AddAcceleration(new LinearDrag(z / Step)).AddBody("ball", Stepped(Step), default, V(1)).Build();
+        Scene scene = Floating("damped").AddForce(Force.Supplied(new LinearDrag(z / Step))).AddBody("ball", Stepped(Step), default, V(1)).Build();
         return Read(context.Run(scene, Steps * Step), 0, Steps * Step).Velocity.X;
     }
 

@@ -74,7 +74,13 @@ internal static class DormandPrince54
             if (isFixed)
             {
                 error = 0;
-                rate = Math.Max(forces.RateAt(spec, x0, v0, spin), forces.HasSupplied(spec) ? Stiffness.Rate(x0 + dx - x6, v7 - v6, a7 - a6) : 0);
+                rate = forces.RateAt(spec, x0, v0, spin);
+                if (forces.HasSupplied(spec))
+                {
+                    Vector3D x7 = x0 + dx;
+                    rate = Math.Max(rate, Stiffness.Rate(x7, x6, v7, v6, a7, forces.At(spec, epoch, h, x7, v6, spin), a6));
+                }
+
                 bool isStable = !(rate * h > MaxRateTimesStep); // also what is not a number: its cause is told elsewhere
                 if (!isStable && step.Ticks >= 2 * Limits.MinStep.Ticks)
                 {

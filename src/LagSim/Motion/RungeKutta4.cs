@@ -9,8 +9,8 @@ namespace LagSim.Motion;
 /// <para>Dense output is the quintic Hermite polynomial through position, velocity and acceleration at both ends. Its error, O(h^6) in the
 /// position and O(h^5) in the velocity, stays below the method's own, so a contact found inside a step keeps the order.</para>
 /// <para>The method multiplies what decays at a rate lambda by more than one once lambda h is above 2.785 (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.2),
-/// and blows up. So a step is halved until the rate of the forces lets it be: of the scene's own forces it is known, of a program's it is estimated from the
-/// stages.</para>
+/// and blows up. So a step is halved until the rate of the forces lets it be: of the scene's own forces it is known, of a program's it is estimated from two
+/// stages and one more evaluation.</para>
 /// </remarks>
 internal static class RungeKutta4
 {
@@ -52,7 +52,14 @@ internal static class RungeKutta4
             Vector3D a1 = forces.At(spec, epoch, h, x0 + dx, v0 + dv, spin);
             dense = DenseOutput.Between(h, dx, dv, v0, a0, a1);
 
-            rate = estimates ? Math.Max(known, Stiffness.Rate((v2 - v0) * (0.5 * h), v3 - v2, a3 - a2)) : known;
+            rate = known;
+            if (estimates)
+            {
+                Vector3D x2 = x0 + (v0 * (0.5 * h));
+                Vector3D x3 = x0 + (v2 * (0.5 * h));
+                rate = Math.Max(known, Stiffness.Rate(x3, x2, v3, v2, a3, forces.At(spec, epoch, 0.5 * h, x3, v2, spin), a2));
+            }
+
             bool isStable = !(rate * h > MaxRateTimesStep); // also what is not a number: its cause is told elsewhere
             if (isStable || step.Ticks < 2 * Limits.MinStep.Ticks)
             {

@@ -3,20 +3,36 @@ using LagSim.Scenes;
 
 namespace LagSim.Motion;
 
-/// <summary>How fast forces change a deviation, seen from two stages of a step that are of one time.</summary>
+/// <summary>How fast forces of which nothing is known change a deviation, seen from stages of a step that are of one time.</summary>
 internal static class Stiffness
 {
-    private const double Sqrt5 = 2.23606797749979;
+    /// <summary>What changes an acceleration by less than this part of it is rounding, and says nothing.</summary>
+    private const double Significant = 1e-10;
+
+    /// <summary>How much further a fixed step of the classical method reaches on the imaginary axis, 2 sqrt(2), than on the negative real one, 2.785.</summary>
+    private const double Oscillation = 2.785 / 2.8284271247461903;
 
     /// <summary>
-    /// The rate in 1/s: the lambda with |da| = lambda |dv| + lambda² |dx|, for da is that of a damper and an oscillator of the true rate together at most. Of a damper alone, where
-    /// dx = dv / rate, that is the rate times (sqrt(5) - 1) / 2, by which it is divided; of an oscillator no more than the rate.
+    /// The rate in 1/s: that of a damper, |a(x, v) - a(x, v')| / |v - v'|, or that of an oscillator, the root of |a(x, v') - a(x', v')| / |x - x'|, whichever is more.
     /// </summary>
-    internal static double Rate(in Vector3D dx, in Vector3D dv, in Vector3D da)
+    /// <param name="x">A position.</param>
+    /// <param name="otherX">Another.</param>
+    /// <param name="v">A velocity.</param>
+    /// <param name="otherV">Another.</param>
+    /// <param name="a">The acceleration at x with v.</param>
+    /// <param name="between">The acceleration at x with the other velocity.</param>
+    /// <param name="otherA">The acceleration at the other position with the other velocity.</param>
+    internal static double Rate(
+        in Vector3D x, in Vector3D otherX, in Vector3D v, in Vector3D otherV, in Vector3D a, in Vector3D between, in Vector3D otherA)
     {
-        double a = da.Length;
-        double v = dv.Length;
-        double sum = v + Math.Sqrt((v * v) + (4 * dx.Length * a));
-        return sum > 0 ? (1 + Sqrt5) * a / sum : 0;
+        double damping = Quotient(a, between, (v - otherV).Length);
+        double stiffness = Quotient(between, otherA, (x - otherX).Length);
+        return Math.Max(damping, Oscillation * Math.Sqrt(stiffness));
+    }
+
+    private static double Quotient(in Vector3D a, in Vector3D b, double by)
+    {
+        double change = (a - b).Length;
+        return change > Significant * a.Length && by > 0 ? change / by : 0;
     }
 }

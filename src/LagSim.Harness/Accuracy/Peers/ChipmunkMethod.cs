@@ -64,7 +64,7 @@ internal sealed class ChipmunkMethod : IWorkMethod
                 nint ball = bodies[n] = ChipmunkLibrary.SpaceAddBody(space, ChipmunkLibrary.BodyNew(body.Spec.Mass, 0.5 * body.Spec.Mass * body.Spec.Radius * body.Spec.Radius));
                 ChipmunkLibrary.BodySetPosition(ball, new(x, y));
                 ChipmunkLibrary.BodySetVelocity(ball, new(vx, vy));
-                if (work.Force is not null)
+                if (work.Acting is not null)
                 {
                     ChipmunkLibrary.BodySetUserData(ball, GCHandle.ToIntPtr(self));
                     ChipmunkLibrary.BodySetVelocityUpdateFunc(ball, &UpdateVelocity);
@@ -144,7 +144,7 @@ internal sealed class ChipmunkMethod : IWorkMethod
         {
             Run run = (Run)GCHandle.FromIntPtr(ChipmunkLibrary.BodyGetUserData(body)).Target!;
             int n = Array.IndexOf(run.bodies, body);
-            (double x, double y) = run.work.FlatNormal(run.work.Force!.At(run.Seconds, run.Position(n), run.Velocity(n)) * run.scene.Bodies[n].Spec.Mass);
+            (double x, double y) = run.work.FlatNormal(run.Push(n));
             ChipmunkLibrary.BodySetForce(body, new(x, y));
             ChipmunkLibrary.BodyUpdateVelocity(body, gravity, damping, step);
         }

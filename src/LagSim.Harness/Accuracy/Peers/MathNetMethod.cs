@@ -44,10 +44,9 @@ internal sealed class MathNetMethod : IWorkMethod
             this.step = step;
             states = [.. scene.Bodies.Select(body => Vector<double>.Build.DenseOfArray([.. Numbers(body.Position), .. Numbers(body.Velocity)]))];
             Vector3D gravity = scene.Gravity;
-            IAcceleration? force = work.Force;
             slope = (t, y) =>
             {
-                Vector3D a = force is null ? gravity : gravity + force.At(t, new Vector3D(y[0], y[1], y[2]), new Vector3D(y[3], y[4], y[5]));
+                Vector3D a = gravity + work.Push(mass, t, new Vector3D(y[0], y[1], y[2]), new Vector3D(y[3], y[4], y[5]));
                 return Vector<double>.Build.DenseOfArray([y[3], y[4], y[5], a.X, a.Y, a.Z]);
             };
         }

@@ -29,7 +29,7 @@ internal sealed class OdeMethod : IWorkMethod
     private sealed unsafe class Run : IWorkRun
     {
         private readonly Scene scene;
-        private readonly IAcceleration? force;
+        private readonly WorkScene work;
         private readonly double step;
         private readonly nint[] bodies;
         private readonly nint world;
@@ -40,7 +40,7 @@ internal sealed class OdeMethod : IWorkMethod
         internal Run(WorkScene work, double step)
         {
             scene = work.Scene;
-            force = work.Force;
+            this.work = work;
             this.step = step;
             OdeLibrary.UseThread();
             world = OdeLibrary.WorldCreate();
@@ -79,9 +79,10 @@ internal sealed class OdeMethod : IWorkMethod
             for (long end = (long)Math.Round(seconds / step); Events < end; Events++)
             {
                 OdeLibrary.SpaceCollide(space, GCHandle.ToIntPtr(self), &Near);
-                for (int n = 0; force is not null && n < bodies.Length; n++)
+                for (int n = 0; work.Acting is not null && n < bodies.Length; n++)
                 {
-                    Vector3D push = force.At(Seconds, Position(n), Velocity(n)) * scene.Bodies[n].Spec.Mass;
+                    double mass = scene.Bodies[n].Spec.Mass;
+                    Vector3D push = work.Push(mass, Seconds, Position(n), Velocity(n)) * mass;
                     OdeLibrary.BodyAddForce(bodies[n], push.X, push.Y, push.Z);
                 }
 
