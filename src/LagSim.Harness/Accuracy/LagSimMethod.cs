@@ -22,7 +22,8 @@ internal sealed class LagSimMethod(MotionLaw law) : IWorkMethod
 
     public string? Excludes(WorkScene scene) => IsClosedForm && scene.Force is not null ? "it is exact for gravity alone, and a force acts here" : null;
 
-    public IReadOnlyList<WorkSetting> Settings(WorkScene scene) => IsClosedForm ? [WorkSetting.None] : [.. scene.IntegratorRates.Append(2 * scene.IntegratorRates[^1]).Select(WorkSetting.Rate)];
+    public IReadOnlyList<WorkSetting> Settings(WorkScene scene) => IsClosedForm ? [WorkSetting.None]
+        : [.. scene.IntegratorRates.Append(2 * scene.IntegratorRates[^1]).Select(WorkSetting.Rate)];
 
     public IWorkRun Start(WorkScene scene, WorkSetting setting) => new Run(IsClosedForm ? scene.Scene : Build(scene, setting.StepSeconds));
 

@@ -49,7 +49,8 @@ public sealed class HardCommandTests
         using TemporaryFolder folder = new();
         Tool.Run("hard", "oscillator", "--scale", "small", "--out", folder["out"]).Done();
         Assert.Equal(["hard.csv", "report.html"], Directory.EnumerateFiles(folder["out"]).Select(Path.GetFileName).Order(StringComparer.Ordinal));
-        Assert.StartsWith("case,size,error,error_kind,bound,passed,modelled,reference,argument,note", File.ReadLines(folder["out/hard.csv"]).First(), StringComparison.Ordinal);
+        Assert.StartsWith("case,size,error,error_kind,bound,passed,modelled,reference,argument,note", File.ReadLines(folder["out/hard.csv"]).First(),
+            StringComparison.Ordinal);
         Assert.Contains("quintic", File.ReadAllText(folder["out/report.html"]), StringComparison.Ordinal);
     }
 
