@@ -20,9 +20,13 @@ internal static class HardCommand
             Description = $"{All}, or one of {string.Join(", ", HardCases.All.Select(c => c.Name))}.",
             DefaultValueFactory = _ => All,
         };
-        Option<string> scale = CommonOptions.Word("--scale", "full: the sizes of the catalogue, some minutes; small: what tests run, some seconds.", "full", "full", "small");
+        Option<string> scale = CommonOptions.Word(
+            "--scale", "full: the sizes of the catalogue, some minutes; small: what tests run, some seconds.", "full", "full", "small");
         Option<bool> controls = new("--controls") { Description = "Run deliberately wrong methods through the same checks; each of them must fail." };
-        Command command = new("hard", "Numerical hard cases against exact references, each with a bound that is argued from rounding or order.") { which, scale, controls };
+        Command command = new("hard", "Numerical hard cases against exact references, each with a bound that is argued from rounding or order.")
+        {
+            which, scale, controls,
+        };
         common.AddTo(command);
         command.SetAction(parsed =>
         {
@@ -31,7 +35,8 @@ internal static class HardCommand
                 : HardCases.TryGet(name, out IHardCase? found) ? [found]
                 : throw new UsageException($"CASE is '{name}'; it must be {All} or one of {string.Join(", ", HardCases.All.Select(c => c.Name))}.");
             HardScale size = parsed.GetValue(scale) == "small" ? HardScale.Small : HardScale.Full;
-            return Run(console, cases, size, parsed.GetValue(controls), parsed.GetValue(common.Seed), parsed.GetValue(common.Out), parsed.GetValue(common.Json));
+            return Run(console, cases, size, parsed.GetValue(controls), parsed.GetValue(common.Seed), parsed.GetValue(common.Out),
+                parsed.GetValue(common.Json));
         });
         return command;
     }
@@ -48,7 +53,9 @@ internal static class HardCommand
 
         long began = Stopwatch.GetTimestamp();
         IReadOnlyList<HardRow> rows = console.WithProgress(
-            cases.Count == 1 ? $"hard {cases[0].Name}" : "hard", cases.Count, progress => HardCases.Run(cases, scale, seed, areControls, (done, _) => progress(done), console.Stop));
+            cases.Count == 1 ? $"hard {cases[0].Name}" : "hard",
+            cases.Count,
+            progress => HardCases.Run(cases, scale, seed, areControls, (done, _) => progress(done), console.Stop));
         HardReport report = new(rows, scale, areControls, seed, Stopwatch.GetElapsedTime(began).TotalSeconds);
         if (folder is not null)
         {

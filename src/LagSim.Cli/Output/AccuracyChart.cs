@@ -16,7 +16,8 @@ internal static class AccuracyChart
     /// <summary>Error against step, a curve a method with its measured order; null where no method has steps.</summary>
     internal static LineChart? OfSteps(AccuracyReport report, WorkScene scene) => Of(
         report, scene, isStep: true, $"{scene.Name}: error against step", "step (s)",
-        method => report.Work.Orders.FirstOrDefault(o => o.Scene == scene.Name && o.Method == method) is WorkOrder order ? $"{method}, order {order.Slope:0.00}" : method);
+        method => report.Work.Orders.FirstOrDefault(o => o.Scene == scene.Name && o.Method == method) is WorkOrder order
+            ? $"{method}, order {order.Slope:0.00}" : method);
 
     /// <summary>An error's kind in words: <c>max_energy_relative</c> is largest energy (relative).</summary>
     private static string Label(string kind)
@@ -36,12 +37,14 @@ internal static class AccuracyChart
             string name = all[slot].Name;
             WorkPoint[] points =
             [
-                .. report.Work.Points.Where(p => p.Scene == scene.Name && p.Method == name && p.ErrorKind == scene.ErrorKinds[0] && double.IsFinite(p.Error) && (!isStep || p.StepSeconds > 0)),
+                .. report.Work.Points.Where(p => p.Scene == scene.Name && p.Method == name && p.ErrorKind == scene.ErrorKinds[0] && double.IsFinite(p.Error)
+                    && (!isStep || p.StepSeconds > 0)),
             ];
             if (points.Length > 0)
             {
                 double[] x = [.. points.Select(p => isStep ? p.StepSeconds : p.CpuSeconds)], y = [.. points.Select(p => p.Error)];
-                series.Add(new ChartSeries(legend(name), x, y, all[slot].Engine == "mathnet" ? SeriesStyle.Dashed : SeriesStyle.Line, slot) { HasDots = true }); // the same method: curves coincide
+                // the same method: curves coincide
+                series.Add(new ChartSeries(legend(name), x, y, all[slot].Engine == "mathnet" ? SeriesStyle.Dashed : SeriesStyle.Line, slot) { HasDots = true });
             }
         }
 

@@ -42,14 +42,16 @@ internal static class AccuracyTables
     /// <summary>A row a point; other kinds of error than the first follow in the same cell.</summary>
     internal static IEnumerable<IReadOnlyList<string>> Rows(AccuracyReport report, WorkScene scene)
     {
-        foreach (IGrouping<(string Method, string Setting), WorkPoint> at in report.Work.Points.Where(p => p.Scene == scene.Name).GroupBy(p => (p.Method, p.Setting)))
+        foreach (IGrouping<(string Method, string Setting), WorkPoint> at in report.Work.Points.Where(p => p.Scene == scene.Name)
+            .GroupBy(p => (p.Method, p.Setting)))
         {
             WorkPoint point = at.First();
             WorkOrder? order = report.Work.Orders.FirstOrDefault(o => o.Scene == scene.Name && o.Method == point.Method);
             bool isFirst = report.Work.Points.First(p => p.Scene == scene.Name && p.Method == point.Method) == point;
             yield return
             [
-                point.Method, point.Setting, string.Join("; ", at.Select(p => double.IsNaN(p.Error) ? "not finite" : NumberText.Short(p.Error))), NumberText.Short(point.Speed),
+                point.Method, point.Setting, string.Join("; ", at.Select(p => double.IsNaN(p.Error) ? "not finite" : NumberText.Short(p.Error))),
+                    NumberText.Short(point.Speed),
                 NumberText.Short(point.CpuSeconds), NumberText.Short(point.Events), isFirst && order is not null ? NumberText.Short(order.Slope) : "",
             ];
         }

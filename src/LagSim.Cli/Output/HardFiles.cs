@@ -34,7 +34,9 @@ internal static class HardFiles
             page.AddHeading($"{rows.Key}: {found!.Title}");
             page.AddTable(new ReportTable("", [.. HardTables.Headings.Skip(1)], [.. rows.Select(IReadOnlyList<string> (row) => HardTables.Cells(row)[1..])]));
             page.AddTable(new ReportTable(
-                "", ["of what", "bound", "reference"], [.. rows.DistinctBy(row => (row.ErrorKind, row.Argument)).Select(IReadOnlyList<string> (row) => [row.ErrorKind, row.Argument, row.Reference])]));
+                "", ["of what", "bound", "reference"],
+                    [.. rows.DistinctBy(row => (row.ErrorKind, row.Argument))
+                    .Select(IReadOnlyList<string> (row) => [row.ErrorKind, row.Argument, row.Reference])]));
             foreach (HardRow row in rows.Where(row => row.Note.Length > 0))
             {
                 page.AddParagraph($"{row.Size}: {row.Note}");

@@ -8,8 +8,9 @@ namespace LagSim.Harness.Accuracy;
 
 /// <summary>The break at pool: where the balls are soon after it, against LagSim's closed-form flight.</summary>
 /// <remarks>
-/// Every impact of balls magnifies an error, so the time is short. Closed-form flight is its own reference; what it is off by is told by the same scene whose cue ball starts
-/// a unit in the last place further on. Of balls that touch at once in the rack the engines make something else each, since rules for that differ; that is in the figures too.
+/// Every impact of balls magnifies an error, so the time is short. Closed-form flight is its own reference; what it is off by is told by the same scene whose
+/// cue ball starts a unit in the last place further on. Of balls that touch at once in the rack the engines make something else each, since rules for that
+/// differ; that is in the figures too.
 /// </remarks>
 internal sealed class BilliardsWork : WorkScene
 {
@@ -17,7 +18,8 @@ internal sealed class BilliardsWork : WorkScene
 
     public override string Title => "the break at pool, 0.5 s";
 
-    public override string Reference => "LagSim's closed-form flight; that of a cue ball which starts a unit in the last place further on where closed-form flight itself is asked";
+    public override string Reference =>
+        "LagSim's closed-form flight; that of a cue ball which starts a unit in the last place further on where closed-form flight itself is asked";
 
     public override double Seconds => 0.5;
 

@@ -28,7 +28,8 @@ internal sealed class DropWork : WorkScene
 
     public override double Ceiling => 10;
 
-    public override Scene Build(MotionLaw law, SimDuration step, double tolerance) => BuiltInScenes.Drop(Height, Restitution, law, law == MotionLaw.Ballistic ? 200 : 1 / step.ToSeconds());
+    public override Scene Build(MotionLaw law, SimDuration step, double tolerance) =>
+        BuiltInScenes.Drop(Height, Restitution, law, law == MotionLaw.RungeKutta4 ? 1 / step.ToSeconds() : 200);
 
     public override (double X, double Y)? Flat(in Vector3D v, int body) => (v.X, v.Y);
 

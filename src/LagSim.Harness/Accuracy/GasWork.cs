@@ -48,7 +48,8 @@ internal sealed class GasWork : WorkScene
         for (int n = 0; n < Side * Side * Side; n++)
         {
             Vector3D place = new Vector3D((n % Side) + 0.5, (n / Side % Side) + 0.5, (n / Side / Side) + 0.5) * cell;
-            builder.AddBody(FormattableString.Invariant($"ball {n + 1}"), ball, place, new Vector3D(random.NextGaussian(), random.NextGaussian(), random.NextGaussian()));
+            builder.AddBody(FormattableString.Invariant($"ball {n + 1}"), ball, place,
+                new Vector3D(random.NextGaussian(), random.NextGaussian(), random.NextGaussian()));
         }
 
         return builder.Build();

@@ -4,7 +4,9 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Accuracy;
 
-/// <summary>A way to simulate a scene: a law of LagSim, another engine, an integrator. A new one is one file and one line in <see cref="WorkMethods"/>.</summary>
+/// <summary>
+/// A way to simulate a scene: a law of LagSim, another engine, an integrator. A new one is one file and one line in <see cref="WorkMethods"/>.
+/// </summary>
 public interface IWorkMethod
 {
     /// <summary>What it is called in tables: <c>LagSim Ballistic</c>.</summary>

@@ -14,8 +14,8 @@ public static class WorkFindings
 
     /// <summary>For each scene and peer: where LagSim is not in front, or by how much it is at least.</summary>
     /// <remarks>
-    /// LagSim's cost at an error is read from its curves: between two neighbouring settings of a method on the line that joins them in the diagram, at errors above a setting's that setting's
-    /// own. Only the kind of error that diagrams show counts.
+    /// LagSim's cost at an error is read from its curves: between two neighbouring settings of a method on the line that joins them in the diagram, at errors
+    /// above a setting's that setting's own. Only the kind of error that diagrams show counts.
     /// </remarks>
     public static IReadOnlyList<string> Sentences(IReadOnlyList<WorkPoint> points)
     {

@@ -9,7 +9,9 @@ public sealed record WorkOptions
     /// <summary>At most so many settings a method and scene, from the coarsest on.</summary>
     public int MostSettings { get; init; } = int.MaxValue;
 
-    /// <summary>A setting whose single run would by its coarser neighbour take longer than this, in seconds, is left out, and so are all finer ones; default 20.</summary>
+    /// <summary>
+    /// A setting whose single run would by its coarser neighbour take longer than this, in seconds, is left out, and so are all finer ones; default 20.
+    /// </summary>
     public double LongestSeconds { get; init; } = 20;
 
     /// <summary>Runs are repeated until they have taken this long together, in seconds; default 0.3.</summary>

@@ -5,10 +5,12 @@ using MathNet.Numerics;
 
 namespace LagSim.Harness.Accuracy;
 
-/// <summary>A method's measured order on a scene: the slope of error against step, both logarithmic, by least squares over the asymptotic part. Immutable.</summary>
+/// <summary>
+/// A method's measured order on a scene: the slope of error against step, both logarithmic, by least squares over the asymptotic part. Immutable.
+/// </summary>
 /// <remarks>
-/// The asymptotic part is chosen by a rule that knows no result: of the points whose error is at least a hundred times the scene's rounding and at most a tenth of its size, the finest four, at
-/// least three. There is no order where fewer are left.
+/// The asymptotic part is chosen by a rule that knows no result: of the points whose error is at least a hundred times the scene's rounding and at most a tenth
+/// of its size, the finest four, at least three. There is no order where fewer are left.
 /// </remarks>
 /// <param name="Scene">The scene.</param>
 /// <param name="Method">The method.</param>

@@ -12,7 +12,8 @@ namespace LagSim.Harness.Accuracy;
 /// <param name="SimulatedSeconds">How much was simulated.</param>
 /// <param name="Events">Events of an event-driven engine, steps of any other.</param>
 public sealed record WorkPoint(
-    string Scene, string Method, string Setting, double StepSeconds, double Error, string ErrorKind, double CpuSeconds, int Runs, double SimulatedSeconds, long Events)
+    string Scene, string Method, string Setting, double StepSeconds, double Error, string ErrorKind, double CpuSeconds, int Runs, double SimulatedSeconds,
+        long Events)
 {
     /// <summary>Simulated seconds a second of CPU time.</summary>
     public double Speed => SimulatedSeconds / CpuSeconds;

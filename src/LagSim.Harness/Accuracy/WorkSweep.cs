@@ -18,14 +18,16 @@ public static class WorkSweep
     /// <param name="progress">Is told which part of all points is done, 0 to 1.</param>
     /// <param name="cancellation">Ends it between two runs, by an <see cref="OperationCanceledException"/>.</param>
     public static WorkReport Run(
-        IReadOnlyList<WorkScene> scenes, IReadOnlyList<IWorkMethod> methods, WorkOptions options, Action<double>? progress = null, CancellationToken cancellation = default)
+        IReadOnlyList<WorkScene> scenes, IReadOnlyList<IWorkMethod> methods, WorkOptions options, Action<double>? progress = null,
+            CancellationToken cancellation = default)
     {
         ArgumentNullException.ThrowIfNull(scenes);
         ArgumentNullException.ThrowIfNull(methods);
         ArgumentNullException.ThrowIfNull(options);
         List<WorkPoint> points = [];
         List<WorkOrder> orders = [];
-        List<string> leftOut = [.. methods.Where(method => method.Missing is not null).DistinctBy(method => method.Engine).Select(method => $"{method.Name} is left out: {method.Missing}.")];
+        List<string> leftOut = [.. methods.Where(method => method.Missing is not null).DistinctBy(method => method.Engine)
+            .Select(method => $"{method.Name} is left out: {method.Missing}.")];
         (WorkScene Scene, IWorkMethod Method)[] sweeps =
             [.. scenes.SelectMany(scene => methods.Where(method => method.Missing is null).Select(method => (scene, method)))];
         for (int n = 0; n < sweeps.Length; n++)
@@ -84,7 +86,8 @@ public static class WorkSweep
     }
 
     /// <summary>The least of several runs, building the world included and reading nothing.</summary>
-    private static (double Seconds, int Runs) Time(WorkScene scene, IWorkMethod method, WorkSetting setting, WorkOptions options, CancellationToken cancellation)
+    private static (double Seconds, int Runs) Time(WorkScene scene, IWorkMethod method, WorkSetting setting, WorkOptions options,
+        CancellationToken cancellation)
     {
         double least = double.MaxValue, all = 0;
         int runs = 0;

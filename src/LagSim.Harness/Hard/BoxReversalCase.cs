@@ -9,8 +9,9 @@ namespace LagSim.Harness.Hard;
 
 /// <summary>A ball in a box: where unfolding says it is after many hits, and back at the start when its velocity is reversed.</summary>
 /// <remarks>
-/// Flat walls neither magnify nor damp: what a hit leaves in the velocity moves the place by as much times the time that follows, and no more. In a box along the axes a hit
-/// turns one component round exactly. In one that is turned each hit rounds the velocity; its walls are not quite at right angles then, which reversal takes back.
+/// Flat walls neither magnify nor damp: what a hit leaves in the velocity moves the place by as much times the time that follows, and no more. In a box along
+/// the axes a hit turns one component round exactly. In one that is turned each hit rounds the velocity; its walls are not quite at right angles then, which
+/// reversal takes back.
 /// </remarks>
 internal sealed class BoxReversalCase : IHardCase
 {
@@ -51,7 +52,8 @@ internal sealed class BoxReversalCase : IHardCase
     private static (BodyState There, BodyState Back, double Seconds) Run(HardContext context, int hits, bool isTurned, double e)
     {
         SceneBuilder builder = Floating("box");
-        foreach ((string name, Vector3D normal) in new[] { ("west", V(1)), ("east", V(-1)), ("floor", V(0, 1)), ("ceiling", V(0, -1)), ("south", V(0, 0, 1)), ("north", V(0, 0, -1)) })
+        foreach ((string name, Vector3D normal) in new[] { ("west", V(1)), ("east", V(-1)), ("floor", V(0, 1)), ("ceiling", V(0, -1)), ("south", V(0, 0, 1)),
+            ("north", V(0, 0, -1)) })
         {
             builder.AddPlane(name, Turn(normal, isTurned), -(Side / 2) - 0.5);
         }
@@ -89,7 +91,8 @@ internal sealed class BoxReversalCase : IHardCase
         double places = 4 * Side * Rounding.Unit * 2 * hits;
         double speeds = isTurned ? Velocity.Length * 2 * seconds * Rounding.Walk(2.0 * Rounding.PerContact * hits) / Math.Sqrt(3) : 0;
         return new HardRow(
-            Name, FormattableString.Invariant($"{hits:N0} hits and back, {(isTurned ? "turned" : "along the axes")}"), (back.Position - Turn(Start, isTurned)).Length, "position_m",
+            Name, FormattableString.Invariant($"{hits:N0} hits and back, {(isTurned ? "turned" : "along the axes")}"),
+                (back.Position - Turn(Start, isTurned)).Length, "position_m",
             places + speeds,
             isTurned
                 ? "4 roundings of the place a hit, added; the velocity walks by 8 roundings a hit, four times its rms, summed over the time: flat walls add, they do not multiply"

@@ -6,7 +6,9 @@ using static LagSim.Harness.Hard.HardWorlds;
 
 namespace LagSim.Harness.Hard;
 
-/// <summary>Inelastic collapse: three balls in a line, or two and a wall, meet infinitely often below a known restitution, and finitely often above it.</summary>
+/// <summary>
+/// Inelastic collapse: three balls in a line, or two and a wall, meet infinitely often below a known restitution, and finitely often above it.
+/// </summary>
 internal sealed class CollapseCase : IHardCase
 {
     private const int Infinite = 100_000;
@@ -76,7 +78,8 @@ internal sealed class CollapseCase : IHardCase
             }
             : new HardRow(
                 Name, size + "above the threshold", Math.Max(Math.Abs(seen.Impacts - exact), Math.Abs(seen.Apart - apart) > 1e-9 ? 1 : 0), "count", 0,
-                "a count is right or wrong, and so is what they part with, to 1 nm/s", FormattableString.Invariant($"the recursion of the speeds alone: {exact} impacts, at the end {apart:0.000e0} m/s apart"))
+                "a count is right or wrong, and so is what they part with, to 1 nm/s",
+                    FormattableString.Invariant($"the recursion of the speeds alone: {exact} impacts, at the end {apart:0.000e0} m/s apart"))
             {
                 Note = FormattableString.Invariant($"{seen.Impacts} impacts, {seen.Apart:0.000e0} m/s apart"),
             };

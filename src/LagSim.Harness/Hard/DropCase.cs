@@ -37,7 +37,9 @@ internal sealed class DropCase : IHardCase
     {
         (double[] times, double rest) = Times(context, MotionLaw.Ballistic, 0.8 - 1e-9);
         yield return Row((times, rest), 0.8, MotionLaw.Ballistic) with { Note = "restitution off by 1e-9" };
-        yield return Row((times.Select(t => Math.Ceiling(t * 1e6) / 1e6).ToArray(), rest), 0.8, MotionLaw.Ballistic) with { Note = "impacts at the next microsecond" };
+        yield return Row((times.Select(t => Math.Ceiling(t * 1e6) / 1e6).ToArray(), rest), 0.8,
+            MotionLaw.Ballistic) with
+        { Note = "impacts at the next microsecond" };
         yield return Row((Times(context, MotionLaw.Ballistic, 0.8).Impacts, double.NaN), 0.8, MotionLaw.Ballistic) with { Note = "no rest" };
     }
 
@@ -63,7 +65,8 @@ internal sealed class DropCase : IHardCase
             double hop = 2 * speed / Gravity;
             expected += hop;
 
-            // A place that is off by d is crossed d/v later, and changes the speed by g d/v; a speed that is off by a part of itself makes all hops to come, 2v/(g (1 - e)), longer by that part.
+            // A place that is off by d is crossed d/v later, and changes the speed by g d/v; a speed that is off by a part of itself makes all hops to come,
+            // 2v/(g (1 - e)), longer by that part.
             double place = (4 + (steps * hop)) * Rounding.Unit * Radius, toCome = 2 * speed / (Gravity * (1 - e));
             roundings += (place / speed) + (((Gravity * place / (speed * speed)) + (Rounding.PerContact * Rounding.Unit)) * toCome);
         }

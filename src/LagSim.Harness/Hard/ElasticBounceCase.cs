@@ -81,7 +81,9 @@ internal sealed class ElasticBounceCase : IHardCase
         return (double)ticks * tick;
     }
 
-    /// <summary>Steps of a millisecond, exact in between, reflected at the end of the step that crosses the floor; the energy half way up after the last contact.</summary>
+    /// <summary>
+    /// Steps of a millisecond, exact in between, reflected at the end of the step that crosses the floor; the energy half way up after the last contact.
+    /// </summary>
     private static double StepWise(int contacts)
     {
         double gap = 1, v = 0;

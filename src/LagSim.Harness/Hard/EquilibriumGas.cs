@@ -20,7 +20,9 @@ internal static class EquilibriumGas
     /// <summary>The contact value of the pair correlation (Carnahan and Starling 1969).</summary>
     internal static double ContactValue(double fraction) => (1 - (fraction / 2)) / Math.Pow(1 - fraction, 3);
 
-    /// <summary>The compressibility factor by the virial series in the fraction, coefficients B2 to B10 (Clisby and McCoy, J. Stat. Phys. 122, 15, 2006).</summary>
+    /// <summary>
+    /// The compressibility factor by the virial series in the fraction, coefficients B2 to B10 (Clisby and McCoy, J. Stat. Phys. 122, 15, 2006).
+    /// </summary>
     internal static double VirialPressure(double fraction, out double rest)
     {
         double[] coefficients = [4, 10, 18.364768, 28.2245, 39.815, 53.34, 68.53, 85.8, 105.8];

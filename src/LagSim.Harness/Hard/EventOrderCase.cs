@@ -25,7 +25,9 @@ internal sealed class EventOrderCase : IHardCase
     {
         const int bodies = 80;
         Scene scene = BuiltInScenes.Crowd(bodies);
-        yield return Row(bodies, Run(context, scene, 10, int.MaxValue, 0), Run(context, Nudged(scene), 10, 0, 0.5)) with { Note = "one ball a unit in the last place further on" };
+        yield return Row(bodies, Run(context, scene, 10, int.MaxValue, 0),
+            Run(context, Nudged(scene), 10, 0, 0.5)) with
+        { Note = "one ball a unit in the last place further on" };
     }
 
     private static Scene Nudged(Scene scene)
@@ -59,6 +61,7 @@ internal sealed class EventOrderCase : IHardCase
     }
 
     private HardRow Row(int bodies, (ulong Events, ulong State, long Count) pairs, (ulong Events, ulong State, long Count) index) => new(
-        Name, FormattableString.Invariant($"{bodies} balls, {pairs.Count:N0} events"), new[] { pairs.Events != index.Events, pairs.State != index.State }.Count(differs => differs), "hashes_that_differ", 0,
+        Name, FormattableString.Invariant($"{bodies} balls, {pairs.Count:N0} events"),
+            new[] { pairs.Events != index.Events, pairs.State != index.State }.Count(differs => differs), "hashes_that_differ", 0,
         "a hash of every event's key and outcome and one of all states at the end: a bit is right or wrong", "the run that looks at all pairs");
 }

@@ -40,7 +40,8 @@ internal sealed class FarCase : IHardCase
 
     private static double[] Bounce(HardContext context, double at, double gravity)
     {
-        Scene scene = new SceneBuilder("far").WithGravity(V(0, -gravity)).AddPlane("floor", Vector3D.Up, V(0, at)).AddBody("ball", Ball(), V(at, at + 1.5, -at), V(3, 0, 1)).Build();
+        Scene scene = new SceneBuilder("far").WithGravity(V(0, -gravity)).AddPlane("floor", Vector3D.Up, V(0, at)).AddBody("ball", Ball(),
+            V(at, at + 1.5, -at), V(3, 0, 1)).Build();
         return ImpactTimes(context.Run(scene, 100), First);
     }
 
@@ -52,7 +53,8 @@ internal sealed class FarCase : IHardCase
         return new HardRow(
             Name, FormattableString.Invariant($"{n} bounces at {offset} m"), n > 100 ? worst : double.NaN, "time_s",
             Rounding.Tick + (n * n * ((place / speed) + (Rounding.PerContact * Rounding.Unit * FirstImpact))),
-            "4 roundings of the place a contact change the speed by g/v of them, and that every later hop: n^2 (place/v + 8 u t1), and a tick", "t_n = (2n - 1) t1");
+            "4 roundings of the place a contact change the speed by g/v of them, and that every later hop: n^2 (place/v + 8 u t1), and a tick",
+                "t_n = (2n - 1) t1");
     }
 
     private HardRow OrderRow(HardContext context, double offset, double nudge)
@@ -62,7 +64,8 @@ internal sealed class FarCase : IHardCase
         double late = near.Zip(far).Take(same).Select(pair => Math.Abs(pair.First.Time.ToSeconds() - pair.Second.Time.ToSeconds())).DefaultIfEmpty(0).Max();
         double closest = near.Zip(near.Skip(1), (a, b) => b.Time.ToSeconds() - a.Time.ToSeconds()).Min();
         return new HardRow(
-            Name, FormattableString.Invariant($"5 balls, {Compared} impacts at {offset} m"), near.Length == Compared ? Compared - same : double.NaN, "events_out_of_order", 0,
+            Name, FormattableString.Invariant($"5 balls, {Compared} impacts at {offset} m"), near.Length == Compared ? Compared - same : double.NaN,
+                "events_out_of_order", 0,
             "an order is right or wrong; it is decided as long as the loss of time is less than what two impacts are apart", "the same scene at the origin")
         {
             Note = FormattableString.Invariant($"times off by up to {late:0.0e0} s, two impacts at least {closest:0.0e0} s apart"),
@@ -81,6 +84,7 @@ internal sealed class FarCase : IHardCase
         }
 
         Simulation simulation = context.Run(builder.Build(), 3);
-        return Enumerable.Range(0, 5).SelectMany(n => Impacts(simulation, BodyId.OfScene(n))).Select(entry => entry.Key).Distinct().Order().Take(Compared).ToArray();
+        return Enumerable.Range(0, 5).SelectMany(n => Impacts(simulation, BodyId.OfScene(n))).Select(entry => entry.Key).Distinct().Order().Take(Compared)
+            .ToArray();
     }
 }

@@ -35,18 +35,21 @@ internal sealed class GalperinCase : IHardCase
 
     private HardRow CountRow(int k, long count) => new(
         Name, FormattableString.Invariant($"mass ratio 100^{k}"), Math.Abs(count - Digits[k]), "count", 0,
-        "a count is right or wrong: 10^k pi is nowhere near a whole number for these k, so rounding has no part in it", "the digits of pi (Galperin, Playing pool with pi, 2003)")
+        "a count is right or wrong: 10^k pi is nowhere near a whole number for these k, so rounding has no part in it",
+            "the digits of pi (Galperin, Playing pool with pi, 2003)")
     {
         Note = FormattableString.Invariant($"{count:N0} impacts"),
     };
 
     private HardRow EnergyRow(int k, double energy) => new(
-        Name, FormattableString.Invariant($"mass ratio 100^{k}"), Math.Abs(energy - 1), "energy_relative", ((2.0 * Rounding.PerContact * Digits[k]) + 8) * Rounding.Unit,
+        Name, FormattableString.Invariant($"mass ratio 100^{k}"), Math.Abs(energy - 1), "energy_relative",
+            ((2.0 * Rounding.PerContact * Digits[k]) + 8) * Rounding.Unit,
         "twice 8 roundings of the speed an impact, added: one impact is like the next, so their roundings are not independent", "the energy at the start");
 
     private static (long Count, double Energy) Count(HardContext context, double ratio, double e)
     {
-        Scene scene = Floating("galperin").AddPlane("wall", V(1), V(0)).AddBody("small", Ball(e: e), V(1.5)).AddBody("big", Ball(mass: ratio, e: e), V(3), V(-1)).Build();
+        Scene scene = Floating("galperin").AddPlane("wall", V(1), V(0)).AddBody("small", Ball(e: e), V(1.5)).AddBody("big", Ball(mass: ratio, e: e), V(3),
+            V(-1)).Build();
         Simulation simulation = context.Simulate(scene);
         SimTime end = SimTime.FromSeconds(1000);
         long some;

@@ -29,7 +29,9 @@ internal sealed class GrazeCase : IHardCase
         yield return Row("spheres", MotionLaw.Ballistic, (off, isHit) =>
             Enumerable.Range(0, 3000).Any(n => new Vector3D(-3 + (2 * ((n + 0.5) / 1000)), 1 + off, 0).Length < 1) == isHit) with
         { Note = "looked at once a millisecond" };
-        yield return Row("ceiling", MotionLaw.Ballistic, (off, isHit) => Reaches(context, MotionLaw.Ballistic, off - 1e-9) == isHit) with { Note = "a ceiling a nanometre too low" };
+        yield return Row("ceiling", MotionLaw.Ballistic, (off, isHit) =>
+            Reaches(context, MotionLaw.Ballistic, off - 1e-9) == isHit) with
+        { Note = "a ceiling a nanometre too low" };
     }
 
     private static bool Passes(HardContext context, MotionLaw law, double off)
@@ -42,7 +44,8 @@ internal sealed class GrazeCase : IHardCase
     {
         // At 10 m/s under 10 m/s^2 the apex is at 5 m.
         BodySpec ball = new(0.5, 1, 1, law, SimDuration.FromSeconds(1.0 / 128));
-        return Happens(context, new SceneBuilder("apex").WithGravity(V(0, -10)).AddPlane("ceiling", V(0, -1), V(0, 5.5 + off)).AddBody("ball", ball, default, V(0, 10)).Build());
+        return Happens(context, new SceneBuilder("apex").WithGravity(V(0, -10)).AddPlane("ceiling", V(0, -1), V(0, 5.5 + off)).AddBody("ball", ball, default,
+            V(0, 10)).Build());
     }
 
     private static bool Happens(HardContext context, Scene scene)
@@ -72,7 +75,8 @@ internal sealed class GrazeCase : IHardCase
 
         return new HardRow(
             Name, FormattableString.Invariant($"{what}, {law}, off by 0 and 1e-2 to {finest} m, {asked} tries"), wrong.Count, "wrong", 0,
-            "each is further off than 16 roundings (of every step, with Runge-Kutta) of a place of 5 m, so none may be wrong; exactly touching is no contact", "the sign of how far it is off")
+            "each is further off than 16 roundings (of every step, with Runge-Kutta) of a place of 5 m, so none may be wrong; exactly touching is no contact",
+                "the sign of how far it is off")
         {
             Note = wrong.Count == 0 ? "" : "wrong when off by " + string.Join(", ", wrong.Select(off => FormattableString.Invariant($"{off:0e0} m"))),
         };

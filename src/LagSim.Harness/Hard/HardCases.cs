@@ -51,7 +51,8 @@ public static class HardCases
     /// <param name="cancellation">Ends it early, by an <see cref="OperationCanceledException"/>.</param>
     /// <returns>The rows in the order of the cases.</returns>
     public static IReadOnlyList<HardRow> Run(
-        IReadOnlyList<IHardCase> cases, HardScale scale, ulong seed, bool areControls = false, Action<double, string>? progress = null, System.Threading.CancellationToken cancellation = default)
+        IReadOnlyList<IHardCase> cases, HardScale scale, ulong seed, bool areControls = false, Action<double, string>? progress = null,
+            System.Threading.CancellationToken cancellation = default)
     {
         ArgumentNullException.ThrowIfNull(cases);
         List<HardRow> rows = [];

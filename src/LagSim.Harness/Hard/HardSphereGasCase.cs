@@ -32,13 +32,15 @@ internal sealed class HardSphereGasCase : IHardCase
     public IEnumerable<HardRow> Controls(HardContext context)
     {
         const int bodies = 512;
-        foreach (HardRow row in RowsOf(bodies, 0.2, 0.206, Measure(context, BuiltInScenes.Gas(bodies, 0.2), 20_000)).Where(row => row.ErrorKind != "energy_relative"))
+        foreach (HardRow row in RowsOf(bodies, 0.2, 0.206, Measure(context, BuiltInScenes.Gas(bodies, 0.2), 20_000))
+            .Where(row => row.ErrorKind != "energy_relative"))
         {
             yield return row with { Note = "held against a fraction 3 % too high" };
         }
 
         Simulation start = context.Simulate(BuiltInScenes.Gas(bodies, 0.2));
-        foreach (HardRow row in RowsOf(bodies, 0.2, 0.2, Measure(context, EquilibriumGas.WithRestitution(start, 1 - 1e-6), 20_000)).Where(row => row.ErrorKind == "energy_relative"))
+        foreach (HardRow row in RowsOf(bodies, 0.2, 0.2, Measure(context, EquilibriumGas.WithRestitution(start, 1 - 1e-6), 20_000))
+            .Where(row => row.ErrorKind == "energy_relative"))
         {
             yield return row with { Note = "restitution 1 - 1e-6" };
         }
@@ -68,7 +70,8 @@ internal sealed class HardSphereGasCase : IHardCase
         const string why = "0.5 %, as the catalogue asks: Carnahan and Starling's formula is itself off by up to 0.35 % in g up to a fraction of 0.4, and 1/N is left out";
         string note = FormattableString.Invariant($"statistical error {100 * scatter:0.00} % (1/sqrt of the impacts); no correction for the number of spheres is made");
         yield return new HardRow(
-            Name, size, Math.Abs((seen.Frequency / EquilibriumGas.Frequency(expected, seen.Temperature)) - 1), "rate_relative", Allowed, why, "Enskog 1922: 4 sqrt(pi) n d^2 g sqrt(T/m)")
+            Name, size, Math.Abs((seen.Frequency / EquilibriumGas.Frequency(expected, seen.Temperature)) - 1), "rate_relative", Allowed, why,
+                "Enskog 1922: 4 sqrt(pi) n d^2 g sqrt(T/m)")
         {
             Note = note,
         };
@@ -79,7 +82,8 @@ internal sealed class HardSphereGasCase : IHardCase
             double rate = EquilibriumGas.Frequency(expected, seen.Temperature) / EquilibriumGas.ContactValue(expected) * (series - 1) / (4 * expected);
             yield return new HardRow(
                 Name, size, Math.Abs((seen.Frequency / rate) - 1), "rate_relative", (rest / (series - 1)) + (1.0 / bodies) + (4 * scatter),
-                "four times the scatter of a count, 1/sqrt(n), what the series leaves out, as a geometric tail, and 1/N", "Enskog, g by the virial series to the tenth coefficient (Clisby and McCoy 2006)")
+                "four times the scatter of a count, 1/sqrt(n), what the series leaves out, as a geometric tail, and 1/N",
+                    "Enskog, g by the virial series to the tenth coefficient (Clisby and McCoy 2006)")
             {
                 Note = note,
             };
@@ -87,7 +91,8 @@ internal sealed class HardSphereGasCase : IHardCase
 
         double pressure = 1 + (4 * expected * EquilibriumGas.ContactValue(expected));
         yield return new HardRow(
-            Name, size, Math.Abs((seen.Pressure / pressure) - 1), "pressure_relative", Allowed, why, "Carnahan and Starling 1969: (1 + f + f^2 - f^3)/(1 - f)^3, by the virial of all impacts")
+            Name, size, Math.Abs((seen.Pressure / pressure) - 1), "pressure_relative", Allowed, why,
+                "Carnahan and Starling 1969: (1 + f + f^2 - f^3)/(1 - f)^3, by the virial of all impacts")
         {
             Note = note,
         };

@@ -23,7 +23,8 @@ internal sealed class KeplerCase : IHardCase
         foreach ((double e, int steps) in Orbits(context))
         {
             Orbit orbit = new(e, steps);
-            Scene scene = Floating("kepler").AddForce(Force.Supplied(new CentralGravity(orbit.Mu))).AddBody("planet", Stepped(Step, 1e-6), orbit.Position(0), orbit.Velocity).Build();
+            Scene scene = Floating("kepler").AddForce(Force.Supplied(new CentralGravity(orbit.Mu)))
+                .AddBody("planet", Stepped(Step, 1e-6), orbit.Position(0), orbit.Velocity).Build();
             Simulation simulation = context.Simulate(scene);
             Vector3D[] seen = new Vector3D[Places];
             for (int n = 0; n < Places; n++)
@@ -69,7 +70,8 @@ internal sealed class KeplerCase : IHardCase
         double own = orbit.WorstOf(Textbook(orbit, ClassicalRungeKutta.Step));
         double rounding = 10 / (1 - orbit.E) * 40 * Rounding.Walk(orbit.Steps);
         return new HardRow(
-            Name, FormattableString.Invariant($"e {orbit.E}, {orbit.Steps:N0} steps"), orbit.WorstOf(seen), "position_over_semi_major_axis", (1.01 * own) + rounding,
+            Name, FormattableString.Invariant($"e {orbit.E}, {orbit.Steps:N0} steps"), orbit.WorstOf(seen), "position_over_semi_major_axis", (1.01 * own)
+                + rounding,
             "what the textbook's classical method leaves at this very step, written apart from the engine, and 1 % of it; a walk of 40 roundings a step, which the orbit magnifies by 10/(1 - e)",
             "Kepler's equation, at 16 instants of the orbit");
     }

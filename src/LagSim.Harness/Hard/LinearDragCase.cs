@@ -8,8 +8,9 @@ namespace LagSim.Harness.Hard;
 
 /// <summary>Drag in proportion to the speed, falling and bouncing, against exponentials.</summary>
 /// <remarks>
-/// The velocity obeys v' = k (u - v), u the terminal one. On that the classical method multiplies v - u by R(-kh) a step, R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24, and
-/// x + (v - ut)/k is kept, as every linear invariant is. So its own error is known exactly, without contacts; a contact passes errors on by its saltation.
+/// The velocity obeys v' = k (u - v), u the terminal one. On that the classical method multiplies v - u by R(-kh) a step, R(z) = 1 + z + z^2/2 + z^3/6 +
+/// z^4/24, and x + (v - ut)/k is kept, as every linear invariant is. So its own error is known exactly, without contacts; a contact passes errors on by its
+/// saltation.
 /// </remarks>
 internal sealed class LinearDragCase : IHardCase
 {
@@ -39,9 +40,11 @@ internal sealed class LinearDragCase : IHardCase
         const double step = 1.0 / 32;
         yield return FallRow(context, new LinearDrag(K * (1 + 1e-6)), step) with { Note = "k off by a millionth" };
         yield return BounceRow(step, Bounces(context, new LinearDrag(K * (1 + 1e-6)), step)) with { Note = "k off by a millionth" };
-        double[] snapped = ClassicalRungeKutta.SnappedTimes(ClassicalRungeKutta.Of(new LinearDrag(K), V(0, -Gravity)), V(0, Height), E, step, (int)(Seconds / step));
+        double[] snapped = ClassicalRungeKutta.SnappedTimes(ClassicalRungeKutta.Of(new LinearDrag(K), V(0, -Gravity)), V(0, Height), E, step,
+            (int)(Seconds / step));
         yield return BounceRow(step, snapped) with { Note = "contacts moved to the end of their step" };
-        (Vector3D x, _) = ClassicalRungeKutta.Run(ClassicalRungeKutta.ThesisStep, ClassicalRungeKutta.Of(new LinearDrag(K), V(0, -Gravity)), default, default, step, 128);
+        (Vector3D x, _) = ClassicalRungeKutta.Run(ClassicalRungeKutta.ThesisStep, ClassicalRungeKutta.Of(new LinearDrag(K), V(0, -Gravity)), default, default,
+            step, 128);
         yield return FallRow(step, 4, x.Y) with { Note = "the thesis's update of the position" };
     }
 
@@ -87,7 +90,8 @@ internal sealed class LinearDragCase : IHardCase
             off.Fly(v, start, before, end);
 
             // The contact is found on the quintic through both ends of its step, whose own error is (h/2)^6/720 of the sixth derivative of x.
-            off.Add((rate / K * flight) + (rate * flight * flight) + RoundingOf(flight / step, 40) + (Math.Pow(K, 5) * Math.Abs(Terminal - v) * Math.Pow(step / 2, 6) / 720), 0);
+            off.Add((rate / K * flight) + (rate * flight * flight) + RoundingOf(flight / step, 40)
+                + (Math.Pow(K, 5) * Math.Abs(Terminal - v) * Math.Pow(step / 2, 6) / 720), 0);
             off.Add(0, rate * flight);
             bound = Math.Max(bound, off.Delay(before) + Rounding.Tick);
             off.Bounce(E, before, end, -Gravity - (K * after));

@@ -9,8 +9,8 @@ namespace LagSim.Harness.Hard;
 
 /// <summary>A force across the velocity: a circle, or with gravity a cycloid; the speed must not decay by more than the method's own share.</summary>
 /// <remarks>
-/// The classical method turns the velocity, less its drift, by R(iz) a step, z = omega h: |R| = sqrt(1 - z^6/72 + z^8/576), its argument z less z^5/120 and smaller terms. v - x cross omega,
-/// which is linear, is kept, so the place is off by as much as the velocity over omega.
+/// The classical method turns the velocity, less its drift, by R(iz) a step, z = omega h: |R| = sqrt(1 - z^6/72 + z^8/576), its argument z less z^5/120 and
+/// smaller terms. v - x cross omega, which is linear, is kept, so the place is off by as much as the velocity over omega.
 /// </remarks>
 internal sealed class MagneticCase : IHardCase
 {
@@ -64,7 +64,8 @@ internal sealed class MagneticCase : IHardCase
         double across = Math.Sqrt((turning.X * turning.X) + (turning.Y * turning.Y));
         double cos = Math.Cos(angle), sin = Math.Sin(angle); // v' = v x omega turns clockwise about z
         Vector3D velocity = V((turning.X * cos) + (turning.Y * sin), (turning.Y * cos) - (turning.X * sin), turning.Z);
-        Vector3D place = (drift * t) + V(((turning.X * sin) + (turning.Y * (1 - cos))) / omega, ((turning.Y * sin) - (turning.X * (1 - cos))) / omega, turning.Z * t);
+        Vector3D place = (drift * t) + V(((turning.X * sin) + (turning.Y * (1 - cos))) / omega, ((turning.Y * sin) - (turning.X * (1 - cos))) / omega,
+            turning.Z * t);
         string size = FormattableString.Invariant($"omega h = {z}, {steps:N0} steps{(gravity > 0 ? ", gravity" : "")}");
 
         double seen = Math.Sqrt(Math.Pow(v.X - drift.X, 2) + Math.Pow(v.Y - drift.Y, 2));
@@ -72,11 +73,13 @@ internal sealed class MagneticCase : IHardCase
         double rounding = 40 * Rounding.Walk(steps) * (1 + (drift.Length / across));
         yield return new HardRow(
             Name, size, Math.Abs((seen / across) - 1), "speed_relative", loss + rounding,
-            "the method's own loss, 1 - (1 - z^6/72 + z^8/576)^(n/2), and a walk of 40 roundings a step", "v x omega does no work: the speed beside the drift stays");
+            "the method's own loss, 1 - (1 - z^6/72 + z^8/576)^(n/2), and a walk of 40 roundings a step",
+                "v x omega does no work: the speed beside the drift stays");
 
         double phase = steps * Math.Pow(z, 5) / 120;
         yield return new HardRow(
-            Name, size, (x - place).Length, "position_m", (across / omega * (phase + loss)) + (rounding * (across / omega)) + (40 * Rounding.Walk(steps) * (place.Length + (across / omega))),
+            Name, size, (x - place).Length, "position_m", (across / omega * (phase + loss)) + (rounding * (across / omega))
+                + (40 * Rounding.Walk(steps) * (place.Length + (across / omega))),
             "radius x (n z^5/120 of phase and the loss of speed), and a walk of 40 roundings a step of the place", "circle and drift in closed form");
     }
 }

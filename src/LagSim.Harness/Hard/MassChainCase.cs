@@ -29,12 +29,14 @@ internal sealed class MassChainCase : IHardCase
     {
         Chain chain = new([1, 1000, 1e6]);
         (double last, double momentum, double energy, int impacts) = chain.Run(context, 1);
-        foreach (HardRow row in RowsOf("1 to 1e6 kg in 3 balls", chain, ((float)last, momentum - (chain.LargestMomentum * 1e-8), (float)energy + 1e-8, impacts)))
+        foreach (HardRow row in RowsOf("1 to 1e6 kg in 3 balls", chain,
+            ((float)last, momentum - (chain.LargestMomentum * 1e-8), (float)energy + 1e-8, impacts)))
         {
             yield return row with { Note = "as single precision would have it" };
         }
 
-        foreach (HardRow row in RowsOf("1 to 1e6 kg in 3 balls", chain, chain.Run(context, 1 - 1e-9)).Where(row => !row.ErrorKind.StartsWith("momentum", StringComparison.Ordinal)))
+        foreach (HardRow row in RowsOf("1 to 1e6 kg in 3 balls", chain, chain.Run(context, 1 - 1e-9))
+            .Where(row => !row.ErrorKind.StartsWith("momentum", StringComparison.Ordinal)))
         {
             yield return row with { Note = "restitution 1 - 1e-9" };
         }
@@ -58,7 +60,8 @@ internal sealed class MassChainCase : IHardCase
             "8 roundings a hit, added", "product of 2 m1/(m1 + m2), in decimal arithmetic");
         double ends = Rounding.PerContact * Rounding.Unit * seen.Impacts;
         yield return new HardRow(
-            Name, what, Math.Abs(seen.Momentum - chain.Masses[0]) / chain.LargestMomentum, "momentum_over_largest", ends + (chain.Masses.Length * Rounding.Unit),
+            Name, what, Math.Abs(seen.Momentum - chain.Masses[0]) / chain.LargestMomentum, "momentum_over_largest", ends
+                + (chain.Masses.Length * Rounding.Unit),
             "8 roundings of the largest momentum an impact, added, and the sum's own", "the first ball's momentum");
         yield return new HardRow(
             Name, what, Math.Abs((seen.Energy / (0.5 * chain.Masses[0])) - 1), "energy_relative", (2 * ends) + (4 * chain.Masses.Length * Rounding.Unit),

@@ -26,7 +26,8 @@ internal sealed class OrderCase : IHardCase
 
     public IEnumerable<HardRow> Rows(HardContext context)
     {
-        foreach ((string what, double floor, double at) in new[] { ("smooth", NoFloor, End), ("between steps", NoFloor, 1.987), ("through contacts", Floor, End) })
+        foreach ((string what, double floor, double at) in new[] { ("smooth", NoFloor, End), ("between steps", NoFloor, 1.987),
+            ("through contacts", Floor, End) })
         {
             yield return Row(what + ", position", step => Engine(context, step, floor, at).Position, Engine(context, Finest, floor, at).Position);
             yield return Row(what + ", velocity", step => Engine(context, step, floor, at).Velocity, Engine(context, Finest, floor, at).Velocity);
@@ -36,8 +37,12 @@ internal sealed class OrderCase : IHardCase
     public IEnumerable<HardRow> Controls(HardContext context)
     {
         Vector3D smooth = Engine(context, Finest, NoFloor, End).Position, bounced = Engine(context, Finest, Floor, End).Position;
-        yield return Row("smooth, position", step => Textbook(ClassicalRungeKutta.ThesisStep, step), smooth) with { Note = "the thesis's update of the position" };
-        yield return Row("through contacts, position", step => Textbook(ClassicalRungeKutta.Snapped(Floor, E), step), bounced) with { Note = "contacts moved to the end of their step" };
+        yield return Row("smooth, position", step => Textbook(ClassicalRungeKutta.ThesisStep, step),
+            smooth) with
+        { Note = "the thesis's update of the position" };
+        yield return Row("through contacts, position", step => Textbook(ClassicalRungeKutta.Snapped(Floor, E), step),
+            bounced) with
+        { Note = "contacts moved to the end of their step" };
     }
 
     private static Vector3D Textbook(ClassicalRungeKutta.Method method, double step) =>

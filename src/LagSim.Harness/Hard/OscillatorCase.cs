@@ -18,7 +18,8 @@ internal sealed class OscillatorCase : IHardCase
 
     public IEnumerable<HardRow> Rows(HardContext context)
     {
-        foreach ((double z, int steps) in context.Sizes([(0.25, 2000), (2.8, 100)], [(1.0 / 16, 100_000), (0.25, 100_000), (1, 10_000), (2, 500), (2.8, 1000), (2.828, 1000)]))
+        foreach ((double z, int steps) in context.Sizes([(0.25, 2000), (2.8, 100)],
+            [(1.0 / 16, 100_000), (0.25, 100_000), (1, 10_000), (2, 500), (2.8, 1000), (2.828, 1000)]))
         {
             Scene scene = Floating("oscillator").AddForce(Force.Supplied(new LinearSpring(z / Step))).AddBody("ball", Stepped(Step, 0.01), V(1)).Build();
             Simulation simulation = context.Simulate(scene);

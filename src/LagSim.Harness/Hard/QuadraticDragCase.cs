@@ -8,8 +8,9 @@ namespace LagSim.Harness.Hard;
 
 /// <summary>Drag in proportion to the square of the speed, falling and bouncing, against tanh and ln cosh, hop by hop.</summary>
 /// <remarks>
-/// On v' = f(v) the classical method's local error is at most 73/720 M L^4 h^5 (Lotkin 1951, also Ralston 1962), where |f| is at most M, |f'| at most L and |f''| at most L^2/M; one
-/// L less for the place, the integral. Where the speed changes sign f'' jumps: that step is off by at most k (gh)^2 h. Drag only ever damps an error of the speed.
+/// On v' = f(v) the classical method's local error is at most 73/720 M L^4 h^5 (Lotkin 1951, also Ralston 1962), where |f| is at most M, |f'| at most L and
+/// |f''| at most L^2/M; one L less for the place, the integral. Where the speed changes sign f'' jumps: that step is off by at most k (gh)^2 h. Drag only ever
+/// damps an error of the speed.
 /// </remarks>
 internal sealed class QuadraticDragCase : IHardCase
 {
@@ -38,9 +39,11 @@ internal sealed class QuadraticDragCase : IHardCase
         const double step = 1.0 / 32;
         yield return FallRow(context, new QuadraticDrag(K * (1 + 1e-4)), step) with { Note = "k off by 1e-4" };
         yield return BounceRow(step, Bounces(context, new QuadraticDrag(K * (1 + 1e-3)), step)) with { Note = "k off by 1e-3" };
-        double[] snapped = ClassicalRungeKutta.SnappedTimes(ClassicalRungeKutta.Of(new QuadraticDrag(K), V(0, -Gravity)), V(0, Height), E, step, (int)(Seconds / step));
+        double[] snapped = ClassicalRungeKutta.SnappedTimes(ClassicalRungeKutta.Of(new QuadraticDrag(K), V(0, -Gravity)), V(0, Height), E, step,
+            (int)(Seconds / step));
         yield return BounceRow(step, snapped) with { Note = "contacts moved to the end of their step" };
-        (Vector3D x, _) = ClassicalRungeKutta.Run(ClassicalRungeKutta.ThesisStep, ClassicalRungeKutta.Of(new QuadraticDrag(K), V(0, -Gravity)), default, default, step, 128);
+        (Vector3D x, _) = ClassicalRungeKutta.Run(ClassicalRungeKutta.ThesisStep, ClassicalRungeKutta.Of(new QuadraticDrag(K), V(0, -Gravity)), default,
+            default, step, 128);
         yield return FallRow(step, 4, x.Y) with { Note = "the thesis's update of the position" };
     }
 

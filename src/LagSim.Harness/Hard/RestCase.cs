@@ -75,7 +75,8 @@ internal sealed class RestCase : IHardCase
         (BodyState state, long events) = (Read(simulation, 0, 2), simulation.EventsProcessed);
         simulation.AdvanceTo(SimTime.FromSeconds(2 + seconds));
         string size = FormattableString.Invariant($"on a plane, {seconds} s");
-        yield return new HardRow(Name, size, (Read(simulation, 0, 2 + seconds).Position - state.Position).Length, "drift_m", 0, "a body at rest is a constant", "nothing moves");
+        yield return new HardRow(Name, size, (Read(simulation, 0, 2 + seconds).Position - state.Position).Length, "drift_m", 0, "a body at rest is a constant",
+            "nothing moves");
         yield return new HardRow(Name, size, simulation.EventsProcessed - events, "events", 0, "a body at rest asks for nothing", "nothing happens");
     }
 
@@ -83,7 +84,8 @@ internal sealed class RestCase : IHardCase
     private static BodyState Slope(HardContext context, double gravity)
     {
         Vector3D normal = V(0.5, Math.Sqrt(0.75));
-        Scene scene = new SceneBuilder("slope").WithGravity(V(0, -gravity)).AddPlane("slope", normal, Vector3D.Zero).AddBody("ball", Ball(e: 0), normal * 0.5).Build();
+        Scene scene = new SceneBuilder("slope").WithGravity(V(0, -gravity)).AddPlane("slope", normal, Vector3D.Zero).AddBody("ball", Ball(e: 0),
+            normal * 0.5).Build();
         return Read(context.Run(scene, 3), 0, 3);
     }
 
@@ -92,7 +94,8 @@ internal sealed class RestCase : IHardCase
         double way = 0.5 * Gravity * 0.5 * 9;
         Vector3D expected = (V(0.5, Math.Sqrt(0.75)) * 0.5) + (V(Math.Sqrt(0.75), -0.5) * way);
         return new HardRow(
-            Name, "down a slope of 30 degrees for 3 s", (seen.Position - expected).Length, "position_m", SceneBuilder.DefaultResolution + (32 * Rounding.Unit * way),
+            Name, "down a slope of 30 degrees for 3 s", (seen.Position - expected).Length, "position_m", SceneBuilder.DefaultResolution
+                + (32 * Rounding.Unit * way),
             "the scene's resolution, below which a contact is taken to last, and 32 roundings", "g sin(a) t^2/2 along the slope");
     }
 
@@ -104,7 +107,8 @@ internal sealed class RestCase : IHardCase
     {
         const double half = 0.55;
         double up = 0.5 + Math.Sqrt(1 - (half * half));
-        return new SceneBuilder("pile").AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0.5).AddPlane("west", V(1), -half - 0.5, 0.5).AddPlane("east", V(-1), -half - 0.5, 0.5)
+        return new SceneBuilder("pile").AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0.5).AddPlane("west", V(1), -half - 0.5, 0.5).AddPlane("east", V(-1),
+            -half - 0.5, 0.5)
             .AddBody("left", Ball(e: 0.5), V(-half, 0.5)).AddBody("right", Ball(e: 0.5), V(half, 0.5)).AddBody("top", Ball(e: 0.5), V(0, up)).Build();
     }
 
@@ -133,10 +137,13 @@ internal sealed class RestCase : IHardCase
         string size = FormattableString.Invariant($"{what}, {seconds} s");
         double hops = 2 * Math.Sqrt(2 * Hop / Gravity); // how long one takes
         yield return new HardRow(
-            Name, size, seen.Drift, "drift_m", Math.Max(1, contacts) * 2 * Hop, "two hops of a thousand resolutions a contact, by which a contact lasts that no plane covers", "nothing moves");
+            Name, size, seen.Drift, "drift_m", Math.Max(1, contacts) * 2 * Hop,
+                "two hops of a thousand resolutions a contact, by which a contact lasts that no plane covers", "nothing moves");
         yield return new HardRow(
-            Name, size, seen.Gain, "energy_gain_j", Math.Max(1, contacts) * Gravity * Hop, "what it takes to lift a ball of 1 kg by a hop, for each contact", "the energy at the start");
+            Name, size, seen.Gain, "energy_gain_j", Math.Max(1, contacts) * Gravity * Hop, "what it takes to lift a ball of 1 kg by a hop, for each contact",
+                "the energy at the start");
         yield return new HardRow(
-            Name, size, seen.Events, "events", Math.Max(1, contacts) * 2 * seconds / hops, "two events a hop and contact: one where it ends, one of who is pushed by it", "2 sqrt(2h/g) a hop");
+            Name, size, seen.Events, "events", Math.Max(1, contacts) * 2 * seconds / hops,
+                "two events a hop and contact: one where it ends, one of who is pushed by it", "2 sqrt(2h/g) a hop");
     }
 }

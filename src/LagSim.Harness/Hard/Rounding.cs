@@ -5,8 +5,8 @@ namespace LagSim.Harness.Hard;
 /// <summary>The two sources of error that an exact method has left, and what they add up to: what bounds are argued from.</summary>
 /// <remarks>
 /// An operation on doubles is off by at most <see cref="Unit"/> of its result, and by that over the square root of 3 in the rms, if its rounding is as likely
-/// one way as the other (Higham, Accuracy and Stability of Numerical Algorithms, sections 2.2 and 2.8). Of n that are independent the rms grows with the square root of n, and
-/// four times the rms is exceeded once in 16,000.
+/// one way as the other (Higham, Accuracy and Stability of Numerical Algorithms, sections 2.2 and 2.8). Of n that are independent the rms grows with the square
+/// root of n, and four times the rms is exceeded once in 16,000.
 /// </remarks>
 internal static class Rounding
 {

@@ -50,7 +50,8 @@ internal sealed class ScalesCase : IHardCase
 
         yield return Row(scenes, bad) with
         {
-            Note = string.Create(CultureInfo.InvariantCulture, $"{built} of them valid, {events:N0} events, {ended} ended by a sentence{(first.Length > 0 ? "; " : "")}{first}"),
+            Note = string.Create(CultureInfo.InvariantCulture,
+                $"{built} of them valid, {events:N0} events, {ended} ended by a sentence{(first.Length > 0 ? "; " : "")}{first}"),
         };
     }
 
@@ -63,7 +64,8 @@ internal sealed class ScalesCase : IHardCase
             double e = n / 100.0, radius = 0.5, y = 1 + radius, v = 0;
             for (int hop = 0; hop < 1000; hop++)
             {
-                double root = (v + Math.Sqrt((v * v) + (2 * HardWorlds.Gravity * (y - radius)))) / HardWorlds.Gravity, t = Math.Round(root / Rounding.Tick) * Rounding.Tick;
+                double root = (v + Math.Sqrt((v * v) + (2 * HardWorlds.Gravity * (y - radius)))) / HardWorlds.Gravity,
+                    t = Math.Round(root / Rounding.Tick) * Rounding.Tick;
                 y += (v - (0.5 * HardWorlds.Gravity * t)) * t;
                 v = e * ((HardWorlds.Gravity * t) - v);
             }
@@ -76,7 +78,8 @@ internal sealed class ScalesCase : IHardCase
 
     private HardRow Row(int scenes, int bad) => new(
         Name, FormattableString.Invariant($"{scenes:N0} scenes"), bad, "scenes_without_a_number", 0,
-        "a number is finite or it is not; a scene that is refused, or ended because a body would become too fast, says so in a sentence", "every component of every state");
+        "a number is finite or it is not; a scene that is refused, or ended because a body would become too fast, says so in a sentence",
+            "every component of every state");
 
     /// <summary>A floor and some balls, all of one scale or another.</summary>
     private static Scene Draw(SeededRandom random, out double seconds)
@@ -86,17 +89,20 @@ internal sealed class ScalesCase : IHardCase
         int bodies = 2 + (int)(5 * random.NextDouble());
         MotionLaw law = random.NextDouble() < 0.7 ? MotionLaw.Ballistic : MotionLaw.RungeKutta4;
         SimDuration step = SimDuration.FromSeconds(Math.Clamp(seconds * Power(random, -3, -1), 1e-6, 1));
-        SceneBuilder builder = new SceneBuilder("scale").WithGravity(new Vector3D(0, -gravity, 0)).AddPlane("floor", Vector3D.Up, Vector3D.Zero, Restitution(random));
+        SceneBuilder builder = new SceneBuilder("scale").WithGravity(new Vector3D(0, -gravity, 0)).AddPlane("floor", Vector3D.Up, Vector3D.Zero,
+            Restitution(random));
         if (random.NextDouble() < 0.5)
         {
-            builder.AddPlane("left", new Vector3D(1, random.NextDouble() - 0.5, 0), new Vector3D(-4 * scale, 0, 0)).AddPlane("right", new Vector3D(-1, 0, 0.1), new Vector3D(20 * scale, 0, 0));
+            builder.AddPlane("left", new Vector3D(1, random.NextDouble() - 0.5, 0), new Vector3D(-4 * scale, 0, 0)).AddPlane("right", new Vector3D(-1, 0, 0.1),
+                new Vector3D(20 * scale, 0, 0));
         }
 
         for (int n = 0; n < bodies; n++)
         {
             BodySpec ball = new(scale * random.NextDouble(0.05, 0.9), Power(random, -9, 9), Restitution(random), law, step);
             Vector3D place = new Vector3D(2 * n, 1 + (2 * random.NextDouble()), random.NextDouble() - 0.5) * scale;
-            builder.AddBody(FormattableString.Invariant($"ball {n}"), ball, place, new Vector3D(random.NextGaussian(), random.NextGaussian(), random.NextGaussian()) * speed);
+            builder.AddBody(FormattableString.Invariant($"ball {n}"), ball, place,
+                new Vector3D(random.NextGaussian(), random.NextGaussian(), random.NextGaussian()) * speed);
         }
 
         return builder.Build();
@@ -110,7 +116,8 @@ internal sealed class ScalesCase : IHardCase
         for (int n = 0; n < simulation.BodyCount; n++)
         {
             BodyId body = simulation.BodyAt(n);
-            foreach (BodyState state in simulation.Timeline(body).Select(entry => entry.State).Append(HardWorlds.Read(simulation, body, simulation.SimulatedTo)))
+            foreach (BodyState state in simulation.Timeline(body).Select(entry => entry.State)
+                .Append(HardWorlds.Read(simulation, body, simulation.SimulatedTo)))
             {
                 if (!state.Position.IsFinite || !state.Velocity.IsFinite)
                 {

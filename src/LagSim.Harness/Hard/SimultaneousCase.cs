@@ -37,7 +37,8 @@ internal sealed class SimultaneousCase : IHardCase
 
     private static Vector3D[] Break(HardContext context, double off)
     {
-        Scene scene = Floating("break").AddBody("cue", Ball(), V(-3), V(2)).AddBody("left", Ball(), V(0, 0, -0.5)).AddBody("right", Ball(), V(off, 0, 0.5)).Build();
+        Scene scene = Floating("break").AddBody("cue", Ball(), V(-3), V(2)).AddBody("left", Ball(), V(0, 0, -0.5)).AddBody("right", Ball(),
+            V(off, 0, 0.5)).Build();
         Simulation simulation = context.Run(scene, 3);
         return Enumerable.Range(0, 3).Select(n => Read(simulation, n, 3).Velocity).ToArray();
     }
@@ -54,13 +55,16 @@ internal sealed class SimultaneousCase : IHardCase
 
     private HardRow MiddleRow(HardContext context, double mass, double off)
     {
-        Scene scene = Floating("middle").AddBody("left", Ball(), V(-3), V(1)).AddBody("middle", Ball(mass: mass), default).AddBody("right", Ball(), V(3 + off), V(-1)).Build();
+        Scene scene = Floating("middle").AddBody("left", Ball(), V(-3), V(1)).AddBody("middle", Ball(mass: mass), default).AddBody("right", Ball(), V(3 + off),
+            V(-1)).Build();
         Simulation simulation = context.Run(scene, 5);
         double[] v = Enumerable.Range(0, 3).Select(n => Read(simulation, n, 5).Velocity.X).ToArray();
         return new HardRow(
-            Name, FormattableString.Invariant($"hit from both sides, middle {mass} kg"), Worst([Math.Abs(v[0] + 1), Math.Abs(v[1]), Math.Abs(v[2] - 1)]), "speed_m_per_s",
+            Name, FormattableString.Invariant($"hit from both sides, middle {mass} kg"), Worst([Math.Abs(v[0] + 1), Math.Abs(v[1]), Math.Abs(v[2] - 1)]),
+                "speed_m_per_s",
             Together * Math.Max(1, 1 / Math.Sqrt(mass)),
-            "16 roundings, and for a light middle the root of the mass ratio times that: the solver's rows are weighed by the roots of masses", "the middle stays, the others turn round");
+            "16 roundings, and for a light middle the root of the mass ratio times that: the solver's rows are weighed by the roots of masses",
+                "the middle stays, the others turn round");
     }
 
     private HardRow OrderRow(HardContext context, double off)
@@ -69,8 +73,10 @@ internal sealed class SimultaneousCase : IHardCase
         double worst = new int[][] { [4, 3, 2, 1, 0], [1, 0, 2, 4, 3], [2, 4, 0, 3, 1], [3, 1, 4, 0, 2] }
             .Max(order => Worst(Five(context, order, off, out _).Zip(expected, (a, b) => (a - b).Length)));
         return new HardRow(
-            Name, FormattableString.Invariant($"five balls in 5 orders, {impacts} impacts"), worst, "speed_m_per_s", Together * 7 * Math.Pow(1 + (2 * 2 / 0.5), impacts - 1),
-            "16 roundings of 7 m/s, magnified by each further impact by 1 + 2 l/r, the flight l of 2 m and the radius r", "the same bodies named in another order");
+            Name, FormattableString.Invariant($"five balls in 5 orders, {impacts} impacts"), worst, "speed_m_per_s",
+                Together * 7 * Math.Pow(1 + (2 * 2 / 0.5), impacts - 1),
+            "16 roundings of 7 m/s, magnified by each further impact by 1 + 2 l/r, the flight l of 2 m and the radius r",
+                "the same bodies named in another order");
     }
 
     private static Vector3D[] Five(HardContext context, int[] order, double off, out int impacts)
@@ -87,6 +93,7 @@ internal sealed class SimultaneousCase : IHardCase
 
         Simulation simulation = context.Run(builder.Build(), 3);
         impacts = (int)simulation.ImpactsProcessed;
-        return Enumerable.Range(0, balls.Length).Select(n => Read(simulation, simulation.Scene.BodyNamed($"ball {n}"), SimTime.FromSeconds(3)).Velocity).ToArray();
+        return Enumerable.Range(0, balls.Length).Select(n => Read(simulation, simulation.Scene.BodyNamed($"ball {n}"), SimTime.FromSeconds(3)).Velocity)
+            .ToArray();
     }
 }

@@ -51,7 +51,8 @@ internal sealed class SmallFastCase : IHardCase
     private static long Rattle(HardContext context, MotionLaw law, double seconds)
     {
         // A metre between the two surfaces: a million bounces a second.
-        Scene scene = Floating("rattle").AddPlane("wall", V(1), V(0)).AddStaticSphere("post", V(1 + 1e-4), 1e-4).AddBody("bullet", Bullet(law), V(0.3), V(Speed)).Build();
+        Scene scene = Floating("rattle").AddPlane("wall", V(1), V(0)).AddStaticSphere("post", V(1 + 1e-4), 1e-4).AddBody("bullet", Bullet(law), V(0.3),
+            V(Speed)).Build();
         return InFrames(context, scene, seconds, 13).ImpactsProcessed;
     }
 
@@ -70,7 +71,8 @@ internal sealed class SmallFastCase : IHardCase
     {
         double expected = (Apart - (2 * Radius)) / (2 * Speed);
         return new HardRow(
-            Name, size, impacts.Length == 1 ? Math.Abs(impacts[0] - expected) : double.NaN, "time_s", Rounding.Tick + (16 * Rounding.Unit * Apart / (2 * Speed)),
+            Name, size, impacts.Length == 1 ? Math.Abs(impacts[0] - expected) : double.NaN, "time_s", Rounding.Tick
+                + (16 * Rounding.Unit * Apart / (2 * Speed)),
             "a tick, and 16 roundings of the place over the speed; no impact or several is no number and fails", "distance over speed");
     }
 

@@ -6,7 +6,10 @@ using static LagSim.Harness.Hard.HardWorlds;
 
 namespace LagSim.Harness.Hard;
 
-/// <summary>A damped body whose step is as long as its decay: theory's factor where the method is stable, and beyond that a refusal or smaller steps, never a silent explosion.</summary>
+/// <summary>
+/// A damped body whose step is as long as its decay: theory's factor where the method is stable, and beyond that a refusal or smaller steps, never a silent
+/// explosion.
+/// </summary>
 internal sealed class StiffCase : IHardCase
 {
     private const double Step = 1.0 / 64;
@@ -52,7 +55,8 @@ internal sealed class StiffCase : IHardCase
         double stages = 1 + (z * (1 + (z / 2 * (1 + (z / 3 * (1 + (z / 4)))))));
         double expected = Math.Pow(factor, Steps);
         return new HardRow(
-            Name, FormattableString.Invariant($"k h = {z}, {Steps} steps"), Math.Abs((speed / expected) - 1), "speed_relative", 40 * stages / Math.Abs(factor) * Steps * Rounding.Unit,
+            Name, FormattableString.Invariant($"k h = {z}, {Steps} steps"), Math.Abs((speed / expected) - 1), "speed_relative",
+                40 * stages / Math.Abs(factor) * Steps * Rounding.Unit,
             "a rounding a step of the size of the stages, 1 + z + z^2/2 + z^3/6 + z^4/24, magnified by the 31 that the quintic's coefficients add to, and 9 for the rest, over the factor",
             "factor 1 - z + z^2/2 - z^3/6 + z^4/24 a step");
     }

@@ -71,7 +71,8 @@ public sealed class WorkSweepTests
         Assert.SkipWhen(Method(name).Missing is not null, Method(name).Missing ?? "");
         WorkPoint[] points = [.. Sweep(scene, name, settings).Where(point => point.ErrorKind == Scene(scene).ErrorKinds[0])];
         Assert.All(points, point => Assert.InRange(point.Error, 1e-6, 0.5));
-        Assert.All(points.Skip(1).Zip(points), pair => Assert.True(pair.First.Error < 0.6 * pair.Second.Error, $"{pair}")); // the force acts, on the places of the step
+        // the force acts, on the places of the step
+        Assert.All(points.Skip(1).Zip(points), pair => Assert.True(pair.First.Error < 0.6 * pair.Second.Error, $"{pair}"));
     }
 
     [Fact]
@@ -85,7 +86,8 @@ public sealed class WorkSweepTests
     public void WhatIsLeftOut_IsSaidWithItsReason()
     {
         WorkReport report = WorkSweep.Run(
-            [Scene("drag"), Scene("billiards")], [Method("LagSim Ballistic"), Method("MathNet RungeKutta4"), new Absent()], Short with { MostSettings = 1 }, null, TestContext.Current.CancellationToken);
+            [Scene("drag"), Scene("billiards")], [Method("LagSim Ballistic"), Method("MathNet RungeKutta4"), new Absent()], Short with { MostSettings = 1 },
+                null, TestContext.Current.CancellationToken);
         Assert.Equal(
             [
                 "absent is left out: nobody has it.",
@@ -93,14 +95,17 @@ public sealed class WorkSweepTests
                 "billiards: MathNet RungeKutta4 is left out: it is an integrator; contacts of bodies with each other are not in it.",
             ],
             report.LeftOut);
-        WorkReport hurried = WorkSweep.Run([Scene("spring")], [Method("LagSim RungeKutta4")], Short with { LongestSeconds = 1e-12 }, null, TestContext.Current.CancellationToken);
+        WorkReport hurried = WorkSweep.Run([Scene("spring")], [Method("LagSim RungeKutta4")], Short with { LongestSeconds = 1e-12 }, null,
+            TestContext.Current.CancellationToken);
         Assert.Single(hurried.Points);
-        Assert.Contains("spring: LagSim RungeKutta4 at 1/20 s and finer is left out: it would take about ", Assert.Single(hurried.LeftOut), StringComparison.Ordinal);
+        Assert.Contains("spring: LagSim RungeKutta4 at 1/20 s and finer is left out: it would take about ", Assert.Single(hurried.LeftOut),
+            StringComparison.Ordinal);
     }
 
     private static bool IsFour(WorkOrder order) => Math.Abs(order.Slope - 4) <= 0.1;
 
-    private static WorkOrder Order(string scene, IWorkMethod method) => Assert.Single(WorkSweep.Run([Scene(scene)], [method], Short, null, TestContext.Current.CancellationToken).Orders);
+    private static WorkOrder Order(string scene, IWorkMethod method) =>
+        Assert.Single(WorkSweep.Run([Scene(scene)], [method], Short, null, TestContext.Current.CancellationToken).Orders);
 
     private static WorkPoint[] Sweep(string scene, string method, int settings) =>
         [.. WorkSweep.Run([Scene(scene)], [Method(method)], Short with { MostSettings = settings }, null, TestContext.Current.CancellationToken).Points];
@@ -120,7 +125,8 @@ public sealed class WorkSweepTests
 
         public string? Excludes(WorkScene scene) => null;
 
-        public IReadOnlyList<WorkSetting> Settings(WorkScene scene) => [.. new[] { 100.0, 200, 400, 800, 1600, 3200 }.Select(rate => new WorkSetting("step", 1 / rate))];
+        public IReadOnlyList<WorkSetting> Settings(WorkScene scene) =>
+            [.. new[] { 100.0, 200, 400, 800, 1600, 3200 }.Select(rate => new WorkSetting("step", 1 / rate))];
 
         public IWorkRun Start(WorkScene scene, WorkSetting setting) => new Run(scene, setting.StepSeconds);
 
@@ -138,7 +144,7 @@ public sealed class WorkSweepTests
                 BodySpec spec = scene.Scene.Bodies[0].Spec;
                 for (long end = (long)Math.Round(seconds / step); Events < end; Events++)
                 {
-                    v += (scene.Scene.Gravity + scene.Force!.At(Seconds, x, v)) * step;
+                    v += (scene.Scene.Gravity + scene.Push(spec.Mass, Seconds, x, v)) * step;
                     x += v * step;
                     if (scene.Scene.Planes.Count > 0 && x.Y < spec.Radius && v.Y < 0)
                     {

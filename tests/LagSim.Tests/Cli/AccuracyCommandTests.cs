@@ -16,12 +16,14 @@ public sealed class AccuracyCommandTests
         using JsonDocument document = JsonDocument.Parse(Tool.Run("accuracy", "spring", "--quick", "--peers", "mathnet", "--json").Done().Output);
         JsonElement root = document.RootElement;
         Assert.Equal(
-            ["tool", "version", "command", "seed", "scene", "scene_hash", "state_hash", "quick", "clock", "points", "orders", "findings", "left_out", "caution"],
+            ["tool", "version", "command", "seed", "scene", "scene_hash", "state_hash", "quick", "clock", "points", "orders", "findings", "left_out",
+                "caution"],
             root.EnumerateObject().Select(p => p.Name));
         JsonElement[] points = [.. root.GetProperty("points").EnumerateArray()];
         Assert.Equal(6, points.Length); // three settings of two methods
         Assert.All(points, point => Assert.Equal(
-            ["scene", "method", "setting", "step_s", "error", "error_kind", "cpu_s", "runs", "simulated_s", "events"], point.EnumerateObject().Select(p => p.Name)));
+            ["scene", "method", "setting", "step_s", "error", "error_kind", "cpu_s", "runs", "simulated_s", "events"], point.EnumerateObject()
+                .Select(p => p.Name)));
         Assert.Equal("spring", root.GetProperty("scene").GetString());
         Assert.Equal(16, root.GetProperty("scene_hash").GetString()!.Length);
         Assert.All(root.GetProperty("orders").EnumerateObject(), order => Assert.InRange(order.Value.GetDouble(), 3.5, 4.5));
@@ -52,7 +54,8 @@ public sealed class AccuracyCommandTests
         using JsonDocument document = JsonDocument.Parse(tool.Output.ToString());
         bool isThere = WorkMethods.All.Single(method => method.Engine == "chipmunk").Missing is null;
         Assert.Equal(isThere, document.RootElement.GetProperty("points").EnumerateArray().Any(point => point.GetProperty("method").GetString() == "Chipmunk"));
-        Assert.Equal(isThere, !document.RootElement.GetProperty("left_out").EnumerateArray().Any(line => line.GetString()!.Contains("apt-get install libchipmunk7", StringComparison.Ordinal)));
+        Assert.Equal(isThere, !document.RootElement.GetProperty("left_out").EnumerateArray().Any(line =>
+            line.GetString()!.Contains("apt-get install libchipmunk7", StringComparison.Ordinal)));
     }
 
     [Fact]

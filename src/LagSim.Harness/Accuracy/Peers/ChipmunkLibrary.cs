@@ -10,19 +10,31 @@ internal static unsafe class ChipmunkLibrary
 
     internal static readonly delegate* unmanaged[Cdecl]<nint> SpaceNew = (delegate* unmanaged[Cdecl]<nint>)Library.Find("cpSpaceNew");
     internal static readonly delegate* unmanaged[Cdecl]<nint, void> SpaceFree = (delegate* unmanaged[Cdecl]<nint, void>)Library.Find("cpSpaceFree");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, Vect, void> SpaceSetGravity = (delegate* unmanaged[Cdecl]<nint, Vect, void>)Library.Find("cpSpaceSetGravity");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, nint> SpaceGetStaticBody = (delegate* unmanaged[Cdecl]<nint, nint>)Library.Find("cpSpaceGetStaticBody");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, nint, nint> SpaceAddBody = (delegate* unmanaged[Cdecl]<nint, nint, nint>)Library.Find("cpSpaceAddBody");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, nint, nint> SpaceAddShape = (delegate* unmanaged[Cdecl]<nint, nint, nint>)Library.Find("cpSpaceAddShape");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, double, void> SpaceStep = (delegate* unmanaged[Cdecl]<nint, double, void>)Library.Find("cpSpaceStep");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, nint, void> SpaceRemoveShape = (delegate* unmanaged[Cdecl]<nint, nint, void>)Library.Find("cpSpaceRemoveShape");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, nint, void> SpaceRemoveBody = (delegate* unmanaged[Cdecl]<nint, nint, void>)Library.Find("cpSpaceRemoveBody");
-    internal static readonly delegate* unmanaged[Cdecl]<double, double, nint> BodyNew = (delegate* unmanaged[Cdecl]<double, double, nint>)Library.Find("cpBodyNew");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, Vect, void> SpaceSetGravity =
+        (delegate* unmanaged[Cdecl]<nint, Vect, void>)Library.Find("cpSpaceSetGravity");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, nint> SpaceGetStaticBody =
+        (delegate* unmanaged[Cdecl]<nint, nint>)Library.Find("cpSpaceGetStaticBody");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, nint, nint> SpaceAddBody =
+        (delegate* unmanaged[Cdecl]<nint, nint, nint>)Library.Find("cpSpaceAddBody");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, nint, nint> SpaceAddShape =
+        (delegate* unmanaged[Cdecl]<nint, nint, nint>)Library.Find("cpSpaceAddShape");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, double, void> SpaceStep =
+        (delegate* unmanaged[Cdecl]<nint, double, void>)Library.Find("cpSpaceStep");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, nint, void> SpaceRemoveShape =
+        (delegate* unmanaged[Cdecl]<nint, nint, void>)Library.Find("cpSpaceRemoveShape");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, nint, void> SpaceRemoveBody =
+        (delegate* unmanaged[Cdecl]<nint, nint, void>)Library.Find("cpSpaceRemoveBody");
+    internal static readonly delegate* unmanaged[Cdecl]<double, double, nint> BodyNew =
+        (delegate* unmanaged[Cdecl]<double, double, nint>)Library.Find("cpBodyNew");
     internal static readonly delegate* unmanaged[Cdecl]<nint, void> BodyFree = (delegate* unmanaged[Cdecl]<nint, void>)Library.Find("cpBodyFree");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, Vect, void> BodySetPosition = (delegate* unmanaged[Cdecl]<nint, Vect, void>)Library.Find("cpBodySetPosition");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, Vect, void> BodySetVelocity = (delegate* unmanaged[Cdecl]<nint, Vect, void>)Library.Find("cpBodySetVelocity");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, Vect, void> BodySetForce = (delegate* unmanaged[Cdecl]<nint, Vect, void>)Library.Find("cpBodySetForce");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, nint, void> BodySetUserData = (delegate* unmanaged[Cdecl]<nint, nint, void>)Library.Find("cpBodySetUserData");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, Vect, void> BodySetPosition =
+        (delegate* unmanaged[Cdecl]<nint, Vect, void>)Library.Find("cpBodySetPosition");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, Vect, void> BodySetVelocity =
+        (delegate* unmanaged[Cdecl]<nint, Vect, void>)Library.Find("cpBodySetVelocity");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, Vect, void> BodySetForce =
+        (delegate* unmanaged[Cdecl]<nint, Vect, void>)Library.Find("cpBodySetForce");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, nint, void> BodySetUserData =
+        (delegate* unmanaged[Cdecl]<nint, nint, void>)Library.Find("cpBodySetUserData");
     internal static readonly delegate* unmanaged[Cdecl]<nint, nint> BodyGetUserData = (delegate* unmanaged[Cdecl]<nint, nint>)Library.Find("cpBodyGetUserData");
     internal static readonly delegate* unmanaged[Cdecl]<nint, delegate* unmanaged[Cdecl]<nint, Vect, double, double, void>, void> BodySetVelocityUpdateFunc =
         (delegate* unmanaged[Cdecl]<nint, delegate* unmanaged[Cdecl]<nint, Vect, double, double, void>, void>)Library.Find("cpBodySetVelocityUpdateFunc");
@@ -30,10 +42,12 @@ internal static unsafe class ChipmunkLibrary
         (delegate* unmanaged[Cdecl]<nint, Vect, double, double, void>)Library.Find("cpBodyUpdateVelocity");
     internal static readonly delegate* unmanaged[Cdecl]<nint, Vect> BodyGetPosition = (delegate* unmanaged[Cdecl]<nint, Vect>)Library.Find("cpBodyGetPosition");
     internal static readonly delegate* unmanaged[Cdecl]<nint, Vect> BodyGetVelocity = (delegate* unmanaged[Cdecl]<nint, Vect>)Library.Find("cpBodyGetVelocity");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, double, Vect, nint> CircleShapeNew = (delegate* unmanaged[Cdecl]<nint, double, Vect, nint>)Library.Find("cpCircleShapeNew");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, double, Vect, nint> CircleShapeNew =
+        (delegate* unmanaged[Cdecl]<nint, double, Vect, nint>)Library.Find("cpCircleShapeNew");
     internal static readonly delegate* unmanaged[Cdecl]<nint, Vect, Vect, double, nint> SegmentShapeNew =
         (delegate* unmanaged[Cdecl]<nint, Vect, Vect, double, nint>)Library.Find("cpSegmentShapeNew");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, double, void> ShapeSetElasticity = (delegate* unmanaged[Cdecl]<nint, double, void>)Library.Find("cpShapeSetElasticity");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, double, void> ShapeSetElasticity =
+        (delegate* unmanaged[Cdecl]<nint, double, void>)Library.Find("cpShapeSetElasticity");
     internal static readonly delegate* unmanaged[Cdecl]<nint, void> ShapeFree = (delegate* unmanaged[Cdecl]<nint, void>)Library.Find("cpShapeFree");
 
     /// <summary>Why it cannot be used; null if it can.</summary>

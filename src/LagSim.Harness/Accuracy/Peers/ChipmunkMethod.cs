@@ -7,10 +7,12 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Accuracy.Peers;
 
-/// <summary>Chipmunk 7 through its C interface, for scenes that are plane: circles and thick segments, all else by default (10 iterations, no damping, no sleeping).</summary>
+/// <summary>
+/// Chipmunk 7 through its C interface, for scenes that are plane: circles and thick segments, all else by default (10 iterations, no damping, no sleeping).
+/// </summary>
 /// <remarks>
-/// It multiplies the elasticities of two shapes, where LagSim takes the lesser; they are set so that the products are what the scene asks for. Friction is zero by default. A force is
-/// set where the velocity is updated, after the places are, as Chipmunk's own examples do.
+/// It multiplies the elasticities of two shapes, where LagSim takes the lesser; they are set so that the products are what the scene asks for. Friction is zero
+/// by default. A force is set where the velocity is updated, after the places are, as Chipmunk's own examples do.
 /// </remarks>
 internal sealed class ChipmunkMethod : IWorkMethod
 {
@@ -61,7 +63,8 @@ internal sealed class ChipmunkMethod : IWorkMethod
                 SceneBody body = scene.Bodies[n];
                 (double x, double y) = work.Flat(body.Position, n)!.Value;
                 (double vx, double vy) = work.FlatNormal(body.Velocity);
-                nint ball = bodies[n] = ChipmunkLibrary.SpaceAddBody(space, ChipmunkLibrary.BodyNew(body.Spec.Mass, 0.5 * body.Spec.Mass * body.Spec.Radius * body.Spec.Radius));
+                nint ball = bodies[n] = ChipmunkLibrary.SpaceAddBody(space,
+                    ChipmunkLibrary.BodyNew(body.Spec.Mass, 0.5 * body.Spec.Mass * body.Spec.Radius * body.Spec.Radius));
                 ChipmunkLibrary.BodySetPosition(ball, new(x, y));
                 ChipmunkLibrary.BodySetVelocity(ball, new(vx, vy));
                 if (work.Acting is not null)
@@ -135,7 +138,8 @@ internal sealed class ChipmunkMethod : IWorkMethod
             double behind = plane.Offset - Thick;
             Add(
                 ChipmunkLibrary.SegmentShapeNew(
-                    ChipmunkLibrary.SpaceGetStaticBody(space), new((x * behind) - (y * half), (y * behind) + (x * half)), new((x * behind) + (y * half), (y * behind) - (x * half)), Thick),
+                    ChipmunkLibrary.SpaceGetStaticBody(space), new((x * behind) - (y * half), (y * behind) + (x * half)),
+                        new((x * behind) + (y * half), (y * behind) - (x * half)), Thick),
                 elasticity);
         }
 
@@ -144,7 +148,7 @@ internal sealed class ChipmunkMethod : IWorkMethod
         {
             Run run = (Run)GCHandle.FromIntPtr(ChipmunkLibrary.BodyGetUserData(body)).Target!;
             int n = Array.IndexOf(run.bodies, body);
-            (double x, double y) = run.work.FlatNormal(run.Push(n));
+            (double x, double y) = run.work.FlatNormal(run.work.Push(run.scene.Bodies[n].Spec.Mass, run.Seconds, run.Position(n), run.Velocity(n)) * run.scene.Bodies[n].Spec.Mass);
             ChipmunkLibrary.BodySetForce(body, new(x, y));
             ChipmunkLibrary.BodyUpdateVelocity(body, gravity, damping, step);
         }

@@ -10,8 +10,9 @@ namespace LagSim.Harness.Accuracy.Peers;
 
 /// <summary>MathNet.Numerics' fourth-order Runge-Kutta, as who needs an integrator would use it.</summary>
 /// <remarks>
-/// It integrates; contacts are not in it. Here each body is a system of its own, one call a step. A step that ends beyond a surface is called again with half the time, 60 times by
-/// bisection, until the touch is found to a rounding; there the velocity is reflected, and what is left of the step is done. So bodies that meet each other are left out.
+/// It integrates; contacts are not in it. Here each body is a system of its own, one call a step. A step that ends beyond a surface is called again with half
+/// the time, 60 times by bisection, until the touch is found to a rounding; there the velocity is reflected, and what is left of the step is done. So bodies
+/// that meet each other are left out.
 /// </remarks>
 internal sealed class MathNetMethod : IWorkMethod
 {
@@ -46,7 +47,7 @@ internal sealed class MathNetMethod : IWorkMethod
             Vector3D gravity = scene.Gravity;
             slope = (t, y) =>
             {
-                Vector3D a = gravity + work.Push(mass, t, new Vector3D(y[0], y[1], y[2]), new Vector3D(y[3], y[4], y[5]));
+                Vector3D a = gravity + work.Push(1, t, new Vector3D(y[0], y[1], y[2]), new Vector3D(y[3], y[4], y[5]));
                 return Vector<double>.Build.DenseOfArray([y[3], y[4], y[5], a.X, a.Y, a.Z]);
             };
         }

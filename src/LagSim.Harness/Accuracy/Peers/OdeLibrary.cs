@@ -13,7 +13,8 @@ internal static unsafe class OdeLibrary
     internal static readonly delegate* unmanaged[Cdecl]<nint, void> WorldDestroy = (delegate* unmanaged[Cdecl]<nint, void>)Library.Find("dWorldDestroy");
     internal static readonly delegate* unmanaged[Cdecl]<nint, double, double, double, void> WorldSetGravity =
         (delegate* unmanaged[Cdecl]<nint, double, double, double, void>)Library.Find("dWorldSetGravity");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, double, int> WorldQuickStep = (delegate* unmanaged[Cdecl]<nint, double, int>)Library.Find("dWorldQuickStep");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, double, int> WorldQuickStep =
+        (delegate* unmanaged[Cdecl]<nint, double, int>)Library.Find("dWorldQuickStep");
     internal static readonly delegate* unmanaged[Cdecl]<nint, nint> BodyCreate = (delegate* unmanaged[Cdecl]<nint, nint>)Library.Find("dBodyCreate");
     internal static readonly delegate* unmanaged[Cdecl]<nint, double, double, double, void> BodySetPosition =
         (delegate* unmanaged[Cdecl]<nint, double, double, double, void>)Library.Find("dBodySetPosition");
@@ -21,9 +22,12 @@ internal static unsafe class OdeLibrary
         (delegate* unmanaged[Cdecl]<nint, double, double, double, void>)Library.Find("dBodySetLinearVel");
     internal static readonly delegate* unmanaged[Cdecl]<nint, double, double, double, void> BodyAddForce =
         (delegate* unmanaged[Cdecl]<nint, double, double, double, void>)Library.Find("dBodyAddForce");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, double*> BodyGetPosition = (delegate* unmanaged[Cdecl]<nint, double*>)Library.Find("dBodyGetPosition");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, double*> BodyGetLinearVel = (delegate* unmanaged[Cdecl]<nint, double*>)Library.Find("dBodyGetLinearVel");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, Mass*, void> BodySetMass = (delegate* unmanaged[Cdecl]<nint, Mass*, void>)Library.Find("dBodySetMass");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, double*> BodyGetPosition =
+        (delegate* unmanaged[Cdecl]<nint, double*>)Library.Find("dBodyGetPosition");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, double*> BodyGetLinearVel =
+        (delegate* unmanaged[Cdecl]<nint, double*>)Library.Find("dBodyGetLinearVel");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, Mass*, void> BodySetMass =
+        (delegate* unmanaged[Cdecl]<nint, Mass*, void>)Library.Find("dBodySetMass");
     internal static readonly delegate* unmanaged[Cdecl]<Mass*, double, double, void> MassSetSphereTotal =
         (delegate* unmanaged[Cdecl]<Mass*, double, double, void>)Library.Find("dMassSetSphereTotal");
     internal static readonly delegate* unmanaged[Cdecl]<nint, nint> HashSpaceCreate = (delegate* unmanaged[Cdecl]<nint, nint>)Library.Find("dHashSpaceCreate");
@@ -32,25 +36,31 @@ internal static unsafe class OdeLibrary
         (delegate* unmanaged[Cdecl]<nint, nint, delegate* unmanaged[Cdecl]<nint, nint, nint, void>, void>)Library.Find("dSpaceCollide");
     internal static readonly delegate* unmanaged[Cdecl]<nint, nint, int, ContactGeom*, int, int> Collide =
         (delegate* unmanaged[Cdecl]<nint, nint, int, ContactGeom*, int, int>)Library.Find("dCollide");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, double, nint> CreateSphere = (delegate* unmanaged[Cdecl]<nint, double, nint>)Library.Find("dCreateSphere");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, double, nint> CreateSphere =
+        (delegate* unmanaged[Cdecl]<nint, double, nint>)Library.Find("dCreateSphere");
     internal static readonly delegate* unmanaged[Cdecl]<nint, double, double, double, double, nint> CreatePlane =
         (delegate* unmanaged[Cdecl]<nint, double, double, double, double, nint>)Library.Find("dCreatePlane");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, nint, void> GeomSetBody = (delegate* unmanaged[Cdecl]<nint, nint, void>)Library.Find("dGeomSetBody");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, nint, void> GeomSetBody =
+        (delegate* unmanaged[Cdecl]<nint, nint, void>)Library.Find("dGeomSetBody");
     internal static readonly delegate* unmanaged[Cdecl]<nint, nint> GeomGetBody = (delegate* unmanaged[Cdecl]<nint, nint>)Library.Find("dGeomGetBody");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, nint, void> GeomSetData = (delegate* unmanaged[Cdecl]<nint, nint, void>)Library.Find("dGeomSetData");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, nint, void> GeomSetData =
+        (delegate* unmanaged[Cdecl]<nint, nint, void>)Library.Find("dGeomSetData");
     internal static readonly delegate* unmanaged[Cdecl]<nint, nint> GeomGetData = (delegate* unmanaged[Cdecl]<nint, nint>)Library.Find("dGeomGetData");
     internal static readonly delegate* unmanaged[Cdecl]<int, nint> JointGroupCreate = (delegate* unmanaged[Cdecl]<int, nint>)Library.Find("dJointGroupCreate");
     internal static readonly delegate* unmanaged[Cdecl]<nint, void> JointGroupEmpty = (delegate* unmanaged[Cdecl]<nint, void>)Library.Find("dJointGroupEmpty");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, void> JointGroupDestroy = (delegate* unmanaged[Cdecl]<nint, void>)Library.Find("dJointGroupDestroy");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, void> JointGroupDestroy =
+        (delegate* unmanaged[Cdecl]<nint, void>)Library.Find("dJointGroupDestroy");
     internal static readonly delegate* unmanaged[Cdecl]<nint, nint, Contact*, nint> JointCreateContact =
         (delegate* unmanaged[Cdecl]<nint, nint, Contact*, nint>)Library.Find("dJointCreateContact");
-    internal static readonly delegate* unmanaged[Cdecl]<nint, nint, nint, void> JointAttach = (delegate* unmanaged[Cdecl]<nint, nint, nint, void>)Library.Find("dJointAttach");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, nint, nint, void> JointAttach =
+        (delegate* unmanaged[Cdecl]<nint, nint, nint, void>)Library.Find("dJointAttach");
 
     /// <summary>dContactBounce.</summary>
     internal const int ContactBounce = 4;
 
     private static readonly delegate* unmanaged[Cdecl]<uint, int> Init = (delegate* unmanaged[Cdecl]<uint, int>)Library.Find("dInitODE2");
-    private static readonly delegate* unmanaged[Cdecl]<uint, int> AllocateForThread = (delegate* unmanaged[Cdecl]<uint, int>)Library.Find("dAllocateODEDataForThread");
+    private static readonly delegate* unmanaged[Cdecl]<uint, int> AllocateForThread =
+        (delegate* unmanaged[Cdecl]<uint, int>)Library.Find("dAllocateODEDataForThread");
     private static readonly delegate* unmanaged[Cdecl]<byte*> GetConfiguration = (delegate* unmanaged[Cdecl]<byte*>)Library.Find("dGetConfiguration");
 
     /// <summary>Why it cannot be used; null if it can.</summary>

@@ -7,10 +7,12 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Accuracy.Peers;
 
-/// <summary>ODE through its C interface: spheres and planes in a hash space, a contact joint a touch, <c>dWorldQuickStep</c> with its defaults (20 iterations, ERP 0.2).</summary>
+/// <summary>
+/// ODE through its C interface: spheres and planes in a hash space, a contact joint a touch, <c>dWorldQuickStep</c> with its defaults (20 iterations, ERP 0.2).
+/// </summary>
 /// <remarks>
-/// Its other stepper, <c>dWorldStep</c>, complains of internal errors of its solver on some of the scenes. No friction, restitution at any speed (<c>bounce_vel</c> 0), no automatic disabling (its default), no damping (its default). A force is added before
-/// each step.
+/// Its other stepper, <c>dWorldStep</c>, complains of internal errors of its solver on some of the scenes. No friction, restitution at any speed
+/// (<c>bounce_vel</c> 0), no automatic disabling (its default), no damping (its default). A force is added before each step.
 /// </remarks>
 internal sealed class OdeMethod : IWorkMethod
 {
