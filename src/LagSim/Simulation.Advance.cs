@@ -202,6 +202,7 @@ public sealed partial class Simulation
         }
 
         timelines.Append(slot, bodies[slot].Id, key, segment, dense, hold);
+        NoteCrowding(segment.Crowding, key.Time);
     }
 
     /// <summary>The round of something at <paramref name="time"/> on the body's newest segment: what a tick's own event causes at it comes a round later.</summary>

@@ -15,6 +15,11 @@ public sealed partial class Simulation
     /// </summary>
     private double Gather(int slot, in EventKey key, int fromCount, double gap)
     {
+        if (IsPairAlone(slot, key))
+        {
+            return GatherPair(slot, key);
+        }
+
         nearFrom = fromCount;
         reach = gap;
         Follow(slot, key);
@@ -59,9 +64,9 @@ public sealed partial class Simulation
                 }
             }
 
-            foreach (int other in index.CandidatesAt(party, bodies[party].Spec.Radius, key.Time))
+            foreach (int other in index.CandidatesAt(party, bodies[party].Spec.Radius, key.Time, HealAtHand != 0))
             {
-                if (other == party || flights.AreApart(party, other, key.Time, key.Time))
+                if (other == party || !timelines.IsKnown(other) || flights.AreApart(party, other, key.Time, key.Time))
                 {
                     continue;
                 }

@@ -30,89 +30,177 @@ public sealed partial class Simulation
     /// <param name="except">Another that is not met, whatever the paths say: only a fault put in on purpose names one.</param>
     private void Predict(int slot, int except = NoPartner)
     {
-        bool any = false;
-        EventKey least = default;
-        int partner = NoPartner;
-        int with = TimelineStore.None;
-        BodyId id = bodies[slot].Id;
+        Pending next = new() { Partner = NoPartner };
         int external = bodies[slot].NextExternal;
         if (external != EventLog.None)
         {
-            Consider(log.Key(external), NoPartner, ref any, ref least, ref partner);
+            next.Consider(log.Key(external));
         }
 
         int last = timelines.Last(slot);
         if (last != TimelineStore.None && timelines.Segment(last).IsPresent)
         {
+            BodyId id = bodies[slot].Id;
             SimTime end = timelines.Segment(last).End;
             if (end != SimTime.MaxValue)
             {
-                Consider(new EventKey(end, RoundAt(end, slot), EventKind.StepEnd, id, id, 0, 0), NoPartner, ref any, ref least, ref partner);
-            }
-
-            for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
-            {
-                if (TryTouchSurface(slot, surface, out ContactTime contact, out uint round))
-                {
-                    Consider(new EventKey(contact.Tick, round, EventKind.Impact, id, id, 0, 0), NoPartner, ref any, ref least, ref partner);
-                }
+                next.Consider(new EventKey(end, RoundAt(end, slot), EventKind.StepEnd, id, id, 0, 0));
             }
 
             SimTime from = SimTime.Max(timelines.Key(last).Time, clock.Time);
-            Span<int> candidates = index.Candidates(slot, bodies[slot].Spec.Radius, from, out SimTime until);
-            foreach (int other in candidates)
-            {
-                if (other != except && !flights.AreApart(slot, other, from, until) && TryMeet(slot, other, until, out int piece, out ContactTime contact, out uint round))
-                {
-                    BodyId otherId = bodies[other].Id;
-                    EventKey key = id < otherId
-                        ? new EventKey(contact.Tick, round, EventKind.Impact, id, otherId, 0, 0)
-                        : new EventKey(contact.Tick, round, EventKind.Impact, otherId, id, 0, 0);
-                    if (Consider(key, other, ref any, ref least, ref partner))
-                    {
-                        with = piece;
-                    }
-                }
-            }
-
+            Span<int> candidates = index.Candidates(slot, bodies[slot].Spec.Radius, from, HealAtHand, out SimTime until);
             if (until < end)
             {
-                Consider(new EventKey(until, 0, EventKind.None, id, id, 0, 0), NoPartner, ref any, ref least, ref partner);
+                next.Consider(new EventKey(until, 0, EventKind.None, id, id, 0, 0));
+            }
+
+            if (flights.IsFree(slot) && !MayBeAhead(clock))
+            {
+                FindInFlight(slot, candidates, from, until, except, ref next);
+            }
+            else
+            {
+                FindAlong(slot, candidates, from, until, except, ref next);
             }
         }
 
-        if (!any)
+        if (!next.Any)
         {
             bodies[slot].Partner = NoPartner;
             queue.Remove(slot);
             return;
         }
 
-        Pend(slot, least, partner, with);
-        if (partner != NoPartner && with == timelines.Last(partner) && (!queue.TryGet(partner, out EventKey theirs) || EventKey.Compare(least, theirs) < 0))
+        Pend(slot, next, next.Partner, next.Piece);
+        int partner = next.Partner;
+        if (partner == NoPartner || next.Piece != timelines.Last(partner))
         {
-            Pend(partner, least, slot, last);
+            return;
+        }
+
+        bool isPending = queue.TryGet(partner, out EventKey theirs);
+        if (!isPending || EventKey.Compare(next.Key, theirs) < 0)
+        {
+            next.IsTied |= isPending && theirs.Time == next.Key.Time;
+            Pend(partner, next, slot, last);
         }
     }
 
-    private static bool Consider(in EventKey key, int with, ref bool any, ref EventKey least, ref int partner)
+    /// <summary>
+    /// The next contact of a body in free flight. From the flights it is seen which of the others come near at all, and from when on; so only those are looked at that may be the
+    /// first, and that is one as a rule. It finds what <see cref="FindAlong"/> finds, to the bit.
+    /// </summary>
+    private void FindInFlight(int slot, Span<int> candidates, SimTime from, SimTime until, int except, ref Pending next)
     {
-        if (any && EventKey.Compare(key, least) >= 0)
+        Span<Approach> approaches = flights.Approaches(slot, candidates, from, next.Earliest(until));
+        int count = approaches.Length;
+        while (count > 0)
         {
-            return false;
+            int first = 0;
+            for (int i = 1; i < count; i++)
+            {
+                first = approaches[i].Seconds < approaches[first].Seconds ? i : first;
+            }
+
+            if (FreeFlights.IsLater(approaches[first].Seconds, from, next.Earliest(until)))
+            {
+                break;
+            }
+
+            int other = approaches[first].Slot;
+            approaches[first] = approaches[--count];
+            if (other != except)
+            {
+                ConsiderMeeting(slot, other, until, ref next);
+            }
         }
 
-        any = true;
-        least = key;
-        partner = with;
-        return true;
+        for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
+        {
+            if (surface >= Scene.PlaneArray.Length || !flights.Misses(slot, Scene.PlaneArray[surface], from, next.Earliest(until)))
+            {
+                ConsiderSurface(slot, surface, ref next);
+            }
+        }
     }
 
-    private void Pend(int slot, in EventKey key, int partner, int piece)
+    /// <summary>The next contact of a body on any path, and with anybody who may be ahead of what is being healed.</summary>
+    private void FindAlong(int slot, Span<int> candidates, SimTime from, SimTime until, int except, ref Pending next)
     {
-        bodies[slot].Partner = partner;
-        bodies[slot].PartnerSerial = partner == NoPartner ? 0 : timelines.Serial(Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : piece);
-        queue.Set(slot, key);
+        for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
+        {
+            ConsiderSurface(slot, surface, ref next);
+        }
+
+        foreach (int other in candidates)
+        {
+            if (other != except && !flights.AreApart(slot, other, from, until))
+            {
+                ConsiderMeeting(slot, other, until, ref next);
+            }
+        }
+    }
+
+    private void ConsiderSurface(int slot, int surface, ref Pending next)
+    {
+        if (TryTouchSurface(slot, surface, out ContactTime contact, out uint round))
+        {
+            BodyId id = bodies[slot].Id;
+            next.Consider(new EventKey(contact.Tick, round, EventKind.Impact, id, id, 0, 0));
+        }
+    }
+
+    private void ConsiderMeeting(int slot, int other, SimTime until, ref Pending next)
+    {
+        if (timelines.IsKnown(other) && TryMeet(slot, other, until, out int piece, out ContactTime contact, out uint round))
+        {
+            BodyId id = bodies[slot].Id;
+            BodyId otherId = bodies[other].Id;
+            BodyId least = id < otherId ? id : otherId;
+            if (next.Consider(new EventKey(contact.Tick, round, EventKind.Impact, least, id < otherId ? otherId : id, 0, 0)))
+            {
+                next.Partner = other;
+                next.Piece = piece;
+                next.Residual = contact.Residual;
+            }
+        }
+    }
+
+    private void Pend(int slot, in Pending next, int partner, int piece)
+    {
+        ref Body body = ref bodies[slot];
+        body.Partner = partner;
+        body.PartnerSerial = partner == NoPartner ? 0 : timelines.Serial(Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : piece);
+        body.Residual = next.Residual;
+        body.IsTied = next.IsTied;
+        queue.Set(slot, next.Key);
+    }
+
+    /// <summary>The least of what has been considered, and whom it is with.</summary>
+    private struct Pending
+    {
+        internal bool Any;
+        internal EventKey Key;
+        internal int Partner;
+        internal int Piece;
+        internal double Residual;
+        internal bool IsTied; // something else was considered at that tick
+
+        internal readonly SimTime Earliest(SimTime until) => Any ? SimTime.Min(until, Key.Time) : until;
+
+        internal bool Consider(in EventKey key)
+        {
+            IsTied = Any && (key.Time == Key.Time || (key.Time > Key.Time && IsTied));
+            if (Any && EventKey.Compare(key, Key) >= 0)
+            {
+                return false;
+            }
+
+            Any = true;
+            Key = key;
+            Partner = NoPartner;
+            return true;
+        }
     }
 
     /// <summary>The next contact of a body's newest segment with a static surface: planes by index, static spheres after them.</summary>
