@@ -18,13 +18,19 @@ internal sealed class FreeFlights
     /// <summary>What rounding may have moved, in parts of what was added up; four thousand times of what it does.</summary>
     private const double Slack = 1e-12;
 
-    /// <summary>Two that touch surely part if the cosine between their distance and their opening is above this.</summary>
+    /// <summary>Two that touch surely part only if the cosine between their distance and their opening is above this.</summary>
     private const double Parting = 1e-9;
+
+    /// <summary>For the rounding of a distance in itself, by its square: a sum's square is at most (1 + d) of the one's and (1 + 1/d) of the other's, here with d = 5e-7.</summary>
+    private const double FarSlack = 2.1e6 * 3 * Slack * Slack;
 
     private readonly Vector3D gravity;
     private readonly PeriodicBox box;
     private readonly double near;
+    private readonly bool hasBox;
+    private readonly bool falls;
     private Flight[] flights = new Flight[16];
+    private double[] radii = new double[16];
     private Approach[] approaches = new Approach[64];
 
     /// <summary>Nobody yet.</summary>
@@ -36,6 +42,8 @@ internal sealed class FreeFlights
         this.gravity = gravity;
         this.near = near;
         this.box = box;
+        hasBox = box.Exists;
+        falls = gravity != Vector3D.Zero;
     }
 
     /// <summary>Makes room for a body.</summary>
@@ -43,14 +51,21 @@ internal sealed class FreeFlights
     {
         if (slot >= flights.Length)
         {
-            Array.Resize(ref flights, Math.Max(slot + 1, flights.Length * 2));
+            int size = Math.Max(slot + 1, flights.Length * 2);
+            Array.Resize(ref flights, size);
+            Array.Resize(ref radii, size);
         }
 
-        flights[slot] = new Flight { Radius = radius, From = SimTime.MaxValue };
+        flights[slot] = new Flight { Margin = radius, From = SimTime.MaxValue };
+        radii[slot] = radius;
     }
 
     /// <summary>The body's radius, in metres.</summary>
-    internal void SetRadius(int slot, double radius) => flights[slot].Radius = radius;
+    internal void SetRadius(int slot, double radius)
+    {
+        radii[slot] = radius;
+        flights[slot].Margin = MarginOf(slot);
+    }
 
     /// <summary>The body's newest piece of path, and when it was opened.</summary>
     internal void Set(int slot, in MotionSegment path, SimTime opened)
@@ -60,6 +75,7 @@ internal sealed class FreeFlights
         flight.From = isFree ? opened : SimTime.MaxValue;
         flight.Position = path.Position;
         flight.Velocity = path.Velocity;
+        flight.Margin = MarginOf(slot);
     }
 
     /// <summary>The body has no path.</summary>
@@ -92,7 +108,7 @@ internal sealed class FreeFlights
         double span = until.SecondsSince(from) + TickConversion.SecondsPerTick;
         double nearest = along >= 0 ? -TickConversion.SecondsPerTick : square * span < -along ? span : -along / square;
         Vector3D least = apart + (opening * nearest);
-        double reach = a.Radius + b.Radius + near + (Slack * (Size(a.Position) + Size(b.Position) + Size(wayA) + Size(wayB)
+        double reach = radii[slot] + radii[other] + near + (Slack * (Size(a.Position) + Size(b.Position) + Size(wayA) + Size(wayB)
             + (Size(gravity) * ((sinceA * sinceA) + (sinceB * sinceB)))));
         return Vector3D.Dot(least, least) > reach * reach * (1 + 1e-6); // not so of what is not a number
     }
@@ -116,57 +132,63 @@ internal sealed class FreeFlights
         double since = from.SecondsSince(a.From);
         Vector3D place = a.Position + ((a.Velocity + (gravity * (0.5 * since))) * since);
         Vector3D velocity = a.Velocity + (gravity * since);
-        double placeX = place.X, placeY = place.Y, placeZ = place.Z;
-        double velocityX = velocity.X, velocityY = velocity.Y, velocityZ = velocity.Z;
-        double gravityX = gravity.X, gravityY = gravity.Y, gravityZ = gravity.Z;
-        double sideX = box.Size.X, sideY = box.Size.Y, sideZ = box.Size.Z;
-        double sizes = Size(a.Position) + Size(place) + (Size(gravity) * since * since);
-        double radius = a.Radius + near;
+        double radius = a.Margin + near + FallSlack(since) + (Slack * Size(place));
         double span = until.SecondsSince(from) + TickConversion.SecondsPerTick;
+        double speed = Size(velocity);
         bool isOpened = a.From == from;
-        bool hasBox = box.Exists;
         Span<Flight> all = flights;
+        Span<Approach> into = approaches;
         for (int i = 0; i < others.Length; i++)
         {
             int other = others[i];
             ref Flight b = ref all[other];
             if (b.From > from)
             {
-                approaches[count++] = new Approach(other, 0);
+                into[count++] = new Approach(other, 0);
                 continue;
             }
 
             // Scalars: what this loop does is most of what a prediction costs.
             double time = from.SecondsSince(b.From);
-            double halfTime = 0.5 * time;
-            double bX = b.Position.X + ((b.Velocity.X + (gravityX * halfTime)) * time);
-            double bY = b.Position.Y + ((b.Velocity.Y + (gravityY * halfTime)) * time);
-            double bZ = b.Position.Z + ((b.Velocity.Z + (gravityZ * halfTime)) * time);
-            double x = placeX - bX, y = placeY - bY, z = placeZ - bZ;
-            if (hasBox)
+            double u = b.Velocity.X, v = b.Velocity.Y, w = b.Velocity.Z;
+            double x = u * time, y = v * time, z = w * time;
+            double reach = radius + b.Margin;
+            if (falls)
             {
-                x = PeriodicBox.Nearest(x, sideX);
-                y = PeriodicBox.Nearest(y, sideY);
-                z = PeriodicBox.Nearest(z, sideZ);
+                double half = 0.5 * time;
+                x = (u + (gravity.X * half)) * time;
+                y = (v + (gravity.Y * half)) * time;
+                z = (w + (gravity.Z * half)) * time;
+                u += gravity.X * time;
+                v += gravity.Y * time;
+                w += gravity.Z * time;
+                reach += FallSlack(time);
             }
 
-            double u = velocityX - (b.Velocity.X + (gravityX * time));
-            double v = velocityY - (b.Velocity.Y + (gravityY * time));
-            double w = velocityZ - (b.Velocity.Z + (gravityZ * time));
+            x = place.X - (b.Position.X + x);
+            y = place.Y - (b.Position.Y + y);
+            z = place.Z - (b.Position.Z + z);
+            if (hasBox)
+            {
+                x = PeriodicBox.Nearest(x, box.Size.X);
+                y = PeriodicBox.Nearest(y, box.Size.Y);
+                z = PeriodicBox.Nearest(z, box.Size.Z);
+            }
+
+            u = velocity.X - u;
+            v = velocity.Y - v;
+            w = velocity.Z - w;
             double along = (x * u) + (y * v) + (z * w);
-            double slack = Slack * (sizes + Math.Abs(b.Position.X) + Math.Abs(b.Position.Y) + Math.Abs(b.Position.Z) + Math.Abs(bX) + Math.Abs(bY) + Math.Abs(bZ)
-                + (Size(gravity) * time * time));
-            double opening = Math.Abs(u) + Math.Abs(v) + Math.Abs(w);
-            double reach = radius + b.Radius + slack + (TickConversion.SecondsPerTick * opening);
-            double limit = reach * reach * (1 + 1e-6);
-            if ((x * x) + (y * y) + (z * z) > limit)
+            double distance = Square(x, y, z);
+            double limit = (reach * reach * (1 + 2e-6)) + (FarSlack * distance);
+            if (distance > limit)
             {
                 if (along >= 0)
                 {
                     continue;
                 }
 
-                double square = (u * u) + (v * v) + (w * w);
+                double square = Square(u, v, w);
                 double nearest = -along / square;
                 double miss = Square(x + (u * nearest), y + (v * nearest), z + (w * nearest));
                 if (miss > limit)
@@ -177,16 +199,22 @@ internal sealed class FreeFlights
                 double seconds = nearest - Math.Sqrt((limit - miss) / square);
                 if (!(seconds > span))
                 {
-                    approaches[count++] = new Approach(other, seconds);
+                    into[count++] = new Approach(other, seconds);
                 }
             }
-            else if (other != slot && !((isOpened || b.From == from) && along > opening * ((Parting * (Math.Abs(x) + Math.Abs(y) + Math.Abs(z))) + slack)))
+            else if (other != slot)
             {
-                approaches[count++] = new Approach(other, 0);
+                // What the finder makes of the two at the later opening, of the very signs: they part, and by far more than rounding can turn around.
+                double opening = Math.Abs(u) + Math.Abs(v) + Math.Abs(w);
+                double doubt = (opening * ((Parting * reach) + (reach - (radii[slot] + radii[other] + near)))) + (Slack * reach * ((2 * speed) + opening));
+                if (!((isOpened || b.From == from) && along > doubt))
+                {
+                    into[count++] = new Approach(other, 0);
+                }
             }
         }
 
-        return approaches.AsSpan(0, count);
+        return into.Slice(0, count);
     }
 
     /// <summary>Whether so many seconds after a time is surely after another.</summary>
@@ -199,15 +227,21 @@ internal sealed class FreeFlights
         ref readonly Flight a = ref flights[slot];
         double since = from.SecondsSince(a.From);
         Vector3D way = (a.Velocity + (gravity * (0.5 * since))) * since;
-        double gap = plane.Gap(a.Position + way, a.Radius);
+        double gap = plane.Gap(a.Position + way, radii[slot]);
         double opening = Vector3D.Dot(plane.Normal, a.Velocity + (gravity * since));
         double curve = Vector3D.Dot(plane.Normal, gravity);
         double span = until.SecondsSince(from) + TickConversion.SecondsPerTick;
         double atEnd = gap + ((opening + (0.5 * curve * span)) * span);
         double least = curve > 0 && opening < 0 && -opening < curve * span ? gap - (opening * opening / (2 * curve)) : Math.Min(gap, atEnd);
-        double slack = Slack * (Size(a.Position) + Size(way) + (Size(gravity) * since * since) + Math.Abs(plane.Offset) + a.Radius);
+        double slack = Slack * (Size(a.Position) + Size(way) + (Size(gravity) * since * since) + Math.Abs(plane.Offset) + radii[slot]);
         return least > near + slack + (TickConversion.SecondsPerTick * Math.Abs(opening)); // not so of what is not a number
     }
+
+    /// <summary>The radius, and how far rounding and a tick may move a body in flight that it is told of at another time, but for what it falls.</summary>
+    private double MarginOf(int slot) =>
+        radii[slot] + (2 * Slack * Size(flights[slot].Position)) + (2 * TickConversion.SecondsPerTick * Size(flights[slot].Velocity));
+
+    private double FallSlack(double time) => 2 * Size(gravity) * time * ((Slack * time) + TickConversion.SecondsPerTick);
 
     private static double Size(in Vector3D v) => Math.Abs(v.X) + Math.Abs(v.Y) + Math.Abs(v.Z);
 
@@ -218,6 +252,6 @@ internal sealed class FreeFlights
         internal Vector3D Position;
         internal Vector3D Velocity;
         internal SimTime From;
-        internal double Radius;
+        internal double Margin;
     }
 }

@@ -65,6 +65,20 @@ internal sealed class EventQueue
         }
     }
 
+    /// <summary>True, the slot whose event is the least, and its key; false if none is pending.</summary>
+    internal bool TryGetLeast(out int slot, out EventKey key)
+    {
+        if (Count == 0)
+        {
+            (slot, key) = (None, default);
+            return false;
+        }
+
+        slot = LeastSlot;
+        key = nodes[slot].Key;
+        return true;
+    }
+
     /// <summary>True and the key of the slot's pending event, if it has one.</summary>
     internal bool TryGet(int slot, out EventKey key)
     {

@@ -24,9 +24,13 @@ internal sealed class TimelineStore
 
     private const int Growth = 64;
 
+    /// <summary>If all that can be dropped is less than one part in so many, it would soon be looked for again.</summary>
+    private const int LittleRoom = 32;
+
     private readonly SimTime origin;
     private readonly FreeFlights? flights; // is told of each body's newest segment
     private Piece[] pieces = new Piece[32];
+    private Link[] links = new Link[32]; // apart, so that what is old is dropped without a look at what it was
     private DenseOutput[] dense = Array.Empty<DenseOutput>(); // only once something is integrated
     private Hold[] holds = Array.Empty<Hold>(); // only once something is held
     private int free = None;
@@ -84,9 +88,9 @@ internal sealed class TimelineStore
     /// <summary>The body's oldest segment that is kept, or <see cref="None"/>.</summary>
     internal int First(int slot) => first[slot];
 
-    internal int Next(int segment) => pieces[segment].Next;
+    internal int Next(int segment) => links[segment].Next;
 
-    internal int Previous(int segment) => pieces[segment].Previous;
+    internal int Previous(int segment) => links[segment].Previous;
 
     internal ref readonly MotionSegment Segment(int segment) => ref pieces[segment].Segment;
 
@@ -102,13 +106,13 @@ internal sealed class TimelineStore
     internal bool IsKnown(int slot) => slot < last.Length && last[slot] != None;
 
     /// <summary>A number no other segment of this store ever has, 0 for one that is no more; tells whether a remembered segment is still the one.</summary>
-    internal long Serial(int segment) => pieces[segment].Serial;
+    internal long Serial(int segment) => links[segment].Serial;
 
     /// <summary>The slot of the body whose path the segment is part of.</summary>
-    internal int Owner(int segment) => pieces[segment].Owner;
+    internal int Owner(int segment) => links[segment].Owner;
 
     /// <summary>The next in the ring of segments that one impact opened; itself if it has no other.</summary>
-    internal int Together(int segment) => pieces[segment].Together;
+    internal int Together(int segment) => links[segment].Together;
 
     /// <summary>The body's newest segment keyed before <paramref name="key"/>; <see cref="None"/> if none that is kept is.</summary>
     internal int Before(int slot, in EventKey key)
@@ -116,7 +120,7 @@ internal sealed class TimelineStore
         int at = last[slot];
         while (at != None && EventKey.Compare(pieces[at].Key, key) >= 0)
         {
-            at = pieces[at].Previous;
+            at = links[at].Previous;
         }
 
         return at;
@@ -127,7 +131,7 @@ internal sealed class TimelineStore
     {
         for (int i = 0; i < slots.Length; i++)
         {
-            pieces[last[slots[i]]].Together = last[slots[i + 1 == slots.Length ? 0 : i + 1]];
+            links[last[slots[i]]].Together = last[slots[i + 1 == slots.Length ? 0 : i + 1]];
         }
     }
 
@@ -143,7 +147,7 @@ internal sealed class TimelineStore
         int at = free;
         if (at != None)
         {
-            free = pieces[at].Next;
+            free = links[at].Next;
         }
         else
         {
@@ -184,18 +188,14 @@ internal sealed class TimelineStore
         ref Piece piece = ref pieces[at];
         piece.Segment = segment;
         piece.Key = key;
-        piece.Serial = ++LastSerial;
-        piece.Previous = before;
-        piece.Next = None;
-        piece.Owner = slot;
-        piece.Together = at;
+        links[at] = new Link { Opened = key.Time, Serial = ++LastSerial, Previous = before, Next = None, Owner = slot, Together = at };
         if (before == None)
         {
             first[slot] = at;
         }
         else
         {
-            pieces[before].Next = at;
+            links[before].Next = at;
         }
 
         last[slot] = at;
@@ -227,7 +227,7 @@ internal sealed class TimelineStore
             Observer.OnCut(pieces[at].Key);
         }
 
-        last[slot] = pieces[at].Previous;
+        last[slot] = links[at].Previous;
         if (last[slot] == None)
         {
             first[slot] = None;
@@ -235,17 +235,17 @@ internal sealed class TimelineStore
         }
         else
         {
-            pieces[last[slot]].Next = None;
+            links[last[slot]].Next = None;
             flights?.Set(slot, pieces[last[slot]].Segment, pieces[last[slot]].Key.Time);
         }
 
         int before = at;
-        while (pieces[before].Together != at)
+        while (links[before].Together != at)
         {
-            before = pieces[before].Together;
+            before = links[before].Together;
         }
 
-        pieces[before].Together = pieces[at].Together;
+        links[before].Together = links[at].Together;
         Release(at);
     }
 
@@ -254,10 +254,10 @@ internal sealed class TimelineStore
     {
         dropped = SimTime.Max(dropped, edge);
         int at = first[slot];
-        while (at != None && pieces[at].Next != None && pieces[pieces[at].Next].Key.Time < edge)
+        while (at != None && links[at].Next != None && links[links[at].Next].Opened < edge)
         {
-            int next = pieces[at].Next;
-            pieces[next].Previous = None;
+            int next = links[at].Next;
+            links[next].Previous = None;
             first[slot] = next;
             Release(at);
             at = next;
@@ -280,9 +280,9 @@ internal sealed class TimelineStore
     internal int At(int slot, SimTime time)
     {
         int at = last[slot];
-        while (at != None && pieces[at].Key.Time > time)
+        while (at != None && links[at].Opened > time)
         {
-            at = pieces[at].Previous;
+            at = links[at].Previous;
         }
 
         return at;
@@ -328,7 +328,7 @@ internal sealed class TimelineStore
             DropBefore(slot, dropped);
         }
 
-        if (Alive > used - (used / (2 * Growth)) && used < Most)
+        if (Alive > used - (used / LittleRoom) && used < Most)
         {
             Grow();
         }
@@ -336,8 +336,8 @@ internal sealed class TimelineStore
 
     private void Release(int at)
     {
-        pieces[at].Serial = 0;
-        pieces[at].Next = free;
+        links[at].Serial = 0;
+        links[at].Next = free;
         free = at;
         Alive--;
     }
@@ -346,6 +346,7 @@ internal sealed class TimelineStore
     {
         int size = pieces.Length < Large ? pieces.Length * 2 : pieces.Length + (pieces.Length / Growth);
         Array.Resize(ref pieces, size);
+        Array.Resize(ref links, size);
         if (dense.Length > 0)
         {
             Array.Resize(ref dense, size);
@@ -357,11 +358,17 @@ internal sealed class TimelineStore
         }
     }
 
-    /// <summary>A segment with the key that opened it, and its place among the others.</summary>
+    /// <summary>A segment and the key that opened it.</summary>
     private struct Piece
     {
         internal MotionSegment Segment;
         internal EventKey Key;
+    }
+
+    /// <summary>A segment's place among the others.</summary>
+    private struct Link
+    {
+        internal SimTime Opened;
         internal long Serial;
         internal int Previous;
         internal int Next;
