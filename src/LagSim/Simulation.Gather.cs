@@ -15,11 +15,6 @@ public sealed partial class Simulation
     /// </summary>
     private double Gather(int slot, in EventKey key, int fromCount, double gap)
     {
-        if (IsPairAlone(slot, key))
-        {
-            return GatherPair(slot, key);
-        }
-
         nearFrom = fromCount;
         reach = gap;
         Follow(slot, key);

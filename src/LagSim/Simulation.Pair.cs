@@ -1,5 +1,7 @@
+using System;
 using LagSim.Contacts;
 using LagSim.Events;
+using LagSim.Scenes;
 using LagSim.Time;
 
 namespace LagSim;
@@ -13,8 +15,11 @@ public sealed partial class Simulation
     /// <summary>Takes bodies that meet three at a time for two: only a test's negative control sets it.</summary>
     internal bool IgnoresTies { get; set; }
 
-    /// <summary>Gathers every impact, however plain: only a test sets it, to compare.</summary>
-    internal bool GathersAll { get; set; }
+    /// <summary>Gathers every impact, however plain, and looks at every pair: only a test sets it, to compare.</summary>
+    internal bool TakesNoShortcut { get; set; }
+
+    /// <summary>How many impacts were of two alone.</summary>
+    internal long PairsProcessed { get; private set; }
 
     /// <summary>A segment was opened by so many impacts in succession.</summary>
     private void NoteCrowding(int crowding, SimTime opened)
@@ -33,10 +38,11 @@ public sealed partial class Simulation
     private bool IsPairAlone(int slot, in EventKey key)
     {
         int other = bodies[slot].Partner;
-        return other != NoPartner && !GathersAll && bodies[other].Partner == slot && front == SimTime.MinValue && key.Time > crowdedUntil && key.Round < CollapseRound && !SwapsOperands
+        return other != NoPartner && bodies[other].Partner == slot && front == SimTime.MinValue && key.Time > crowdedUntil && key.Round < CollapseRound
             && ((!bodies[slot].IsTied && !bodies[other].IsTied) || IgnoresTies)
-            && flights.IsFree(slot) && flights.IsFree(other) && queue.TryGet(other, out EventKey theirs) && theirs == key && queue.IsLeastAloneWith(other)
-            && TouchesNoSurface(slot, key.Time) && TouchesNoSurface(other, key.Time);
+            && flights.IsFree(slot) && flights.IsFree(other) && queue.IsLeastAloneWith(other, key)
+            && TouchesNoSurface(slot, key.Time) && TouchesNoSurface(other, key.Time)
+            && !TakesNoShortcut && !SwapsOperands;
     }
 
     private bool TouchesNoSurface(int slot, SimTime time)
@@ -50,19 +56,38 @@ public sealed partial class Simulation
         return misses;
     }
 
-    /// <summary>What <see cref="Gather"/> finds of such an impact, to the bit.</summary>
-    private double GatherPair(int slot, in EventKey key)
+    /// <summary>What the general way makes of such an impact, to the bit, by the same rules.</summary>
+    private void HandlePair(int slot, in EventKey key)
     {
         int other = bodies[slot].Partner;
         bool ordered = bodies[slot].Id < bodies[other].Id;
+        double residual = bodies[slot].Residual;
         partyCount = 0;
         contactCount = 0;
         hasNear = false;
-        ahead.Clear();
         AddParty(ordered ? slot : other);
         AddParty(ordered ? other : slot);
         AddContact(new ContactPoint(0, 1, -1, default));
-        EvaluateParties(key.Time, bodies[slot].Residual);
-        return bodies[slot].Residual;
+        for (int i = 0; i < 2; i++)
+        {
+            partyMasses[i] = bodies[parties[i]].Spec.Mass;
+            partyAccelerations[i] = Scene.Gravity;
+            flights.StateAt(parties[i], key.Time, residual, out partyPositions[i], out partyVelocities[i]);
+        }
+
+        SetTargets(key.Round);
+        TellContacts(key);
+        solver.Solve(contacts.AsSpan(0, 1), partyMasses.AsSpan(0, 2), partyVelocities.AsSpan(0, 2));
+        LimitSpeeds();
+        for (int i = 0; i < 2; i++)
+        {
+            int crowding = flights.IsOpenedWithin(parties[i], key.Time, CrowdedWithin) ? CrowdingAt(parties[i], key.Time) : 0;
+            Open(parties[i], key, partyPositions[i], partyVelocities[i], -residual, default, crowding);
+        }
+
+        timelines.Join(parties.AsSpan(0, 2));
+        Predict(parties[0]);
+        Predict(parties[1]);
+        PairsProcessed++;
     }
 }

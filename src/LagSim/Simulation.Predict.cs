@@ -54,7 +54,7 @@ public sealed partial class Simulation
                 next.Consider(new EventKey(until, 0, EventKind.None, id, id, 0, 0));
             }
 
-            if (flights.IsFree(slot) && !MayBeAhead(clock))
+            if (flights.IsFree(slot) && !MayBeAhead(clock) && !TakesNoShortcut && !SwapsOperands)
             {
                 FindInFlight(slot, candidates, from, until, except, ref next);
             }
@@ -111,7 +111,7 @@ public sealed partial class Simulation
             approaches[first] = approaches[--count];
             if (other != except)
             {
-                ConsiderMeeting(slot, other, until, ref next);
+                ConsiderFlights(slot, other, until, ref next);
             }
         }
 
@@ -154,15 +154,34 @@ public sealed partial class Simulation
     {
         if (timelines.IsKnown(other) && TryMeet(slot, other, until, out int piece, out ContactTime contact, out uint round))
         {
-            BodyId id = bodies[slot].Id;
-            BodyId otherId = bodies[other].Id;
-            BodyId least = id < otherId ? id : otherId;
-            if (next.Consider(new EventKey(contact.Tick, round, EventKind.Impact, least, id < otherId ? otherId : id, 0, 0)))
-            {
-                next.Partner = other;
-                next.Piece = piece;
-                next.Residual = contact.Residual;
-            }
+            ConsiderContact(slot, other, piece, contact, round, ref next);
+        }
+    }
+
+    /// <summary>The same of one in free flight, without a look at the segments unless the two touch as soon as both paths are open.</summary>
+    private void ConsiderFlights(int slot, int other, SimTime until, ref Pending next)
+    {
+        bool ordered = bodies[slot].Id < bodies[other].Id;
+        if (!flights.IsFree(other) || !flights.TryTouch(ordered ? slot : other, ordered ? other : slot, out bool touches, out ContactTime contact))
+        {
+            ConsiderMeeting(slot, other, until, ref next);
+        }
+        else if (touches)
+        {
+            ConsiderContact(slot, other, timelines.Last(other), contact, 0, ref next);
+        }
+    }
+
+    private void ConsiderContact(int slot, int other, int piece, in ContactTime contact, uint round, ref Pending next)
+    {
+        BodyId id = bodies[slot].Id;
+        BodyId otherId = bodies[other].Id;
+        bool ordered = id < otherId;
+        if (next.Consider(new EventKey(contact.Tick, round, EventKind.Impact, ordered ? id : otherId, ordered ? otherId : id, 0, 0)))
+        {
+            next.Partner = other;
+            next.Piece = piece;
+            next.Residual = contact.Residual;
         }
     }
 

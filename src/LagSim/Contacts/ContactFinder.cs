@@ -48,7 +48,8 @@ internal static class ContactFinder
     {
         if (!a.IsDense && !b.IsDense && a.Acceleration == b.Acceleration)
         {
-            return ContactTime.TryMake(from, until, Straight(a, b, reach, from), out contact);
+            return OfParabolas(
+                a.Position, a.Velocity, from.SecondsSince(a.Epoch), b.Position, b.Velocity, from.SecondsSince(b.Epoch), a.Acceleration, reach, from, until, out contact);
         }
 
         Span<Vector3D> d = stackalloc Vector3D[PathLength];
@@ -73,26 +74,31 @@ internal static class ContactFinder
         return ContactTime.TryMake(from, until, root, out contact);
     }
 
-    /// <summary>Two parabolas of one acceleration: what the general way below makes of them, to the bit, without the arrays.</summary>
-    private static double Straight(in MotionSegment a, in MotionSegment b, double reach, SimTime from)
+    /// <summary>The first contact of two parabolas of one acceleration, told by their states so many seconds before <paramref name="from"/>: what the general way makes of them, to the bit.</summary>
+    internal static bool OfParabolas(
+        in Vector3D positionA, in Vector3D velocityA, double sinceA, in Vector3D positionB, in Vector3D velocityB, double sinceB, in Vector3D acceleration,
+        double reach, SimTime from, SimTime until, out ContactTime contact)
     {
-        Parabola(a, from, out Vector3D positionA, out Vector3D velocityA);
-        Parabola(b, from, out Vector3D positionB, out Vector3D velocityB);
-        Vector3D velocity = velocityA - velocityB;
-        return velocity == Vector3D.Zero ? double.NaN : Linear(positionA - positionB, velocity, reach);
+        Vector3D half = acceleration * 0.5;
+        Vector3D place = positionA;
+        Vector3D speed = velocityA;
+        Shift(ref place, ref speed, half, sinceA);
+        Vector3D otherPlace = positionB;
+        Vector3D otherSpeed = velocityB;
+        Shift(ref otherPlace, ref otherSpeed, half, sinceB);
+        Vector3D opening = speed - otherSpeed;
+        double root = opening == Vector3D.Zero ? double.NaN : Linear(place - otherPlace, opening, reach);
+        return ContactTime.TryMake(from, until, root, out contact);
     }
 
-    private static void Parabola(in MotionSegment path, SimTime from, out Vector3D position, out Vector3D velocity)
+    private static void Shift(ref Vector3D position, ref Vector3D velocity, in Vector3D half, double by)
     {
-        double by = from.SecondsSince(path.Epoch);
-        position = path.Position;
-        velocity = path.Velocity;
         if (by != 0)
         {
-            Vector3D half = path.Acceleration * 0.5 * by;
-            velocity += half;
+            Vector3D gain = half * by;
+            velocity += gain;
             position += velocity * by;
-            velocity += half;
+            velocity += gain;
         }
     }
 

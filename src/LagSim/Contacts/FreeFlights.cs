@@ -21,8 +21,8 @@ internal sealed class FreeFlights
     /// <summary>Two that touch surely part only if the cosine between their distance and their opening is above this.</summary>
     private const double Parting = 1e-9;
 
-    /// <summary>For the rounding of a distance in itself, by its square: a sum's square is at most (1 + d) of the one's and (1 + 1/d) of the other's, here with d = 5e-7.</summary>
-    private const double FarSlack = 2.1e6 * 3 * Slack * Slack;
+    /// <summary>What rounding does to the square of a distance, and to that of a miss, in parts of the distance's; thirty times of it.</summary>
+    private const double FarSlack = 1e-14;
 
     private readonly Vector3D gravity;
     private readonly PeriodicBox box;
@@ -180,23 +180,21 @@ internal sealed class FreeFlights
             w = velocity.Z - w;
             double along = (x * u) + (y * v) + (z * w);
             double distance = Square(x, y, z);
-            double limit = (reach * reach * (1 + 2e-6)) + (FarSlack * distance);
-            if (distance > limit)
+            double square = Square(u, v, w);
+            double limit = reach * reach * (1 + 2e-6);
+            double beyond = (distance * (1 - FarSlack)) - limit;
+            if (beyond > 0)
             {
-                if (along >= 0)
+                bool parts = along >= 0;
+                bool misses = beyond * square > along * along;
+                if (parts | misses)
                 {
-                    continue;
+                    continue; // asked at once: which of the two it is nobody can foretell, that it is one of them nearly always can be
                 }
 
-                double square = Square(u, v, w);
                 double nearest = -along / square;
                 double miss = Square(x + (u * nearest), y + (v * nearest), z + (w * nearest));
-                if (miss > limit)
-                {
-                    continue;
-                }
-
-                double seconds = nearest - Math.Sqrt((limit - miss) / square);
+                double seconds = nearest - Math.Sqrt(Math.Max(0, (limit + (FarSlack * distance)) - miss) / square);
                 if (!(seconds > span))
                 {
                     into[count++] = new Approach(other, seconds);
@@ -215,6 +213,40 @@ internal sealed class FreeFlights
         }
 
         return into.Slice(0, count);
+    }
+
+    /// <summary>Where a body in free flight is at a tick and so many seconds after it, and how fast: the bits that its segment tells.</summary>
+    internal void StateAt(int slot, SimTime time, double after, out Vector3D position, out Vector3D velocity)
+    {
+        ref readonly Flight flight = ref flights[slot];
+        double seconds = time.SecondsSince(flight.From) + after;
+        position = PositionAt(flight, seconds);
+        velocity = flight.Velocity + (gravity * seconds);
+    }
+
+    /// <summary>Whether a body's newest piece of path was opened no longer than so long before a time.</summary>
+    internal bool IsOpenedWithin(int slot, SimTime time, SimDuration span) => time - flights[slot].From <= span;
+
+    /// <summary>
+    /// Whether two bodies in free flight touch, however late, and when: the bits that <see cref="ContactFinder"/> tells of their segments, the body of lesser identity first. False if they
+    /// touch at the very tick from which both hold, for then more has to be looked at.
+    /// </summary>
+    internal bool TryTouch(int first, int second, out bool touches, out ContactTime contact)
+    {
+        ref readonly Flight a = ref flights[first];
+        ref readonly Flight b = ref flights[second];
+        SimTime from = SimTime.Max(a.From, b.From);
+        Vector3D positionB = b.Position;
+        if (hasBox)
+        {
+            Vector3D at = PositionAt(b, from.SecondsSince(b.From));
+            Vector3D apart = at - PositionAt(a, from.SecondsSince(a.From));
+            positionB += box.Nearest(apart) - apart;
+        }
+
+        touches = ContactFinder.OfParabolas(
+            a.Position, a.Velocity, from.SecondsSince(a.From), positionB, b.Velocity, from.SecondsSince(b.From), gravity, radii[first] + radii[second], from, SimTime.MaxValue, out contact);
+        return !touches || contact.Tick != from;
     }
 
     /// <summary>Whether so many seconds after a time is surely after another.</summary>
@@ -242,6 +274,8 @@ internal sealed class FreeFlights
         radii[slot] + (2 * Slack * Size(flights[slot].Position)) + (2 * TickConversion.SecondsPerTick * Size(flights[slot].Velocity));
 
     private double FallSlack(double time) => 2 * Size(gravity) * time * ((Slack * time) + TickConversion.SecondsPerTick);
+
+    private Vector3D PositionAt(in Flight flight, double seconds) => flight.Position + ((flight.Velocity + (gravity * (0.5 * seconds))) * seconds);
 
     private static double Size(in Vector3D v) => Math.Abs(v.X) + Math.Abs(v.Y) + Math.Abs(v.Z);
 

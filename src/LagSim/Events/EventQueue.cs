@@ -13,7 +13,7 @@ namespace LagSim.Events;
 internal sealed class EventQueue
 {
     /// <summary>So many events a slice is to hold.</summary>
-    private const int PerSlice = 8;
+    private const int PerSlice = 4;
 
     /// <summary>Up to so many events are all in the heap; and so many there are too many, if they need not be.</summary>
     private const int Few = 64;
@@ -87,12 +87,9 @@ internal sealed class EventQueue
         return isQueued;
     }
 
-    /// <summary>Whether nothing is pending up to and including the time of the least event but that itself and the event of one more slot.</summary>
-    internal bool IsLeastAloneWith(int other)
-    {
-        Advance();
-        return near.IsLeastAloneWith(other);
-    }
+    /// <summary>Whether nothing is pending up to and including the time of the least key but that, of one slot and of another that waits for the same.</summary>
+    internal bool IsLeastAloneWith(int other, in EventKey least) =>
+        other < nodes.Length && nodes[other].Where >= Near && nodes[other].Key == least && near.IsLeastAloneWith(other);
 
     /// <summary>Makes this the slot's one pending event, in place of any other.</summary>
     internal void Set(int slot, in EventKey key)
