@@ -10,6 +10,9 @@ internal sealed class CellGrid
     /// <summary>Coordinates beyond so many cells share the last one: a long holds them, and a double tells them apart.</summary>
     private const double FurthestCell = 1L << 40;
 
+    private const int AxisBits = 21;
+    private const ulong AxisMask = (1UL << AxisBits) - 1;
+
     private readonly double size;
     private readonly PeriodicBox box;
     private readonly long alongX; // how many cells lie along a side of the box; 0 without one
@@ -34,9 +37,12 @@ internal sealed class CellGrid
     internal CellBlock Around(in Vector3D point, double distance) => new(
         Range(point.X, distance, alongX, box.Size.X), Range(point.Y, distance, alongY, box.Size.Y), Range(point.Z, distance, alongZ, box.Size.Z));
 
-    /// <summary>The number of a cell; cells far apart may share one.</summary>
+    /// <summary>The number of a cell; cells two million along an axis from each other share one, and none that are nearer.</summary>
     internal ulong Number(long x, long y, long z) =>
-        ((ulong)Wrapped(x, alongX) * 0x8DA6B343D8163841UL) ^ ((ulong)Wrapped(y, alongY) * 0xD8163841CB1AB31FUL) ^ ((ulong)Wrapped(z, alongZ) * 0xCB1AB31F8DA6B343UL);
+        ((ulong)Wrapped(x, alongX) & AxisMask) | (((ulong)Wrapped(y, alongY) & AxisMask) << AxisBits) | (((ulong)Wrapped(z, alongZ) & AxisMask) << (2 * AxisBits));
+
+    /// <summary>The number of a list out of a power of two that a cell's number falls to.</summary>
+    internal static int Bucket(ulong number, int lists) => (int)((number * 0x9E3779B97F4A7C15UL) >> 40) & (lists - 1);
 
     /// <summary>The largest acceleration that a path has in a span of seconds after its epoch, or more.</summary>
     internal static double LargestAcceleration(in MotionSegment path, in DenseOutput dense, double from, double until)

@@ -55,7 +55,7 @@ internal sealed class CellTable<T>
         Count = 0;
     }
 
-    private int Bucket(ulong cell) => (int)((cell * 0x9E3779B97F4A7C15UL) >> 32) & (heads.Length - 1);
+    private int Bucket(ulong cell) => CellGrid.Bucket(cell, heads.Length);
 
     private void Grow()
     {

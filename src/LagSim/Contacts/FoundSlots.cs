@@ -33,9 +33,32 @@ internal sealed class FoundSlots
         }
     }
 
-    /// <summary>Counts a slot as found, but does not list it.</summary>
-    internal void Skip(int slot) => foundBy[slot] = search;
+    /// <summary>Counts all that is listed as found, so that it is not listed again.</summary>
+    internal void Mark()
+    {
+        for (int i = 0; i < Count; i++)
+        {
+            foundBy[found[i]] = search;
+        }
+    }
 
+    /// <summary>Makes room for so many more.</summary>
+    internal void Reserve(int more)
+    {
+        if (Count + more > found.Length)
+        {
+            Array.Resize(ref found, Math.Max(Count + more, Count * 2));
+        }
+    }
+
+    /// <summary>Lists a slot that is not listed yet, or not; there is room for it. Whether is no branch, for nobody can foretell it.</summary>
+    internal void AddIf(bool isFound, int slot)
+    {
+        found[Count] = slot;
+        Count += isFound ? 1 : 0;
+    }
+
+    /// <summary>Lists a slot unless it was found already.</summary>
     internal void Add(int slot)
     {
         if (foundBy[slot] == search)
@@ -44,11 +67,7 @@ internal sealed class FoundSlots
         }
 
         foundBy[slot] = search;
-        if (Count == found.Length)
-        {
-            Array.Resize(ref found, Count * 2);
-        }
-
+        Reserve(1);
         found[Count++] = slot;
     }
 }

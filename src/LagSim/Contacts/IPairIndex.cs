@@ -5,7 +5,7 @@ namespace LagSim.Contacts;
 
 /// <summary>
 /// Which bodies another body's path could touch, or come as near to as a hop is high: by what they do, did inside the window, or are to do. An
-/// index may name too many, never too few, and its order decides nothing.
+/// index may name too many, never too few, none twice, and its order decides nothing.
 /// </summary>
 internal interface IPairIndex
 {

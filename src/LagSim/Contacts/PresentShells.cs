@@ -7,7 +7,7 @@ namespace LagSim.Contacts;
 /// <summary>The shells that bodies are in now, by the cells that their centres are in; those that are too wide for the cells apart.</summary>
 internal sealed class PresentShells
 {
-    /// <summary>The cell of what is too wide for any; no place has this number but by chance, and then it is looked at twice.</summary>
+    /// <summary>The cell of what is too wide for any; no place has this number.</summary>
     internal const ulong Wide = ulong.MaxValue;
 
     /// <summary>Who would have to look into more cells looks at everybody.</summary>
@@ -78,17 +78,15 @@ internal sealed class PresentShells
         listed--;
     }
 
-    /// <summary>Finds whose shells come within a distance of another shell.</summary>
+    /// <summary>Finds whose shells come within a distance of another shell; all of them are new to <paramref name="found"/>.</summary>
     internal void Look(in Shell shell, double near, FoundSlots found)
     {
         double x = shell.Centre.X, y = shell.Centre.Y, z = shell.Centre.Z;
         double reach = shell.Extent + near;
+        found.Reserve(wide.Count + 1);
         foreach (Entry entry in wide)
         {
-            if (entry.IsWithin(x, y, z, reach, box))
-            {
-                found.Add(entry.Slot);
-            }
+            found.AddIf(entry.IsWithin(x, y, z, reach, box), entry.Slot);
         }
 
         CellBlock block = grid.Around(shell.Centre, reach + widest);
@@ -96,12 +94,11 @@ internal sealed class PresentShells
         {
             for (int bucket = 0; bucket < cells.Count; bucket++)
             {
-                foreach (ref Entry entry in cells.Of(bucket))
+                Span<Entry> entries = cells.Of(bucket);
+                found.Reserve(entries.Length + 1);
+                foreach (ref Entry entry in entries)
                 {
-                    if (entry.IsWithin(x, y, z, reach, box))
-                    {
-                        found.Add(entry.Slot);
-                    }
+                    found.AddIf(entry.IsWithin(x, y, z, reach, box), entry.Slot);
                 }
             }
 
@@ -115,19 +112,18 @@ internal sealed class PresentShells
                 for (long k = block.Z.From; k <= block.Z.To; k++)
                 {
                     ulong number = grid.Number(i, j, k);
-                    foreach (ref Entry entry in cells.Of(Bucket(number)))
+                    Span<Entry> entries = cells.Of(Bucket(number));
+                    found.Reserve(entries.Length + 1);
+                    foreach (ref Entry entry in entries)
                     {
-                        if (entry.Cell == number && entry.IsWithin(x, y, z, reach, box))
-                        {
-                            found.Add(entry.Slot);
-                        }
+                        found.AddIf(entry.Cell == number & entry.IsWithin(x, y, z, reach, box), entry.Slot);
                     }
                 }
             }
         }
     }
 
-    private int Bucket(ulong number) => (int)((number * 0x9E3779B97F4A7C15UL) >> 32) & (cells.Count - 1);
+    private int Bucket(ulong number) => CellGrid.Bucket(number, cells.Count);
 
     /// <summary>Twice as many lists, for there are more bodies than lists.</summary>
     private void Spread()

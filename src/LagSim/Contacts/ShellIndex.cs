@@ -47,6 +47,7 @@ internal sealed class ShellIndex : IPairIndex
     private readonly FoundSlots found = new();
     private readonly ManyLists<int> lists = new(16);
     private Stay[] stays = new Stay[16];
+    private int lookingBack; // how many have others in their lists who may not have them in theirs: those whose shells were made in a heal
 
     /// <summary>An empty index.</summary>
     /// <param name="timelines">The paths.</param>
@@ -103,6 +104,7 @@ internal sealed class ShellIndex : IPairIndex
         Shell shell = new(place, 0, radius + tick);
         found.Clear();
         present.Look(shell, near, found);
+        found.Mark();
         past.Look(shell, near, time, time, found);
         return found.Slots;
     }
@@ -154,12 +156,11 @@ internal sealed class ShellIndex : IPairIndex
         stay.Wanted = stay.Wanted == 0 ? FirstStray * cell : Math.Min(0.5 * cell, Math.Max(LeastStray * cell, stay.Wanted));
         Shell shell = NewShell(path, dense, from, radius, stay.Wanted);
         found.Clear();
-        found.Skip(slot); // nobody is his own neighbour
         present.Look(shell, near, found);
         foreach (int other in found.Slots)
         {
             lists.Add(slot, other);
-            if (lists.Of(other).IndexOf(slot) < 0)
+            if (lookingBack == 0 || lists.Of(other).IndexOf(slot) < 0)
             {
                 lists.Add(other, slot);
             }
@@ -169,10 +170,14 @@ internal sealed class ShellIndex : IPairIndex
         if (heal != 0)
         {
             int now = found.Count;
+            found.Mark();
             past.Look(shell, near, from, stay.LookedTo, found);
             foreach (int other in found.Slots.Slice(now))
             {
-                lists.Add(slot, other); // who was there looks no more
+                if (other != slot)
+                {
+                    lists.Add(slot, other); // who was there looks no more
+                }
             }
         }
 
@@ -181,6 +186,7 @@ internal sealed class ShellIndex : IPairIndex
         stay.Radius = radius;
         stay.From = from;
         stay.Heal = heal;
+        lookingBack += heal != 0 ? 1 : 0;
         stay.Predictions = 0;
         stay.IsListed = true;
         present.Add(slot, shell, stay.Cell);
@@ -190,6 +196,7 @@ internal sealed class ShellIndex : IPairIndex
     private void Leave(int slot)
     {
         stays[slot].IsListed = false;
+        lookingBack -= stays[slot].Heal != 0 ? 1 : 0;
         present.Remove(slot, stays[slot].Cell);
         foreach (int other in lists.Of(slot))
         {
