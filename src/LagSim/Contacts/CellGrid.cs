@@ -41,8 +41,14 @@ internal sealed class CellGrid
     internal ulong Number(long x, long y, long z) =>
         ((ulong)Wrapped(x, alongX) & AxisMask) | (((ulong)Wrapped(y, alongY) & AxisMask) << AxisBits) | (((ulong)Wrapped(z, alongZ) & AxisMask) << (2 * AxisBits));
 
-    /// <summary>The number of a list out of a power of two that a cell's number falls to.</summary>
-    internal static int Bucket(ulong number, int lists) => (int)((number * 0x9E3779B97F4A7C15UL) >> 40) & (lists - 1);
+    /// <summary>The number of a list out of a power of two that a cell falls to: cells in a row along x have lists in a row, for they are looked into one after the other.</summary>
+    internal static int Bucket(ulong number, int lists)
+    {
+        uint x = (uint)(number & AxisMask);
+        uint y = (uint)((number >> AxisBits) & AxisMask);
+        uint z = (uint)(number >> (2 * AxisBits));
+        return (int)((x + (y * 0x9E3779B1U) + (z * 0x85EBCA77U)) & (uint)(lists - 1));
+    }
 
     /// <summary>The largest acceleration that a path has in a span of seconds after its epoch, or more.</summary>
     internal static double LargestAcceleration(in MotionSegment path, in DenseOutput dense, double from, double until)

@@ -105,11 +105,11 @@ internal sealed class PresentShells
             return;
         }
 
-        for (long i = block.X.From; i <= block.X.To; i++)
+        for (long k = block.Z.From; k <= block.Z.To; k++)
         {
             for (long j = block.Y.From; j <= block.Y.To; j++)
             {
-                for (long k = block.Z.From; k <= block.Z.To; k++)
+                for (long i = block.X.From; i <= block.X.To; i++)
                 {
                     ulong number = grid.Number(i, j, k);
                     Span<Entry> entries = cells.Of(Bucket(number));
