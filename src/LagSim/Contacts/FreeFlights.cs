@@ -260,13 +260,20 @@ internal sealed class FreeFlights
         double since = from.SecondsSince(a.From);
         Vector3D way = (a.Velocity + (gravity * (0.5 * since))) * since;
         double gap = plane.Gap(a.Position + way, radii[slot]);
+        double span = until.SecondsSince(from) + TickConversion.SecondsPerTick;
+        double fall = Size(gravity);
+        double slack = near + (Slack * (Size(a.Position) + Size(way) + (fall * since * since) + Math.Abs(plane.Offset) + radii[slot]));
+        double speed = Size(a.Velocity) + (fall * (since + span));
+        if (gap > slack + (speed * span * (1 + Slack)))
+        {
+            return true; // it does not come that far, in whatever direction it flies
+        }
+
         double opening = Vector3D.Dot(plane.Normal, a.Velocity + (gravity * since));
         double curve = Vector3D.Dot(plane.Normal, gravity);
-        double span = until.SecondsSince(from) + TickConversion.SecondsPerTick;
-        double atEnd = gap + ((opening + (0.5 * curve * span)) * span);
+        double atEnd = gap + ((opening + (0.5 * curve * span)) * span) - (Slack * speed * span);
         double least = curve > 0 && opening < 0 && -opening < curve * span ? gap - (opening * opening / (2 * curve)) : Math.Min(gap, atEnd);
-        double slack = Slack * (Size(a.Position) + Size(way) + (Size(gravity) * since * since) + Math.Abs(plane.Offset) + radii[slot]);
-        return least > near + slack + (TickConversion.SecondsPerTick * Math.Abs(opening)); // not so of what is not a number
+        return least > slack + (TickConversion.SecondsPerTick * Math.Abs(opening)); // not so of what is not a number
     }
 
     /// <summary>The radius, and how far rounding and a tick may move a body in flight that it is told of at another time, but for what it falls.</summary>

@@ -62,7 +62,15 @@ internal sealed class PresentShells
     {
         if (cell == Wide)
         {
-            wide.RemoveAll(entry => entry.Slot == slot);
+            int last = wide.Count - 1;
+            int hole = last;
+            while (wide[hole].Slot != slot)
+            {
+                hole--;
+            }
+
+            wide[hole] = wide[last];
+            wide.RemoveAt(last);
             return;
         }
 
