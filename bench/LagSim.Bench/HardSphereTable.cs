@@ -19,7 +19,8 @@ internal static class HardSphereTable
         new HardSpheres(1_000, 0.25, Window, brief ? 20 : 200); // so that nothing is measured that the compiler has not finished with
         Console.WriteLine($"Hard spheres, elastic, periodic box, one thread; {ThreadClock.Name} of the thread, median and best of {Repeats}");
         Console.WriteLine(
-            "| bodies | fraction | history | collisions a second each: measured / Enskog | segments kept each | collisions a second, median / best | us each | events : collisions | bytes allocated |");
+            "| bodies | fraction | history | collisions a second each: measured / Enskog | segments kept each "
+            + "| collisions a second, median / best | us each | events : collisions | bytes allocated |");
         Console.WriteLine("|---|---|---|---|---|---|---|---|---|");
         foreach (int bodies in brief ? new[] { 1_000 } : new[] { 1_000, 4_000, 32_000 })
         {
@@ -56,7 +57,8 @@ internal static class HardSphereTable
         double median = rates[Repeats / 2];
         return string.Create(
             CultureInfo.InvariantCulture,
-            $"| {bodies:N0} | {fraction} | {(history == Shortest ? "a tick" : "250 ms")} | {each:0.00} / {fluid.EnskogRate:0.00} | {fluid.Simulation.Timelines.Alive / (double)bodies:0.0} "
+            $"| {bodies:N0} | {fraction} | {(history == Shortest ? "a tick" : "250 ms")} | {each:0.00} / {fluid.EnskogRate:0.00} "
+            + $"| {fluid.Simulation.Timelines.Alive / (double)bodies:0.0} "
             + $"| {median:N0} / {rates.Max():N0} | {1e6 / median:0.00} | {events / (double)collisions:0.00} | {allocated:N0} |");
     }
 }

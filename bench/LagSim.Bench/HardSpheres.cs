@@ -6,7 +6,10 @@ using LagSim.Time;
 
 namespace LagSim.Bench;
 
-/// <summary>A fluid of equal elastic spheres in a periodic box, run until it has forgotten its lattice: a simple cubic one, which melts at once at any density that fits it.</summary>
+/// <summary>
+/// A fluid of equal elastic spheres in a periodic box, run until it has forgotten its lattice: a simple cubic one, which melts at once at any density that
+/// fits it.
+/// </summary>
 internal sealed class HardSpheres
 {
     /// <summary>So many spheres that fill that part of the box, after so many collisions of each.</summary>

@@ -16,8 +16,10 @@ internal static class LargeTable
     {
         Row(1_000, brief ? 20_000 : 100_000); // so that nothing is measured that the compiler has not finished with
         Console.WriteLine(string.Create(
-            CultureInfo.InvariantCulture, $"Gas in a periodic box at volume fraction {Fraction}, a history of 250 ms; the first 0.5 s are not counted; {ThreadClock.Name} of the thread"));
-        Console.WriteLine("| bodies | build the scene, ms | build the world, ms | bytes a body | of these for segments kept | events a second | us an event | against 1,000 bodies |");
+            CultureInfo.InvariantCulture,
+            $"Gas in a periodic box at volume fraction {Fraction}, a history of 250 ms; the first 0.5 s are not counted; {ThreadClock.Name} of the thread"));
+        Console.WriteLine(
+            "| bodies | build the scene, ms | build the world, ms | bytes a body | of these for segments kept | events a second | us an event | against 1,000 bodies |");
         Console.WriteLine("|---|---|---|---|---|---|---|---|");
         double first = 0;
         foreach (int bodies in brief ? new[] { 1_000, 10_000 } : new[] { 1_000, 10_000, 100_000 })

@@ -16,7 +16,9 @@ internal static class WalledGasTable
     internal static void Print(bool brief)
     {
         Console.WriteLine($"Elastic worlds, default options; {ThreadClock.Name} of the thread, best and median of {(brief ? 3 : 9)} runs from the start");
-        Console.WriteLine("| scene | simulated, s | impacts | simulated s per s, best / median | us an impact, best | relative energy error | deepest overlap, m | instants looked at |");
+        Console.WriteLine(
+            "| scene | simulated, s | impacts | simulated s per s, best / median | us an impact, best | relative energy error "
+            + "| deepest overlap, m | instants looked at |");
         Console.WriteLine("|---|---|---|---|---|---|---|---|");
         Print("gas", Gas(), 10, brief);
         Print("elastic49", Elastic49(), 20, brief);
@@ -38,7 +40,8 @@ internal static class WalledGasTable
         for (int n = 0; n < along * along * along; n++)
         {
             Vector3D place = new Vector3D((n % along) + 0.5, (n / along % along) + 0.5, (n / along / along) + 0.5) * (side / along);
-            builder.AddBody($"ball {n + 1}", new BodySpec(Radius, 1, 1), place, new Vector3D(speeds.NextGaussian(), speeds.NextGaussian(), speeds.NextGaussian()));
+            Vector3D velocity = new(speeds.NextGaussian(), speeds.NextGaussian(), speeds.NextGaussian());
+            builder.AddBody($"ball {n + 1}", new BodySpec(Radius, 1, 1), place, velocity);
         }
 
         return builder.Build();
@@ -56,7 +59,10 @@ internal static class WalledGasTable
         return builder.Build();
     }
 
-    private static Scene Drop() => new SceneBuilder("drop").AddPlane("floor", Vector3D.Up, 0.0).AddBody("ball", new BodySpec(Radius, 1, 1), new Vector3D(0, 5.5, 0), Vector3D.Zero).Build();
+    private static Scene Drop() => new SceneBuilder("drop")
+        .AddPlane("floor", Vector3D.Up, 0.0)
+        .AddBody("ball", new BodySpec(Radius, 1, 1), new Vector3D(0, 5.5, 0), Vector3D.Zero)
+        .Build();
 
     private static void Print(string name, Scene scene, double seconds, bool brief)
     {
@@ -97,7 +103,8 @@ internal static class WalledGasTable
 
         Console.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
-            $"| {name} | {seconds} | {timed.ImpactsProcessed:N0} | {rates.Max():N0} / {rates[rates.Count / 2]:N0} | {seconds / rates.Max() / timed.ImpactsProcessed * 1e6:0.00} | {worst:0.0e+0} | {deepest:0.0e+0} | {instants:N0} |"));
+            $"| {name} | {seconds} | {timed.ImpactsProcessed:N0} | {rates.Max():N0} / {rates[rates.Count / 2]:N0} "
+            + $"| {seconds / rates.Max() / timed.ImpactsProcessed * 1e6:0.00} | {worst:0.0e+0} | {deepest:0.0e+0} | {instants:N0} |"));
     }
 
     private static double Energy(Simulation simulation, SimTime at)

@@ -32,8 +32,9 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// Whether the impact is surely of two bodies and nothing else. Whoever else is struck at that tick has an event pending then, for nobody's pending event is later than his next
-    /// contact; or he was seen when one of the two was predicted, which then is tied. So if there is none and neither is, nobody is, but by a surface, which has none pending.
+    /// Whether the impact is surely of two bodies and nothing else. Whoever else is struck at that tick has an event pending then, for nobody's pending event
+    /// is later than his next contact; or he was seen when one of the two was predicted, which then is tied. So if there is none and neither is, nobody is,
+    /// but by a surface, which has none pending.
     /// </summary>
     private bool IsPairAlone(int slot, in EventKey key)
     {

@@ -39,9 +39,14 @@ internal sealed class CellGrid
 
     /// <summary>The number of a cell; cells two million along an axis from each other share one, and none that are nearer.</summary>
     internal ulong Number(long x, long y, long z) =>
-        ((ulong)Wrapped(x, alongX) & AxisMask) | (((ulong)Wrapped(y, alongY) & AxisMask) << AxisBits) | (((ulong)Wrapped(z, alongZ) & AxisMask) << (2 * AxisBits));
+        ((ulong)Wrapped(x, alongX) & AxisMask)
+        | (((ulong)Wrapped(y, alongY) & AxisMask) << AxisBits)
+        | (((ulong)Wrapped(z, alongZ) & AxisMask) << (2 * AxisBits));
 
-    /// <summary>The number of a list out of a power of two that a cell falls to: cells in a row along x have lists in a row, for they are looked into one after the other.</summary>
+    /// <summary>
+    /// The number of a list out of a power of two that a cell falls to: cells in a row along x have lists in a row, for they are looked into one after the
+    /// other.
+    /// </summary>
     internal static int Bucket(ulong number, int lists)
     {
         uint x = (uint)(number & AxisMask);

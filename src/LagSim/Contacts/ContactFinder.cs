@@ -49,7 +49,8 @@ internal static class ContactFinder
         if (!a.IsDense && !b.IsDense && a.Acceleration == b.Acceleration)
         {
             return OfParabolas(
-                a.Position, a.Velocity, from.SecondsSince(a.Epoch), b.Position, b.Velocity, from.SecondsSince(b.Epoch), a.Acceleration, reach, from, until, out contact);
+                a.Position, a.Velocity, from.SecondsSince(a.Epoch), b.Position, b.Velocity, from.SecondsSince(b.Epoch), a.Acceleration, reach,
+                from, until, out contact);
         }
 
         Span<Vector3D> d = stackalloc Vector3D[PathLength];
@@ -74,7 +75,10 @@ internal static class ContactFinder
         return ContactTime.TryMake(from, until, root, out contact);
     }
 
-    /// <summary>The first contact of two parabolas of one acceleration, told by their states so many seconds before <paramref name="from"/>: what the general way makes of them, to the bit.</summary>
+    /// <summary>
+    /// The first contact of two parabolas of one acceleration, told by their states so many seconds before <paramref name="from"/>: what the general way makes
+    /// of them, to the bit.
+    /// </summary>
     internal static bool OfParabolas(
         in Vector3D positionA, in Vector3D velocityA, double sinceA, in Vector3D positionB, in Vector3D velocityB, double sinceB, in Vector3D acceleration,
         double reach, SimTime from, SimTime until, out ContactTime contact)

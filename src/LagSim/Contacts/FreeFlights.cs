@@ -117,8 +117,8 @@ internal sealed class FreeFlights
     internal bool IsFree(int slot) => flights[slot].From != SimTime.MaxValue;
 
     /// <summary>
-    /// Which of the others a body in free flight may touch in a span that begins at its opening or later, and from when on: in seconds from the beginning, never too many. Nobody is left out
-    /// who is touched; who is not in free flight may be touched at once.
+    /// Which of the others a body in free flight may touch in a span that begins at its opening or later, and from when on: in seconds from the beginning,
+    /// never too many. Nobody is left out who is touched; who is not in free flight may be touched at once.
     /// </summary>
     internal Span<Approach> Approaches(int slot, Span<int> others, SimTime from, SimTime until)
     {
@@ -228,8 +228,8 @@ internal sealed class FreeFlights
     internal bool IsOpenedWithin(int slot, SimTime time, SimDuration span) => time - flights[slot].From <= span;
 
     /// <summary>
-    /// Whether two bodies in free flight touch, however late, and when: the bits that <see cref="ContactFinder"/> tells of their segments, the body of lesser identity first. False if they
-    /// touch at the very tick from which both hold, for then more has to be looked at.
+    /// Whether two bodies in free flight touch, however late, and when: the bits that <see cref="ContactFinder"/> tells of their segments, the body of lesser
+    /// identity first. False if they touch at the very tick from which both hold, for then more has to be looked at.
     /// </summary>
     internal bool TryTouch(int first, int second, out bool touches, out ContactTime contact)
     {
@@ -245,7 +245,8 @@ internal sealed class FreeFlights
         }
 
         touches = ContactFinder.OfParabolas(
-            a.Position, a.Velocity, from.SecondsSince(a.From), positionB, b.Velocity, from.SecondsSince(b.From), gravity, radii[first] + radii[second], from, SimTime.MaxValue, out contact);
+            a.Position, a.Velocity, from.SecondsSince(a.From), positionB, b.Velocity, from.SecondsSince(b.From), gravity, radii[first] + radii[second],
+            from, SimTime.MaxValue, out contact);
         return !touches || contact.Tick != from;
     }
 

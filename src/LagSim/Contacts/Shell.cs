@@ -46,7 +46,9 @@ internal readonly struct Shell
         Vector3D velocity = path.VelocityAt(seconds, dense);
         double last = Math.Min(seconds + 1, Math.Max(seconds + LeastLook, path.End.SecondsSince(path.Epoch)));
         double acceleration = CellGrid.LargestAcceleration(path, dense, seconds, last);
-        double stay = acceleration == 0 ? Straight(apart, velocity, Stray) : Curved(apart, velocity, acceleration, path.IsDense ? last - seconds : double.MaxValue);
+        double stay = acceleration == 0
+            ? Straight(apart, velocity, Stray)
+            : Curved(apart, velocity, acceleration, path.IsDense ? last - seconds : double.MaxValue);
         return Later(from, stay);
     }
 

@@ -7,20 +7,23 @@ using LagSim.Timelines;
 namespace LagSim.Contacts;
 
 /// <summary>
-/// Verlet lists: around every body a shell that it stays in for a while, and for every body a list of those whose shells are so near that the two could touch. A list
-/// holds until one of the two leaves its shell, however often they collide meanwhile.
+/// Verlet lists: around every body a shell that it stays in for a while, and for every body a list of those whose shells are so near that the two could touch.
+/// A list holds until one of the two leaves its shell, however often they collide meanwhile.
 /// </summary>
 /// <remarks>
-/// <para>Where a body's shell is can be told of the past too: a shell that is left is kept, with the span of time in which it held, until that lies before the history. So
-/// what is healed finds who was near then, whatever he did since.</para>
-/// <para>A list may name too many, for what is healed sees the past and the present at once; and never too few: of two shells whichever was made later found the other.</para>
-/// <para>How far a body may stray is its own: who leaves a shell before long gets a larger one, and who stays for many predictions a smaller one with fewer to look at. Who is too wide or too
-/// fast for the cells is listed apart, and looked at whenever a shell is made.</para>
+/// <para>Where a body's shell is can be told of the past too: a shell that is left is kept, with the span of time in which it held, until that lies before the
+/// history. So what is healed finds who was near then, whatever he did since.</para>
+/// <para>A list may name too many, for what is healed sees the past and the present at once; and never too few: of two shells whichever was made later found
+/// the other.</para>
+/// <para>How far a body may stray is its own: who leaves a shell before long gets a larger one, and who stays for many predictions a smaller one with fewer to
+/// look at. Who is too wide or too fast for the cells is listed apart, and looked at whenever a shell is made.</para>
 /// <para>Cost: the length of a list for a prediction, and what lies in the 27 cells around for a shell, which holds for some ten predictions.</para>
 /// </remarks>
 internal sealed class ShellIndex : IPairIndex
 {
-    /// <summary>Who would leave the widest shell that fits the cells in less than this is too fast for them: 1/512 s, or what is far less than the others take.</summary>
+    /// <summary>
+    /// Who would leave the widest shell that fits the cells in less than this is too fast for them: 1/512 s, or what is far less than the others take.
+    /// </summary>
     private const double ShortestStay = 1.0 / 512;
 
     private const double FarLess = 1.0 / 64;
@@ -63,7 +66,8 @@ internal sealed class ShellIndex : IPairIndex
         this.near = near;
         this.box = box;
         tick = tickLength;
-        shortestStay = Math.Max(FewTicks * TickConversion.SecondsPerTick, Math.Min(ShortestStay, FarLess * cell / speed)); // of the two the first if nobody moves
+        double shortest = Math.Min(ShortestStay, FarLess * cell / speed); // of the two the first if nobody moves
+        shortestStay = Math.Max(FewTicks * TickConversion.SecondsPerTick, shortest);
         CellGrid grid = new(cell, box);
         present = new PresentShells(grid, box, 0.5 * cell);
         past = new PastShells(grid, box, 0.5 * cell);

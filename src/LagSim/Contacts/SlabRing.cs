@@ -4,7 +4,9 @@ using LagSim.Time;
 
 namespace LagSim.Contacts;
 
-/// <summary>Time in slabs of an eighth of a second, each with a table of what is listed in which cell then; old slabs are dropped as a whole and used again.</summary>
+/// <summary>
+/// Time in slabs of an eighth of a second, each with a table of what is listed in which cell then; old slabs are dropped as a whole and used again.
+/// </summary>
 internal sealed class SlabRing
 {
     private const int SlabBits = 37; // 2^37 ticks are 1/8 s

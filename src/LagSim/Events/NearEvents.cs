@@ -2,7 +2,10 @@ using System;
 
 namespace LagSim.Events;
 
-/// <summary>The events of an <see cref="EventQueue"/> that come next, as a heap with four children a node; times stand in it, keys are looked at only where times are equal.</summary>
+/// <summary>
+/// The events of an <see cref="EventQueue"/> that come next, as a heap with four children a node; times stand in it, keys are looked at only where times are
+/// equal.
+/// </summary>
 internal sealed class NearEvents
 {
     private const int Children = 4;

@@ -126,7 +126,9 @@ public sealed class ShellIndexTests
         return count;
     }
 
-    /// <summary>Asks for everybody, and counts the pairs that touch while both answers are whole, those of them that neither answer has, and how many are named.</summary>
+    /// <summary>
+    /// Asks for everybody, and counts the pairs that touch while both answers are whole, those of them that neither answer has, and how many are named.
+    /// </summary>
     private static (int Touching, int Missed, int Listed) Count(World world, double near)
     {
         ShellIndex index = world.Index(near);
