@@ -49,6 +49,9 @@ internal sealed class CellTable<T>
         head = Count++;
     }
 
+    /// <summary>Puts another value in the place of one.</summary>
+    internal void Replace(int entry, in T value) => entries[entry].Value = value;
+
     internal void Clear()
     {
         Array.Fill(heads, None);

@@ -23,6 +23,29 @@ internal sealed class PastShells
     internal void Add(ulong cell, int slot, in Shell shell, SimTime from, SimTime until) =>
         slabs.Get(SlabRing.NumberOf(until)).Add(cell, new Stay(slot, shell, from, until));
 
+    /// <summary>
+    /// The same of what is healed, which as a rule is where it was before: one entry is made to stand for both, if it can, so that what is healed again and again does not fill the cells.
+    /// </summary>
+    internal void AddAgain(ulong cell, int slot, in Shell shell, SimTime from, SimTime until)
+    {
+        CellTable<Stay> slab = slabs.Get(SlabRing.NumberOf(until));
+        for (int entry = cell == PresentShells.Wide ? CellTable<Stay>.None : slab.First(cell); entry != CellTable<Stay>.None; entry = slab.Next(entry))
+        {
+            ref readonly Stay before = ref slab.Value(entry);
+            if (slab.Cell(entry) == cell && before.Slot == slot)
+            {
+                Shell both = before.Shell.Around(shell);
+                if (both.Extent <= widestInCells)
+                {
+                    slab.Replace(entry, new Stay(slot, both, SimTime.Min(from, before.From), SimTime.Max(until, before.Until)));
+                    return;
+                }
+            }
+        }
+
+        slab.Add(cell, new Stay(slot, shell, from, until));
+    }
+
     /// <summary>What lies before that time is asked for no more.</summary>
     internal void DropBefore(SimTime edge) => slabs.DropBefore(edge);
 

@@ -30,6 +30,13 @@ internal readonly struct Shell
     /// <summary>How far from the centre any of the body may be.</summary>
     internal double Extent { get; }
 
+    /// <summary>A shell around this one's centre in which the other lies too; of the same body.</summary>
+    internal Shell Around(in Shell other)
+    {
+        double radius = Math.Max(Extent - Stray, other.Extent - other.Stray); // of the body, and what rounding may have moved
+        return new Shell(Centre, Math.Max(Stray, (other.Centre - Centre).Length + other.Stray), radius);
+    }
+
     /// <summary>
     /// Until when a path surely stays in the shell, seen from a time at which it may be in it; that time itself if it is outside, or so near to the edge that
     /// it cannot be told.

@@ -122,7 +122,7 @@ internal sealed class ShellIndex : IPairIndex
         {
             Shell shell = NewShell(path, dense, at, radius, 0.5 * cell);
             SimTime leaves = SimTime.Min(until, shell.Leaves(path, dense, at, box));
-            past.Add(present.CellOf(shell), slot, shell, at, leaves);
+            past.AddAgain(present.CellOf(shell), slot, shell, at, leaves);
             if (leaves >= until)
             {
                 return;
@@ -148,9 +148,13 @@ internal sealed class ShellIndex : IPairIndex
         ref Stay stay = ref stays[slot];
         if (stay.IsListed)
         {
-            if (from > stay.From)
+            if (from > stay.From && stay.Heal == 0)
             {
                 past.Add(stay.Cell, slot, stay.Shell, stay.From, from);
+            }
+            else if (from > stay.From)
+            {
+                past.AddAgain(stay.Cell, slot, stay.Shell, stay.From, from);
             }
 
             stay.Wanted *= heal != 0 ? 1 : stay.Predictions < FewPredictions ? Larger : stay.Predictions > ManyPredictions ? Smaller : 1;

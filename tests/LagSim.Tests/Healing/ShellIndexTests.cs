@@ -111,6 +111,13 @@ public sealed class ShellIndexTests
         Assert.Equal(0, index.Candidates(0, world.Radius(0), At(0), 0, out _).Length);
         index.Add(1, world.Radius(1), world.Timelines.Last(0), At(0), At(0.1));
         Assert.Contains(1, index.Candidates(0, world.Radius(0), At(0), 1, out _).ToArray());
+        SimTime[] spans = [At(0), At(0.05), At(0.1)];
+        for (int n = 0; n < 100; n++)
+        {
+            index.Add(1, world.Radius(1), world.Timelines.Last(0), spans[n % 2], spans[(n % 2) + 1]); // what is healed again and again
+        }
+
+        Assert.Single(index.Candidates(0, world.Radius(0), At(0.01), 3, out _).ToArray());
         index.DropBefore(At(5));
         Assert.DoesNotContain(1, index.Candidates(0, world.Radius(0), At(0), 2, out _).ToArray());
     }
