@@ -30,7 +30,7 @@ internal static class MemoryTable
     }
 
     /// <summary>What a segment takes: of each array with an entry a segment one element. Coefficients and hands, which a gas has none of, are apart.</summary>
-    private static int SegmentBytes()
+    internal static int SegmentBytes()
     {
         TimelineStore store = new(default);
         store.AddSlot(0);

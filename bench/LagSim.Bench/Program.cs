@@ -19,6 +19,9 @@ internal static class Program
         ["memory"] = MemoryTable.Print,
         ["frames"] = FrameTable.Print,
         ["arrival"] = ArrivalTable.Print,
+        ["hardspheres"] = HardSphereTable.Print,
+        ["gas"] = WalledGasTable.Print,
+        ["large"] = LargeTable.Print,
     };
 
     /// <summary>Benchmarks, or with the name of a table that table; <c>brief</c> after it for a run of seconds whose figures say little; <c>tables</c> for all but traffic.</summary>

@@ -48,11 +48,11 @@ public sealed partial class Simulation
         bool isThere = true;
         try
         {
-            while (TakeBackBrushed() && queue.Count > 0 && queue.LeastKey.Time <= time)
+            while (TakeBackBrushed() && queue.TryGetLeast(out int slot, out EventKey least) && least.Time <= time)
             {
-                if (queue.LeastKey.Time > reached)
+                if (least.Time > reached)
                 {
-                    if (HasMet(queue.LeastKey.Time - SimDuration.OneTick, time))
+                    if (HasMet(least.Time - SimDuration.OneTick, time))
                     {
                         reached = SimulatedTo;
                         continue;
@@ -65,13 +65,13 @@ public sealed partial class Simulation
                         break;
                     }
 
-                    reached = queue.LeastKey.Time;
+                    reached = least.Time;
                     ForgetUpTo(reached);
                 }
 
                 events--;
-                clock = queue.LeastKey;
-                Process(queue.LeastSlot, queue.LeastKey);
+                clock = least;
+                Process(slot, clock);
             }
         }
         catch (SimulationException failure)
@@ -113,7 +113,7 @@ public sealed partial class Simulation
         }
     }
 
-    private void Process(int slot, EventKey key)
+    private void Process(int slot, in EventKey key)
     {
         switch (key.Kind)
         {
@@ -212,6 +212,7 @@ public sealed partial class Simulation
         }
 
         timelines.Append(slot, bodies[slot].Id, key, segment, dense, hold, spin);
+        NoteCrowding(segment.Crowding, key.Time);
     }
 
     /// <summary>The round of something at <paramref name="time"/> on the body's newest segment: what a tick's own event causes at it comes a round later.</summary>

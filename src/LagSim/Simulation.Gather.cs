@@ -59,9 +59,9 @@ public sealed partial class Simulation
                 }
             }
 
-            foreach (int other in index.CandidatesAt(party, bodies[party].Spec.Radius, key.Time))
+            foreach (int other in index.CandidatesAt(party, bodies[party].Spec.Radius, key.Time, HealAtHand != 0))
             {
-                if (other == party || flights.AreApart(party, other, key.Time, key.Time))
+                if (other == party || !timelines.IsKnown(other) || flights.AreApart(party, other, key.Time, key.Time))
                 {
                     continue;
                 }

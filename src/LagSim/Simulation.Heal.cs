@@ -60,6 +60,9 @@ public sealed partial class Simulation
     /// <summary>Whether bodies' paths may be known beyond this key: a heal is under way.</summary>
     private bool MayBeAhead(in EventKey key) => key.Time <= front;
 
+    /// <summary>The heal at hand, for the index, if anybody may be ahead of the event at hand; else 0.</summary>
+    private long HealAtHand => MayBeAhead(clock) && oldSerial >= 0 ? Rollbacks : 0;
+
     /// <summary>Raised on the thread that advances, once per heal, when the world is again where it was. Handlers must not throw, and not change the world.</summary>
     public event Action<HealReport>? Healed;
 

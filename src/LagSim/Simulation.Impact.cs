@@ -45,6 +45,12 @@ public sealed partial class Simulation
 
     private bool TryHandleImpact(int slot, in EventKey key)
     {
+        if (IsPairAlone(slot, key))
+        {
+            HandlePair(slot, key);
+            return true;
+        }
+
         double residual = Gather(slot, key, IgnoresCrowding ? int.MaxValue : CrowdedAfter, NearGap);
         if (TryTakeBack(key))
         {

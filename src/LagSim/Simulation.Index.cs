@@ -1,5 +1,6 @@
 using System;
 using LagSim.Contacts;
+using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -22,13 +23,13 @@ public sealed partial class Simulation
     /// <summary>Looks whether the bodies have become so many, or so much larger, that another index serves them better.</summary>
     private void FitIndex()
     {
-        bool outgrown = index is SweptGrid grid && grid.EverywhereCount > Math.Max(outgrownAt, order.Count / 8);
-        if (!outgrown && (index is SweptGrid || order.Count <= mostPairs))
+        bool outgrown = index is ShellIndex shells && shells.WideCount > Math.Max(outgrownAt, order.Count / 8);
+        if (!outgrown && (index is ShellIndex || order.Count <= mostPairs))
         {
             return;
         }
 
-        index = NewGrid();
+        index = NewIndex();
         for (int n = 0; n < order.Count; n++)
         {
             int slot = order[n];
@@ -49,22 +50,30 @@ public sealed partial class Simulation
             Predict(order[n]);
         }
 
-        outgrownAt = 2 * Math.Max(32, ((SweptGrid)index).EverywhereCount);
+        outgrownAt = 2 * Math.Max(32, ((ShellIndex)index).WideCount);
     }
 
-    private SweptGrid NewGrid()
+    private ShellIndex NewIndex()
     {
         double[] radii = new double[order.Count];
+        double[] speeds = new double[order.Count];
         int count = 0;
+        int present = 0;
         foreach (int slot in order)
         {
             double radius = bodies[slot].Spec.Radius;
             radii[count] = radius;
             count += radius > 0 ? 1 : 0; // none yet: a body of which nothing but its name was heard
+            ref readonly MotionSegment path = ref timelines.Segment(timelines.Last(slot));
+            speeds[present] = path.Velocity.Length;
+            present += path.IsPresent ? 1 : 0;
         }
 
         Array.Sort(radii, 0, count);
+        Array.Sort(speeds, 0, present);
         double usual = count == 0 ? Scene.SmallestRadius : radii[count * 9 / 10];
-        return new SweptGrid(timelines, CellInRadii * usual, NearGap, Limits.MaxSpeed(Scene.SmallestRadius) * TickConversion.SecondsPerTick, Scene.Box);
+        double usualSpeed = present == 0 ? 0 : speeds[present * 9 / 10];
+        double tick = Limits.MaxSpeed(Scene.SmallestRadius) * TickConversion.SecondsPerTick;
+        return new ShellIndex(timelines, CellInRadii * usual, usualSpeed, NearGap, tick, Scene.Box);
     }
 }

@@ -30,89 +30,70 @@ public sealed partial class Simulation
     /// <param name="except">Another that is not met, whatever the paths say: only a fault put in on purpose names one.</param>
     private void Predict(int slot, int except = NoPartner)
     {
-        bool any = false;
-        EventKey least = default;
-        int partner = NoPartner;
-        int with = TimelineStore.None;
-        BodyId id = bodies[slot].Id;
+        Pending next = new() { Partner = NoPartner };
         int external = bodies[slot].NextExternal;
         if (external != EventLog.None)
         {
-            Consider(log.Key(external), NoPartner, ref any, ref least, ref partner);
+            next.Consider(log.Key(external));
         }
 
         int last = timelines.Last(slot);
         if (last != TimelineStore.None && timelines.Segment(last).IsPresent)
         {
+            BodyId id = bodies[slot].Id;
             SimTime end = timelines.Segment(last).End;
             if (end != SimTime.MaxValue)
             {
-                Consider(new EventKey(end, RoundAt(end, slot), EventKind.StepEnd, id, id, 0, 0), NoPartner, ref any, ref least, ref partner);
-            }
-
-            for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
-            {
-                if (TryTouchSurface(slot, surface, out ContactTime contact, out uint round))
-                {
-                    Consider(new EventKey(contact.Tick, round, EventKind.Impact, id, id, 0, 0), NoPartner, ref any, ref least, ref partner);
-                }
+                next.Consider(new EventKey(end, RoundAt(end, slot), EventKind.StepEnd, id, id, 0, 0));
             }
 
             SimTime from = SimTime.Max(timelines.Key(last).Time, clock.Time);
-            Span<int> candidates = index.Candidates(slot, bodies[slot].Spec.Radius, from, out SimTime until);
-            foreach (int other in candidates)
-            {
-                if (other != except && !flights.AreApart(slot, other, from, until) && TryMeet(slot, other, until, out int piece, out ContactTime contact, out uint round))
-                {
-                    BodyId otherId = bodies[other].Id;
-                    EventKey key = id < otherId
-                        ? new EventKey(contact.Tick, round, EventKind.Impact, id, otherId, 0, 0)
-                        : new EventKey(contact.Tick, round, EventKind.Impact, otherId, id, 0, 0);
-                    if (Consider(key, other, ref any, ref least, ref partner))
-                    {
-                        with = piece;
-                    }
-                }
-            }
-
+            Span<int> candidates = index.Candidates(slot, bodies[slot].Spec.Radius, from, HealAtHand, out SimTime until);
             if (until < end)
             {
-                Consider(new EventKey(until, 0, EventKind.None, id, id, 0, 0), NoPartner, ref any, ref least, ref partner);
+                next.Consider(new EventKey(until, 0, EventKind.None, id, id, 0, 0));
+            }
+
+            if (flights.IsFree(slot) && !MayBeAhead(clock) && !TakesNoShortcut && !SwapsOperands)
+            {
+                FindInFlight(slot, candidates, from, until, except, ref next);
+            }
+            else
+            {
+                FindAlong(slot, candidates, from, until, except, ref next);
             }
         }
 
-        if (!any)
+        if (!next.Any)
         {
             bodies[slot].Partner = NoPartner;
             queue.Remove(slot);
             return;
         }
 
-        Pend(slot, least, partner, with);
-        if (partner != NoPartner && with == timelines.Last(partner) && (!queue.TryGet(partner, out EventKey theirs) || EventKey.Compare(least, theirs) < 0))
+        Pend(slot, next, next.Partner, next.Piece);
+        int partner = next.Partner;
+        if (partner == NoPartner || next.Piece != timelines.Last(partner))
         {
-            Pend(partner, least, slot, last);
+            return;
+        }
+
+        bool isPending = queue.TryGet(partner, out EventKey theirs);
+        if (!isPending || EventKey.Compare(next.Key, theirs) < 0)
+        {
+            next.IsTied |= isPending && theirs.Time == next.Key.Time;
+            Pend(partner, next, slot, last);
         }
     }
 
-    private static bool Consider(in EventKey key, int with, ref bool any, ref EventKey least, ref int partner)
+    private void Pend(int slot, in Pending next, int partner, int piece)
     {
-        if (any && EventKey.Compare(key, least) >= 0)
-        {
-            return false;
-        }
-
-        any = true;
-        least = key;
-        partner = with;
-        return true;
-    }
-
-    private void Pend(int slot, in EventKey key, int partner, int piece)
-    {
-        bodies[slot].Partner = partner;
-        bodies[slot].PartnerSerial = partner == NoPartner ? 0 : timelines.Serial(Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : piece);
-        queue.Set(slot, key);
+        ref Body body = ref bodies[slot];
+        body.Partner = partner;
+        body.PartnerSerial = partner == NoPartner ? 0 : timelines.Serial(Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : piece);
+        body.Residual = next.Residual;
+        body.IsTied = next.IsTied;
+        queue.Set(slot, next.Key);
     }
 
     /// <summary>The next contact of a body's newest segment with a static surface: planes by index, static spheres after them.</summary>

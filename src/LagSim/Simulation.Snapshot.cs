@@ -41,6 +41,7 @@ public sealed partial class Simulation
         {
             int slot = AddBody(body.Id, body.Spec);
             timelines.Append(slot, body.Id, body.Opened, body.Segment, body.Dense, body.Hold, body.SpinPath);
+            NoteCrowding(body.Segment.Crowding, body.Opened.Time);
         }
 
         timelines.ContinueFrom(snapshot.EventHash);

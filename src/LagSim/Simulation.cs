@@ -103,7 +103,7 @@ public sealed partial class Simulation
 
     private void PredictAll()
     {
-        index = order.Count > mostPairs ? NewGrid() : index;
+        index = order.Count > mostPairs ? NewIndex() : index;
         for (int slot = 0; slot < slotCount; slot++)
         {
             cancellation.ThrowIfCancellationRequested();
@@ -210,6 +210,12 @@ public sealed partial class Simulation
 
         /// <summary>The partner's segment that the pending impact was found with.</summary>
         internal long PartnerSerial;
+
+        /// <summary>Of a pending impact with another body how far the unrounded root lies from its tick, in seconds.</summary>
+        internal double Residual;
+
+        /// <summary>Whether the body may have another event at the tick of its pending one, that nobody waits for.</summary>
+        internal bool IsTied;
 
         /// <summary>The number of the last heal that predicted it anew.</summary>
         internal uint HealedIn;

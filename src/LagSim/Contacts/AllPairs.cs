@@ -10,14 +10,14 @@ internal sealed class AllPairs : IPairIndex
     private int[] place = new int[16]; // slot -> 1 + position in known; 0: not there
     private int count;
 
-    public Span<int> Candidates(int slot, double radius, SimTime from, out SimTime until)
+    public Span<int> Candidates(int slot, double radius, SimTime from, long heal, out SimTime until)
     {
         Know(slot);
         until = SimTime.MaxValue;
         return known.AsSpan(0, count);
     }
 
-    public Span<int> CandidatesAt(int slot, double radius, SimTime time) => known.AsSpan(0, count);
+    public Span<int> CandidatesAt(int slot, double radius, SimTime time, bool isHealing) => known.AsSpan(0, count);
 
     public void Add(int slot, double radius, int segment, SimTime from, SimTime until) => Know(slot);
 

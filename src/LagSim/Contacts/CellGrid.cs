@@ -1,15 +1,17 @@
 using System;
 using LagSim.Motion;
 using LagSim.Scenes;
-using LagSim.Time;
 
 namespace LagSim.Contacts;
 
-/// <summary>Space in cubes, or, in a periodic box, in as many equal cells along each side as fit: which of them a path leads through.</summary>
+/// <summary>Space in cubes, or, in a periodic box, in as many equal cells along each side as fit: which of them are near a point.</summary>
 internal sealed class CellGrid
 {
     /// <summary>Coordinates beyond so many cells share the last one: a long holds them, and a double tells them apart.</summary>
     private const double FurthestCell = 1L << 40;
+
+    private const int AxisBits = 21;
+    private const ulong AxisMask = (1UL << AxisBits) - 1;
 
     private readonly double size;
     private readonly PeriodicBox box;
@@ -27,35 +29,34 @@ internal sealed class CellGrid
         alongZ = CellsAlong(box.Size.Z);
     }
 
-    /// <summary>In how many seconds a path leads a cell further, at the earliest.</summary>
-    internal double Crossing(in MotionSegment path, in DenseOutput dense, SimTime from)
-    {
-        double seconds = from.SecondsSince(path.Epoch);
-        double speed = path.VelocityAt(seconds, dense).Length;
-        double acceleration = LargestAcceleration(path, dense, seconds, seconds + 1);
-        return 2 * size / (speed + Math.Sqrt((speed * speed) + (2 * acceleration * size)));
-    }
+    /// <summary>The cell of a point.</summary>
+    internal ulong NumberAt(in Vector3D point) =>
+        Number(CellOf(point.X, alongX, box.Size.X), CellOf(point.Y, alongY, box.Size.Y), CellOf(point.Z, alongZ, box.Size.Z));
 
-    /// <summary>The cells that a path leads through in a span, and those within a distance of it, in metres.</summary>
-    internal CellBlock Around(in MotionSegment path, in DenseOutput dense, SimTime from, SimTime until, double distance)
-    {
-        double start = from.SecondsSince(path.Epoch);
-        double end = until.SecondsSince(path.Epoch);
-        Vector3D a = path.PositionAt(start, dense);
-        Vector3D b = path.PositionAt(end, dense);
+    /// <summary>The cells within a distance of a point, in metres.</summary>
+    internal CellBlock Around(in Vector3D point, double distance) => new(
+        Range(point.X, distance, alongX, box.Size.X), Range(point.Y, distance, alongY, box.Size.Y), Range(point.Z, distance, alongZ, box.Size.Z));
 
-        // No path strays further from its chord than a parabola of the largest acceleration. The rest is for rounding.
-        double bulge = path.Law == MotionLaw.Resting ? 0 : 0.125 * (end - start) * (end - start) * LargestAcceleration(path, dense, start, end);
-        double slack = distance + bulge + (1e-12 * (Largest(a) + Largest(b)));
-        return new CellBlock(
-            Range(a.X, b.X, slack, alongX, box.Size.X), Range(a.Y, b.Y, slack, alongY, box.Size.Y), Range(a.Z, b.Z, slack, alongZ, box.Size.Z));
-    }
-
-    /// <summary>The number of a cell; cells far apart may share one.</summary>
+    /// <summary>The number of a cell; cells two million along an axis from each other share one, and none that are nearer.</summary>
     internal ulong Number(long x, long y, long z) =>
-        ((ulong)Wrapped(x, alongX) * 0x8DA6B343D8163841UL) ^ ((ulong)Wrapped(y, alongY) * 0xD8163841CB1AB31FUL) ^ ((ulong)Wrapped(z, alongZ) * 0xCB1AB31F8DA6B343UL);
+        ((ulong)Wrapped(x, alongX) & AxisMask)
+        | (((ulong)Wrapped(y, alongY) & AxisMask) << AxisBits)
+        | (((ulong)Wrapped(z, alongZ) & AxisMask) << (2 * AxisBits));
 
-    private static double LargestAcceleration(in MotionSegment path, in DenseOutput dense, double from, double until)
+    /// <summary>
+    /// The number of a list out of a power of two that a cell falls to: cells in a row along x have lists in a row, for they are looked into one after the
+    /// other.
+    /// </summary>
+    internal static int Bucket(ulong number, int lists)
+    {
+        uint x = (uint)(number & AxisMask);
+        uint y = (uint)((number >> AxisBits) & AxisMask);
+        uint z = (uint)(number >> (2 * AxisBits));
+        return (int)((x + (y * 0x9E3779B1U) + (z * 0x85EBCA77U)) & (uint)(lists - 1));
+    }
+
+    /// <summary>The largest acceleration that a path has in a span of seconds after its epoch, or more.</summary>
+    internal static double LargestAcceleration(in MotionSegment path, in DenseOutput dense, double from, double until)
     {
         double largest = path.Acceleration.Length;
         if (path.IsDense)
@@ -67,8 +68,6 @@ internal sealed class CellGrid
         return largest;
     }
 
-    private static double Largest(in Vector3D v) => Math.Max(Math.Abs(v.X), Math.Max(Math.Abs(v.Y), Math.Abs(v.Z)));
-
     private static long Wrapped(long at, long cells)
     {
         if (cells == 0)
@@ -76,17 +75,27 @@ internal sealed class CellGrid
             return at;
         }
 
-        long rest = at % cells;
-        return rest < 0 ? rest + cells : rest;
+        // Paths are opened anew long before they are a side away, so that a step or two do.
+        while (at < 0)
+        {
+            at += cells;
+        }
+
+        while (at >= cells)
+        {
+            at -= cells;
+        }
+
+        return at;
     }
 
     private long CellsAlong(double side) => side > 0 ? Math.Max(1, (long)Math.Min(side / size, 1 << 20)) : 0;
 
     /// <summary>The cells along one axis; in a box they may reach over a side, but not around.</summary>
-    private CellRange Range(double a, double b, double slack, long cells, double side)
+    private CellRange Range(double at, double distance, long cells, double side)
     {
-        long from = CellOf(Math.Min(a, b) - slack, cells, side);
-        long to = CellOf(Math.Max(a, b) + slack, cells, side);
+        long from = CellOf(at - distance, cells, side);
+        long to = CellOf(at + distance, cells, side);
         return new CellRange(from, cells > 0 ? Math.Min(to, from + cells - 1) : to);
     }
 

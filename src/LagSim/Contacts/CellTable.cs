@@ -11,8 +11,6 @@ internal sealed class CellTable<T>
 
     private int[] heads;
     private Entry[] entries;
-    private int count;
-    private int free = None;
 
     internal CellTable(int capacity)
     {
@@ -27,8 +25,8 @@ internal sealed class CellTable<T>
         Array.Fill(heads, None);
     }
 
-    /// <summary>How many entries there are room for.</summary>
-    internal int Capacity => entries.Length;
+    /// <summary>How many entries there are, of all cells; they are numbered from 0.</summary>
+    internal int Count { get; private set; }
 
     /// <summary>The first entry that may be of the cell, or <see cref="None"/>; entries of other cells may be in between.</summary>
     internal int First(ulong cell) => heads[Bucket(cell)];
@@ -41,58 +39,33 @@ internal sealed class CellTable<T>
 
     internal void Add(ulong cell, in T value)
     {
-        int at = free;
-        if (at != None)
+        if (Count == entries.Length)
         {
-            free = entries[at].Next;
-        }
-        else
-        {
-            if (count == entries.Length)
-            {
-                Grow();
-            }
-
-            at = count++;
+            Grow();
         }
 
         ref int head = ref heads[Bucket(cell)];
-        entries[at] = new Entry { Cell = cell, Value = value, Next = head };
-        head = at;
+        entries[Count] = new Entry { Cell = cell, Value = value, Next = head };
+        head = Count++;
     }
 
-    /// <summary>Takes an entry out; <paramref name="before"/> precedes it in its list, or is <see cref="None"/>.</summary>
-    internal void Remove(int before, int entry)
-    {
-        if (before == None)
-        {
-            heads[Bucket(entries[entry].Cell)] = entries[entry].Next;
-        }
-        else
-        {
-            entries[before].Next = entries[entry].Next;
-        }
-
-        entries[entry].Next = free;
-        free = entry;
-    }
+    /// <summary>Puts another value in the place of one.</summary>
+    internal void Replace(int entry, in T value) => entries[entry].Value = value;
 
     internal void Clear()
     {
         Array.Fill(heads, None);
-        count = 0;
-        free = None;
+        Count = 0;
     }
 
-    private int Bucket(ulong cell) => (int)((cell * 0x9E3779B97F4A7C15UL) >> 32) & (heads.Length - 1);
+    private int Bucket(ulong cell) => CellGrid.Bucket(cell, heads.Length);
 
     private void Grow()
     {
-        // Only when no entry is free, so all of them are in a list.
-        Array.Resize(ref entries, count * 2);
-        heads = new int[count * 2];
+        Array.Resize(ref entries, Count * 2);
+        heads = new int[Count * 2];
         Array.Fill(heads, None);
-        for (int at = 0; at < count; at++)
+        for (int at = 0; at < Count; at++)
         {
             ref int head = ref heads[Bucket(entries[at].Cell)];
             entries[at].Next = head;

@@ -46,6 +46,13 @@ internal static class ContactFinder
         in MotionSegment a, in DenseOutput denseA, in MotionSegment b, in DenseOutput denseB, double reach, SimTime from, SimTime until,
         out ContactTime contact)
     {
+        if (!a.IsDense && !b.IsDense && a.Acceleration == b.Acceleration)
+        {
+            return OfParabolas(
+                a.Position, a.Velocity, from.SecondsSince(a.Epoch), b.Position, b.Velocity, from.SecondsSince(b.Epoch), a.Acceleration, reach,
+                from, until, out contact);
+        }
+
         Span<Vector3D> d = stackalloc Vector3D[PathLength];
         Span<Vector3D> other = stackalloc Vector3D[PathLength];
         int length = Math.Max(Path(a, denseA, from, d), Path(b, denseB, from, other));
@@ -66,6 +73,37 @@ internal static class ContactFinder
             _ => Curved(d.Slice(0, length), reach, Seconds(from, until)),
         };
         return ContactTime.TryMake(from, until, root, out contact);
+    }
+
+    /// <summary>
+    /// The first contact of two parabolas of one acceleration, told by their states so many seconds before <paramref name="from"/>: what the general way makes
+    /// of them, to the bit.
+    /// </summary>
+    internal static bool OfParabolas(
+        in Vector3D positionA, in Vector3D velocityA, double sinceA, in Vector3D positionB, in Vector3D velocityB, double sinceB, in Vector3D acceleration,
+        double reach, SimTime from, SimTime until, out ContactTime contact)
+    {
+        Vector3D half = acceleration * 0.5;
+        Vector3D place = positionA;
+        Vector3D speed = velocityA;
+        Shift(ref place, ref speed, half, sinceA);
+        Vector3D otherPlace = positionB;
+        Vector3D otherSpeed = velocityB;
+        Shift(ref otherPlace, ref otherSpeed, half, sinceB);
+        Vector3D opening = speed - otherSpeed;
+        double root = opening == Vector3D.Zero ? double.NaN : Linear(place - otherPlace, opening, reach);
+        return ContactTime.TryMake(from, until, root, out contact);
+    }
+
+    private static void Shift(ref Vector3D position, ref Vector3D velocity, in Vector3D half, double by)
+    {
+        if (by != 0)
+        {
+            Vector3D gain = half * by;
+            velocity += gain;
+            position += velocity * by;
+            velocity += gain;
+        }
     }
 
     /// <summary>Relative motion along a straight line: a quadratic whose discriminant is taken from the cross product, exact near a graze.</summary>

@@ -18,10 +18,20 @@ internal sealed class FreeFlights
     /// <summary>What rounding may have moved, in parts of what was added up; four thousand times of what it does.</summary>
     private const double Slack = 1e-12;
 
+    /// <summary>Two that touch surely part only if the cosine between their distance and their opening is above this.</summary>
+    private const double Parting = 1e-9;
+
+    /// <summary>What rounding does to the square of a distance, and to that of a miss, in parts of the distance's; thirty times of it.</summary>
+    private const double FarSlack = 1e-14;
+
     private readonly Vector3D gravity;
     private readonly PeriodicBox box;
     private readonly double near;
+    private readonly bool hasBox;
+    private readonly bool falls;
     private Flight[] flights = new Flight[16];
+    private double[] radii = new double[16];
+    private Approach[] approaches = new Approach[64];
 
     /// <summary>Nobody yet.</summary>
     /// <param name="gravity">The acceleration of free flight, in m/s².</param>
@@ -32,6 +42,8 @@ internal sealed class FreeFlights
         this.gravity = gravity;
         this.near = near;
         this.box = box;
+        hasBox = box.Exists;
+        falls = gravity != Vector3D.Zero;
     }
 
     /// <summary>Makes room for a body.</summary>
@@ -39,14 +51,21 @@ internal sealed class FreeFlights
     {
         if (slot >= flights.Length)
         {
-            Array.Resize(ref flights, Math.Max(slot + 1, flights.Length * 2));
+            int size = Math.Max(slot + 1, flights.Length * 2);
+            Array.Resize(ref flights, size);
+            Array.Resize(ref radii, size);
         }
 
-        flights[slot] = new Flight { Radius = radius, From = SimTime.MaxValue };
+        flights[slot] = new Flight { Margin = radius, From = SimTime.MaxValue };
+        radii[slot] = radius;
     }
 
     /// <summary>The body's radius, in metres.</summary>
-    internal void SetRadius(int slot, double radius) => flights[slot].Radius = radius;
+    internal void SetRadius(int slot, double radius)
+    {
+        radii[slot] = radius;
+        flights[slot].Margin = MarginOf(slot);
+    }
 
     /// <summary>The body's newest piece of path, and when it was opened.</summary>
     internal void Set(int slot, in MotionSegment path, SimTime opened)
@@ -56,6 +75,7 @@ internal sealed class FreeFlights
         flight.From = isFree ? opened : SimTime.MaxValue;
         flight.Position = path.Position;
         flight.Velocity = path.Velocity;
+        flight.Margin = MarginOf(slot);
     }
 
     /// <summary>The body has no path.</summary>
@@ -88,18 +108,192 @@ internal sealed class FreeFlights
         double span = until.SecondsSince(from) + TickConversion.SecondsPerTick;
         double nearest = along >= 0 ? -TickConversion.SecondsPerTick : square * span < -along ? span : -along / square;
         Vector3D least = apart + (opening * nearest);
-        double reach = a.Radius + b.Radius + near + (Slack * (Size(a.Position) + Size(b.Position) + Size(wayA) + Size(wayB)
+        double reach = radii[slot] + radii[other] + near + (Slack * (Size(a.Position) + Size(b.Position) + Size(wayA) + Size(wayB)
             + (Size(gravity) * ((sinceA * sinceA) + (sinceB * sinceB)))));
         return Vector3D.Dot(least, least) > reach * reach * (1 + 1e-6); // not so of what is not a number
     }
 
+    /// <summary>Whether the body's newest piece of path is free flight.</summary>
+    internal bool IsFree(int slot) => flights[slot].From != SimTime.MaxValue;
+
+    /// <summary>
+    /// Which of the others a body in free flight may touch in a span that begins at its opening or later, and from when on: in seconds from the beginning,
+    /// never too many. Nobody is left out who is touched; who is not in free flight may be touched at once.
+    /// </summary>
+    internal Span<Approach> Approaches(int slot, Span<int> others, SimTime from, SimTime until)
+    {
+        if (others.Length > approaches.Length)
+        {
+            approaches = new Approach[Math.Max(others.Length, approaches.Length * 2)];
+        }
+
+        int count = 0;
+        ref readonly Flight a = ref flights[slot];
+        double since = from.SecondsSince(a.From);
+        Vector3D place = a.Position + ((a.Velocity + (gravity * (0.5 * since))) * since);
+        Vector3D velocity = a.Velocity + (gravity * since);
+        double radius = a.Margin + near + FallSlack(since) + (Slack * Size(place));
+        double span = until.SecondsSince(from) + TickConversion.SecondsPerTick;
+        double speed = Size(velocity);
+        bool isOpened = a.From == from;
+        Span<Flight> all = flights;
+        Span<Approach> into = approaches;
+        for (int i = 0; i < others.Length; i++)
+        {
+            int other = others[i];
+            ref Flight b = ref all[other];
+            if (b.From > from)
+            {
+                into[count++] = new Approach(other, 0);
+                continue;
+            }
+
+            // Scalars: what this loop does is most of what a prediction costs.
+            double time = from.SecondsSince(b.From);
+            double u = b.Velocity.X, v = b.Velocity.Y, w = b.Velocity.Z;
+            double x = u * time, y = v * time, z = w * time;
+            double reach = radius + b.Margin;
+            if (falls)
+            {
+                double half = 0.5 * time;
+                x = (u + (gravity.X * half)) * time;
+                y = (v + (gravity.Y * half)) * time;
+                z = (w + (gravity.Z * half)) * time;
+                u += gravity.X * time;
+                v += gravity.Y * time;
+                w += gravity.Z * time;
+                reach += FallSlack(time);
+            }
+
+            x = place.X - (b.Position.X + x);
+            y = place.Y - (b.Position.Y + y);
+            z = place.Z - (b.Position.Z + z);
+            if (hasBox)
+            {
+                x = PeriodicBox.Nearest(x, box.Size.X);
+                y = PeriodicBox.Nearest(y, box.Size.Y);
+                z = PeriodicBox.Nearest(z, box.Size.Z);
+            }
+
+            u = velocity.X - u;
+            v = velocity.Y - v;
+            w = velocity.Z - w;
+            double along = (x * u) + (y * v) + (z * w);
+            double distance = Square(x, y, z);
+            double square = Square(u, v, w);
+            double limit = reach * reach * (1 + 2e-6);
+            double beyond = (distance * (1 - FarSlack)) - limit;
+            if (beyond > 0)
+            {
+                bool parts = along >= 0;
+                bool misses = beyond * square > along * along;
+                if (parts | misses)
+                {
+                    continue; // asked at once: which of the two it is nobody can foretell, that it is one of them nearly always can be
+                }
+
+                double nearest = -along / square;
+                double miss = Square(x + (u * nearest), y + (v * nearest), z + (w * nearest));
+                double seconds = nearest - Math.Sqrt(Math.Max(0, (limit + (FarSlack * distance)) - miss) / square);
+                if (!(seconds > span))
+                {
+                    into[count++] = new Approach(other, seconds);
+                }
+            }
+            else if (other != slot)
+            {
+                // What the finder makes of the two at the later opening, of the very signs: they part, and by far more than rounding can turn around.
+                double opening = Math.Abs(u) + Math.Abs(v) + Math.Abs(w);
+                double doubt = (opening * ((Parting * reach) + (reach - (radii[slot] + radii[other] + near)))) + (Slack * reach * ((2 * speed) + opening));
+                if (!((isOpened || b.From == from) && along > doubt))
+                {
+                    into[count++] = new Approach(other, 0);
+                }
+            }
+        }
+
+        return into.Slice(0, count);
+    }
+
+    /// <summary>Where a body in free flight is at a tick and so many seconds after it, and how fast: the bits that its segment tells.</summary>
+    internal void StateAt(int slot, SimTime time, double after, out Vector3D position, out Vector3D velocity)
+    {
+        ref readonly Flight flight = ref flights[slot];
+        double seconds = time.SecondsSince(flight.From) + after;
+        position = PositionAt(flight, seconds);
+        velocity = flight.Velocity + (gravity * seconds);
+    }
+
+    /// <summary>Whether a body's newest piece of path was opened no longer than so long before a time.</summary>
+    internal bool IsOpenedWithin(int slot, SimTime time, SimDuration span) => time - flights[slot].From <= span;
+
+    /// <summary>
+    /// Whether two bodies in free flight touch, however late, and when: the bits that <see cref="ContactFinder"/> tells of their segments, the body of lesser
+    /// identity first. False if they touch at the very tick from which both hold, for then more has to be looked at.
+    /// </summary>
+    internal bool TryTouch(int first, int second, out bool touches, out ContactTime contact)
+    {
+        ref readonly Flight a = ref flights[first];
+        ref readonly Flight b = ref flights[second];
+        SimTime from = SimTime.Max(a.From, b.From);
+        Vector3D positionB = b.Position;
+        if (hasBox)
+        {
+            Vector3D at = PositionAt(b, from.SecondsSince(b.From));
+            Vector3D apart = at - PositionAt(a, from.SecondsSince(a.From));
+            positionB += box.Nearest(apart) - apart;
+        }
+
+        touches = ContactFinder.OfParabolas(
+            a.Position, a.Velocity, from.SecondsSince(a.From), positionB, b.Velocity, from.SecondsSince(b.From), gravity, radii[first] + radii[second],
+            from, SimTime.MaxValue, out contact);
+        return !touches || contact.Tick != from;
+    }
+
+    /// <summary>Whether so many seconds after a time is surely after another.</summary>
+    internal static bool IsLater(double seconds, SimTime from, SimTime time) =>
+        seconds > (time.SecondsSince(from) * (1 + Slack)) + TickConversion.SecondsPerTick;
+
+    /// <summary>Whether a body in free flight surely does not touch a plane in a span that begins at its opening or later.</summary>
+    internal bool Misses(int slot, in StaticPlane plane, SimTime from, SimTime until)
+    {
+        ref readonly Flight a = ref flights[slot];
+        double since = from.SecondsSince(a.From);
+        Vector3D way = (a.Velocity + (gravity * (0.5 * since))) * since;
+        double gap = plane.Gap(a.Position + way, radii[slot]);
+        double span = until.SecondsSince(from) + TickConversion.SecondsPerTick;
+        double fall = Size(gravity);
+        double slack = near + (Slack * (Size(a.Position) + Size(way) + (fall * since * since) + Math.Abs(plane.Offset) + radii[slot]));
+        double speed = Size(a.Velocity) + (fall * (since + span));
+        if (gap > slack + (speed * span * (1 + Slack)))
+        {
+            return true; // it does not come that far, in whatever direction it flies
+        }
+
+        double opening = Vector3D.Dot(plane.Normal, a.Velocity + (gravity * since));
+        double curve = Vector3D.Dot(plane.Normal, gravity);
+        double atEnd = gap + ((opening + (0.5 * curve * span)) * span) - (Slack * speed * span);
+        double least = curve > 0 && opening < 0 && -opening < curve * span ? gap - (opening * opening / (2 * curve)) : Math.Min(gap, atEnd);
+        return least > slack + (TickConversion.SecondsPerTick * Math.Abs(opening)); // not so of what is not a number
+    }
+
+    /// <summary>The radius, and how far rounding and a tick may move a body in flight that it is told of at another time, but for what it falls.</summary>
+    private double MarginOf(int slot) =>
+        radii[slot] + (2 * Slack * Size(flights[slot].Position)) + (2 * TickConversion.SecondsPerTick * Size(flights[slot].Velocity));
+
+    private double FallSlack(double time) => 2 * Size(gravity) * time * ((Slack * time) + TickConversion.SecondsPerTick);
+
+    private Vector3D PositionAt(in Flight flight, double seconds) => flight.Position + ((flight.Velocity + (gravity * (0.5 * seconds))) * seconds);
+
     private static double Size(in Vector3D v) => Math.Abs(v.X) + Math.Abs(v.Y) + Math.Abs(v.Z);
+
+    private static double Square(double x, double y, double z) => (x * x) + (y * y) + (z * z);
 
     private struct Flight
     {
         internal Vector3D Position;
         internal Vector3D Velocity;
         internal SimTime From;
-        internal double Radius;
+        internal double Margin;
     }
 }

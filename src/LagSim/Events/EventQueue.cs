@@ -4,159 +4,349 @@ namespace LagSim.Events;
 
 /// <summary>The pending events of a world: at most one a body, by construction, popped in canonical order.</summary>
 /// <remarks>
-/// <para>A heap with four children a node over (key, slot), with the position of every slot kept, so that a body's event is replaced or
-/// taken out in place. Two bodies that wait for the same impact have equal keys; which slot comes first does not matter, for the impact
-/// settles both.</para>
-/// <para>Cost: O(log n) for <see cref="Set"/> and <see cref="Remove"/>, O(1) for the least. Allocates only when a new slot does not fit.</para>
+/// <para>A calendar (Paul 2007, physics/0606226): time in slices, each with a list of its events in no order; those of the slice at hand, and whatever lies
+/// before it, in a heap (<see cref="NearEvents"/>); those beyond the last slice in a list of their own. So an event is put in, replaced and taken out in O(1)
+/// but for the few of the slice at hand. The slices are as long as makes them hold a few events, which the queue finds out as it goes; few events are all in
+/// the heap. Where an event is kept has no influence on the order.</para>
+/// <para>Two bodies that wait for the same impact have equal keys; which slot comes first does not matter, for the impact settles both.</para>
+/// <para>Cost: O(1), amortised, unless all happens at one tick: then O(log n). Allocates only when more is pending than ever before.</para>
 /// </remarks>
 internal sealed class EventQueue
 {
-    private const int Children = 4;
+    /// <summary>So many events a slice is to hold.</summary>
+    private const int PerSlice = 4;
+
+    /// <summary>Up to so many events are all in the heap; and so many there are too many, if they need not be.</summary>
+    private const int Few = 64;
+
+    private const int MostSamples = 256;
+    private const int None = -1;
+
+    /// <summary>From this value on <see cref="Node.Where"/> is a place in the heap.</summary>
+    private const int Near = 0;
+
     private const int NotQueued = -1;
+    private const int InSlice = -2;
+    private const int Beyond = -3;
 
-    private EventKey[] keys = new EventKey[16];
-    private int[] slots = new int[16];
-    private int[] positions = Array.Empty<int>();
+    private readonly NearEvents near = new();
+    private readonly long[] samples = new long[MostSamples];
+    private Node[] nodes = Array.Empty<Node>(); // by slot
+    private int[] slices = new int[2 * Few / PerSlice]; // a ring: the first slot of each slice from the one at hand on; and at the end that of what lies beyond
+    private int inSlices;
+    private int beyond = None;
+    private int inBeyond;
+    private int shift; // a slice is 2^shift ticks
+    private long current = long.MaxValue; // the slice at hand; the last there is while events are few
+    private long swept; // the slice at hand when it was last looked at what lies beyond
+    private long taken; // how many events were taken out of slices since
+    private long changes; // since the slices were made
 
-    internal int Count { get; private set; }
+    internal EventQueue() => Array.Fill(slices, None);
+
+    internal int Count => near.Count + inSlices + inBeyond;
 
     /// <summary>The slot whose event is the least.</summary>
-    internal int LeastSlot => Count > 0 ? slots[0] : throw new InvalidOperationException("No event is pending.");
+    internal int LeastSlot
+    {
+        get
+        {
+            Advance();
+            return near.LeastSlot;
+        }
+    }
 
     /// <summary>The least pending key.</summary>
     internal ref readonly EventKey LeastKey
     {
         get
         {
-            if (Count == 0)
-            {
-                throw new InvalidOperationException("No event is pending.");
-            }
-
-            return ref keys[0];
+            Advance();
+            return ref nodes[near.LeastSlot].Key;
         }
+    }
+
+    /// <summary>True, the slot whose event is the least, and its key; false if none is pending.</summary>
+    internal bool TryGetLeast(out int slot, out EventKey key)
+    {
+        if (Count == 0)
+        {
+            (slot, key) = (None, default);
+            return false;
+        }
+
+        slot = LeastSlot;
+        key = nodes[slot].Key;
+        return true;
     }
 
     /// <summary>True and the key of the slot's pending event, if it has one.</summary>
     internal bool TryGet(int slot, out EventKey key)
     {
-        int at = slot < positions.Length ? positions[slot] : NotQueued;
-        key = at == NotQueued ? default : keys[at];
-        return at != NotQueued;
+        bool isQueued = slot < nodes.Length && nodes[slot].Where != NotQueued;
+        key = isQueued ? nodes[slot].Key : default;
+        return isQueued;
     }
+
+    /// <summary>
+    /// Whether nothing is pending up to and including the time of the least key but that, of one slot and of another that waits for the same.
+    /// </summary>
+    internal bool IsLeastAloneWith(int other, in EventKey least) =>
+        other < nodes.Length && nodes[other].Where >= Near && nodes[other].Key == least && near.IsLeastAloneWith(other);
 
     /// <summary>Makes this the slot's one pending event, in place of any other.</summary>
     internal void Set(int slot, in EventKey key)
     {
-        if (slot >= positions.Length)
+        if (slot >= nodes.Length)
         {
-            int old = positions.Length;
-            Array.Resize(ref positions, Math.Max(slot + 1, Math.Max(16, old * 2)));
-            positions.AsSpan(old).Fill(NotQueued);
+            int old = nodes.Length;
+            Array.Resize(ref nodes, Math.Max(slot + 1, Math.Max(16, old * 2)));
+            nodes.AsSpan(old).Fill(new Node { Where = NotQueued });
         }
 
-        int at = positions[slot];
-        if (at == NotQueued)
+        ref Node node = ref nodes[slot];
+        if (node.Where >= Near)
         {
-            if (Count == keys.Length)
+            if (IsNear(key.Time.Ticks))
             {
-                Array.Resize(ref keys, Count * 2);
-                Array.Resize(ref slots, Count * 2);
+                node.Key = key;
+                near.Moved(nodes, slot);
+                return;
             }
 
-            Rise(Count++, slot, key);
+            near.Remove(nodes, slot);
         }
-        else if (EventKey.Compare(key, keys[at]) < 0)
+        else if (node.Where != NotQueued)
         {
-            Rise(at, slot, key);
+            Unlink(ref node);
         }
-        else
+
+        node.Key = key;
+        Put(slot, ref node);
+        changes++;
+        if (near.Count > Few && (current == long.MaxValue || (shift > 0 && changes > Count)))
         {
-            Sink(at, slot, key);
+            Arrange();
         }
     }
 
     /// <summary>Takes the slot's pending event out, if it has one.</summary>
     internal void Remove(int slot)
     {
-        int at = slot < positions.Length ? positions[slot] : NotQueued;
-        if (at == NotQueued)
+        if (slot >= nodes.Length || nodes[slot].Where == NotQueued)
         {
             return;
         }
 
-        positions[slot] = NotQueued;
-        Count--;
-        if (at == Count)
+        ref Node node = ref nodes[slot];
+        if (node.Where >= Near)
         {
-            return;
-        }
-
-        EventKey moved = keys[Count];
-        int movedSlot = slots[Count];
-        if (at > 0 && EventKey.Compare(moved, keys[(at - 1) / Children]) < 0)
-        {
-            Rise(at, movedSlot, moved);
+            near.Remove(nodes, slot);
         }
         else
         {
-            Sink(at, movedSlot, moved);
+            Unlink(ref node);
+        }
+
+        node.Where = NotQueued;
+        changes++;
+    }
+
+    private bool IsNear(long ticks) => ticks >> shift <= current;
+
+    private void Put(int slot, ref Node node)
+    {
+        long slice = node.Key.Time.Ticks >> shift;
+        if (slice <= current)
+        {
+            near.Add(nodes, slot);
+        }
+        else if ((ulong)slice - (ulong)current < (ulong)slices.Length)
+        {
+            Link(ref slices[slice & (slices.Length - 1)], slot, ref node, InSlice);
+            inSlices++;
+        }
+        else
+        {
+            Link(ref beyond, slot, ref node, Beyond);
+            inBeyond++;
         }
     }
 
-    private void Rise(int at, int slot, in EventKey key)
+    private void Link(ref int head, int slot, ref Node node, int where)
     {
-        while (at > 0)
+        node.Where = where;
+        node.Previous = None;
+        node.Next = head;
+        if (head != None)
         {
-            int parent = (at - 1) / Children;
-            if (EventKey.Compare(key, keys[parent]) >= 0)
-            {
-                break;
-            }
-
-            Put(at, slots[parent], keys[parent]);
-            at = parent;
+            nodes[head].Previous = slot;
         }
 
-        Put(at, slot, key);
+        head = slot;
     }
 
-    private void Sink(int at, int slot, in EventKey key)
+    private void Unlink(ref Node node)
     {
-        while (true)
+        if (node.Next != None)
         {
-            int child = (at * Children) + 1;
-            if (child >= Count)
-            {
-                break;
-            }
+            nodes[node.Next].Previous = node.Previous;
+        }
 
-            int least = child;
-            int end = Math.Min(child + Children, Count);
-            for (int i = child + 1; i < end; i++)
+        if (node.Previous != None)
+        {
+            nodes[node.Previous].Next = node.Next;
+        }
+        else if (node.Where == InSlice)
+        {
+            slices[(node.Key.Time.Ticks >> shift) & (slices.Length - 1)] = node.Next;
+        }
+        else
+        {
+            beyond = node.Next;
+        }
+
+        inSlices -= node.Where == InSlice ? 1 : 0;
+        inBeyond -= node.Where == Beyond ? 1 : 0;
+    }
+
+    /// <summary>Goes on to the next slice with anything in it, if there is nothing left of the one at hand.</summary>
+    private void Advance()
+    {
+        while (near.Count == 0)
+        {
+            if (inSlices == 0)
             {
-                if (EventKey.Compare(keys[i], keys[least]) < 0)
+                if (inBeyond == 0)
                 {
-                    least = i;
+                    throw new InvalidOperationException("No event is pending.");
                 }
+
+                Arrange();
+                continue;
             }
 
-            if (EventKey.Compare(key, keys[least]) <= 0)
+            current++;
+            ref int head = ref slices[current & (slices.Length - 1)];
+            while (head != None)
             {
-                break;
+                int slot = head;
+                head = nodes[slot].Next;
+                near.Add(nodes, slot);
+                inSlices--;
+                taken++;
             }
 
-            Put(at, slots[least], keys[least]);
-            at = least;
+            if (current - swept >= slices.Length / 2)
+            {
+                Sweep();
+            }
         }
-
-        Put(at, slot, key);
     }
 
-    private void Put(int at, int slot, in EventKey key)
+    /// <summary>Takes over what no longer lies beyond the slices; and makes other slices if these hold too many or too few.</summary>
+    private void Sweep()
     {
-        keys[at] = key;
-        slots[at] = slot;
-        positions[slot] = at;
+        long passed = current - swept;
+        bool fits = taken <= 4 * PerSlice * passed && 4 * taken >= PerSlice * passed;
+        if (!fits && changes > Count)
+        {
+            Arrange();
+            return;
+        }
+
+        swept = current;
+        taken = 0;
+        for (int slot = beyond; slot != None;)
+        {
+            ref Node node = ref nodes[slot];
+            int next = node.Next;
+            if ((ulong)(node.Key.Time.Ticks >> shift) - (ulong)current < (ulong)slices.Length)
+            {
+                Unlink(ref node);
+                Put(slot, ref node);
+            }
+
+            slot = next;
+        }
+    }
+
+    /// <summary>Makes the slices anew for what is pending now.</summary>
+    private void Arrange()
+    {
+        int count = Count;
+        long least = Least(out int sampled);
+        near.Clear();
+        beyond = None;
+        inSlices = 0;
+        inBeyond = 0;
+        changes = 0;
+        taken = 0;
+        int size = slices.Length;
+        while (size * PerSlice < 2 * count)
+        {
+            size *= 2;
+        }
+
+        slices = size == slices.Length ? slices : new int[size];
+        Array.Fill(slices, None);
+        shift = 0;
+        current = long.MaxValue;
+        if (count > Few / 2)
+        {
+            // An eighth of what is pending tells how dense events are from here on, whatever the rest waits for.
+            Array.Sort(samples, 0, sampled);
+            ulong eighth = (ulong)samples[sampled / 8] - (ulong)least;
+            ulong length = Math.Min(eighth / ((ulong)count / 8), long.MaxValue / PerSlice) * PerSlice;
+            while (length >> (shift + 1) > 0)
+            {
+                shift++;
+            }
+
+            current = least >> shift;
+        }
+
+        swept = current;
+        for (int slot = 0; slot < nodes.Length; slot++)
+        {
+            if (nodes[slot].Where != NotQueued)
+            {
+                Put(slot, ref nodes[slot]);
+            }
+        }
+    }
+
+    /// <summary>The earliest time that anything is pending for; and some of all times, as samples.</summary>
+    private long Least(out int sampled)
+    {
+        long least = long.MaxValue;
+        int every = Math.Max(1, (Count + MostSamples - 1) / MostSamples);
+        int seen = 0;
+        sampled = 0;
+        for (int slot = 0; slot < nodes.Length; slot++)
+        {
+            if (nodes[slot].Where == NotQueued)
+            {
+                continue;
+            }
+
+            long ticks = nodes[slot].Key.Time.Ticks;
+            least = Math.Min(least, ticks);
+            if (seen++ % every == 0)
+            {
+                samples[sampled++] = ticks;
+            }
+        }
+
+        return least;
+    }
+
+    /// <summary>A slot's pending event, and where it is kept.</summary>
+    internal struct Node
+    {
+        internal EventKey Key;
+        internal int Next;
+        internal int Previous;
+        internal int Where;
     }
 }

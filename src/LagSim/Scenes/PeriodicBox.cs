@@ -66,7 +66,7 @@ public readonly struct PeriodicBox : IEquatable<PeriodicBox>
         return at + 0.0;
     }
 
-    private static double Nearest(double apart, double side)
+    internal static double Nearest(double apart, double side)
     {
         double half = 0.5 * side;
         while (apart > half)

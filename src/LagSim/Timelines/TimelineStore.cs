@@ -24,18 +24,16 @@ internal sealed class TimelineStore
 
     private const int Growth = 64;
 
+    /// <summary>If all that can be dropped is less than one part in so many, it would soon be looked for again.</summary>
+    private const int LittleRoom = 32;
+
     private readonly SimTime origin;
     private readonly FreeFlights? flights; // is told of each body's newest segment
-    private MotionSegment[] segments = new MotionSegment[32];
+    private Piece[] pieces = new Piece[32];
+    private Link[] links = new Link[32]; // apart, so that what is old is dropped without a look at what it was
     private DenseOutput[] dense = Array.Empty<DenseOutput>(); // only once something is integrated
     private Hold[] holds = Array.Empty<Hold>(); // only once something is held
     private Spin[] spins = Array.Empty<Spin>(); // only once something turns
-    private EventKey[] keys = new EventKey[32];
-    private long[] serials = new long[32];
-    private int[] previous = new int[32];
-    private int[] next = new int[32];
-    private int[] owners = new int[32];
-    private int[] together = new int[32]; // a ring through the segments that one impact opened
     private int free = None;
     private int used;
     private int[] first = Array.Empty<int>();
@@ -66,7 +64,7 @@ internal sealed class TimelineStore
     internal int Alive { get; private set; }
 
     /// <summary>For how many segments there is room without more memory.</summary>
-    internal int Room => segments.Length;
+    internal int Room => pieces.Length;
 
     /// <summary>Makes room for a body's timeline.</summary>
     internal void AddSlot(int slot)
@@ -91,42 +89,42 @@ internal sealed class TimelineStore
     /// <summary>The body's oldest segment that is kept, or <see cref="None"/>.</summary>
     internal int First(int slot) => first[slot];
 
-    internal int Next(int segment) => next[segment];
+    internal int Next(int segment) => links[segment].Next;
 
-    internal int Previous(int segment) => previous[segment];
+    internal int Previous(int segment) => links[segment].Previous;
 
-    internal ref readonly MotionSegment Segment(int segment) => ref segments[segment];
+    internal ref readonly MotionSegment Segment(int segment) => ref pieces[segment].Segment;
 
     internal DenseOutput Dense(int segment) => segment < dense.Length ? dense[segment] : default;
 
     /// <summary>Of a held segment who holds; of any other the default.</summary>
-    internal Hold HoldOf(int segment) => segments[segment].Law == MotionLaw.Held ? holds[segment] : default;
+    internal Hold HoldOf(int segment) => pieces[segment].Segment.Law == MotionLaw.Held ? holds[segment] : default;
 
     /// <summary>How the body turns on the segment.</summary>
     internal Spin SpinOf(int segment) => segment < spins.Length ? spins[segment] : default;
 
     /// <summary>The key of the event that opened the segment.</summary>
-    internal ref readonly EventKey Key(int segment) => ref keys[segment];
+    internal ref readonly EventKey Key(int segment) => ref pieces[segment].Key;
 
     /// <summary>Whether the slot is some body's.</summary>
     internal bool IsKnown(int slot) => slot < last.Length && last[slot] != None;
 
     /// <summary>A number no other segment of this store ever has, 0 for one that is no more; tells whether a remembered segment is still the one.</summary>
-    internal long Serial(int segment) => serials[segment];
+    internal long Serial(int segment) => links[segment].Serial;
 
     /// <summary>The slot of the body whose path the segment is part of.</summary>
-    internal int Owner(int segment) => owners[segment];
+    internal int Owner(int segment) => links[segment].Owner;
 
     /// <summary>The next in the ring of segments that one impact opened; itself if it has no other.</summary>
-    internal int Together(int segment) => together[segment];
+    internal int Together(int segment) => links[segment].Together;
 
     /// <summary>The body's newest segment keyed before <paramref name="key"/>; <see cref="None"/> if none that is kept is.</summary>
     internal int Before(int slot, in EventKey key)
     {
         int at = last[slot];
-        while (at != None && EventKey.Compare(keys[at], key) >= 0)
+        while (at != None && EventKey.Compare(pieces[at].Key, key) >= 0)
         {
-            at = previous[at];
+            at = links[at].Previous;
         }
 
         return at;
@@ -137,7 +135,7 @@ internal sealed class TimelineStore
     {
         for (int i = 0; i < slots.Length; i++)
         {
-            together[last[slots[i]]] = last[slots[i + 1 == slots.Length ? 0 : i + 1]];
+            links[last[slots[i]]].Together = last[slots[i + 1 == slots.Length ? 0 : i + 1]];
         }
     }
 
@@ -145,7 +143,7 @@ internal sealed class TimelineStore
     /// <exception cref="TimelinesFullException">There are as many as may be.</exception>
     internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output, in Hold hold = default, in Spin spin = default)
     {
-        if (free == None && used == segments.Length && used >= Large)
+        if (free == None && used == pieces.Length && used >= Large)
         {
             DropAll();
         }
@@ -153,7 +151,7 @@ internal sealed class TimelineStore
         int at = free;
         if (at != None)
         {
-            free = next[at];
+            free = links[at].Next;
         }
         else
         {
@@ -164,18 +162,17 @@ internal sealed class TimelineStore
             }
 
             at = used++;
-            if (at == segments.Length)
+            if (at == pieces.Length)
             {
                 Grow();
             }
         }
 
-        segments[at] = segment;
         if (segment.IsDense)
         {
             if (at >= dense.Length)
             {
-                Array.Resize(ref dense, segments.Length);
+                Array.Resize(ref dense, pieces.Length);
             }
 
             dense[at] = output;
@@ -185,7 +182,7 @@ internal sealed class TimelineStore
         {
             if (at >= holds.Length)
             {
-                Array.Resize(ref holds, segments.Length);
+                Array.Resize(ref holds, pieces.Length);
             }
 
             holds[at] = hold;
@@ -195,25 +192,24 @@ internal sealed class TimelineStore
         {
             if (at >= spins.Length)
             {
-                Array.Resize(ref spins, segments.Length);
+                Array.Resize(ref spins, pieces.Length);
             }
 
             spins[at] = spin;
         }
 
-        keys[at] = key;
-        serials[at] = ++LastSerial;
-        previous[at] = last[slot];
-        next[at] = None;
-        owners[at] = slot;
-        together[at] = at;
-        if (last[slot] == None)
+        int before = last[slot];
+        ref Piece piece = ref pieces[at];
+        piece.Segment = segment;
+        piece.Key = key;
+        links[at] = new Link { Opened = key.Time, Serial = ++LastSerial, Previous = before, Next = None, Owner = slot, Together = at };
+        if (before == None)
         {
             first[slot] = at;
         }
         else
         {
-            next[last[slot]] = at;
+            links[before].Next = at;
         }
 
         last[slot] = at;
@@ -226,7 +222,7 @@ internal sealed class TimelineStore
     internal int CutFrom(int slot, BodyId body, in EventKey key)
     {
         int cut = 0;
-        while (last[slot] != None && EventKey.Compare(keys[last[slot]], key) >= 0)
+        while (last[slot] != None && EventKey.Compare(pieces[last[slot]].Key, key) >= 0)
         {
             CutLast(slot, body);
             cut++;
@@ -240,12 +236,12 @@ internal sealed class TimelineStore
     {
         int at = last[slot];
         EventHash -= HashOf(at, body);
-        if (Observer is not null && keys[at].Kind == EventKind.Impact)
+        if (Observer is not null && pieces[at].Key.Kind == EventKind.Impact)
         {
-            Observer.OnCut(keys[at]);
+            Observer.OnCut(pieces[at].Key);
         }
 
-        last[slot] = previous[at];
+        last[slot] = links[at].Previous;
         if (last[slot] == None)
         {
             first[slot] = None;
@@ -253,17 +249,17 @@ internal sealed class TimelineStore
         }
         else
         {
-            next[last[slot]] = None;
-            flights?.Set(slot, segments[last[slot]], keys[last[slot]].Time);
+            links[last[slot]].Next = None;
+            flights?.Set(slot, pieces[last[slot]].Segment, pieces[last[slot]].Key.Time);
         }
 
         int before = at;
-        while (together[before] != at)
+        while (links[before].Together != at)
         {
-            before = together[before];
+            before = links[before].Together;
         }
 
-        together[before] = together[at];
+        links[before].Together = links[at].Together;
         Release(at);
     }
 
@@ -271,12 +267,14 @@ internal sealed class TimelineStore
     internal void DropBefore(int slot, SimTime edge)
     {
         dropped = SimTime.Max(dropped, edge);
-        while (first[slot] != None && next[first[slot]] != None && keys[next[first[slot]]].Time < edge)
+        int at = first[slot];
+        while (at != None && links[at].Next != None && links[links[at].Next].Opened < edge)
         {
-            int at = first[slot];
-            first[slot] = next[at];
-            previous[first[slot]] = None;
+            int next = links[at].Next;
+            links[next].Previous = None;
+            first[slot] = next;
             Release(at);
+            at = next;
         }
     }
 
@@ -296,9 +294,9 @@ internal sealed class TimelineStore
     internal int At(int slot, SimTime time)
     {
         int at = last[slot];
-        while (at != None && keys[at].Time > time)
+        while (at != None && links[at].Opened > time)
         {
-            at = previous[at];
+            at = links[at].Previous;
         }
 
         return at;
@@ -306,13 +304,13 @@ internal sealed class TimelineStore
 
     internal ulong HashOf(int segment, BodyId body)
     {
-        ref readonly EventKey key = ref keys[segment];
+        ref readonly EventKey key = ref pieces[segment].Key;
         if (key.Kind == EventKind.None)
         {
             return 0; // a body not yet there: that one has heard of it is not an event
         }
 
-        ref readonly MotionSegment motion = ref segments[segment];
+        ref readonly MotionSegment motion = ref pieces[segment].Segment;
         StableHash hash = default;
         hash.Add(body.Packed);
         hash.Add(key.Time - origin);
@@ -351,7 +349,7 @@ internal sealed class TimelineStore
             DropBefore(slot, dropped);
         }
 
-        if (Alive > used - (used / (2 * Growth)) && used < Most)
+        if (Alive > used - (used / LittleRoom) && used < Most)
         {
             Grow();
         }
@@ -359,22 +357,17 @@ internal sealed class TimelineStore
 
     private void Release(int at)
     {
-        serials[at] = 0;
-        next[at] = free;
+        links[at].Serial = 0;
+        links[at].Next = free;
         free = at;
         Alive--;
     }
 
     private void Grow()
     {
-        int size = segments.Length < Large ? segments.Length * 2 : segments.Length + (segments.Length / Growth);
-        Array.Resize(ref segments, size);
-        Array.Resize(ref keys, size);
-        Array.Resize(ref serials, size);
-        Array.Resize(ref previous, size);
-        Array.Resize(ref next, size);
-        Array.Resize(ref owners, size);
-        Array.Resize(ref together, size);
+        int size = pieces.Length < Large ? pieces.Length * 2 : pieces.Length + (pieces.Length / Growth);
+        Array.Resize(ref pieces, size);
+        Array.Resize(ref links, size);
         if (dense.Length > 0)
         {
             Array.Resize(ref dense, size);
@@ -389,5 +382,23 @@ internal sealed class TimelineStore
         {
             Array.Resize(ref spins, size);
         }
+    }
+
+    /// <summary>A segment and the key that opened it.</summary>
+    private struct Piece
+    {
+        internal MotionSegment Segment;
+        internal EventKey Key;
+    }
+
+    /// <summary>A segment's place among the others.</summary>
+    private struct Link
+    {
+        internal SimTime Opened;
+        internal long Serial;
+        internal int Previous;
+        internal int Next;
+        internal int Owner;
+        internal int Together; // a ring through the segments that one impact opened
     }
 }

@@ -2,6 +2,8 @@ using System;
 using System.IO;
 using System.Linq;
 using System.Text.Json;
+using LagSim.Cli.Commands;
+using LagSim.Cli.Output;
 using LagSim.Harness.Hard;
 using Xunit;
 

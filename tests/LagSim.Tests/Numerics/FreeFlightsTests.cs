@@ -35,6 +35,98 @@ public sealed class FreeFlightsTests
         Assert.True(far > 1e3 || apart > 0.7 * (20_000 - touching), $"{apart} are told apart, {touching} touch"); // where it is close, or far out, rounding leaves it in doubt
     }
 
+    [Theory]
+    [InlineData(1)]
+    [InlineData(1e3)]
+    [InlineData(1e7)]
+    public void Approaches_AnyTwo_AreNoLaterThanTheContactThatTheFinderFinds(double far)
+    {
+        Random random = new(2);
+        int touching = 0, left = 0;
+        for (int n = 0; n < 20_000; n++)
+        {
+            Pair pair = new(random, far, V(0, -9.81));
+            Span<Approach> approaches = pair.Flights.Approaches(1, [0, 1], pair.From, pair.Until);
+            if (pair.Touches(pair.From, pair.Until, out ContactTime contact))
+            {
+                Assert.True(approaches.Length == 1 && approaches[0].Slot == 0, $"pair {n}");
+                Assert.False(FreeFlights.IsLater(approaches[0].Seconds, pair.From, contact.Tick), $"pair {n}");
+                touching++;
+            }
+
+            left += approaches.Length == 0 ? 1 : 0;
+        }
+
+        Assert.True(touching > 3000, $"{touching} touch");
+        Assert.True(far > 1e3 || left > 0.7 * (20_000 - touching), $"{left} are left out, {touching} touch");
+    }
+
+    [Fact]
+    public void Approaches_WithAnotherGravity_AreSeenToMiss()
+    {
+        Random random = new(2);
+        int missed = 0;
+        for (int n = 0; n < 20_000; n++)
+        {
+            Pair pair = new(random, 1, V(0, -9.81), bentOtherwise: V(0, 5));
+            missed += pair.Touches(pair.From, pair.Until, out _) && pair.Flights.Approaches(1, [0], pair.From, pair.Until).Length == 0 ? 1 : 0;
+        }
+
+        Assert.True(missed > 50, $"{missed} of 20,000");
+    }
+
+    [Theory]
+    [InlineData(-9.81)]
+    [InlineData(0)]
+    public void TryTouch_AnyTwo_TellsTheBitsOfTheFinder(double gravity)
+    {
+        Random random = new(3);
+        int touching = 0, elsewhere = 0;
+        for (int n = 0; n < 20_000; n++)
+        {
+            Pair pair = new(random, 10, V(0, gravity));
+            bool touches = pair.Touches(pair.From, SimTime.MaxValue, out ContactTime contact);
+            bool isTold = pair.Flights.TryTouch(0, 1, out bool told, out ContactTime when);
+            Assert.Equal(touches && contact.Tick == pair.From, !isTold);
+            if (isTold)
+            {
+                Assert.Equal((touches, contact.Tick, contact.Residual), (told, when.Tick, when.Residual));
+                touching += touches ? 1 : 0;
+            }
+
+            pair.Flights.StateAt(0, pair.From, contact.Residual, out Vector3D position, out Vector3D velocity);
+            Assert.Equal(pair.StateAt(pair.From, contact.Residual), (position, velocity));
+            pair.Flights.SetRadius(0, pair.Radius * (1 + 1e-15));
+            elsewhere += isTold && pair.Flights.TryTouch(0, 1, out _, out ContactTime other) && other.Residual != when.Residual ? 1 : 0;
+        }
+
+        Assert.True(touching > 3000, $"{touching} touch");
+        Assert.True(elsewhere > 1000, $"{elsewhere} where a radius differs in its last bits"); // the control
+    }
+
+    [Fact]
+    public void Misses_AnyPlane_TheFinderFindsNoContact()
+    {
+        Random random = new(4);
+        int missed = 0, touching = 0, wrong = 0;
+        for (int n = 0; n < 20_000; n++)
+        {
+            Pair pair = new(random, 3, V(0, -9.81));
+            Vector3D normal = V(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5);
+            normal /= normal.Length;
+            StaticPlane plane = new("plane", normal, random.NextDouble() * -4, 1, 0);
+            bool misses = pair.Flights.Misses(0, plane, pair.From, pair.Until);
+            bool touches = pair.TouchesPlane(plane);
+            Assert.False(misses && touches, $"pair {n}");
+            wrong += touches && pair.Flights.Misses(0, new StaticPlane("lower", normal, plane.Offset - 0.1, 1, 0), pair.From, pair.Until) ? 1 : 0;
+            missed += misses ? 1 : 0;
+            touching += touches ? 1 : 0;
+        }
+
+        Assert.True(touching > 2000 && missed > 2000, $"{touching} touch, {missed} miss");
+        Assert.True(wrong > 0, "a plane a tenth of a metre lower is missed by nobody who touches"); // the control
+    }
+
     [Fact]
     public void AreApart_WithAnotherGravity_IsSeenToBeWrong()
     {
@@ -107,12 +199,13 @@ public sealed class FreeFlightsTests
         private readonly MotionSegment a;
         private readonly MotionSegment b;
         private readonly double reach;
+        private readonly double radius;
 
         internal Pair(Random random, double far, Vector3D gravity, Vector3D bentOtherwise = default)
         {
             Vector3D Draw(double size) => V(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5) * (2 * size);
             Vector3D place = Draw(far);
-            double radius = 0.05 + random.NextDouble();
+            radius = 0.05 + random.NextDouble();
             double otherRadius = 0.05 + random.NextDouble();
             SimTime openedA = At(random.NextDouble());
             From = openedA + SimDuration.FromSeconds(random.NextDouble());
@@ -138,10 +231,22 @@ public sealed class FreeFlightsTests
 
         internal FreeFlights Flights { get; }
 
+        internal double Radius => radius;
+
         internal SimTime From { get; }
 
         internal SimTime Until { get; }
 
-        internal bool Touches(SimTime from, SimTime until) => ContactFinder.WithSphere(a, default, b, default, reach, from, until, out _);
+        internal bool Touches(SimTime from, SimTime until) => Touches(from, until, out _);
+
+        internal bool Touches(SimTime from, SimTime until, out ContactTime contact) => ContactFinder.WithSphere(a, default, b, default, reach, from, until, out contact);
+
+        internal bool TouchesPlane(in StaticPlane plane) => ContactFinder.WithPlane(a, default, radius, plane, From, Until, out _);
+
+        internal (Vector3D Position, Vector3D Velocity) StateAt(SimTime time, double after)
+        {
+            double seconds = time.SecondsSince(a.Epoch) + after;
+            return (a.PositionAt(seconds, default), a.VelocityAt(seconds, default));
+        }
     }
 }

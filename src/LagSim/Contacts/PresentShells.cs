@@ -1,0 +1,186 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Scenes;
+
+namespace LagSim.Contacts;
+
+/// <summary>The shells that bodies are in now, by the cells that their centres are in; those that are too wide for the cells apart.</summary>
+internal sealed class PresentShells
+{
+    /// <summary>The cell of what is too wide for any; no place has this number.</summary>
+    internal const ulong Wide = ulong.MaxValue;
+
+    /// <summary>Who would have to look into more cells looks at everybody.</summary>
+    internal const double MostCells = 512;
+
+    private readonly CellGrid grid;
+    private readonly PeriodicBox box;
+    private readonly double widestInCells;
+    private readonly List<Entry> wide = new();
+    private ManyLists<Entry> cells = new(64); // by the cell's number, hashed
+    private int listed;
+    private double widest; // extent of what has been in cells
+
+    /// <summary>Nobody yet.</summary>
+    /// <param name="grid">The cells.</param>
+    /// <param name="box">The box whose sides meet; empty if there is none.</param>
+    /// <param name="widestInCells">The extent, in metres, above which a shell is in no cell.</param>
+    internal PresentShells(CellGrid grid, in PeriodicBox box, double widestInCells)
+    {
+        this.grid = grid;
+        this.box = box;
+        this.widestInCells = widestInCells;
+    }
+
+    /// <summary>How many are in no cell.</summary>
+    internal int WideCount => wide.Count;
+
+    /// <summary>The cell that a shell is listed in.</summary>
+    internal ulong CellOf(in Shell shell) => shell.Extent > widestInCells ? Wide : grid.NumberAt(shell.Centre);
+
+    /// <summary>A body is in a shell from now on.</summary>
+    internal void Add(int slot, in Shell shell, ulong cell)
+    {
+        Entry entry = new(slot, shell.Centre, shell.Extent, cell);
+        if (cell == Wide)
+        {
+            wide.Add(entry);
+            return;
+        }
+
+        widest = Math.Max(widest, shell.Extent);
+        if (++listed > cells.Count)
+        {
+            Spread();
+        }
+
+        cells.Add(Bucket(cell), entry);
+    }
+
+    /// <summary>A body has left the shell that was listed in a cell.</summary>
+    internal void Remove(int slot, ulong cell)
+    {
+        if (cell == Wide)
+        {
+            int last = wide.Count - 1;
+            int hole = last;
+            while (wide[hole].Slot != slot)
+            {
+                hole--;
+            }
+
+            wide[hole] = wide[last];
+            wide.RemoveAt(last);
+            return;
+        }
+
+        int bucket = Bucket(cell);
+        Span<Entry> entries = cells.Of(bucket);
+        int at = 0;
+        while (entries[at].Slot != slot)
+        {
+            at++;
+        }
+
+        cells.RemoveAt(bucket, at);
+        listed--;
+    }
+
+    /// <summary>Finds whose shells come within a distance of another shell; all of them are new to <paramref name="found"/>.</summary>
+    internal void Look(in Shell shell, double near, FoundSlots found)
+    {
+        double x = shell.Centre.X, y = shell.Centre.Y, z = shell.Centre.Z;
+        double reach = shell.Extent + near;
+        found.Reserve(wide.Count + 1);
+        foreach (Entry entry in wide)
+        {
+            found.AddIf(entry.IsWithin(x, y, z, reach, box), entry.Slot);
+        }
+
+        CellBlock block = grid.Around(shell.Centre, reach + widest);
+        if (block.Count > MostCells)
+        {
+            for (int bucket = 0; bucket < cells.Count; bucket++)
+            {
+                Span<Entry> entries = cells.Of(bucket);
+                found.Reserve(entries.Length + 1);
+                foreach (ref Entry entry in entries)
+                {
+                    found.AddIf(entry.IsWithin(x, y, z, reach, box), entry.Slot);
+                }
+            }
+
+            return;
+        }
+
+        for (long k = block.Z.From; k <= block.Z.To; k++)
+        {
+            for (long j = block.Y.From; j <= block.Y.To; j++)
+            {
+                for (long i = block.X.From; i <= block.X.To; i++)
+                {
+                    ulong number = grid.Number(i, j, k);
+                    Span<Entry> entries = cells.Of(Bucket(number));
+                    found.Reserve(entries.Length + 1);
+                    foreach (ref Entry entry in entries)
+                    {
+                        found.AddIf(entry.Cell == number & entry.IsWithin(x, y, z, reach, box), entry.Slot);
+                    }
+                }
+            }
+        }
+    }
+
+    private int Bucket(ulong number) => CellGrid.Bucket(number, cells.Count);
+
+    /// <summary>Twice as many lists, for there are more bodies than lists.</summary>
+    private void Spread()
+    {
+        ManyLists<Entry> before = cells;
+        cells = new ManyLists<Entry>(before.Count * 2);
+        for (int bucket = 0; bucket < before.Count; bucket++)
+        {
+            foreach (ref Entry entry in before.Of(bucket))
+            {
+                cells.Add(Bucket(entry.Cell), entry);
+            }
+        }
+    }
+
+    /// <summary>What is looked at of another's shell.</summary>
+    private readonly struct Entry
+    {
+        private readonly double x;
+        private readonly double y;
+        private readonly double z;
+        private readonly double extent;
+
+        internal Entry(int slot, in Vector3D centre, double extent, ulong cell)
+        {
+            Slot = slot;
+            Cell = cell;
+            x = centre.X;
+            y = centre.Y;
+            z = centre.Z;
+            this.extent = extent;
+        }
+
+        internal int Slot { get; }
+
+        internal ulong Cell { get; }
+
+        internal bool IsWithin(double fromX, double fromY, double fromZ, double reach, in PeriodicBox box)
+        {
+            double u = x - fromX, v = y - fromY, w = z - fromZ;
+            if (box.Exists)
+            {
+                u = PeriodicBox.Nearest(u, box.Size.X);
+                v = PeriodicBox.Nearest(v, box.Size.Y);
+                w = PeriodicBox.Nearest(w, box.Size.Z);
+            }
+
+            double both = reach + extent;
+            return !((u * u) + (v * v) + (w * w) > both * both);
+        }
+    }
+}

@@ -1,0 +1,97 @@
+using System;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim;
+
+/// <content>The impact of two bodies in free flight with nobody near: what nearly all impacts of a gas are, and nothing has to be gathered for.</content>
+public sealed partial class Simulation
+{
+    /// <summary>Up to when some body may be crowded, or was: the latest that an impact can come for which what is near is looked at.</summary>
+    private SimTime crowdedUntil = SimTime.MinValue;
+
+    /// <summary>Takes bodies that meet three at a time for two: only a test's negative control sets it.</summary>
+    internal bool IgnoresTies { get; set; }
+
+    /// <summary>Gathers every impact, however plain, and looks at every pair: only a test sets it, to compare.</summary>
+    internal bool TakesNoShortcut { get; set; }
+
+    /// <summary>How many impacts were of two alone.</summary>
+    internal long PairsProcessed { get; private set; }
+
+    /// <summary>A segment was opened by so many impacts in succession.</summary>
+    private void NoteCrowding(int crowding, SimTime opened)
+    {
+        if (crowding + 1 >= CrowdedAfter)
+        {
+            SimTime until = opened.Ticks > SimTime.MaxValue.Ticks - WedgedFor.Ticks ? SimTime.MaxValue : opened + WedgedFor;
+            crowdedUntil = SimTime.Max(crowdedUntil, until);
+        }
+    }
+
+    /// <summary>
+    /// Whether the impact is surely of two bodies and nothing else. Whoever else is struck at that tick has an event pending then, for nobody's pending event
+    /// is later than his next contact; or he was seen when one of the two was predicted, which then is tied. So if there is none and neither is, nobody is,
+    /// but by a surface, which has none pending.
+    /// </summary>
+    private bool IsPairAlone(int slot, in EventKey key)
+    {
+        int other = bodies[slot].Partner;
+        return other != NoPartner && bodies[other].Partner == slot && front == SimTime.MinValue && key.Time > crowdedUntil && key.Round < CollapseRound
+            && ((!bodies[slot].IsTied && !bodies[other].IsTied) || IgnoresTies)
+            && flights.IsFree(slot) && flights.IsFree(other) && queue.IsLeastAloneWith(other, key)
+            && TouchesNoSurface(slot, key.Time) && TouchesNoSurface(other, key.Time)
+            && !TakesNoShortcut && !SwapsOperands;
+    }
+
+    private bool TouchesNoSurface(int slot, SimTime time)
+    {
+        bool misses = Scene.SphereArray.Length == 0;
+        for (int plane = 0; plane < Scene.PlaneArray.Length && misses; plane++)
+        {
+            misses = flights.Misses(slot, Scene.PlaneArray[plane], time, time);
+        }
+
+        return misses;
+    }
+
+    /// <summary>What the general way makes of such an impact, to the bit, by the same rules.</summary>
+    private void HandlePair(int slot, in EventKey key)
+    {
+        int other = bodies[slot].Partner;
+        bool ordered = bodies[slot].Id < bodies[other].Id;
+        double residual = bodies[slot].Residual;
+        partyCount = 0;
+        contactCount = 0;
+        hasNear = false;
+        AddParty(ordered ? slot : other);
+        AddParty(ordered ? other : slot);
+        AddContact(new ContactPoint(0, 1, -1, default));
+        for (int i = 0; i < 2; i++)
+        {
+            partyMasses[i] = bodies[parties[i]].Spec.Mass;
+            partyAccelerations[i] = Scene.Gravity;
+            partyRadii[i] = bodies[parties[i]].Spec.Radius;
+            partySpins[i] = timelines.SpinOf(timelines.Last(parties[i])).AtEpoch; // in flight it stays
+            flights.StateAt(parties[i], key.Time, residual, out partyPositions[i], out partyVelocities[i]);
+        }
+
+        SetTargets(key.Round);
+        TellContacts(key);
+        solver.Solve(contacts.AsSpan(0, 1), partyMasses.AsSpan(0, 2), partyVelocities.AsSpan(0, 2));
+        Rub();
+        LimitSpeeds();
+        for (int i = 0; i < 2; i++)
+        {
+            int crowding = flights.IsOpenedWithin(parties[i], key.Time, CrowdedWithin) ? CrowdingAt(parties[i], key.Time) : 0;
+            Open(parties[i], key, partyPositions[i], partyVelocities[i], -residual, default, crowding, partySpins[i]);
+        }
+
+        timelines.Join(parties.AsSpan(0, 2));
+        Predict(parties[0]);
+        Predict(parties[1]);
+        PairsProcessed++;
+    }
+}
