@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Scenes;
+using LagSim.Time;
 using MathNet.Numerics;
 using static LagSim.Harness.Hard.HardWorlds;
 
@@ -22,7 +23,7 @@ internal sealed class OrderCase : IHardCase
 
     public string Name => "order";
 
-    public string Title => "the measured order of Runge-Kutta steps under a driven spring with quadratic drag and a magnetic part, through contacts";
+    public string Title => "the measured orders of Runge-Kutta and Dormand-Prince steps of fixed length under a driven spring with quadratic drag and a magnetic part, through contacts";
 
     public IEnumerable<HardRow> Rows(HardContext context)
     {
@@ -31,6 +32,7 @@ internal sealed class OrderCase : IHardCase
         {
             yield return Row(what + ", position", step => Engine(context, step, floor, at).Position, Engine(context, Finest, floor, at).Position);
             yield return Row(what + ", velocity", step => Engine(context, step, floor, at).Velocity, Engine(context, Finest, floor, at).Velocity);
+            yield return Fifth(context, what + ", position, Dormand-Prince", floor, at, MotionLaw.DormandPrince54);
         }
     }
 
@@ -40,6 +42,7 @@ internal sealed class OrderCase : IHardCase
         yield return Row("smooth, position", step => Textbook(ClassicalRungeKutta.ThesisStep, step),
             smooth) with
         { Note = "the thesis's update of the position" };
+        yield return Fifth(context, "through contacts, position", Floor, End, MotionLaw.RungeKutta4) with { Note = "the classical method in place of Dormand and Prince's" };
         yield return Row("through contacts, position", step => Textbook(ClassicalRungeKutta.Snapped(Floor, E), step),
             bounced) with
         { Note = "contacts moved to the end of their step" };
@@ -48,17 +51,35 @@ internal sealed class OrderCase : IHardCase
     private static Vector3D Textbook(ClassicalRungeKutta.Method method, double step) =>
         ClassicalRungeKutta.Run(method, ClassicalRungeKutta.Of(new Driven()), Start, StartVelocity, step, (long)Math.Round(End / step)).X;
 
-    private static BodyState Engine(HardContext context, double step, double floor, double at)
+    private static BodyState Engine(HardContext context, double step, double floor, double at, MotionLaw law = MotionLaw.RungeKutta4)
     {
         Scene scene = Floating("driven").AddPlane("floor", Vector3D.Up, V(0, floor - 0.1)).AddForce(Force.Supplied(new Driven()))
-            .AddBody("ball", Stepped(step, 0.1, E), Start, StartVelocity).Build();
+            .AddBody("ball", new BodySpec(0.1, 1, E, law, SimDuration.FromSeconds(step), ForceSet.Of(0), 0), Start, StartVelocity).Build();
         return Read(context.Run(scene, End), 0, at);
+    }
+
+    private HardRow Fifth(HardContext context, string what, double floor, double at, MotionLaw law)
+    {
+        Vector3D reference = Engine(context, 1.0 / 1024, floor, at, MotionLaw.DormandPrince54).Position;
+        double order = Order(step => Engine(context, step, floor, at, law).Position, reference);
+        return new HardRow(
+            Name, FormattableString.Invariant($"{what}, steps 1/16 to 1/128 s"), Math.Abs(order - 5), "order_off_5", 0.3,
+            "the method has order 5 and is carried on with it; what the next order adds over these steps changes the slope by less than 0.3",
+            "the engine at a step of 1/1024 s, 32,768 times as exact as at 1/128")
+        {
+            Note = FormattableString.Invariant($"measured order {order:0.000}"),
+        };
+    }
+
+    private static double Order(Func<double, Vector3D> solve, Vector3D reference)
+    {
+        double[] errors = Steps.Select(step => Math.Log((solve(step) - reference).Length)).ToArray();
+        return Fit.Line(Steps.Select(step => Math.Log(step)).ToArray(), errors).B;
     }
 
     private HardRow Row(string what, Func<double, Vector3D> solve, Vector3D reference)
     {
-        double[] errors = Steps.Select(step => Math.Log((solve(step) - reference).Length)).ToArray();
-        double order = Fit.Line(Steps.Select(step => Math.Log(step)).ToArray(), errors).B;
+        double order = Order(solve, reference);
         return new HardRow(
             Name, FormattableString.Invariant($"{what}, steps 1/16 to 1/128 s"), Math.Abs(order - 4), "order_off_4", 0.1,
             "the classical method has order 4; what the next order adds over these steps changes the slope by less than 0.1",

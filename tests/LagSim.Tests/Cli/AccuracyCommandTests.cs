@@ -20,7 +20,7 @@ public sealed class AccuracyCommandTests
                 "caution"],
             root.EnumerateObject().Select(p => p.Name));
         JsonElement[] points = [.. root.GetProperty("points").EnumerateArray()];
-        Assert.Equal(6, points.Length); // three settings of two methods
+        Assert.Equal(12, points.Length); // three settings of four methods
         Assert.All(points, point => Assert.Equal(
             ["scene", "method", "setting", "step_s", "error", "error_kind", "cpu_s", "runs", "simulated_s", "events"], point.EnumerateObject()
                 .Select(p => p.Name)));
@@ -41,7 +41,7 @@ public sealed class AccuracyCommandTests
             Directory.EnumerateFiles(folder["out"]).Select(Path.GetFileName).Order(StringComparer.Ordinal));
         string[] rows = File.ReadAllLines(folder["out/accuracy.csv"]);
         Assert.Equal("scene,method,setting,error,error_kind,cpu_s,simulated_s,events", rows[0]);
-        Assert.Equal(4, rows.Length);
+        Assert.Equal(10, rows.Length);
         Assert.Contains("stacks, friction and joints do not", File.ReadAllText(folder["out/report.html"]), StringComparison.Ordinal);
         Assert.Contains("order 4", XElement.Load(folder["out/accuracy-drag-steps.svg"]).Value, StringComparison.Ordinal);
     }
