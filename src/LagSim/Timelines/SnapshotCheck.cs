@@ -59,9 +59,9 @@ internal static class SnapshotCheck
         Limits.Components(body.Cubic, double.MaxValue, whose, "cubic coefficient", "m/s^3");
         Limits.Components(body.Quartic, double.MaxValue, whose, "quartic coefficient", "m/s^4");
         Limits.Components(body.Quintic, double.MaxValue, whose, "quintic coefficient", "m/s^5");
-        if (body.Law != body.Spec.Flight && body.Law is not (MotionLaw.Sliding or MotionLaw.Resting or MotionLaw.Held))
+        if (body.Law != body.Spec.Flight && body.Law is not (MotionLaw.Sliding or MotionLaw.Rolling or MotionLaw.Resting or MotionLaw.Held))
         {
-            throw new SceneException($"The motion of {whose} is {body.Law}; it must be Sliding, Resting, Held, or its law of flight, {body.Spec.Flight}.");
+            throw new SceneException($"The motion of {whose} is {body.Law}; it must be Sliding, Rolling, Resting, Held, or its law of flight, {body.Spec.Flight}.");
         }
 
         Limits.Components(body.Spin, double.MaxValue, whose, "spin", "rad/s");
@@ -73,11 +73,11 @@ internal static class SnapshotCheck
 
         bool isWedged = body.Law == MotionLaw.Resting && body.Crowding == MaxCrowding && body.Velocity == Vector3D.Zero && body.Acceleration == Vector3D.Zero
             && body.End == body.Opened.Time + Simulation.WedgedFor;
-        bool isCarried = body.Law is MotionLaw.Sliding or MotionLaw.Resting;
+        bool isCarried = body.Law is MotionLaw.Sliding or MotionLaw.Rolling or MotionLaw.Resting;
         if ((isCarried && !isWedged) != body.SupportCount > 0)
         {
             throw new SceneException(
-                $"{body.SupportCount} planes carry {whose}, which is {body.Law}; what slides or rests is carried, and nothing else, but for what rests wedged, after {MaxCrowding} impacts on the spot and for {Simulation.WedgedFor}.");
+                $"{body.SupportCount} planes carry {whose}, which is {body.Law}; what slides, rolls or rests is carried, and nothing else, but for what rests wedged, after {MaxCrowding} impacts on the spot and for {Simulation.WedgedFor}.");
         }
 
         for (int n = 0; n < body.SupportCount; n++)

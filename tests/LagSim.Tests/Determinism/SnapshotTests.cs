@@ -19,10 +19,10 @@ public sealed class SnapshotTests
     [MemberData(nameof(Blocks))]
     public void World_GoingOnFromASnapshot_IsTheSameToTheBit(int block)
     {
-        int bodies = 0, inLasting = 0, held = 0;
+        int bodies = 0, inLasting = 0, held = 0, stepping = 0, turning = 0;
         foreach (int seed in Enumerable.Range(20_000 + (block * 30), 30))
         {
-            RandomWorld world = new(seed, hands: seed % 2 == 0);
+            RandomWorld world = new(seed, hands: seed % 2 == 0, forced: seed % 3 == 0);
             Simulation expected = world.OnTime();
             foreach (SimTime time in Instants(expected, seed))
             {
@@ -33,10 +33,12 @@ public sealed class SnapshotTests
                 bodies += snapshot.Bodies.Count;
                 inLasting += snapshot.Bodies.Count(b => b.Crowding > 0 || b.SupportCount > 0);
                 held += snapshot.Bodies.Count(b => b.Law == MotionLaw.Held);
+                stepping += snapshot.Bodies.Count(b => b.NextStep > SimDuration.Zero);
+                turning += snapshot.Bodies.Count(b => b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero);
             }
         }
 
-        Assert.True(bodies > 400 && inLasting > 10 && held > 10, $"{bodies} {inLasting} {held}"); // else nothing was shown
+        Assert.True(bodies > 400 && inLasting > 10 && held > 10 && stepping > 10 && turning > 10, $"{bodies} {inLasting} {held} {stepping} {turning}"); // else nothing was shown
     }
 
     [Fact]
