@@ -7,9 +7,6 @@ namespace LagSim.Harness.Scenes;
 /// <content>Planes, static spheres and bodies.</content>
 internal ref partial struct SceneJsonReader
 {
-    /// <summary>What a surface has that leaves friction to the bodies.</summary>
-    internal const double MostFriction = 100;
-
     private void ReadPlane()
     {
         string name = "";
@@ -17,7 +14,7 @@ internal ref partial struct SceneJsonReader
         Vector3D? point = null;
         double? offset = null;
         double restitution = 1;
-        double friction = MostFriction;
+        double friction = Limits.MaxFriction;
         uint seen = 0;
         cursor.EnterObject();
         while (cursor.NextKey(PlaneKeys, ref seen) is string key)
@@ -60,7 +57,7 @@ internal ref partial struct SceneJsonReader
         Vector3D centre = default;
         double radius = 0;
         double restitution = 1;
-        double friction = MostFriction;
+        double friction = Limits.MaxFriction;
         uint seen = 0;
         cursor.EnterObject();
         while (cursor.NextKey(SphereKeys, ref seen) is string key)

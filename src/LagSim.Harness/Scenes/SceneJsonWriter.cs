@@ -53,7 +53,7 @@ internal static class SceneJsonWriter
             Vector(json, "normal", plane.Normal);
             json.WriteNumber("offset_m", plane.Offset);
             json.WriteNumber("restitution", plane.Restitution);
-            Friction(json, plane.Friction, SceneJsonReader.MostFriction);
+            Friction(json, plane.Friction, Limits.MaxFriction);
         });
         List(json, "static_spheres", scene.StaticSpheres, sphere =>
         {
@@ -61,7 +61,7 @@ internal static class SceneJsonWriter
             Vector(json, "centre_m", sphere.Centre);
             json.WriteNumber("radius_m", sphere.Radius);
             json.WriteNumber("restitution", sphere.Restitution);
-            Friction(json, sphere.Friction, SceneJsonReader.MostFriction);
+            Friction(json, sphere.Friction, Limits.MaxFriction);
         });
         List(json, "bodies", scene.Bodies, body => Body(json, scene, body));
         json.WriteEndObject();
