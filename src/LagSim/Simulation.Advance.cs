@@ -135,11 +135,24 @@ public sealed partial class Simulation
                 ImpactsProcessed++;
                 break;
             case EventKind.StepEnd:
+                if (timelines.Segment(timelines.Last(slot)).Law == MotionLaw.Constrained)
+                {
+                    HandleIslandStep(slot, key);
+                    break;
+                }
+
                 HandleStepEnd(slot, key);
                 Predict(slot);
                 break;
             default:
+                FindMates(slot, withSelf: false);
+                int before = timelines.Last(slot);
                 HandleExternal(slot, key);
+                if (partyCount > 0 && timelines.Last(slot) != before)
+                {
+                    ReleaseMates(slot, key);
+                }
+
                 Predict(slot);
                 break;
         }

@@ -82,15 +82,21 @@ public sealed partial class Simulation
             return false; // a support takes part anyway, and nothing static stops a hand
         }
 
-        Vector3D position = PositionAt(last, time);
+        return SurfaceGap(slot, surface, time) <= reach;
+    }
+
+    /// <summary>The distance between a body's surface and a static one at a tick.</summary>
+    private double SurfaceGap(int slot, int surface, SimTime time)
+    {
+        Vector3D position = PositionAt(timelines.Last(slot), time);
         double radius = bodies[slot].Spec.Radius;
-        if (isPlane)
+        if (surface < Scene.PlaneArray.Length)
         {
-            return Scene.PlaneArray[surface].Gap(position, radius) <= reach;
+            return Scene.PlaneArray[surface].Gap(position, radius);
         }
 
         ref readonly StaticSphere sphere = ref Scene.SphereArray[surface - Scene.PlaneArray.Length];
-        return (position - sphere.Centre).Length - (radius + sphere.Radius) <= reach;
+        return (position - sphere.Centre).Length - (radius + sphere.Radius);
     }
 
     /// <summary>Whether two bodies of which one is crowded are so near that the other takes part, though they do not strike now.</summary>

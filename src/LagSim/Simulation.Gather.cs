@@ -49,12 +49,14 @@ public sealed partial class Simulation
         {
             int party = parties[i];
             int count = CrowdingAt(party, key.Time);
+            bool isOfIsland = timelines.Segment(timelines.Last(party)).IsOfIsland;
             for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
             {
                 bool now = TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
-                if (now || IsNearSurface(party, count, surface, key.Time))
+                bool lasts = !now && isOfIsland && Lasts(party, timelines.Last(party), surface) && SurfaceGap(party, surface, key.Time) <= NearGap;
+                if (now || lasts || IsNearSurface(party, count, surface, key.Time))
                 {
-                    hasNear |= !now;
+                    hasNear |= !now && !lasts;
                     AddContact(new ContactPoint(i, ContactPoint.Static, surface, contact) { IsStruck = now });
                 }
             }
@@ -67,16 +69,18 @@ public sealed partial class Simulation
                 }
 
                 bool isNear = false;
+                bool lasts = false;
                 int then = PieceAt(other, key);
                 bool now = TryTouchBody(party, other, then, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
                 if (!now && RoundAfter(then, key.Time) <= key.Round && timelines.Segment(then).IsPresent)
                 {
                     // What was struck in this very round already is not struck in it again.
                     now = key.Round >= CollapseRound && !IsHeld(then) && !IsHeld(timelines.Last(party)) && IsTouching(party, other, then, key.Time, out contact);
-                    isNear = !now && IsNearBody(party, count, other, then, key.Time);
+                    lasts = !now && isOfIsland && Lasts(party, timelines.Last(party), other, then) && Gap(party, timelines.Last(party), other, then, key.Time) <= NearGap;
+                    isNear = !now && !lasts && IsNearBody(party, count, other, then, key.Time);
                 }
 
-                if (now || isNear)
+                if (now || lasts || isNear)
                 {
                     if (then != timelines.Last(other))
                     {
@@ -84,7 +88,7 @@ public sealed partial class Simulation
                         continue;
                     }
 
-                    hasNear |= !now;
+                    hasNear |= isNear;
                     int j = PartyOf(other);
                     if (j < 0 || j > i)
                     {
@@ -94,6 +98,8 @@ public sealed partial class Simulation
                     }
                 }
             }
+
+            AddMates(timelines.Last(party));
         }
     }
 
@@ -101,6 +107,18 @@ public sealed partial class Simulation
     {
         ContactTime.TryMake(time, time, 0, out contact);
         return Gap(slot, timelines.Last(slot), other, piece, time) <= Scene.Resolution;
+    }
+
+    /// <summary>What happens to one of an island happens to all of it.</summary>
+    private void AddMates(int piece)
+    {
+        for (int mate = timelines.Mate(piece); mate != piece; mate = timelines.Mate(mate))
+        {
+            if (PartyOf(timelines.Owner(mate)) < 0)
+            {
+                AddParty(timelines.Owner(mate));
+            }
+        }
     }
 
     private int PartyOf(int slot) => Array.IndexOf(parties, slot, 0, partyCount);

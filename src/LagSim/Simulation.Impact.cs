@@ -92,16 +92,27 @@ public sealed partial class Simulation
 
         EventKey canonical = CanonicalKey(key);
         bool areLeftWedged = AreLeftWedged(key.Time);
+        bool mayLast = !areLeftWedged && MayLast(-residual);
+        if (mayLast)
+        {
+            OpenIslands(canonical, -residual, mayRest: false);
+        }
+
         for (int i = 0; i < partyCount; i++)
         {
             if (areLeftWedged)
             {
                 RestWedged(i, canonical);
             }
-            else
+            else if (!mayLast || !isOpened[i])
             {
                 OpenAfterImpact(i, canonical, residual);
             }
+        }
+
+        if (mayLast)
+        {
+            JoinIslands(parties, partyCount);
         }
 
         timelines.Join(parties.AsSpan(0, partyCount));
@@ -181,28 +192,97 @@ public sealed partial class Simulation
 
     private void SetTargets(uint round)
     {
+        bool mayLast = false;
         for (int i = 0; i < contactCount; i++)
         {
             ref ContactPoint c = ref contacts[i];
             c.Normal = NormalOf(c);
             double opening = ImpactSolver.Opening(c, partyVelocities);
             c.Restored = round >= CollapseRound || hasNear ? 0 : Restitution(c) * Math.Max(0, -opening);
+            mayLast |= c.IsStruck && c.Restored < HopSpeed(Pressing(c));
+        }
+
+        if (mayLast && round < CollapseRound)
+        {
+            FindPressing();
+        }
+
+        for (int i = 0; i < contactCount; i++)
+        {
+            ref ContactPoint c = ref contacts[i];
             c.Target = round >= CollapseRound ? 0
                 : c.IsStruck ? Math.Max(c.Restored, LeastTarget(c))
-                : Math.Min(Math.Max(0, opening), HopSpeed(Pressing(c))); // nothing may drive the two together; of itself it asks for no more than it has
+                : Math.Min(Math.Max(0, ImpactSolver.Opening(c, partyVelocities)), HopSpeed(Pressing(c))); // nothing may drive the two together; of itself it asks for no more than it has
+            if (mayLast && c.Pushes && c.IsStruck && c.Restored < HopSpeed(Pressing(c)))
+            {
+                c.Restored = 0; // what is left of bouncing rises less than a hop: the contact lasts from here on
+                c.Target = 0;
+            }
         }
     }
+
+    /// <summary>
+    /// Marks the contacts of the impact at hand that gravity and forces press together, now that they touch: what accelerations are left if none may close, with what carries the parties already.
+    /// </summary>
+    private void FindPressing()
+    {
+        if (partyCount == 1 && contactCount == 1 && IsSupportable(contacts[0]))
+        {
+            return; // its bounces are followed down to the scene's resolution
+        }
+
+        for (int i = 0; i < partyCount; i++)
+        {
+            partyTrial[i] = double.IsPositiveInfinity(partyMasses[i]) ? partyAccelerations[i]
+                : forces.At(bodies[parties[i]].Spec, clock.Time, 0, partyPositions[i], partyVelocities[i], partySpins[i]);
+        }
+
+        int gathered = contactCount;
+        AddSupports();
+        for (int i = 0; i < contactCount; i++)
+        {
+            ref ContactPoint c = ref contacts[i];
+            c.Target = 0;
+            if (c.Second != ContactPoint.Static || c.Surface >= Scene.PlaneArray.Length)
+            {
+                Vector3D slide = partyVelocities[c.First] - (c.Second == ContactPoint.Static ? Vector3D.Zero : partyVelocities[c.Second]);
+                slide -= c.Normal * Vector3D.Dot(c.Normal, slide);
+                c.Target = -slide.LengthSquared / ReachOf(c); // what slides along something round falls away from it
+            }
+        }
+
+        solver.Solve(contacts.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount), partyTrial.AsSpan(0, partyCount));
+        contactCount = gathered;
+        for (int i = 0; i < contactCount; i++)
+        {
+            ref ContactPoint c = ref contacts[i];
+            c.Pushes = c.Impulse > 0 && !IsByHand(c) && !Scene.Box.Exists;
+            c.Impulse = 0;
+        }
+    }
+
+    /// <summary>Whether one of the two is in a hand, which goes its own way, so that nothing lasts on it.</summary>
+    private bool IsByHand(in ContactPoint c) =>
+        double.IsPositiveInfinity(partyMasses[c.First]) || (c.Second != ContactPoint.Static && double.IsPositiveInfinity(partyMasses[c.Second]));
+
+    private double ReachOf(in ContactPoint c) =>
+        partyRadii[c.First] + (c.Second == ContactPoint.Static ? Scene.SphereArray[c.Surface - Scene.PlaneArray.Length].Radius : partyRadii[c.Second]);
 
     private Vector3D NormalOf(in ContactPoint c) => c.Second == ContactPoint.Static
         ? SurfaceNormal(c.Surface, partyPositions[c.First])
         : Direction(Scene.Box.Nearest(partyPositions[c.First] - partyPositions[c.Second]));
 
-    /// <summary>The least speed in m/s at which the two of a struck contact part: that of a hop, where no support can cover it.</summary>
+    /// <summary>The least speed in m/s at which the two of a struck contact part: none on a plane that may carry, that of a hop where a hand presses, else what parts them at all.</summary>
     private double LeastTarget(in ContactPoint c)
     {
         if (IsSupportable(c) && Vector3D.Dot(c.Normal, Scene.Gravity) < 0)
         {
             return 0;
+        }
+
+        if (!IsByHand(c))
+        {
+            return LeastRebound;
         }
 
         Vector3D other = c.Second == ContactPoint.Static ? Vector3D.Zero : partyAccelerations[c.Second];

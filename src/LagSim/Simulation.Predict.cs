@@ -109,6 +109,11 @@ public sealed partial class Simulation
             return false; // what carries a body stays below it until something else happens, and nothing static stops a hand
         }
 
+        if (segment.Law == MotionLaw.Constrained && Lasts(slot, last, surface))
+        {
+            return false;
+        }
+
         SimTime opened = timelines.Key(last).Time;
         SimTime from = opened;
         if (segment.Epoch < opened && TouchSurface(slot, last, surface, isPlane, segment.Epoch, out contact) && contact.Tick > opened)
@@ -226,6 +231,11 @@ public sealed partial class Simulation
         scoped ref readonly MotionSegment segmentB = ref timelines.Segment(lastB);
         bool isPushed = segmentA.Law == MotionLaw.Held || segmentB.Law == MotionLaw.Held;
         if (segmentA.Law == segmentB.Law && (segmentA.Law == MotionLaw.Resting || isPushed))
+        {
+            return false;
+        }
+
+        if (segmentA.IsOfIsland && Lasts(a, lastA, b, lastB))
         {
             return false;
         }

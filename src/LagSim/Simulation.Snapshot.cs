@@ -37,6 +37,7 @@ public sealed partial class Simulation
         witnesses = new WitnessLog(options.MaxSegments);
         Observer = options.Observer;
         forces = new Forces(scene, Start);
+        island = new IslandStep(scene, forces);
         foreach (ref readonly BodySnapshot body in snapshot.BodyArray.AsSpan())
         {
             int slot = AddBody(body.Id, body.Spec);
@@ -44,6 +45,7 @@ public sealed partial class Simulation
             NoteCrowding(body.Segment.Crowding, body.Opened.Time);
         }
 
+        JoinIslands();
         timelines.ContinueFrom(snapshot.EventHash);
         PredictAll();
         AdvanceTo(snapshot.Time);

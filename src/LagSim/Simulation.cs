@@ -55,6 +55,7 @@ public sealed partial class Simulation
         witnesses = new WitnessLog(options.MaxSegments);
         Observer = options.Observer;
         forces = new Forces(scene, Start);
+        island = new IslandStep(scene, forces);
         for (int i = 0; i < scene.BodyArray.Length; i++)
         {
             ref readonly SceneBody body = ref scene.BodyArray[i];

@@ -19,6 +19,7 @@ internal struct ContactPoint
         Restored = 0;
         Impulse = 0;
         IsStruck = true;
+        Pushes = false;
     }
 
     /// <summary>The body whose identity is the lesser of the two, or the only one.</summary>
@@ -35,6 +36,9 @@ internal struct ContactPoint
 
     /// <summary>Whether the two strike each other in this impact, or only last on each other while something strikes them.</summary>
     internal bool IsStruck;
+
+    /// <summary>Whether, of what touches at an instant, it pushes in the step from there on.</summary>
+    internal bool Pushes;
 
     /// <summary>From the second party to the first.</summary>
     internal Vector3D Normal;

@@ -13,7 +13,11 @@ namespace LagSim.Contacts;
 /// </remarks>
 internal sealed class ImpactFriction
 {
-    private const double SlipPerImpulse = 3.5; // of a solid sphere, times 1/m: 1 for the centre, 5/2 for the turning
+    /// <summary>How much of its slip an impulse takes from a solid sphere, times 1/m: 1 by the centre, 5/2 by the turning.</summary>
+    internal const double SlipPerImpulse = 1 + TurnPerImpulse;
+
+    /// <summary>How much an impulse at the surface turns a solid sphere, times 1/(m r).</summary>
+    internal const double TurnPerImpulse = 2.5;
 
     private Vector3D[] changes = new Vector3D[4];
     private Vector3D[] turns = new Vector3D[4];
@@ -90,7 +94,7 @@ internal sealed class ImpactFriction
         int shared = Math.Max(rubbing[c.First], isPair ? rubbing[c.Second] : 0);
         double impulse = Math.Min(coefficient * c.Impulse, speed / (SlipPerImpulse * inverse)) / shared;
         Vector3D push = slip * (-impulse / speed);
-        Vector3D turn = Vector3D.Cross(push, c.Normal) * 2.5; // the lever -r n times the push, by 2/5 m r²
+        Vector3D turn = Vector3D.Cross(push, c.Normal) * TurnPerImpulse; // the lever -r n times the push, by 2/5 m r²
         changes[c.First] += push * Inverse(masses[c.First]);
         turns[c.First] += turn * (Inverse(masses[c.First]) / radii[c.First]);
         if (isPair)

@@ -52,7 +52,11 @@ internal readonly struct MotionSegment
     internal bool IsDense => ((1 << (int)Law) & DenseLaws) != 0;
 
     private const int DenseLaws =
-        (1 << (int)MotionLaw.RungeKutta4) | (1 << (int)MotionLaw.Held) | (1 << (int)MotionLaw.ClosedForm) | (1 << (int)MotionLaw.DormandPrince54);
+        (1 << (int)MotionLaw.RungeKutta4) | (1 << (int)MotionLaw.Held) | (1 << (int)MotionLaw.ClosedForm) | (1 << (int)MotionLaw.DormandPrince54)
+        | (1 << (int)MotionLaw.Constrained);
+
+    /// <summary>Whether the body is one of an island: it is in lasting contact with others, or with what no closed form carries it on, and moves or rests there.</summary>
+    internal bool IsOfIsland => Law == MotionLaw.Constrained || (Law == MotionLaw.Resting && Supports.Count == 0 && End == SimTime.MaxValue);
 
     /// <summary>A path that never moves: a static sphere, or a body at rest.</summary>
     internal static MotionSegment AtRest(SimTime epoch, in Vector3D position, SupportSet supports = default) =>

@@ -15,7 +15,7 @@ public enum MotionLaw : byte
     /// <summary>Motion along one or two static planes, in closed form: without friction, or slipping on one against it. Entered from flight, never a scene's choice.</summary>
     Sliding = 3,
 
-    /// <summary>At rest on static planes, or wedged without play for 50 ms at a time; costs nothing until something touches it. Entered from flight, sliding or rolling, never a scene's choice.</summary>
+    /// <summary>At rest on static planes, or in an island of bodies at rest; costs nothing until something touches it. Never a scene's choice.</summary>
     Resting = 4,
 
     /// <summary>In a hand, whose path it has, a cubic or parabola from knot to knot; nothing it meets changes that. Entered by a grab, never a scene's choice.</summary>
@@ -40,4 +40,10 @@ public enum MotionLaw : byte
     /// Rolling on one static plane without slipping, in closed form. Entered when friction has stopped the slip, ends at rest where there is rolling resistance; never a scene's choice.
     /// </summary>
     Rolling = 9,
+
+    /// <summary>
+    /// In lasting contact with other bodies, with a static sphere, or with planes under forces: an island of such bodies moves by steps of at most 1/512 s, a cubic each, that are taken for all of it
+    /// together. Entered from an impact, ends in flight, on planes, or at rest; never a scene's choice.
+    /// </summary>
+    Constrained = 10,
 }

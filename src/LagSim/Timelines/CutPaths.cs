@@ -117,7 +117,7 @@ internal sealed class CutPaths
     }
 
     /// <summary>Puts back what was cut after <paramref name="time"/>; each body goes on from where it is now.</summary>
-    internal void PutBack(TimelineStore timelines, SimTime time, Func<int, BodyId> idOf)
+    internal void PutBack(TimelineStore timelines, SimTime time, Func<int, BodyId> idOf, Action<int[], int> joinIslands)
     {
         order.Clear();
         for (int i = 0; i < pieces.Count; i++)
@@ -145,9 +145,10 @@ internal sealed class CutPaths
                 joined[count++] = piece.Slot;
             }
 
-            if (key.Kind == EventKind.Impact)
+            if (count > 1)
             {
-                timelines.Join(joined.AsSpan(0, count)); // an impact's key is that of no other
+                timelines.Join(joined.AsSpan(0, count)); // a key is that of no other event
+                joinIslands(joined, count);
             }
         }
     }

@@ -34,6 +34,7 @@ internal sealed class TimelineStore
     private DenseOutput[] dense = Array.Empty<DenseOutput>(); // only once something is integrated
     private Hold[] holds = Array.Empty<Hold>(); // only once something is held
     private Spin[] spins = Array.Empty<Spin>(); // only once something turns
+    private int[] mates = Array.Empty<int>(); // rings through the segments of an island; only once there is one of several
     private int free = None;
     private int used;
     private int[] first = Array.Empty<int>();
@@ -118,6 +119,33 @@ internal sealed class TimelineStore
     /// <summary>The next in the ring of segments that one impact opened; itself if it has no other.</summary>
     internal int Together(int segment) => links[segment].Together;
 
+    /// <summary>The next in the ring of segments of one island; itself if it has no other.</summary>
+    internal int Mate(int segment) => segment < mates.Length ? mates[segment] : segment;
+
+    /// <summary>Makes one island of those of two segments.</summary>
+    internal void JoinIslands(int segment, int other)
+    {
+        if (mates.Length < pieces.Length)
+        {
+            int known = mates.Length;
+            Array.Resize(ref mates, pieces.Length);
+            for (int at = known; at < mates.Length; at++)
+            {
+                mates[at] = at;
+            }
+        }
+
+        for (int at = mates[segment]; at != segment; at = mates[at])
+        {
+            if (at == other)
+            {
+                return;
+            }
+        }
+
+        (mates[segment], mates[other]) = (mates[other], mates[segment]); // two rings become one
+    }
+
     /// <summary>The body's newest segment keyed before <paramref name="key"/>; <see cref="None"/> if none that is kept is.</summary>
     internal int Before(int slot, in EventKey key)
     {
@@ -198,6 +226,11 @@ internal sealed class TimelineStore
             spins[at] = spin;
         }
 
+        if (at < mates.Length)
+        {
+            mates[at] = at;
+        }
+
         int before = last[slot];
         ref Piece piece = ref pieces[at];
         piece.Segment = segment;
@@ -260,7 +293,25 @@ internal sealed class TimelineStore
         }
 
         links[before].Together = links[at].Together;
+        LeaveIsland(at);
         Release(at);
+    }
+
+    private void LeaveIsland(int at)
+    {
+        if (Mate(at) == at)
+        {
+            return;
+        }
+
+        int before = at;
+        while (mates[before] != at)
+        {
+            before = mates[before];
+        }
+
+        mates[before] = mates[at];
+        mates[at] = at;
     }
 
     /// <summary>Drops what is no longer needed for instants from <paramref name="edge"/> on; the last segment opened before the edge stays.</summary>

@@ -1,0 +1,447 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim;
+
+/// <content>Islands: bodies in lasting contact with each other, or with what no closed form carries them on. They move by steps that are taken for all together, and rest together.</content>
+/// <remarks>
+/// All of an island open their pieces of path with one key, and whatever opens a new piece for one opens one for all. So a timeline that is cut cuts them all, and healing needs to know nothing else
+/// of them. Who is in an island with whom is told by the pieces: opened by one event, and touching there (<see cref="Lasts(int, int, int, int)"/>).
+/// </remarks>
+public sealed partial class Simulation
+{
+    /// <summary>With friction an island rests if what pulls at it moves it by less than this part of that: so much the solver leaves.</summary>
+    private const double Unsettled = 1e-6;
+
+    private readonly IslandStep island;
+    private int[] group = new int[4]; // by party: the least party that it is in contact with, through others as well
+    private bool[] needsSteps = new bool[4]; // by least party of a group
+    private bool[] isOpened = new bool[4];
+    private int[] numbers = new int[4]; // by party: its number in the step at hand, or -1
+    private int[] fellows = new int[4]; // by number in the step at hand: the party
+    private ContactPoint[] touching = new ContactPoint[8]; // of the parties at hand what touches
+    private int[] stepContacts = new int[8]; // by contact in the step at hand: its number among those
+    private int touchingCount;
+
+    /// <summary>A contact that opens or closes slower than this, in m/s, may last: a thousandth of a hop's speed.</summary>
+    private double LastingSpeed => 1e-3 * HopSpeed(Math.Max(Scene.Gravity.Length, 1));
+
+    /// <summary>Whether two bodies on these pieces of their paths are in lasting contact: their island keeps them apart, and nobody looks for an impact of theirs.</summary>
+    private bool Lasts(int slot, int piece, int other, int otherPiece)
+    {
+        ref readonly MotionSegment a = ref timelines.Segment(piece);
+        ref readonly MotionSegment b = ref timelines.Segment(otherPiece);
+        return a.IsOfIsland && b.IsOfIsland && timelines.Key(piece) == timelines.Key(otherPiece)
+            && AreInTouch(a.Position, a.Velocity, b.Position, b.Velocity, bodies[slot].Spec.Radius + bodies[other].Spec.Radius);
+    }
+
+    /// <summary>Whether a body on this piece of its path is in lasting contact with a static surface.</summary>
+    private bool Lasts(int slot, int piece, int surface)
+    {
+        ref readonly MotionSegment path = ref timelines.Segment(piece);
+        return path.IsOfIsland && IsInTouch(path.Position, path.Velocity, surface, bodies[slot].Spec.Radius);
+    }
+
+    private bool AreInTouch(in Vector3D place, in Vector3D velocity, in Vector3D otherPlace, in Vector3D otherVelocity, double reach)
+    {
+        Vector3D apart = place - otherPlace;
+        double distance = apart.Length;
+        return distance - reach <= NearGap && Math.Abs(Vector3D.Dot(Direction(apart), velocity - otherVelocity)) <= LastingSpeed;
+    }
+
+    private bool IsInTouch(in Vector3D place, in Vector3D velocity, int surface, double radius)
+    {
+        if (surface >= Scene.PlaneArray.Length)
+        {
+            ref readonly StaticSphere sphere = ref Scene.SphereArray[surface - Scene.PlaneArray.Length];
+            return AreInTouch(place, velocity, sphere.Centre, Vector3D.Zero, radius + sphere.Radius);
+        }
+
+        ref readonly StaticPlane plane = ref Scene.PlaneArray[surface];
+        return plane.Gap(place, radius) <= NearGap && Math.Abs(Vector3D.Dot(plane.Normal, velocity)) <= LastingSpeed;
+    }
+
+    /// <summary>Whether a contact of the impact at hand may go on as one that lasts, on which no closed form carries a body.</summary>
+    private bool MayLast(double carry)
+    {
+        bool may = false;
+        for (int i = 0; i < contactCount && !may && !Scene.Box.Exists; i++)
+        {
+            ref readonly ContactPoint c = ref contacts[i];
+            may = Math.Abs(ImpactSolver.Opening(c, partyVelocities)) <= 2 * LastingSpeed && (!IsSupportable(c) || Friction(c) > 0);
+        }
+
+        return may;
+    }
+
+    /// <summary>
+    /// Opens the next pieces of those parties that are in islands from here on. The states hold <paramref name="carry"/> seconds before the key's tick. Who is in none is not opened.
+    /// </summary>
+    private void OpenIslands(in EventKey key, double carry, bool mayRest)
+    {
+        GrowGroups();
+        Array.Clear(isOpened, 0, partyCount);
+        FindTouching(carry);
+
+        // What touches is stepped together to see what pushes; and what pushes, and all between its bodies that touches, is an island.
+        Group(byPush: false);
+        int stepped = 0;
+        for (int least = 0; least < partyCount; least++)
+        {
+            if (group[least] == least && needsSteps[least])
+            {
+                StepGroup(least, carry, key.Time);
+                stepped = island.BodyCount;
+                for (int k = 0; k < island.ContactCount; k++)
+                {
+                    touching[stepContacts[k]].Pushes = island.Pushes(k);
+                }
+            }
+        }
+
+        if (stepped == 0)
+        {
+            return;
+        }
+
+        Group(byPush: true);
+        for (int least = 0; least < partyCount; least++)
+        {
+            if (group[least] == least && needsSteps[least])
+            {
+                OpenIsland(key, least, carry, mayRest, stepped);
+                stepped = 0;
+            }
+        }
+    }
+
+    /// <summary>All that touches among the parties at hand, and with static surfaces, at the tick, and neither opens nor closes.</summary>
+    private void FindTouching(double carry)
+    {
+        touchingCount = 0;
+        for (int i = 0; i < partyCount; i++)
+        {
+            if (double.IsPositiveInfinity(partyMasses[i]))
+            {
+                continue; // a hand goes its own way, so nothing lasts on it
+            }
+
+            Vector3D place = PlaceOf(i, carry);
+            for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
+            {
+                if (IsInTouch(place, partyVelocities[i], surface, partyRadii[i]))
+                {
+                    AddTouching(new ContactPoint(i, ContactPoint.Static, surface, default));
+                }
+            }
+
+            for (int j = i + 1; j < partyCount; j++)
+            {
+                if (!double.IsPositiveInfinity(partyMasses[j])
+                    && AreInTouch(place, partyVelocities[i], PlaceOf(j, carry), partyVelocities[j], partyRadii[i] + partyRadii[j]))
+                {
+                    AddTouching(new ContactPoint(i, j, -1, default));
+                }
+            }
+        }
+    }
+
+    private void AddTouching(in ContactPoint contact)
+    {
+        if (touchingCount == touching.Length)
+        {
+            Array.Resize(ref touching, touchingCount * 2);
+            Array.Resize(ref stepContacts, touchingCount * 2);
+        }
+
+        touching[touchingCount++] = contact;
+    }
+
+    /// <summary>Where a party is at the tick.</summary>
+    private Vector3D PlaceOf(int party, double carry) =>
+        (carry == 0 ? partyPositions[party] : partyPositions[party] + (partyVelocities[party] * carry)).WithoutNegativeZero();
+
+    /// <summary>Whether no closed form carries a body on this contact: it is with another body or a static sphere, under forces, or one of several with friction.</summary>
+    private bool NeedsSteps(in ContactPoint c, bool byPush)
+    {
+        if (!IsSupportable(c))
+        {
+            return true;
+        }
+
+        bool isOneOfSeveral = false;
+        for (int i = 0; i < touchingCount && Friction(c) > 0 && !isOneOfSeveral; i++)
+        {
+            ref readonly ContactPoint other = ref touching[i];
+            isOneOfSeveral = (other.Pushes || !byPush) && other.First == c.First && other.Second == ContactPoint.Static && other.Surface != c.Surface;
+        }
+
+        return isOneOfSeveral;
+    }
+
+    /// <summary>Groups the parties by what touches, or pushes, each group named by its least, and tells which of them need steps.</summary>
+    private void Group(bool byPush)
+    {
+        for (int i = 0; i < partyCount; i++)
+        {
+            group[i] = i;
+            needsSteps[i] = false;
+        }
+
+        for (int i = 0; i < touchingCount; i++)
+        {
+            ref readonly ContactPoint c = ref touching[i];
+            if (c.Second == ContactPoint.Static || (byPush && !c.Pushes))
+            {
+                continue;
+            }
+
+            int from = Math.Max(group[c.First], group[c.Second]);
+            int to = Math.Min(group[c.First], group[c.Second]);
+            for (int party = 0; party < partyCount && from != to; party++)
+            {
+                group[party] = group[party] == from ? to : group[party];
+            }
+        }
+
+        for (int i = 0; i < touchingCount; i++)
+        {
+            ref readonly ContactPoint c = ref touching[i];
+            needsSteps[group[c.First]] |= (c.Pushes || !byPush) && NeedsSteps(c, byPush);
+        }
+    }
+
+    /// <summary>Takes the step of a group of parties, with all that touches among them.</summary>
+    private void StepGroup(int least, double carry, SimTime time)
+    {
+        island.Clear();
+        for (int i = 0; i < partyCount; i++)
+        {
+            numbers[i] = -1;
+            if (group[i] == least)
+            {
+                numbers[i] = island.AddBody(bodies[parties[i]].Spec, PlaceOf(i, carry), partyVelocities[i].WithoutNegativeZero(), partySpins[i]);
+                fellows[numbers[i]] = i;
+            }
+        }
+
+        for (int i = 0; i < touchingCount; i++)
+        {
+            ref readonly ContactPoint c = ref touching[i];
+            if (numbers[c.First] >= 0 && (c.Second == ContactPoint.Static || numbers[c.Second] >= 0))
+            {
+                stepContacts[island.ContactCount] = i;
+                island.AddContact(numbers[c.First], c.Second == ContactPoint.Static ? ContactPoint.Static : numbers[c.Second], c.Surface, Friction(c));
+            }
+        }
+
+        island.Take(time);
+    }
+
+    private void OpenIsland(in EventKey key, int least, double carry, bool mayRest, int stepped)
+    {
+        int size = 0;
+        for (int i = 0; i < partyCount; i++)
+        {
+            size += group[i] == least ? 1 : 0;
+        }
+
+        if (size != stepped || group[fellows[0]] != least)
+        {
+            StepGroup(least, carry, key.Time);
+        }
+
+        bool rests = mayRest && IsSlow();
+        if (rests)
+        {
+            island.Take(key.Time, fromRest: true);
+            rests = StaysAtRest();
+            if (!rests)
+            {
+                island.Take(key.Time);
+            }
+        }
+
+        for (int n = 0; n < island.BodyCount; n++)
+        {
+            int party = fellows[n];
+            int slot = parties[party];
+            isOpened[party] = true;
+            if (rests)
+            {
+                Append(slot, key, MotionSegment.AtRest(key.Time, PlaceOf(party, carry)), default, spin: new Spin(partySpins[party]));
+                continue;
+            }
+
+            int crowding = key.Kind == EventKind.Impact ? CrowdingAt(slot, key.Time) : 0;
+            MotionSegment path = island.PathOf(n, key.Time, crowding, out DenseOutput dense, out Spin spin);
+            CheckState(slot, key, path.Position, path.Velocity);
+            Append(slot, key, path, dense, spin: spin);
+        }
+    }
+
+    /// <summary>Whether nobody in the step at hand is faster than what rises less than the scene resolves, and no force on them depends on the time as far as anybody knows.</summary>
+    private bool IsSlow()
+    {
+        bool isSlow = true;
+        double limit = Math.Sqrt(2 * Scene.Resolution * island.Pull());
+        for (int n = 0; n < island.BodyCount && isSlow; n++)
+        {
+            isSlow = partyVelocities[fellows[n]].Length <= limit && !forces.HasSupplied(bodies[parties[fellows[n]]].Spec);
+        }
+
+        return isSlow;
+    }
+
+    /// <summary>
+    /// Whether nothing moves in the step that was taken from rest: without friction where gravity would pull as much if everything were displaced by the scene's resolution, with friction as far as
+    /// the solver tells.
+    /// </summary>
+    private bool StaysAtRest()
+    {
+        bool rests = true;
+        double speed = island.Length.ToSeconds() * island.Pull();
+        for (int n = 0; n < island.BodyCount && rests; n++)
+        {
+            rests = island.Stir(n) <= speed * (island.Rubs ? Unsettled : Scene.Resolution / partyRadii[fellows[n]]);
+        }
+
+        return rests;
+    }
+
+    /// <summary>A step of an island ends: all of it go on, together or apart, by their states there.</summary>
+    private void HandleIslandStep(int slot, in EventKey key)
+    {
+        FindMates(slot, withSelf: true);
+        OpenMates(key, mayRest: true);
+        timelines.Join(parties.AsSpan(0, partyCount));
+        PredictParties();
+    }
+
+    /// <summary>Something has opened a new piece for one of an island, which is now the newest of that slot: the others, who are the parties at hand, go on without it.</summary>
+    private void ReleaseMates(int slot, in EventKey key)
+    {
+        OpenMates(key, mayRest: false);
+        AddParty(slot);
+        timelines.Join(parties.AsSpan(0, partyCount));
+        partyCount--;
+        PredictParties();
+    }
+
+    /// <summary>Makes the parties at hand of those in an island with a body, with it or without.</summary>
+    private void FindMates(int slot, bool withSelf)
+    {
+        partyCount = 0;
+        contactCount = 0;
+        int last = timelines.Last(slot);
+        if (withSelf)
+        {
+            AddParty(slot);
+        }
+
+        for (int mate = timelines.Mate(last); mate != last; mate = timelines.Mate(mate))
+        {
+            AddParty(timelines.Owner(mate));
+        }
+
+        SortParties();
+    }
+
+    /// <summary>Opens the next pieces of the parties at hand, from where they are on their newest ones.</summary>
+    private void OpenMates(in EventKey key, bool mayRest)
+    {
+        EvaluateParties(key.Time, 0);
+        OpenIslands(key, 0, mayRest);
+        for (int i = 0; i < partyCount; i++)
+        {
+            if (!isOpened[i])
+            {
+                int count = 0;
+                for (int k = 0; k < touchingCount; k++)
+                {
+                    ref readonly ContactPoint c = ref touching[k];
+                    if (c.First == i && c.Second == ContactPoint.Static && IsSupportable(c))
+                    {
+                        AddTouched(ref count, c.Surface);
+                    }
+                }
+
+                Open(parties[i], key, partyPositions[i], partyVelocities[i], 0, touched.AsSpan(0, count), 0, partySpins[i]);
+            }
+        }
+
+        JoinIslands(parties, partyCount);
+    }
+
+    private void PredictParties()
+    {
+        for (int i = 0; i < partyCount; i++)
+        {
+            Predict(parties[i]);
+        }
+    }
+
+    /// <summary>Puts the newest pieces of these bodies, which one event opened, into their islands: a pure function of the pieces.</summary>
+    private void JoinIslands(int[] slots, int count)
+    {
+        for (int i = 0; i < count; i++)
+        {
+            int piece = timelines.Last(slots[i]);
+            for (int j = 0; j < i && timelines.Segment(piece).IsOfIsland; j++)
+            {
+                int other = timelines.Last(slots[j]);
+                if (Lasts(slots[i], piece, slots[j], other))
+                {
+                    timelines.JoinIslands(piece, other);
+                }
+            }
+        }
+    }
+
+    /// <summary>Puts all bodies into their islands: those whose newest pieces one event opened, and that touch there.</summary>
+    private void JoinIslands()
+    {
+        List<int> members = new();
+        for (int slot = 0; slot < slotCount; slot++)
+        {
+            if (timelines.Segment(timelines.Last(slot)).IsOfIsland)
+            {
+                members.Add(slot);
+            }
+        }
+
+        members.Sort((a, b) => EventKey.Compare(timelines.Key(timelines.Last(a)), timelines.Key(timelines.Last(b))));
+        int[] together = new int[members.Count];
+        for (int from = 0; from < members.Count;)
+        {
+            EventKey key = timelines.Key(timelines.Last(members[from]));
+            int count = 0;
+            for (; from < members.Count && timelines.Key(timelines.Last(members[from])) == key; from++)
+            {
+                together[count++] = members[from];
+            }
+
+            JoinIslands(together, count);
+        }
+    }
+
+    private void GrowGroups()
+    {
+        if (partyCount <= group.Length)
+        {
+            return;
+        }
+
+        int size = parties.Length;
+        Array.Resize(ref group, size);
+        Array.Resize(ref needsSteps, size);
+        Array.Resize(ref isOpened, size);
+        Array.Resize(ref numbers, size);
+        Array.Resize(ref fellows, size);
+    }
+}
