@@ -222,7 +222,8 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// Marks the contacts of the impact at hand that gravity and forces press together, now that they touch: what accelerations are left if none may close, with what carries the parties already.
+    /// Marks the contacts of the impact at hand that are pressed together: by the paths that they are on, as friction may have it; or by gravity and forces now that they touch, which the
+    /// accelerations tell that are left if no contact may close, nor what carries the parties already give way.
     /// </summary>
     private void FindPressing()
     {
@@ -243,12 +244,15 @@ public sealed partial class Simulation
         {
             ref ContactPoint c = ref contacts[i];
             c.Target = 0;
+            double falls = 0;
             if (c.Second != ContactPoint.Static || c.Surface >= Scene.PlaneArray.Length)
             {
-                Vector3D slide = partyVelocities[c.First] - (c.Second == ContactPoint.Static ? Vector3D.Zero : partyVelocities[c.Second]);
-                slide -= c.Normal * Vector3D.Dot(c.Normal, slide);
-                c.Target = -slide.LengthSquared / ReachOf(c); // what slides along something round falls away from it
+                Vector3D velocity = partyVelocities[c.First] - (c.Second == ContactPoint.Static ? Vector3D.Zero : partyVelocities[c.Second]);
+                falls = FallingAway(c.Normal, velocity, ReachOf(c));
+                c.Target = -falls;
             }
+
+            c.Pushes = ImpactSolver.Opening(c, partyAccelerations) + falls < 0;
         }
 
         solver.Solve(contacts.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount), partyTrial.AsSpan(0, partyCount));
@@ -256,7 +260,7 @@ public sealed partial class Simulation
         for (int i = 0; i < contactCount; i++)
         {
             ref ContactPoint c = ref contacts[i];
-            c.Pushes = c.Impulse > 0 && !IsByHand(c) && !Scene.Box.Exists;
+            c.Pushes = (c.Pushes || c.Impulse > 0) && !IsByHand(c) && !Scene.Box.Exists;
             c.Impulse = 0;
         }
     }

@@ -99,7 +99,7 @@ public sealed partial class Simulation
                 stepped = island.BodyCount;
                 for (int k = 0; k < island.ContactCount; k++)
                 {
-                    touching[stepContacts[k]].Pushes = island.Pushes(k);
+                    touching[stepContacts[k]].Pushes |= island.Pushes(k);
                 }
             }
         }
@@ -159,7 +159,24 @@ public sealed partial class Simulation
             Array.Resize(ref stepContacts, touchingCount * 2);
         }
 
-        touching[touchingCount++] = contact;
+        touching[touchingCount] = contact;
+        touching[touchingCount++].Pushes = IsPressed(contact);
+    }
+
+    /// <summary>
+    /// Whether a contact has just been struck that is pressed together and so will last. It is kept for a step even if over the whole of that it does not push: else it would be struck again and again
+    /// for as long as it does.
+    /// </summary>
+    private bool IsPressed(in ContactPoint contact)
+    {
+        bool isPressed = false;
+        for (int i = 0; i < contactCount && !isPressed; i++)
+        {
+            ref readonly ContactPoint c = ref contacts[i];
+            isPressed = c.Pushes && c.IsStruck && c.First == contact.First && c.Second == contact.Second && c.Surface == contact.Surface;
+        }
+
+        return isPressed;
     }
 
     /// <summary>Where a party is at the tick.</summary>

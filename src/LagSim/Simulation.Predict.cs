@@ -131,9 +131,11 @@ public sealed partial class Simulation
             }
 
             Vector3D normal = SurfaceNormal(surface, PositionAt(last, contact));
-            double closing = -Vector3D.Dot(normal, VelocityAt(last, contact));
+            Vector3D velocity = VelocityAt(last, contact);
+            double reach = isPlane ? double.PositiveInfinity : bodies[slot].Spec.Radius + Scene.SphereArray[surface - Scene.PlaneArray.Length].Radius;
+            double pressing = -Vector3D.Dot(normal, AccelerationAt(last, contact)) - FallingAway(normal, velocity, reach);
             from = LookAgain(
-                opened, round, closing, -Vector3D.Dot(normal, AccelerationAt(last, contact)), segment.End, isPushed: false, segment.Crowding >= SqueezedAfter);
+                opened, round, -Vector3D.Dot(normal, velocity), pressing, segment.End, isPushed: false, segment.Crowding >= SqueezedAfter);
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -270,9 +272,9 @@ public sealed partial class Simulation
             }
 
             Vector3D normal = Direction(Scene.Box.Nearest(PositionAt(lastA, contact) - PositionAt(lastB, contact)));
-            double closing = -Vector3D.Dot(normal, VelocityAt(lastA, contact) - VelocityAt(lastB, contact));
-            double pressing = -Vector3D.Dot(normal, AccelerationAt(lastA, contact) - AccelerationAt(lastB, contact));
-            from = LookAgain(opened, round, closing, pressing, until, isPushed, Math.Max(segmentA.Crowding, segmentB.Crowding) >= SqueezedAfter);
+            Vector3D velocity = VelocityAt(lastA, contact) - VelocityAt(lastB, contact);
+            double pressing = -Vector3D.Dot(normal, AccelerationAt(lastA, contact) - AccelerationAt(lastB, contact)) - FallingAway(normal, velocity, reach);
+            from = LookAgain(opened, round, -Vector3D.Dot(normal, velocity), pressing, until, isPushed, Math.Max(segmentA.Crowding, segmentB.Crowding) >= SqueezedAfter);
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -317,6 +319,10 @@ public sealed partial class Simulation
 
         return end.SecondsSince(opened) < wait.ToSeconds() ? SimTime.MaxValue : opened + wait;
     }
+
+    /// <summary>How fast, in m/s², the gap to what is round opens because one slides along it.</summary>
+    private static double FallingAway(in Vector3D normal, in Vector3D velocity, double reach) =>
+        (velocity - (normal * Vector3D.Dot(normal, velocity))).LengthSquared / reach;
 
     /// <summary>The root of u t + a t^2 / 2 = depth / 2; if it eases off by itself, as if it did not.</summary>
     private static double UntilDeep(double depth, double closing, double pressing) =>
