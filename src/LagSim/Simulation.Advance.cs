@@ -191,10 +191,6 @@ public sealed partial class Simulation
         {
             OpenFlight(slot, key, PositionAt(last, key.Time), segment.Velocity, spin: timelines.SpinOf(last).AtEpoch);
         }
-        else if (segment.Law == MotionLaw.Resting)
-        {
-            EndWedgedRest(slot, key);
-        }
         else if (segment.Supports.Count == 1 && FrictionOn(slot, segment.Supports[0]) > 0)
         {
             // It has stopped slipping, or rolling, or turned a little.

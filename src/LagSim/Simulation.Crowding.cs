@@ -19,7 +19,7 @@ public sealed partial class Simulation
     /// From this many on what is nearer than the scene's resolution takes part whether or not it lasts: the body is squeezed, and what goes on in
     /// such a gap is not followed any further.
     /// </summary>
-    private const int SqueezedAfter = 64;
+    internal const int SqueezedAfter = 64;
 
     /// <summary>In a crowd of more bodies than these the load is passed on impact by impact: to solve all together costs the cube of their number.</summary>
     private const int MostCrowded = 8;
@@ -51,25 +51,15 @@ public sealed partial class Simulation
     private double HopSpeed(double acceleration) => Math.Sqrt(2 * acceleration * NearGap);
 
     /// <summary>
-    /// How many impacts in succession a body will have had with one at <paramref name="time"/>, each soon after the one before; beyond
-    /// <see cref="SqueezedAfter"/> only those without play count, and no further than to <see cref="WedgedAfter"/>. A function of its newest segment, so that a timeline that was
-    /// cut counts again as it did.
+    /// How many impacts in succession a body will have had with one at <paramref name="time"/>, each soon after the one before, counted no further than to <see cref="SqueezedAfter"/>. A function of
+    /// its newest segment, so that a timeline that was cut counts again as it did.
     /// </summary>
     private int CrowdingAt(int slot, SimTime time) => CrowdingAfter(timelines.Last(slot), time);
 
     private int CrowdingAfter(int segment, SimTime time)
     {
         ref readonly EventKey opened = ref timelines.Key(segment);
-        int count = timelines.Segment(segment).Crowding;
-        SimDuration soon = RestsWedged(timelines.Segment(segment)) ? WedgedFor : CrowdedWithin; // to rest is no time between impacts
-        bool isOfImpacts = opened.Kind == EventKind.Impact || count == WedgedAfter; // wedged rest ends by itself
-        if (!isOfImpacts || time - opened.Time > soon)
-        {
-            return 0;
-        }
-
-        bool counts = count < SqueezedAfter || (IsWithoutPlay(opened, time) && !IgnoresWedges);
-        return counts ? Math.Min(count + 1, WedgedAfter) : count;
+        return opened.Kind == EventKind.Impact && time - opened.Time <= CrowdedWithin ? Math.Min(timelines.Segment(segment).Crowding + 1, SqueezedAfter) : 0;
     }
 
     /// <summary>Whether a crowded body is so near to a static surface that it does not strike now that the surface takes part.</summary>
@@ -110,7 +100,7 @@ public sealed partial class Simulation
 
         double gap = Gap(slot, mine, other, piece, time);
         bool isPushed = IsHeld(mine) || IsHeld(piece);
-        return gap <= reach && !(isPushed && (IsInside(gap) || PushedFrom(IsHeld(mine) ? piece : mine, time) > time));
+        return gap <= reach && !(isPushed && IsInside(gap));
     }
 
     /// <summary>The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits whoever asks.</summary>

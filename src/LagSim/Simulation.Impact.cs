@@ -91,8 +91,7 @@ public sealed partial class Simulation
         contactCount = struck;
 
         EventKey canonical = CanonicalKey(key);
-        bool areLeftWedged = AreLeftWedged(key.Time);
-        bool mayLast = !areLeftWedged && MayLast(-residual);
+        bool mayLast = MayLast(-residual);
         if (mayLast)
         {
             OpenIslands(canonical, -residual, mayRest: false);
@@ -100,11 +99,7 @@ public sealed partial class Simulation
 
         for (int i = 0; i < partyCount; i++)
         {
-            if (areLeftWedged)
-            {
-                RestWedged(i, canonical);
-            }
-            else if (!mayLast || !isOpened[i])
+            if (!mayLast || !isOpened[i])
             {
                 OpenAfterImpact(i, canonical, residual);
             }
@@ -430,8 +425,7 @@ public sealed partial class Simulation
             AddTouched(ref count, supports[k]);
         }
 
-        int crowding = IsPushedOutOfRest(slot) ? 0 : CrowdingAt(slot, key.Time);
-        Open(slot, key, partyPositions[party], partyVelocities[party], -residual, touched.AsSpan(0, count), crowding, partySpins[party]);
+        Open(slot, key, partyPositions[party], partyVelocities[party], -residual, touched.AsSpan(0, count), CrowdingAt(slot, key.Time), partySpins[party]);
     }
 
     private void AddTouched(ref int count, int plane)

@@ -28,6 +28,9 @@ public sealed partial class Simulation
     private int[] stepContacts = new int[8]; // by contact in the step at hand: its number among those
     private int touchingCount;
 
+    /// <summary>Takes no contact for one that lasts: only a test's negative control sets it.</summary>
+    internal bool IgnoresIslands { get; set; }
+
     /// <summary>A contact that opens or closes slower than this, in m/s, may last: a thousandth of a hop's speed.</summary>
     private double LastingSpeed => 1e-3 * HopSpeed(Math.Max(Scene.Gravity.Length, 1));
 
@@ -70,7 +73,7 @@ public sealed partial class Simulation
     private bool MayLast(double carry)
     {
         bool may = false;
-        for (int i = 0; i < contactCount && !may && !Scene.Box.Exists; i++)
+        for (int i = 0; i < contactCount && !may && !Scene.Box.Exists && !IgnoresIslands; i++)
         {
             ref readonly ContactPoint c = ref contacts[i];
             may = Math.Abs(ImpactSolver.Opening(c, partyVelocities)) <= 2 * LastingSpeed && (!IsSupportable(c) || Friction(c) > 0);

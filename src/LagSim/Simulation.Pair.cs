@@ -26,7 +26,7 @@ public sealed partial class Simulation
     {
         if (crowding + 1 >= CrowdedAfter)
         {
-            SimTime until = opened.Ticks > SimTime.MaxValue.Ticks - WedgedFor.Ticks ? SimTime.MaxValue : opened + WedgedFor;
+            SimTime until = opened.Ticks > SimTime.MaxValue.Ticks - CrowdedWithin.Ticks ? SimTime.MaxValue : opened + CrowdedWithin;
             crowdedUntil = SimTime.Max(crowdedUntil, until);
         }
     }

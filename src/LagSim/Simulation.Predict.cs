@@ -253,13 +253,9 @@ public sealed partial class Simulation
 
         double reach = bodies[a].Spec.Radius + bodies[b].Spec.Radius;
         SimTime from = opened;
-        if (isPushed)
+        if (isPushed && IsInside(Gap(a, lastA, b, lastB, from)))
         {
-            from = PushedFrom(segmentA.Law == MotionLaw.Held ? lastB : lastA, opened);
-            if (from > until || IsInside(Gap(a, lastA, b, lastB, from)))
-            {
-                return false;
-            }
+            return false;
         }
 
         while (from <= until && ContactFinder.WithSphere(
@@ -303,7 +299,7 @@ public sealed partial class Simulation
 
         if (wait < CollapseWait)
         {
-            bool isRounding = isSqueezed && !IgnoresWedges && round > 0 && closing < RoundingSpeed && !isPushed;
+            bool isRounding = isSqueezed && round > 0 && closing < RoundingSpeed && !isPushed;
             if (!isRounding && (round <= CollapseRound || (closing > CollapseSpeed && !isPushed)))
             {
                 return opened;

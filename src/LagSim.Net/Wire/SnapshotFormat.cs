@@ -82,7 +82,7 @@ public static class SnapshotFormat
         {
             int more = body.Law switch
             {
-                MotionLaw.RungeKutta4 or MotionLaw.ClosedForm => DenseBytes,
+                MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.Constrained => DenseBytes,
                 MotionLaw.DormandPrince54 => DenseBytes + sizeof(long),
                 MotionLaw.Held => HoldBytes,
                 _ => 0,
@@ -200,8 +200,8 @@ public static class SnapshotFormat
             id, spec, opened, law, epoch, end, position, velocity, acceleration, planes.Slice(0, supports), crowding, cubic, quartic, quintic, hold, nextStep, spin, spinRate);
     }
 
-    /// <summary>Whether a path of that law, in flight, has more than a parabola's coefficients.</summary>
-    private static bool IsDense(MotionLaw law) => law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54;
+    /// <summary>Whether a path of that law, in flight or an island, has more than a parabola's coefficients.</summary>
+    private static bool IsDense(MotionLaw law) => law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54 or MotionLaw.Constrained;
 
     // Also of zeros the sign: what goes on from here goes on from the very bits.
     private static void WriteExactly(ref WireWriter writer, in Vector3D value)

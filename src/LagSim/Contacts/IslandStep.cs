@@ -17,7 +17,7 @@ namespace LagSim.Contacts;
 internal sealed class IslandStep
 {
     /// <summary>As long as a step is where nothing asks for less: 2^-9 s, some 2 ms.</summary>
-    private const long Longest = 1L << 31;
+    internal static readonly SimDuration Longest = SimDuration.FromTicks(1L << 31);
 
     /// <summary>No step is shorter than 2^-20 s, whatever asks for it.</summary>
     private const long Shortest = 1L << 20;
@@ -117,8 +117,7 @@ internal sealed class IslandStep
             m.Acceleration = forces.At(m.Spec, time, 0, m.Start, m.Velocity, m.StartSpin);
         }
 
-        long ticks = TicksOfStep(time);
-        Length = SimDuration.FromTicks(ticks);
+        Length = SimDuration.FromTicks(Ticks());
         double h = Length.ToSeconds();
         Move(h);
         Kick(time, h);
@@ -284,9 +283,9 @@ internal sealed class IslandStep
         spins.AsSpan(0, BodyCount));
 
     /// <summary>A power of two of ticks, so short that in the step no normal turns far and no force changes much.</summary>
-    private long TicksOfStep(SimTime time)
+    private long Ticks()
     {
-        double seconds = Longest / (double)SimDuration.TicksPerSecond;
+        double seconds = Longest.ToSeconds();
         for (int i = 0; i < ContactCount; i++)
         {
             ref readonly Touch t = ref touches[i];
@@ -310,7 +309,7 @@ internal sealed class IslandStep
             seconds = rate > 0 ? Math.Min(seconds, MostRateTimesStep / rate) : seconds;
         }
 
-        long ticks = Longest;
+        long ticks = Longest.Ticks;
         while (ticks > Shortest && ticks > seconds * SimDuration.TicksPerSecond)
         {
             ticks >>= 1;

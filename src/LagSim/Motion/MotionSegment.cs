@@ -56,15 +56,11 @@ internal readonly struct MotionSegment
         | (1 << (int)MotionLaw.Constrained);
 
     /// <summary>Whether the body is one of an island: it is in lasting contact with others, or with what no closed form carries it on, and moves or rests there.</summary>
-    internal bool IsOfIsland => Law == MotionLaw.Constrained || (Law == MotionLaw.Resting && Supports.Count == 0 && End == SimTime.MaxValue);
+    internal bool IsOfIsland => Law == MotionLaw.Constrained || (Law == MotionLaw.Resting && Supports.Count == 0);
 
     /// <summary>A path that never moves: a static sphere, or a body at rest.</summary>
     internal static MotionSegment AtRest(SimTime epoch, in Vector3D position, SupportSet supports = default) =>
         new(MotionLaw.Resting, epoch, SimTime.MaxValue, position, Vector3D.Zero, Vector3D.Zero, supports);
-
-    /// <summary>A body at rest for some time, that no plane alone carries.</summary>
-    internal static MotionSegment AtRest(SimTime epoch, in Vector3D position, SimTime end) =>
-        new(MotionLaw.Resting, epoch, end, position, Vector3D.Zero, Vector3D.Zero);
 
     /// <summary>The same piece of path, opened by the last of so many impacts on the spot.</summary>
     internal MotionSegment WithCrowding(int crowding) => new(Law, Epoch, End, Position, Velocity, Acceleration, Supports, crowding);

@@ -111,10 +111,10 @@ public readonly struct BodySnapshot
     /// <summary>How many planes carry it.</summary>
     public int SupportCount => Segment.Supports.Count;
 
-    /// <summary>How many impacts in succession came soon after the one before: 0 to 128; beyond 64 only those count that left no room for a hop.</summary>
+    /// <summary>How many impacts in succession came soon after the one before: 0 to 64.</summary>
     public int Crowding => Segment.Crowding;
 
-    /// <summary>Of an integrated step, or a held path, the coefficient of t^3, in m/s^3; else zero.</summary>
+    /// <summary>Of an integrated step, a step of an island, or a held path, the coefficient of t^3, in m/s^3; else zero.</summary>
     public Vector3D Cubic => Dense.Cubic;
 
     /// <summary>Of an integrated step the coefficient of t^4, in m/s^4; else zero.</summary>

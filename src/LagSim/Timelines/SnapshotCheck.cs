@@ -1,3 +1,4 @@
+using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
@@ -13,7 +14,7 @@ internal static class SnapshotCheck
     private const long MaxTicks = 3L << 61;
 
     /// <summary>The highest count of impacts on the spot, where it stops.</summary>
-    private const int MaxCrowding = Simulation.WedgedAfter;
+    private const int MaxCrowding = Simulation.SqueezedAfter;
 
     internal static void Throw(WorldSnapshot snapshot, Scene scene)
     {
@@ -59,9 +60,9 @@ internal static class SnapshotCheck
         Limits.Components(body.Cubic, double.MaxValue, whose, "cubic coefficient", "m/s^3");
         Limits.Components(body.Quartic, double.MaxValue, whose, "quartic coefficient", "m/s^4");
         Limits.Components(body.Quintic, double.MaxValue, whose, "quintic coefficient", "m/s^5");
-        if (body.Law != body.Spec.Flight && body.Law is not (MotionLaw.Sliding or MotionLaw.Rolling or MotionLaw.Resting or MotionLaw.Held))
+        if (body.Law != body.Spec.Flight && body.Law is not (MotionLaw.Sliding or MotionLaw.Rolling or MotionLaw.Resting or MotionLaw.Held or MotionLaw.Constrained))
         {
-            throw new SceneException($"The motion of {whose} is {body.Law}; it must be Sliding, Rolling, Resting, Held, or its law of flight, {body.Spec.Flight}.");
+            throw new SceneException($"The motion of {whose} is {body.Law}; it must be Sliding, Rolling, Resting, Held, Constrained, or its law of flight, {body.Spec.Flight}.");
         }
 
         Limits.Components(body.Spin, double.MaxValue, whose, "spin", "rad/s");
@@ -71,13 +72,22 @@ internal static class SnapshotCheck
             throw new SceneException($"The next step of {whose} is {body.NextStep}; it must lie between {StepSize.Shortest} and {StepSize.Longest}, or be 0.");
         }
 
-        bool isWedged = body.Law == MotionLaw.Resting && body.Crowding == MaxCrowding && body.Velocity == Vector3D.Zero && body.Acceleration == Vector3D.Zero
-            && body.End == body.Opened.Time + Simulation.WedgedFor;
-        bool isCarried = body.Law is MotionLaw.Sliding or MotionLaw.Rolling or MotionLaw.Resting;
-        if ((isCarried && !isWedged) != body.SupportCount > 0)
+        bool isCarried = body.Law is MotionLaw.Sliding or MotionLaw.Rolling;
+        if (isCarried != body.SupportCount > 0 && body.Law != MotionLaw.Resting)
         {
             throw new SceneException(
-                $"{body.SupportCount} planes carry {whose}, which is {body.Law}; what slides, rolls or rests is carried, and nothing else, but for what rests wedged, after {MaxCrowding} impacts on the spot and for {Simulation.WedgedFor}.");
+                $"{body.SupportCount} planes carry {whose}, which is {body.Law}; what slides or rolls is carried, what rests may be, and nothing else is.");
+        }
+
+        if (body.Law == MotionLaw.Resting && body.End != SimTime.MaxValue)
+        {
+            throw new SceneException($"The rest of {whose} ends at {body.End}; it lasts until something else happens, so its end must be {SimTime.MaxValue}.");
+        }
+
+        if (body.Law == MotionLaw.Constrained && (body.Epoch != body.Opened.Time || body.End <= body.Epoch || body.End - body.Epoch > IslandStep.Longest))
+        {
+            throw new SceneException(
+                $"The step of {whose}, which is Constrained, lasts from {body.Epoch} to {body.End} and was opened at {body.Opened.Time}; it must begin where it was opened and last at most {IslandStep.Longest}.");
         }
 
         for (int n = 0; n < body.SupportCount; n++)

@@ -245,9 +245,9 @@ public sealed class HeldTests
 
         bool IsDone(bool pressesOn)
         {
-            Simulation simulation = new(scene) { PressesOn = pressesOn, IgnoresWedges = pressesOn };
+            Simulation simulation = new(scene) { PressesOn = pressesOn };
             events.ForEach(e => simulation.Submit(e));
-            long budget = 5_000;
+            long budget = 3_000;
             return simulation.TryAdvanceTo(At(1), ref budget);
         }
     }
