@@ -148,7 +148,7 @@ public sealed partial class Simulation
                 FindMates(slot, withSelf: false);
                 int before = timelines.Last(slot);
                 HandleExternal(slot, key);
-                if (partyCount > 0 && timelines.Last(slot) != before)
+                if (partyCount > 0 && timelines.Last(slot) != before && !(Has(HealingFault.LeavesMates) && MayBeAhead(key)))
                 {
                     ReleaseMates(slot, key);
                 }

@@ -76,11 +76,15 @@ public sealed partial class Simulation
         for (int i = 0; i < contactCount && !may && !Scene.Box.Exists && !IgnoresIslands; i++)
         {
             ref readonly ContactPoint c = ref contacts[i];
-            may = Math.Abs(ImpactSolver.Opening(c, partyVelocities)) <= 2 * LastingSpeed && (!IsSupportable(c) || Friction(c) > 0);
+            may = Math.Abs(ImpactSolver.Opening(c, partyVelocities)) <= 2 * LastingSpeed && (!IsSupportable(c) || Friction(c) > 0) && !AreInFreeFlight(c);
         }
 
         return may;
     }
+
+    /// <summary>Whether two bodies have met in free flight: gravity alone does not press them together, whatever rounding has to say.</summary>
+    private bool AreInFreeFlight(in ContactPoint c) =>
+        c.Second != ContactPoint.Static && flights.IsFree(parties[c.First]) && flights.IsFree(parties[c.Second]);
 
     /// <summary>
     /// Opens the next pieces of those parties that are in islands from here on. The states hold <paramref name="carry"/> seconds before the key's tick. Who is in none is not opened.

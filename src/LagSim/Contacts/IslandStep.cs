@@ -30,6 +30,9 @@ internal sealed class IslandStep
 
     private const double MostRateTimesStep = 1.0 / 16;
 
+    /// <summary>A contact that changes a speed by less than this part of what gravity and forces do does not push.</summary>
+    private const double LeastPush = 1e-9;
+
     /// <summary>So often at most the normals' turning is taken in anew; each time it is right to two orders more.</summary>
     private const int MostRefinements = 8;
 
@@ -123,8 +126,13 @@ internal sealed class IslandStep
         Kick(time, h);
     }
 
-    /// <summary>Whether a contact pushes in the step.</summary>
-    internal bool Pushes(int contact) => touches[contact].Push > 0;
+    /// <summary>Whether a contact pushes in the step, by more than rounding.</summary>
+    internal bool Pushes(int contact)
+    {
+        ref readonly Touch t = ref touches[contact];
+        double inverse = (1 / masses[t.First]) + (t.Second == ContactPoint.Static ? 0 : 1 / masses[t.Second]);
+        return t.Push * inverse > LeastPush * Length.ToSeconds() * Pull();
+    }
 
     /// <summary>The first body of a contact.</summary>
     internal int First(int contact) => touches[contact].First;

@@ -29,4 +29,7 @@ internal enum HealingFault
 
     /// <summary>A heal ends where the bodies are in their old places again, whichever way they move.</summary>
     StopsWherePlacesMeet = 64,
+
+    /// <summary>What a late event does to one of an island leaves the others on their paths, as if they were not in touch with it.</summary>
+    LeavesMates = 128,
 }

@@ -127,7 +127,7 @@ internal static class SnapshotCheck
     {
         EventKey opened = body.Opened;
         bool isKnown = opened.Kind is EventKind.Start or EventKind.Impact or EventKind.StepEnd
-            or (>= EventKind.Spawn and <= EventKind.Release);
+            or (>= EventKind.Spawn and <= EventKind.Release) || (opened.Kind == EventKind.Remove && opened.Body != body.Id); // what it lay on is gone
         if (!isKnown || opened.Time < snapshot.Start || opened.Time >= snapshot.Time)
         {
             throw new SceneException($"The path of {whose} was opened by {opened}; it must be an event that opens one, from {snapshot.Start} on and before {snapshot.Time}.");

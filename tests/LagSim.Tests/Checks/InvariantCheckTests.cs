@@ -113,12 +113,13 @@ public sealed class InvariantCheckTests
     }
 
     [Theory]
-    [InlineData(HealingFault.ForgetsThePast, 6u)]
-    [InlineData(HealingFault.OverlooksWhoIsAhead, 6u)]
+    [InlineData(HealingFault.ForgetsThePast, 1u)]
+    [InlineData(HealingFault.OverlooksWhoIsAhead, 1u)]
     [InlineData(HealingFault.GivesUpByBody, 15u)]
-    [InlineData(HealingFault.DropsEvents, 12u)]
-    [InlineData(HealingFault.CutsByTime, 6u)]
-    [InlineData(HealingFault.LeavesWhoRests, 178u)]
+    [InlineData(HealingFault.DropsEvents, 1u)]
+    [InlineData(HealingFault.LeavesMates, 31u)]
+    [InlineData(HealingFault.CutsByTime, 1u)]
+    [InlineData(HealingFault.LeavesWhoRests, 31u)]
     internal void Run_HealingInAWayKnownToBeWrong_IsCaughtByItsSeed(HealingFault fault, uint seed)
     {
         // The seeds that docs/HEALING.md names.

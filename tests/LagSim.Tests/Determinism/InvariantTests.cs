@@ -214,6 +214,7 @@ public sealed class InvariantTests
     [InlineData(HealingFault.CutsByTime)]
     [InlineData(HealingFault.LeavesWhoRests)]
     [InlineData(HealingFault.StopsWherePlacesMeet)]
+    [InlineData(HealingFault.LeavesMates)]
     internal void Check_HealingInAWayKnownToBeWrong_IsSeenToFail(HealingFault fault)
     {
         int seed = 0;
