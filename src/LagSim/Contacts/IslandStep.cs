@@ -243,7 +243,7 @@ internal sealed class IslandStep
     }
 
     /// <summary>What of a length in parts of what touches is rounding.</summary>
-    private const double Rounding = 1e-15;
+    private const double Rounding = 1e-13;
 
     /// <summary>The second half: impulses along the normals where the step has led, of contacts that have pushed or have no gap, so that they do not close.</summary>
     private void Kick(SimTime time, double h)

@@ -336,7 +336,7 @@ public sealed class WirePageTests
         ("opened body", b.Opened.Body.Packed), ("opened other", b.Opened.Other.Packed), ("opened peer", b.Opened.Peer), ("opened sequence", b.Opened.Sequence),
         ("law", (byte)b.Law), ("epoch", b.Epoch), ("end", b.End), ("position", b.Position), ("velocity", b.Velocity), ("acceleration", b.Acceleration),
         ("crowding", (byte)b.Crowding), ("supports", (byte)b.SupportCount), ("carried by", Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray()),
-        ("dense output", b.Law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54 ? new[] { b.Cubic, b.Quartic, b.Quintic } : []),
+        ("dense output", b.Law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54 or MotionLaw.Constrained ? new[] { b.Cubic, b.Quartic, b.Quintic } : []),
         ("next step", b.Law == MotionLaw.DormandPrince54 ? new[] { b.NextStep.Ticks } : []),
         ("turns", b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? 1 : 0),
         ("spin", b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? new[] { b.Spin, b.SpinRate } : []),
