@@ -39,6 +39,7 @@ internal sealed class ImpactSolver
 
     // By place in the active set.
     private Vector3D[] basis = new Vector3D[16]; // row by row: the orthogonal rows, a part for each body
+    private double[] extent = new double[16]; // the lengths of those parts
     private double[] share = new double[16]; // row by row: how much of each earlier basis row a contact's row has
     private double[] weight = new double[4]; // of a basis row: its square, by 1/mass
     private double[] along = new double[4]; // the impulse along each basis row
@@ -49,6 +50,7 @@ internal sealed class ImpactSolver
     private Vector3D[] change = new Vector3D[4];
 
     private int bodies;
+    private int kept; // how many contacts are in the active set that the last solution ended with
 
     /// <summary>
     /// Changes the velocities by the impulses of all contacts. <paramref name="masses"/> and velocities by number of body; one in a hand has an infinite mass.
@@ -63,10 +65,29 @@ internal sealed class ImpactSolver
 
         bodies = velocities.Length;
         Grow(contacts.Length);
-        if (!TryMeet(contacts, masses, velocities, c => c.Target) && !TryMeet(contacts, masses, velocities, c => c.Restored))
+        SolveSeveral(contacts, masses, velocities, again: false);
+    }
+
+    /// <summary>
+    /// The same with other targets and velocities: for the very bodies and normals that were solved last, which saves most of the work. It begins with the contacts that pushed then.
+    /// </summary>
+    internal void SolveAgain(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities)
+    {
+        if (contacts.Length == 1)
+        {
+            Single(ref contacts[0], masses, velocities);
+            return;
+        }
+
+        SolveSeveral(contacts, masses, velocities, again: true);
+    }
+
+    private void SolveSeveral(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, bool again)
+    {
+        if (!TryMeet(contacts, masses, velocities, c => c.Target, again) && !TryMeet(contacts, masses, velocities, c => c.Restored, again: false))
         {
             Demand(contacts, velocities, _ => 0);
-            TrySolve(contacts, masses);
+            TrySolve(contacts, masses, again: false);
         }
 
         for (int b = 0; b < bodies; b++)
@@ -117,10 +138,10 @@ internal sealed class ImpactSolver
     }
 
     /// <summary>Solves for these speeds after the impact; false if they cannot be had, or only at an expense of energy.</summary>
-    private bool TryMeet(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, Func<ContactPoint, double> target)
+    private bool TryMeet(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, Func<ContactPoint, double> target, bool again)
     {
         Demand(contacts, velocities, target);
-        return TrySolve(contacts, masses) && !IsCostly(contacts, masses, velocities);
+        return TrySolve(contacts, masses, again) && !IsCostly(contacts, masses, velocities);
     }
 
     private void Demand(Span<ContactPoint> contacts, Span<Vector3D> velocities, Func<ContactPoint, double> target)
@@ -177,20 +198,21 @@ internal sealed class ImpactSolver
     private static bool IsHand(double mass) => double.IsPositiveInfinity(mass);
 
     /// <summary>Lawson and Hanson's active-set method; false if some demand cannot be met. Leaves the change of every velocity.</summary>
-    private bool TrySolve(Span<ContactPoint> contacts, Span<double> masses)
+    private bool TrySolve(Span<ContactPoint> contacts, Span<double> masses, bool again)
     {
         int n = contacts.Length;
-        int count = 0;
+        int count = again ? kept : 0;
         double scale = 0;
         for (int i = 0; i < n; i++)
         {
             impulse[i] = 0;
-            isActive[i] = false;
+            isActive[i] &= again;
             dependent[i] = false;
             scale = Math.Max(scale, Math.Abs(demand[i]));
         }
 
         Array.Clear(change, 0, bodies);
+        count = count > 0 ? Retreat(contacts, masses, count) : 0;
         double least = Tolerance * scale;
         for (int pass = 0; pass < 10 * n; pass++)
         {
@@ -223,6 +245,7 @@ internal sealed class ImpactSolver
             Array.Clear(dependent, 0, n);
         }
 
+        kept = count;
         for (int i = 0; i < n; i++)
         {
             if (!isActive[i] && Missing(contacts[i], i) > 1e3 * least)
@@ -335,6 +358,11 @@ internal sealed class ImpactSolver
 
         TakeAway(mine, shares, row, masses);
         weight[row] = Product(mine, mine, masses);
+        for (int b = 0; b < bodies; b++)
+        {
+            extent[(row * bodies) + b] = mine[b].Length;
+        }
+
         return weight[row] > 0;
     }
 
@@ -345,10 +373,14 @@ internal sealed class ImpactSolver
             Span<Vector3D> theirs = basis.AsSpan(k * bodies, bodies);
             double part = Product(mine, theirs, masses) / weight[k];
             shares[k] += part;
-            for (int b = 0; b < bodies; b++)
+            for (int b = 0; b < bodies && part != 0; b++)
             {
-                mine[b] -= theirs[b] * part;
-                size[b] = Math.Max(size[b], theirs[b].Length * Math.Abs(part));
+                double length = extent[(k * bodies) + b];
+                if (length > 0)
+                {
+                    mine[b] -= theirs[b] * part;
+                    size[b] = Math.Max(size[b], length * Math.Abs(part));
+                }
             }
         }
     }
@@ -443,6 +475,7 @@ internal sealed class ImpactSolver
         if (demand.Length * bodies > basis.Length)
         {
             basis = new Vector3D[demand.Length * Math.Max(bodies, change.Length)];
+            extent = new double[basis.Length];
         }
     }
 }

@@ -200,7 +200,7 @@ internal sealed class IslandStep
                 points[i].Restored = points[i].Target;
             }
 
-            Solve(ContactCount);
+            Solve(ContactCount, again: n > 0);
             for (int b = 0; b < BodyCount; b++)
             {
                 ref Member m = ref members[b];
@@ -271,7 +271,7 @@ internal sealed class IslandStep
 
         if (count > 0)
         {
-            Solve(count);
+            Solve(count, again: false);
         }
 
         for (int k = 0; k < count; k++)
@@ -286,9 +286,9 @@ internal sealed class IslandStep
         }
     }
 
-    private void Solve(int count) => solver.Solve(
+    private void Solve(int count, bool again) => solver.Solve(
         points.AsSpan(0, count), coefficients.AsSpan(0, count), masses.AsSpan(0, BodyCount), radii.AsSpan(0, BodyCount), velocities.AsSpan(0, BodyCount),
-        spins.AsSpan(0, BodyCount));
+        spins.AsSpan(0, BodyCount), again);
 
     /// <summary>A power of two of ticks, so short that in the step no normal turns far and no force changes much.</summary>
     private long Ticks()

@@ -33,8 +33,9 @@ internal sealed class LastingContactSolver
     /// <param name="radii">In metres.</param>
     /// <param name="velocities">In m/s.</param>
     /// <param name="spins">In rad/s.</param>
+    /// <param name="again">Whether the bodies and normals are those that were solved last.</param>
     internal void Solve(
-        Span<ContactPoint> contacts, Span<double> coefficients, Span<double> masses, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins)
+        Span<ContactPoint> contacts, Span<double> coefficients, Span<double> masses, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins, bool again)
     {
         double most = 0;
         for (int i = 0; i < coefficients.Length; i++)
@@ -44,7 +45,7 @@ internal sealed class LastingContactSolver
 
         if (!(most > 0))
         {
-            normals.Solve(contacts, masses, velocities);
+            SolveNormals(contacts, masses, velocities, again);
             return;
         }
 
@@ -67,11 +68,23 @@ internal sealed class LastingContactSolver
                 Push(contacts[i], rubbing[i], masses, radii, velocities, spins);
             }
 
-            normals.Solve(contacts, masses, velocities);
+            SolveNormals(contacts, masses, velocities, again || turn > 0);
             if (turn == MostTurns || !(Rub(contacts, coefficients, masses, radii, velocities, spins) > Settled * speed))
             {
                 return;
             }
+        }
+    }
+
+    private void SolveNormals(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, bool again)
+    {
+        if (again)
+        {
+            normals.SolveAgain(contacts, masses, velocities);
+        }
+        else
+        {
+            normals.Solve(contacts, masses, velocities);
         }
     }
 
