@@ -31,8 +31,17 @@ public sealed partial class Simulation
     /// <summary>Takes no contact for one that lasts: only a test's negative control sets it.</summary>
     internal bool IgnoresIslands { get; set; }
 
-    /// <summary>A contact that opens or closes slower than this, in m/s, may last: a thousandth of a hop's speed.</summary>
-    private double LastingSpeed => 1e-3 * HopSpeed(Math.Max(Scene.Gravity.Length, 1));
+    /// <summary>A contact that opens slower than this, in m/s, may last: a quarter of a hop's speed, at which it would soon be struck again.</summary>
+    private double LastingSpeed => 0.25 * HopSpeed(Math.Max(Scene.Gravity.Length, 1));
+
+    /// <summary>One that closes faster than this, in m/s, is struck first: a step that began with more would be that much too deep on the way.</summary>
+    private double LeastClosing => 1e-3 * HopSpeed(Math.Max(Scene.Gravity.Length, 1));
+
+    /// <summary>Whether so fast an opening is that of a contact of which a step is under way: nothing of it closes when it begins.</summary>
+    private bool IsCalm(double opening) => opening <= LastingSpeed && opening >= -LeastClosing;
+
+    /// <summary>Whether a contact that opens so fast may be taken into a step, which first ends what closes as plastically as an impact so slow does.</summary>
+    private bool IsSlow(double opening) => Math.Abs(opening) <= LastingSpeed;
 
     /// <summary>Whether two bodies on these pieces of their paths are in lasting contact: their island keeps them apart, and nobody looks for an impact of theirs.</summary>
     private bool Lasts(int slot, int piece, int other, int otherPiece)
@@ -40,33 +49,31 @@ public sealed partial class Simulation
         ref readonly MotionSegment a = ref timelines.Segment(piece);
         ref readonly MotionSegment b = ref timelines.Segment(otherPiece);
         return a.IsOfIsland && b.IsOfIsland && timelines.Key(piece) == timelines.Key(otherPiece)
-            && AreInTouch(a.Position, a.Velocity, b.Position, b.Velocity, bodies[slot].Spec.Radius + bodies[other].Spec.Radius);
+            && AreNear(a.Position, b.Position, bodies[slot].Spec.Radius + bodies[other].Spec.Radius)
+            && IsCalm(Opening(a.Position, a.Velocity, b.Position, b.Velocity));
     }
 
     /// <summary>Whether a body on this piece of its path is in lasting contact with a static surface.</summary>
     private bool Lasts(int slot, int piece, int surface)
     {
         ref readonly MotionSegment path = ref timelines.Segment(piece);
-        return path.IsOfIsland && IsInTouch(path.Position, path.Velocity, surface, bodies[slot].Spec.Radius);
+        return path.IsOfIsland && IsNear(path.Position, surface, bodies[slot].Spec.Radius) && IsCalm(Vector3D.Dot(SurfaceNormal(surface, path.Position), path.Velocity));
     }
 
-    private bool AreInTouch(in Vector3D place, in Vector3D velocity, in Vector3D otherPlace, in Vector3D otherVelocity, double reach)
-    {
-        Vector3D apart = place - otherPlace;
-        double distance = apart.Length;
-        return distance - reach <= NearGap && Math.Abs(Vector3D.Dot(Direction(apart), velocity - otherVelocity)) <= LastingSpeed;
-    }
+    private bool AreNear(in Vector3D place, in Vector3D otherPlace, double reach) => (place - otherPlace).Length - reach <= NearGap;
 
-    private bool IsInTouch(in Vector3D place, in Vector3D velocity, int surface, double radius)
+    private static double Opening(in Vector3D place, in Vector3D velocity, in Vector3D otherPlace, in Vector3D otherVelocity) =>
+        Vector3D.Dot(Direction(place - otherPlace), velocity - otherVelocity);
+
+    private bool IsNear(in Vector3D place, int surface, double radius)
     {
-        if (surface >= Scene.PlaneArray.Length)
+        if (surface < Scene.PlaneArray.Length)
         {
-            ref readonly StaticSphere sphere = ref Scene.SphereArray[surface - Scene.PlaneArray.Length];
-            return AreInTouch(place, velocity, sphere.Centre, Vector3D.Zero, radius + sphere.Radius);
+            return Scene.PlaneArray[surface].Gap(place, radius) <= NearGap;
         }
 
-        ref readonly StaticPlane plane = ref Scene.PlaneArray[surface];
-        return plane.Gap(place, radius) <= NearGap && Math.Abs(Vector3D.Dot(plane.Normal, velocity)) <= LastingSpeed;
+        ref readonly StaticSphere sphere = ref Scene.SphereArray[surface - Scene.PlaneArray.Length];
+        return AreNear(place, sphere.Centre, radius + sphere.Radius);
     }
 
     /// <summary>Whether a contact of the impact at hand may go on as one that lasts, on which no closed form carries a body.</summary>
@@ -76,7 +83,7 @@ public sealed partial class Simulation
         for (int i = 0; i < contactCount && !may && !Scene.Box.Exists && !IgnoresIslands; i++)
         {
             ref readonly ContactPoint c = ref contacts[i];
-            may = Math.Abs(ImpactSolver.Opening(c, partyVelocities)) <= 2 * LastingSpeed && (!IsSupportable(c) || Friction(c) > 0) && !AreInFreeFlight(c);
+            may = ImpactSolver.Opening(c, partyVelocities) <= 2 * LastingSpeed && (!IsSupportable(c) || Friction(c) > 0) && !AreInFreeFlight(c);
         }
 
         return may;
@@ -141,7 +148,7 @@ public sealed partial class Simulation
             Vector3D place = PlaceOf(i, carry);
             for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
             {
-                if (IsInTouch(place, partyVelocities[i], surface, partyRadii[i]))
+                if (IsNear(place, surface, partyRadii[i]) && IsSlow(Vector3D.Dot(SurfaceNormal(surface, place), partyVelocities[i])))
                 {
                     AddTouching(new ContactPoint(i, ContactPoint.Static, surface, default));
                 }
@@ -149,8 +156,8 @@ public sealed partial class Simulation
 
             for (int j = i + 1; j < partyCount; j++)
             {
-                if (!double.IsPositiveInfinity(partyMasses[j])
-                    && AreInTouch(place, partyVelocities[i], PlaceOf(j, carry), partyVelocities[j], partyRadii[i] + partyRadii[j]))
+                if (!double.IsPositiveInfinity(partyMasses[j]) && AreNear(place, PlaceOf(j, carry), partyRadii[i] + partyRadii[j])
+                    && IsSlow(Opening(place, partyVelocities[i], PlaceOf(j, carry), partyVelocities[j])))
                 {
                     AddTouching(new ContactPoint(i, j, -1, default));
                 }
@@ -280,7 +287,7 @@ public sealed partial class Simulation
             StepGroup(least, carry, key.Time);
         }
 
-        bool rests = mayRest && IsSlow();
+        bool rests = mayRest && AreSlow();
         if (rests)
         {
             island.Take(key.Time, fromRest: true);
@@ -310,7 +317,7 @@ public sealed partial class Simulation
     }
 
     /// <summary>Whether nobody in the step at hand is faster than what rises less than the scene resolves, and no force on them depends on the time as far as anybody knows.</summary>
-    private bool IsSlow()
+    private bool AreSlow()
     {
         bool isSlow = true;
         double limit = Math.Sqrt(2 * Scene.Resolution * island.Pull());

@@ -33,6 +33,9 @@ internal sealed class IslandStep
     /// <summary>A contact that changes a speed by less than this part of what gravity and forces do does not push.</summary>
     private const double LeastPush = 1e-9;
 
+    /// <summary>What closes slower than this, in m/s, is rounding.</summary>
+    private const double Still = 1e-10;
+
     /// <summary>So often at most the normals' turning is taken in anew; each time it is right to two orders more.</summary>
     private const int MostRefinements = 8;
 
@@ -110,9 +113,14 @@ internal sealed class IslandStep
         Rubs |= friction > 0;
     }
 
-    /// <summary>Takes the step from <paramref name="time"/> on; with <paramref name="fromRest"/> as if nobody moved.</summary>
+    /// <summary>Takes the step from <paramref name="time"/> on, before which what closes is stopped without a rebound; with <paramref name="fromRest"/> as if nobody moved.</summary>
     internal void Take(SimTime time, bool fromRest = false)
     {
+        if (!fromRest)
+        {
+            Settle();
+        }
+
         for (int b = 0; b < BodyCount; b++)
         {
             ref Member m = ref members[b];
@@ -170,6 +178,37 @@ internal sealed class IslandStep
         spin = new Spin(m.StartSpin, (m.EndSpin - m.StartSpin) / h);
         return new MotionSegment(
             MotionLaw.Constrained, time, time + Length, m.Start, m.Velocity, (quadratic * 2).WithoutNegativeZero(), crowding: crowding);
+    }
+
+    /// <summary>Stops what closes at the start.</summary>
+    private void Settle()
+    {
+        for (int b = 0; b < BodyCount; b++)
+        {
+            velocities[b] = members[b].StartVelocity;
+            spins[b] = members[b].StartSpin;
+        }
+
+        bool closes = false;
+        for (int i = 0; i < ContactCount; i++)
+        {
+            ref readonly Touch t = ref touches[i];
+            points[i] = new ContactPoint(t.First, t.Second, t.Surface, default) { Normal = Normal(t, atEnd: false) };
+            coefficients[i] = t.Friction;
+            closes |= ImpactSolver.Opening(points[i], velocities.AsSpan(0, BodyCount)) < -Still;
+        }
+
+        if (!closes)
+        {
+            return;
+        }
+
+        Solve(ContactCount, again: false);
+        for (int b = 0; b < BodyCount; b++)
+        {
+            members[b].StartVelocity = velocities[b].WithoutNegativeZero();
+            members[b].StartSpin = spins[b];
+        }
     }
 
     /// <summary>The first half: impulses that keep the gaps open, and where they lead.</summary>
