@@ -51,7 +51,9 @@ public sealed partial class Simulation
         SimulatedTo = Start - SimDuration.OneTick;
         HistoryEdge = Start;
         flights = new FreeFlights(scene.Gravity, NearGap, scene.Box);
-        timelines = new TimelineStore(Start, options.MaxSegments, flights);
+        bodies = new Body[Math.Max(bodies.Length, scene.BodyArray.Length)];
+        order.Capacity = scene.BodyArray.Length;
+        timelines = new TimelineStore(Start, options.MaxSegments, flights, scene.BodyArray.Length);
         witnesses = new WitnessLog(options.MaxSegments);
         Observer = options.Observer;
         forces = new Forces(scene, Start);

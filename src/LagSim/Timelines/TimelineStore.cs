@@ -24,14 +24,16 @@ internal sealed class TimelineStore
 
     private const int Growth = 64;
 
+    private const int FirstRoom = 32;
+
     /// <summary>If all that can be dropped is less than one part in so many, it would soon be looked for again.</summary>
     private const int LittleRoom = 32;
 
     private readonly SimTime origin;
     private readonly EventHashSum hashes = new();
     private readonly FreeFlights? flights; // is told of each body's newest segment
-    private Piece[] pieces = new Piece[32];
-    private Link[] links = new Link[32]; // apart, so that what is old is dropped without a look at what it was
+    private Piece[] pieces;
+    private Link[] links; // apart, so that what is old is dropped without a look at what it was
     private DenseOutput[] dense = Array.Empty<DenseOutput>(); // only once something is integrated
     private Hold[] holds = Array.Empty<Hold>(); // only once something is held
     private Spin[] spins = Array.Empty<Spin>(); // only once something turns
@@ -41,9 +43,15 @@ internal sealed class TimelineStore
     private int[] last = Array.Empty<int>();
     private SimTime dropped = SimTime.MinValue; // the latest edge of the history that was heard of
 
-    /// <summary>No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to <paramref name="flights"/>.</summary>
-    internal TimelineStore(SimTime origin, int most = SimulationOptions.DefaultMaxSegments, FreeFlights? flights = null)
+    /// <summary>
+    /// No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to <paramref name="flights"/>; with room
+    /// for as many as are expected at first.
+    /// </summary>
+    internal TimelineStore(SimTime origin, int most = SimulationOptions.DefaultMaxSegments, FreeFlights? flights = null, int expected = 0)
     {
+        int room = Math.Max(FirstRoom, Math.Min(most, expected + (expected / Growth)));
+        pieces = new Piece[room];
+        links = new Link[room];
         this.origin = origin;
         this.flights = flights;
         Most = most;
