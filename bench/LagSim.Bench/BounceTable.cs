@@ -9,8 +9,8 @@ using LagSim.Time;
 namespace LagSim.Bench;
 
 /// <summary>
-/// What the simplest scene costs, a ball that bounces elastically, and the hash of what happened. It asks for nothing that the first versions did not have, so that it runs with their
-/// assemblies in place of today's.
+/// What the simplest scene costs, a ball that bounces elastically, and the hash of what happened. It asks for nothing that the first versions did not have, so
+/// that it runs with their assemblies in place of today's.
 /// </summary>
 internal static class BounceTable
 {

@@ -7,8 +7,8 @@ using LagSim.Time;
 namespace LagSim;
 
 /// <content>
-/// The impact of two bodies in free flight with nobody near, or of one with a surface: what nearly all impacts of a gas are, and of a ball that bounces; nothing has
-/// to be gathered for it.
+/// The impact of two bodies in free flight with nobody near, or of one with a surface: what nearly all impacts of a gas are, and of a ball that bounces; nothing
+/// has to be gathered for it.
 /// </content>
 public sealed partial class Simulation
 {
@@ -38,9 +38,9 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// Whether the impact is surely of two bodies, or of one and a surface, and nothing else. Whoever else is struck at that tick has an event pending then, for
-    /// nobody's pending event is later than his next contact; or he, or another surface, was seen when one of the two was predicted, which then is tied. So if there
-    /// is none and neither is tied, nobody is, but by a surface the one of two that did not find the other, which has none pending.
+    /// Whether the impact is surely of two bodies, or of one and a surface, and nothing else. Whoever else is struck at that tick has an event pending then,
+    /// for nobody's pending event is later than his next contact; or he, or another surface, was seen when one of the two was predicted, which then is tied.
+    /// So if there is none and neither is tied, nobody is, but by a surface the one of two that did not find the other, which has none pending.
     /// </summary>
     private bool IsAlone(int slot, in EventKey key)
     {

@@ -8,14 +8,15 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Hard;
 
-/// <summary>The same events in the same order whichever index names the pairs to ask, and however many threads run a world of their own at the same time.</summary>
+/// <summary>The same events in the same order whichever index names the pairs to ask, and however many threads run a world of their own at a time.</summary>
 internal sealed class EventOrderCase : IHardCase
 {
     private static readonly int[] Threads = [2, 3, 7];
 
     public string Name => "event-order";
 
-    public string Title => "a long run of a crowd: the same events, to the bit, whether all pairs are looked at or an index of the paths names them, on any number of threads";
+    public string Title =>
+        "a long run of a crowd: the same events, to the bit, whether all pairs are looked at or an index of the paths names them, on any number of threads";
 
     public IEnumerable<HardRow> Rows(HardContext context)
     {
@@ -28,7 +29,8 @@ internal sealed class EventOrderCase : IHardCase
         for (int n = 0; n < Threads.Length; n++)
         {
             double done = 2 + n;
-            yield return Row(FormattableString.Invariant($"{Threads[n]} threads, as many"), pairs, Together(context, scene, seconds, Threads[n], part => context.Report((done + part) / whole)));
+            World[] worlds = Together(context, scene, seconds, Threads[n], part => context.Report((done + part) / whole));
+            yield return Row(FormattableString.Invariant($"{Threads[n]} threads, as many"), pairs, worlds);
         }
     }
 
@@ -37,7 +39,8 @@ internal sealed class EventOrderCase : IHardCase
         Scene scene = BuiltInScenes.Crowd(80);
         World pairs = Run(context, scene, 10, int.MaxValue, _ => { });
         const string note = "one ball a unit in the last place further on";
-        yield return Row(FormattableString.Invariant($"80 balls, {pairs.Count:N0} events"), pairs, Run(context, Nudged(scene), 10, 0, _ => { })) with { Note = note };
+        World nudged = Run(context, Nudged(scene), 10, 0, _ => { });
+        yield return Row(FormattableString.Invariant($"80 balls, {pairs.Count:N0} events"), pairs, nudged) with { Note = note };
         yield return Row("2 threads, as many", pairs, Together(context, Nudged(scene), 10, 2, _ => { })) with { Note = note };
     }
 

@@ -3,8 +3,8 @@ using System.Collections.Generic;
 
 namespace LagSim.Scenes;
 
-/// <summary>Which two of many balls overlap: space is halved until few are left together, and whoever lies on both sides of a cut is looked at on both.</summary>
-/// <remarks>Cost: n log n for balls that fill space; where cuts part nothing, as among balls of all sizes at one place, what sort and sweep costs there.</remarks>
+/// <summary>Which two of many balls overlap: space is halved until few are left together, and who lies on both sides of a cut is looked at on both.</summary>
+/// <remarks>Cost: n log n for balls that fill space; where cuts part nothing, as among balls of all sizes in one place, what sort and sweep costs.</remarks>
 internal sealed class OverlapSearch
 {
     private const int Few = 32;

@@ -44,12 +44,18 @@ internal sealed class TimelineStore
     private SimTime dropped = SimTime.MinValue; // the latest edge of the history that was heard of
 
     /// <summary>
-    /// No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to <paramref name="flights"/>; with room
-    /// for as many as are expected at first.
+    /// No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to
+    /// <paramref name="flights"/>; with room for as many as are expected at first.
     /// </summary>
     internal TimelineStore(SimTime origin, int most = SimulationOptions.DefaultMaxSegments, FreeFlights? flights = null, int expected = 0)
     {
-        int room = Math.Max(FirstRoom, Math.Min(most, expected + (expected / Growth)));
+        int room = FirstRoom;
+        while (room < expected && room < Large)
+        {
+            room *= 2;
+        }
+
+        room = Math.Max(room, expected + (expected / Growth));
         pieces = new Piece[room];
         links = new Link[room];
         this.origin = origin;
