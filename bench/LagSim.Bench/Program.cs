@@ -20,6 +20,7 @@ internal static class Program
         ["frames"] = FrameTable.Print,
         ["arrival"] = ArrivalTable.Print,
         ["hardspheres"] = HardSphereTable.Print,
+        ["bounce"] = BounceTable.Print,
         ["gas"] = WalledGasTable.Print,
         ["large"] = LargeTable.Print,
     };

@@ -15,7 +15,8 @@ public sealed partial class Simulation
     /// </summary>
     private void FindInFlight(int slot, Span<int> candidates, SimTime from, SimTime until, int except, ref Pending next)
     {
-        Span<Approach> approaches = flights.Approaches(slot, candidates, from, next.Earliest(until));
+        bool isOnly = candidates.Length == 1 && candidates[0] == slot;
+        Span<Approach> approaches = isOnly ? default : flights.Approaches(slot, candidates, from, next.Earliest(until));
         int count = approaches.Length;
         while (count > 0)
         {
@@ -69,7 +70,11 @@ public sealed partial class Simulation
         if (TryTouchSurface(slot, surface, out ContactTime contact, out uint round))
         {
             BodyId id = bodies[slot].Id;
-            next.Consider(new EventKey(contact.Tick, round, EventKind.Impact, id, id, 0, 0));
+            if (next.Consider(new EventKey(contact.Tick, round, EventKind.Impact, id, id, 0, 0)))
+            {
+                next.Surface = surface;
+                next.Residual = contact.Residual;
+            }
         }
     }
 
@@ -114,6 +119,7 @@ public sealed partial class Simulation
         internal bool Any;
         internal EventKey Key;
         internal int Partner;
+        internal int Surface;
         internal int Piece;
         internal double Residual;
         internal bool IsTied; // something else was considered at that tick

@@ -45,9 +45,9 @@ public sealed partial class Simulation
 
     private bool TryHandleImpact(int slot, in EventKey key)
     {
-        if (IsPairAlone(slot, key))
+        if (IsAlone(slot, key))
         {
-            HandlePair(slot, key);
+            HandleAlone(slot, key);
             return true;
         }
 

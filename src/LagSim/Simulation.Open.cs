@@ -119,7 +119,7 @@ public sealed partial class Simulation
             return false;
         }
 
-        Span<int> slow = touchedPlanes.Length <= 32 ? stackalloc int[32] : new int[touchedPlanes.Length];
+        Span<int> slow = touchedPlanes.Length <= 8 ? stackalloc int[8] : new int[touchedPlanes.Length];
         int count = 0;
         foreach (int plane in touchedPlanes)
         {
@@ -128,6 +128,11 @@ public sealed partial class Simulation
             {
                 slow[count++] = plane;
             }
+        }
+
+        if (count == 0)
+        {
+            return false; // as after nearly every bounce
         }
 
         SupportSet supports = PlaneSupport.Solve(slow.Slice(0, count), Scene.PlaneArray, Scene.Gravity, out Vector3D acceleration);

@@ -90,6 +90,7 @@ public sealed partial class Simulation
     {
         ref Body body = ref bodies[slot];
         body.Partner = partner;
+        body.Surface = next.Surface;
         body.PartnerSerial = partner == NoPartner ? 0 : timelines.Serial(Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : piece);
         body.Residual = next.Residual;
         body.IsTied = next.IsTied;

@@ -51,7 +51,9 @@ public sealed partial class Simulation
         SimulatedTo = Start - SimDuration.OneTick;
         HistoryEdge = Start;
         flights = new FreeFlights(scene.Gravity, NearGap, scene.Box);
-        timelines = new TimelineStore(Start, options.MaxSegments, flights);
+        bodies = new Body[Math.Max(bodies.Length, scene.BodyArray.Length)];
+        order.Capacity = scene.BodyArray.Length;
+        timelines = new TimelineStore(Start, options.MaxSegments, flights, scene.BodyArray.Length);
         witnesses = new WitnessLog(options.MaxSegments);
         Observer = options.Observer;
         forces = new Forces(scene, Start);
@@ -209,10 +211,13 @@ public sealed partial class Simulation
         /// <summary>Of a pending impact the other body's slot, or <see cref="NoPartner"/>.</summary>
         internal int Partner;
 
+        /// <summary>Of a pending impact with a static surface which: planes by index, static spheres after them.</summary>
+        internal int Surface;
+
         /// <summary>The partner's segment that the pending impact was found with.</summary>
         internal long PartnerSerial;
 
-        /// <summary>Of a pending impact with another body how far the unrounded root lies from its tick, in seconds.</summary>
+        /// <summary>Of a pending impact how far the unrounded root lies from its tick, in seconds.</summary>
         internal double Residual;
 
         /// <summary>Whether the body may have another event at the tick of its pending one, that nobody waits for.</summary>

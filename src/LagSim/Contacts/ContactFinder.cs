@@ -18,27 +18,30 @@ internal static class ContactFinder
     internal static bool WithPlane(
         in MotionSegment segment, in DenseOutput dense, double radius, in StaticPlane plane, SimTime from, SimTime until, out ContactTime contact)
     {
-        Span<Vector3D> path = stackalloc Vector3D[PathLength];
-        int length = Path(segment, dense, from, path);
-        double root;
-        if (length <= 3)
-        {
-            root = Quadratic.FirstDescent(
-                plane.Gap(path[0], radius), Vector3D.Dot(plane.Normal, path[1]), Vector3D.Dot(plane.Normal, path[2]));
-        }
-        else
-        {
-            Span<double> gap = stackalloc double[PathLength];
-            gap[0] = plane.Gap(path[0], radius);
-            for (int i = 1; i < length; i++)
-            {
-                gap[i] = Vector3D.Dot(plane.Normal, path[i]);
-            }
-
-            root = FirstDescent.Find(gap.Slice(0, length), Seconds(from, until));
-        }
-
+        double root = segment.IsDense
+            ? OfQuintic(segment, dense, radius, plane, from, Seconds(from, until))
+            : OfParabola(segment.Position, segment.Velocity, segment.Acceleration * 0.5, from.SecondsSince(segment.Epoch), radius, plane);
         return ContactTime.TryMake(from, until, root, out contact);
+    }
+
+    private static double OfParabola(Vector3D place, Vector3D speed, in Vector3D half, double since, double radius, in StaticPlane plane)
+    {
+        Shift(ref place, ref speed, half, since);
+        return Quadratic.FirstDescent(plane.Gap(place, radius), Vector3D.Dot(plane.Normal, speed), Vector3D.Dot(plane.Normal, half));
+    }
+
+    private static double OfQuintic(in MotionSegment segment, in DenseOutput dense, double radius, in StaticPlane plane, SimTime from, double seconds)
+    {
+        Span<Vector3D> path = stackalloc Vector3D[PathLength];
+        Span<double> gap = stackalloc double[PathLength];
+        int length = Path(segment, dense, from, path);
+        gap[0] = plane.Gap(path[0], radius);
+        for (int i = 1; i < length; i++)
+        {
+            gap[i] = Vector3D.Dot(plane.Normal, path[i]);
+        }
+
+        return FirstDescent.Find(gap.Slice(0, length), seconds);
     }
 
     /// <summary>The first contact of two spheres in [from, until]; <paramref name="reach"/> is the sum of their radii.</summary>

@@ -34,6 +34,9 @@ internal readonly struct MotionSegment
 
     internal MotionLaw Law { get; }
 
+    /// <summary>How many impacts in succession, up to the one that opened this, came soon after the one before and on the same spot.</summary>
+    internal int Crowding { get; }
+
     internal Vector3D Position { get; }
 
     internal Vector3D Velocity { get; }
@@ -42,9 +45,6 @@ internal readonly struct MotionSegment
     internal Vector3D Acceleration { get; }
 
     internal SupportSet Supports { get; }
-
-    /// <summary>How many impacts in succession, up to the one that opened this, came soon after the one before and on the same spot.</summary>
-    internal int Crowding { get; }
 
     internal bool IsPresent => Law != MotionLaw.Absent;
 

@@ -21,8 +21,10 @@ internal struct StableHash
 
     internal void Add(SimDuration span) => Add((ulong)span.Ticks);
 
+    internal void Add(double number) => Add(Word(number));
+
     // -0.0 + 0.0 is 0.0: equal numbers have equal hashes.
-    internal void Add(double number) => Add((ulong)BitConverter.DoubleToInt64Bits(number + 0.0));
+    internal static ulong Word(double number) => (ulong)BitConverter.DoubleToInt64Bits(number + 0.0);
 
     internal void Add(in Vector3D v)
     {

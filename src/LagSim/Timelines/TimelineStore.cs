@@ -24,13 +24,16 @@ internal sealed class TimelineStore
 
     private const int Growth = 64;
 
+    private const int FirstRoom = 32;
+
     /// <summary>If all that can be dropped is less than one part in so many, it would soon be looked for again.</summary>
     private const int LittleRoom = 32;
 
     private readonly SimTime origin;
+    private readonly EventHashSum hashes = new();
     private readonly FreeFlights? flights; // is told of each body's newest segment
-    private Piece[] pieces = new Piece[32];
-    private Link[] links = new Link[32]; // apart, so that what is old is dropped without a look at what it was
+    private Piece[] pieces;
+    private Link[] links; // apart, so that what is old is dropped without a look at what it was
     private DenseOutput[] dense = Array.Empty<DenseOutput>(); // only once something is integrated
     private Hold[] holds = Array.Empty<Hold>(); // only once something is held
     private Spin[] spins = Array.Empty<Spin>(); // only once something turns
@@ -41,16 +44,28 @@ internal sealed class TimelineStore
     private int[] last = Array.Empty<int>();
     private SimTime dropped = SimTime.MinValue; // the latest edge of the history that was heard of
 
-    /// <summary>No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to <paramref name="flights"/>.</summary>
-    internal TimelineStore(SimTime origin, int most = SimulationOptions.DefaultMaxSegments, FreeFlights? flights = null)
+    /// <summary>
+    /// No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to
+    /// <paramref name="flights"/>; with room for as many as are expected at first.
+    /// </summary>
+    internal TimelineStore(SimTime origin, int most = SimulationOptions.DefaultMaxSegments, FreeFlights? flights = null, int expected = 0)
     {
+        int room = FirstRoom;
+        while (room < expected && room < Large)
+        {
+            room *= 2;
+        }
+
+        room = Math.Max(room, expected + (expected / Growth));
+        pieces = new Piece[room];
+        links = new Link[room];
         this.origin = origin;
         this.flights = flights;
         Most = most;
     }
 
     /// <summary>The sum of the hashes of all segments ever opened and not cut off again, dropped ones included.</summary>
-    internal ulong EventHash { get; private set; }
+    internal ulong EventHash => hashes.Value;
 
     /// <summary>The serial of the segment that was opened last.</summary>
     internal long LastSerial { get; private set; }
@@ -248,7 +263,14 @@ internal sealed class TimelineStore
         last[slot] = at;
         flights?.Set(slot, segment, key.Time);
         Alive++;
-        EventHash += HashOf(at, body);
+        if (IsPlain(at))
+        {
+            hashes.Add(key, segment, body, origin);
+        }
+        else
+        {
+            hashes.Value += HashOf(at, body);
+        }
     }
 
     /// <summary>Removes the body's segments keyed at or after <paramref name="key"/>; returns how many.</summary>
@@ -268,7 +290,7 @@ internal sealed class TimelineStore
     internal void CutLast(int slot, BodyId body)
     {
         int at = last[slot];
-        EventHash -= HashOf(at, body);
+        hashes.Value -= HashOf(at, body);
         if (Observer is not null && pieces[at].Key.Kind == EventKind.Impact)
         {
             Observer.OnCut(pieces[at].Key);
@@ -339,7 +361,7 @@ internal sealed class TimelineStore
     }
 
     /// <summary>The hash from which this store goes on, which has what its segments would add in it already.</summary>
-    internal void ContinueFrom(ulong eventHash) => EventHash = eventHash;
+    internal void ContinueFrom(ulong eventHash) => hashes.Value = eventHash;
 
     /// <summary>The segment that holds at <paramref name="time"/>, after all events of that tick; <see cref="None"/> before the first kept.</summary>
     internal int At(int slot, SimTime time)
@@ -362,17 +384,7 @@ internal sealed class TimelineStore
         }
 
         ref readonly MotionSegment motion = ref pieces[segment].Segment;
-        StableHash hash = default;
-        hash.Add(body.Packed);
-        hash.Add(key.Time - origin);
-        hash.Add(((ulong)key.Round << 8) | (byte)key.Kind);
-        hash.Add(key.Body.Packed);
-        hash.Add(key.Other.Packed);
-        hash.Add(key.Origin);
-        hash.Add((ulong)motion.Law);
-        hash.Add(motion.Epoch - origin);
-        hash.Add(motion.Position);
-        hash.Add(motion.Velocity);
+        StableHash hash = EventHashSum.Of(key, motion, body, origin);
         if (motion.Law == MotionLaw.Held)
         {
             hash.Add((ulong)holds[segment].Peer);
@@ -391,6 +403,9 @@ internal sealed class TimelineStore
 
         return hash.Value;
     }
+
+    /// <summary>Whether nothing counts in the segment's hash but what is known of every segment.</summary>
+    private bool IsPlain(int segment) => spins.Length == 0 && pieces[segment].Segment.Law != MotionLaw.Held && pieces[segment].Key.Kind != EventKind.None;
 
     /// <summary>Drops what lies behind the window of bodies that have not opened a segment since; and makes room for more if that was little, else it would soon be looked for again.</summary>
     private void DropAll()

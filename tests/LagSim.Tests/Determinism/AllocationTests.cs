@@ -1,5 +1,6 @@
 using System;
 using System.Linq;
+using LagSim.Harness.Scenes;
 using LagSim.Scenes;
 using LagSim.Time;
 using Xunit;
@@ -25,6 +26,17 @@ public sealed class AllocationTests
         Assert.Equal(0, bytes);
     }
 
+    [Theory]
+    [InlineData(300, 0.2)] // among so many an index names who is near, and the queue has slices
+    [InlineData(1_000, 0.45)]
+    public void AdvanceTo_ManyBodiesAfterWarmUp_AllocatesNothing(int bodies, double fraction)
+    {
+        // Room for what is listed grows with the longest lists there have been, so that the longer it runs the rarer it becomes: the last of a few has none.
+        Simulation simulation = new(BuiltInScenes.Gas(bodies, fraction), new SimulationOptions(default, SimDuration.FromSeconds(1.0 / 64)));
+        long least = Enumerable.Range(0, 12).Select(_ => Measure(simulation).Bytes).Skip(4).Min();
+        Assert.Equal(0, least);
+    }
+
     [Fact]
     public void Measure_ForceThatAllocates_IsSeen()
     {
@@ -36,6 +48,11 @@ public sealed class AllocationTests
     {
         Simulation simulation = new(scene, new SimulationOptions(default, SimDuration.FromSeconds(0.25)));
         Advance(simulation, Events); // warm-up
+        return Measure(simulation);
+    }
+
+    private static (long Bytes, long Events) Measure(Simulation simulation)
+    {
         long eventsBefore = simulation.EventsProcessed;
         long before = GC.GetAllocatedBytesForCurrentThread();
         Advance(simulation, Events);

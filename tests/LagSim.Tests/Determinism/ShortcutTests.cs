@@ -36,6 +36,31 @@ public sealed class ShortcutTests
         Assert.Equal(general.EventHash(At(2)), quick.EventHash(At(2)));
     }
 
+    [Theory]
+    [InlineData(1.0, 0.0)]
+    [InlineData(0.9, 0.0)]
+    [InlineData(0.5, 0.4)] // comes to rest, or rolls on
+    public void Bounces_OnPlanesAndASphere_AreTheSameToTheBit(double restitution, double friction)
+    {
+        Scene scene = Court(restitution, friction);
+        Simulation quick = Play(scene, _ => { }, 12);
+        Simulation general = Play(scene, s => s.TakesNoShortcut = true, 12);
+        Assert.Equal(general.EventHash(At(12)), quick.EventHash(At(12)));
+        Assert.Equal(general.StateHash(At(12)), quick.StateHash(At(12)));
+        Assert.Equal(0, general.AloneProcessed);
+        Assert.True(quick.AloneProcessed > quick.PairsProcessed + 20, $"{quick.AloneProcessed} of {quick.ImpactsProcessed}");
+    }
+
+    [Fact]
+    public void Corner_WithTiesTakenForOneSurface_IsSeenToDiffer()
+    {
+        Scene scene = new SceneBuilder("corner").WithGravity(V(0)).AddPlane("west", V(1), 0).AddPlane("floor", V(0, 1), 0)
+            .AddBody("ball", new BodySpec(0.5, 1, 1), V(2, 2), V(-1, -1)).Build();
+        ulong general = Play(scene, s => s.TakesNoShortcut = true).EventHash(At(2));
+        Assert.Equal(general, Play(scene, _ => { }).EventHash(At(2)));
+        Assert.NotEqual(general, Play(scene, s => s.IgnoresTies = true).EventHash(At(2)));
+    }
+
     [Fact]
     public void Symmetric_WithTiesTakenForPairs_IsSeenToDiffer()
     {
@@ -58,11 +83,11 @@ public sealed class ShortcutTests
     }
 
     // Before the first impact and after the first predictions, which both kinds of world have made alike.
-    private static Simulation Play(Scene scene, Action<Simulation> set)
+    private static Simulation Play(Scene scene, Action<Simulation> set, double seconds = 2)
     {
         Simulation simulation = new(scene);
         set(simulation);
-        simulation.AdvanceTo(At(2));
+        simulation.AdvanceTo(At(seconds));
         return simulation;
     }
 
@@ -88,6 +113,19 @@ public sealed class ShortcutTests
             Vector3D place = V((n % along) + 0.5, (n / along % along) + 0.5, (n / along / along) + 0.5);
             double radius = boxed ? 0.4 : 0.25 + (0.2 * random.NextDouble());
             builder.AddBody($"ball {n}", new BodySpec(radius, 0.5 + random.NextDouble(), 1), place, V(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5) * 6);
+        }
+
+        return builder.Build();
+    }
+
+    /// <summary>A few balls of all sizes that bounce on a floor, between walls, and off a ball that stands there.</summary>
+    private static Scene Court(double restitution, double friction)
+    {
+        SceneBuilder builder = new SceneBuilder("court").AddPlane("floor", V(0, 1), 0, 1, friction).AddPlane("west", V(1), -3, 1, friction).AddPlane("east", V(-1), -3, 1, friction)
+            .AddPlane("slope", V(0.6, 0.8), -1.6, 1, friction).AddStaticSphere("bollard", V(0, 0.2), 0.4, 1, friction);
+        for (int n = 0; n < 5; n++)
+        {
+            builder.AddBody($"ball {n}", new BodySpec(0.1 + (0.02 * n), 1 + n, restitution, friction: friction), V(-2 + n, 1 + (0.3 * n)), V(1 - (0.7 * n), 0, 0.3 * n));
         }
 
         return builder.Build();

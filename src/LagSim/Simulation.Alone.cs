@@ -1,0 +1,119 @@
+using System;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim;
+
+/// <content>
+/// The impact of two bodies in free flight with nobody near, or of one with a surface: what nearly all impacts of a gas are, and of a ball that bounces; nothing
+/// has to be gathered for it.
+/// </content>
+public sealed partial class Simulation
+{
+    /// <summary>Up to when some body may be crowded, or was: the latest that an impact can come for which what is near is looked at.</summary>
+    private SimTime crowdedUntil = SimTime.MinValue;
+
+    /// <summary>Takes bodies that meet three at a time for two: only a test's negative control sets it.</summary>
+    internal bool IgnoresTies { get; set; }
+
+    /// <summary>Gathers every impact, however plain, and looks at every pair: only a test sets it, to compare.</summary>
+    internal bool TakesNoShortcut { get; set; }
+
+    /// <summary>How many impacts were of two alone, or of one and a surface alone.</summary>
+    internal long AloneProcessed { get; private set; }
+
+    /// <summary>How many impacts were of two alone.</summary>
+    internal long PairsProcessed { get; private set; }
+
+    /// <summary>A segment was opened by so many impacts in succession.</summary>
+    private void NoteCrowding(int crowding, SimTime opened)
+    {
+        if (crowding + 1 >= CrowdedAfter)
+        {
+            SimTime until = opened.Ticks > SimTime.MaxValue.Ticks - CrowdedWithin.Ticks ? SimTime.MaxValue : opened + CrowdedWithin;
+            crowdedUntil = SimTime.Max(crowdedUntil, until);
+        }
+    }
+
+    /// <summary>
+    /// Whether the impact is surely of two bodies, or of one and a surface, and nothing else. Whoever else is struck at that tick has an event pending then,
+    /// for nobody's pending event is later than his next contact; or he, or another surface, was seen when one of the two was predicted, which then is tied.
+    /// So if there is none and neither is tied, nobody is, but by a surface the one of two that did not find the other, which has none pending.
+    /// </summary>
+    private bool IsAlone(int slot, in EventKey key)
+    {
+        bool isPlain = front == SimTime.MinValue && key.Time > crowdedUntil && key.Round < CollapseRound
+            && (!bodies[slot].IsTied || IgnoresTies) && flights.IsFree(slot) && !TakesNoShortcut && !SwapsOperands;
+        int other = bodies[slot].Partner;
+        return isPlain && (other == NoPartner
+            ? queue.IsLeastAloneWith(slot, key)
+            : bodies[other].Partner == slot && (!bodies[other].IsTied || IgnoresTies) && flights.IsFree(other) && queue.IsLeastAloneWith(other, key)
+                && TouchesNoSurface(slot, key.Time) && TouchesNoSurface(other, key.Time));
+    }
+
+    private bool TouchesNoSurface(int slot, SimTime time)
+    {
+        bool misses = Scene.SphereArray.Length == 0;
+        for (int plane = 0; plane < Scene.PlaneArray.Length && misses; plane++)
+        {
+            misses = flights.Misses(slot, Scene.PlaneArray[plane], time, time);
+        }
+
+        return misses;
+    }
+
+    /// <summary>What the general way makes of such an impact, to the bit, by the same rules.</summary>
+    private void HandleAlone(int slot, in EventKey key)
+    {
+        int other = bodies[slot].Partner;
+        double residual = bodies[slot].Residual;
+        partyCount = 0;
+        contactCount = 0;
+        hasNear = false;
+        if (other == NoPartner)
+        {
+            AddParty(slot);
+            AddContact(new ContactPoint(0, ContactPoint.Static, bodies[slot].Surface, default));
+        }
+        else
+        {
+            bool ordered = bodies[slot].Id < bodies[other].Id;
+            AddParty(ordered ? slot : other);
+            AddParty(ordered ? other : slot);
+            AddContact(new ContactPoint(0, 1, -1, default));
+        }
+
+        for (int i = 0; i < partyCount; i++)
+        {
+            partyMasses[i] = bodies[parties[i]].Spec.Mass;
+            partyAccelerations[i] = Scene.Gravity;
+            partyRadii[i] = bodies[parties[i]].Spec.Radius;
+            partySpins[i] = timelines.SpinOf(timelines.Last(parties[i])).AtEpoch; // in flight it stays
+            flights.StateAt(parties[i], key.Time, residual, out partyPositions[i], out partyVelocities[i]);
+        }
+
+        SetTargets(key.Round);
+        TellContacts(key);
+        solver.Solve(contacts.AsSpan(0, 1), partyMasses.AsSpan(0, partyCount), partyVelocities.AsSpan(0, partyCount));
+        Rub();
+        LimitSpeeds();
+        touched[0] = contacts[0].Surface;
+        Span<int> planes = touched.AsSpan(0, IsSupportable(contacts[0]) ? 1 : 0);
+        for (int i = 0; i < partyCount; i++)
+        {
+            int crowding = flights.IsOpenedWithin(parties[i], key.Time, CrowdedWithin) ? CrowdingAt(parties[i], key.Time) : 0;
+            Open(parties[i], key, partyPositions[i], partyVelocities[i], -residual, planes, crowding, partySpins[i]);
+        }
+
+        timelines.Join(parties.AsSpan(0, partyCount));
+        for (int i = 0; i < partyCount; i++)
+        {
+            Predict(parties[i]);
+        }
+
+        AloneProcessed++;
+        PairsProcessed += partyCount - 1;
+    }
+}
