@@ -17,6 +17,7 @@ public static class HardCases
         new QuadraticDragCase(),
         new OrderCase(),
         new OscillatorCase(),
+        new SpringCase(),
         new StiffCase(),
         new KeplerCase(),
         new MagneticCase(),
