@@ -37,6 +37,7 @@ public static class HardCases
         new CollapseCase(),
         new EventOrderCase(),
         new ScalesCase(),
+        new BadInputCase(),
     ];
 
     /// <summary>The case of that name.</summary>
