@@ -12,7 +12,7 @@ internal sealed class BadInputCase : IHardCase
 {
     private const double Apart = 10; // metres that the ball falls, at least
 
-    private static readonly double[] Few = [0, -1, 1, double.Epsilon, 1e-310, 1e-30, 1e-6, 0.5, 1e6, 1.1e30, double.MaxValue, double.NegativeInfinity, double.NaN];
+    private static readonly double[] Few = [0, -1, 1, double.Epsilon, 1e-310, 1e-30, 1e-6, 0.5, 1e4, 1.1e30, double.MaxValue, double.NegativeInfinity, double.NaN];
 
     private static readonly double[] Values =
     [
@@ -126,7 +126,7 @@ internal sealed class BadInputCase : IHardCase
 
         try
         {
-            Simulation simulation = context.Simulate(built, SimDuration.FromSeconds(1));
+            Simulation simulation = context.Simulate(built, SimDuration.FromSeconds(1e-3));
             simulation.AdvanceTo(SimTime.FromSeconds(1));
             BodyState state = Read(simulation, 0, 1);
             double? expected = place(value);

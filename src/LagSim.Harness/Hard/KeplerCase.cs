@@ -145,7 +145,7 @@ internal sealed class KeplerCase : IHardCase
 
         return new HardRow(
             Name, FormattableString.Invariant($"e {orbit.E}, {flight.Text}"), error, "position_at_the_worst_of_16_instants", bound,
-            HardFlight.Argument + "; passed on by the change of energy, 3 a/mu (mu/r^2 dx + v dv) t |v|, and 10/(1 - e) for all that comes round with the orbit; 8 roundings of the reference's anomaly",
+            HardFlight.Argument + ", four times their rms; passed on by the change of energy, 3 a/mu (mu/r^2 dx + v dv) t |v|, and 10/(1 - e) for all that comes round with the orbit; 8 roundings of the reference's anomaly",
             "Kepler's equation, at 16 instants of the orbit")
         {
             Note = FormattableString.Invariant($"{pieces.Length} pieces"),
@@ -155,17 +155,19 @@ internal sealed class KeplerCase : IHardCase
     /// <summary>What the errors of the pieces up to a time have become by then.</summary>
     private static double Passed(KeplerOrbit orbit, HardFlight flight, double t, (double Seconds, BodyState State)[] pieces)
     {
-        double speed = orbit.SpeedAt(orbit.Position(t).Length), sum = 0;
+        double speed = orbit.SpeedAt(orbit.Position(t).Length), added = 0, squares = 0;
         double tolerance = flight.Law == MotionLaw.DormandPrince54 ? flight.Tolerance : 0;
-        foreach ((double seconds, BodyState state) in pieces)
+        foreach ((double seconds, BodyState state) in pieces.TakeWhile(piece => piece.Seconds < t))
         {
-            double r = state.Position.Length, v = state.Velocity.Length, rounding = HardFlight.RoundingsAPiece * Rounding.Unit;
-            double dx = tolerance + (rounding * r), dv = tolerance + (rounding * v);
-            double energy = (orbit.Mu / (r * r) * dx) + (v * dv);
-            sum += seconds < t ? (speed * 3 / orbit.Mu * energy * (t - seconds)) + (10 / (1 - orbit.E) * (dx + (dv / orbit.Motion))) : 0;
+            double r = state.Position.Length, v = state.Velocity.Length, rounding = HardFlight.RoundingsAPiece * Rounding.Walk(1);
+            added += Now(tolerance, tolerance);
+            squares += Math.Pow(Now(rounding * r, rounding * v), 2);
+
+            double Now(double dx, double dv) =>
+                (speed * 3 / orbit.Mu * ((orbit.Mu / (r * r) * dx) + (v * dv)) * (t - seconds)) + (10 / (1 - orbit.E) * (dx + (dv / orbit.Motion)));
         }
 
-        return sum + (flight.Law == MotionLaw.ClosedForm ? flight.Tolerance : 0) + (8 * Rounding.Unit * 2 * Math.PI * speed / orbit.Motion);
+        return added + Math.Sqrt(squares) + (flight.Law == MotionLaw.ClosedForm ? flight.Tolerance : 0) + (8 * Rounding.Unit * 2 * Math.PI * speed / orbit.Motion);
     }
 
     private HardRow SlopeRow(double e, Func<double, double> worst)
