@@ -28,7 +28,7 @@ internal sealed class LinearDragCase : DragCase
 
     protected override double BounceSeconds => 6;
 
-    protected override (double Fall, double Bounces) Wrong => (1e-5, 1e-5);
+    protected override (double Fall, double Bounces) Wrong => (1e-3, 1e-3);
 
     protected override string FallReference => "y = u t - (u/k)(1 - exp(-kt))";
 

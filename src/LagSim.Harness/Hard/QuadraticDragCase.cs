@@ -27,7 +27,7 @@ internal sealed class QuadraticDragCase : DragCase
 
     protected override double BounceSeconds => 8;
 
-    protected override (double Fall, double Bounces) Wrong => (1e-4, 1e-3);
+    protected override (double Fall, double Bounces) Wrong => (1e-3, 1e-2);
 
     protected override string FallReference => "y = -(u^2/g) ln cosh(g t/u)";
 

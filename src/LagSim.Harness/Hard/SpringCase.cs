@@ -35,7 +35,7 @@ internal sealed class SpringCase : IHardCase
     {
         foreach (HardFlight flight in Flights(context))
         {
-            yield return Row(context, flight, 3, 0.1, 4, 1 + 1e-6) with { Note = "a spring that is a millionth too strong" };
+            yield return Row(context, flight, 3, 0.1, 4, 1 + 1e-3) with { Note = "a spring that is a thousandth too strong" };
         }
     }
 
