@@ -7,7 +7,10 @@ using static LagSim.Harness.Hard.HardWorlds;
 
 namespace LagSim.Harness.Hard;
 
-/// <summary>Zero, negative, subnormal, huge and no numbers wherever a number enters a scene: a sentence that names the value and what is allowed, at once, or a right answer.</summary>
+/// <summary>
+/// Zero, negative, subnormal, huge and no numbers wherever a number enters a scene: a sentence that names the value and what is allowed, at once, or a right
+/// answer.
+/// </summary>
 internal sealed class BadInputCase : IHardCase
 {
     private const double Apart = 10; // metres that the ball falls, at least
@@ -20,7 +23,10 @@ internal sealed class BadInputCase : IHardCase
         double.MaxValue, -double.MaxValue, double.PositiveInfinity, double.NegativeInfinity, double.NaN,
     ];
 
-    /// <summary>Where a number enters: a scene with it, and where a ball of it, let go at rest, must be a second later by the textbook; null where it must be finite, or end by a sentence, and no more is known.</summary>
+    /// <summary>
+    /// Where a number enters: a scene with it, and where a ball of it, let go at rest, must be a second later by the textbook; null where it must be finite,
+    /// or end by a sentence, and no more is known.
+    /// </summary>
     private static readonly (string What, Func<double, SceneBuilder> Scene, Func<double, double?> Place)[] Inputs =
     [
         ("radius", r => Ball(new BodySpec(r, 1, 0.5), floor: -1e10), _ => -Gravity / 2),

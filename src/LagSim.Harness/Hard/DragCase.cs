@@ -127,7 +127,8 @@ internal abstract class DragCase : IHardCase
 
         return new HardRow(
             Name, FormattableString.Invariant($"{seen.Count} bounces, {flight.Text}"), seen.Count >= 4 ? worst : double.NaN, "time_s", bound,
-            (isStepped ? StepArguments.Bounces : HardFlight.Argument) + ", passed on through the contacts by their saltation, over the speed; and a tick", BounceReference);
+            (isStepped ? StepArguments.Bounces : HardFlight.Argument) + ", passed on through the contacts by their saltation, over the speed; and a "
+                + "tick", BounceReference);
     }
 
     /// <summary>A flight from one bounce to the next.</summary>

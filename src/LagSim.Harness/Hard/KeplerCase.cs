@@ -10,11 +10,13 @@ using static LagSim.Harness.Hard.HardWorlds;
 namespace LagSim.Harness.Hard;
 
 /// <summary>
-/// An orbit around a centre, against Kepler's equation: on fixed steps no further off than the classical method is at that step; in closed form and under error control no further than what each
+/// An orbit around a centre, against Kepler's equation: on fixed steps no further off than the classical method is at that step; in closed form and under
+/// error control no further than what each
 /// piece may be off by, passed on along the orbit.
 /// </summary>
 /// <remarks>
-/// A place that is off by dx and a velocity by dv change the energy by mu/r^2 dx + v dv, and so the mean motion: a time t later the body is late by 3 a/mu of that times t, and as far off as it moves in
+/// A place that is off by dx and a velocity by dv change the energy by mu/r^2 dx + v dv, and so the mean motion: a time t later the body is late by 3 a/mu of
+/// that times t, and as far off as it moves in
 /// that. Everything else comes round with the orbit, magnified by 10/(1 - e) at the most.
 /// </remarks>
 internal sealed class KeplerCase : IHardCase
@@ -145,7 +147,8 @@ internal sealed class KeplerCase : IHardCase
 
         return new HardRow(
             Name, FormattableString.Invariant($"e {orbit.E}, {flight.Text}"), error, "position_at_the_worst_of_16_instants", bound,
-            HardFlight.Argument + ", four times their rms; passed on by the change of energy, 3 a/mu (mu/r^2 dx + v dv) t |v|, and 10/(1 - e) for all that comes round with the orbit; 8 roundings of the reference's anomaly",
+            HardFlight.Argument + ", four times their rms; passed on by the change of energy, 3 a/mu (mu/r^2 dx + v dv) t |v|, and 10/(1 - e) for all "
+                + "that comes round with the orbit; 8 roundings of the reference's anomaly",
             "Kepler's equation, at 16 instants of the orbit")
         {
             Note = FormattableString.Invariant($"{pieces.Length} pieces"),
@@ -175,7 +178,8 @@ internal sealed class KeplerCase : IHardCase
         double slope = Fit.Line([.. Slopes.Select(Math.Log10)], [.. Slopes.Select(tolerance => Math.Log10(worst(tolerance)))]).B;
         return new HardRow(
             Name, FormattableString.Invariant($"e {e}, Dormand-Prince, tolerances 1e-5 to 1e-10"), Math.Max(0, 1 - slope), "slope_below_1", 0.14,
-            "an orbit's error is in proportion to the tolerance, or falls faster: estimates aim at 0.9^5 of the tolerance; between 0.3 of it and all, 0.26 decades either way, they turn the line by 0.14 at most",
+            "an orbit's error is in proportion to the tolerance, or falls faster: estimates aim at 0.9^5 of the tolerance; between 0.3 of it and all, "
+                + "0.26 decades either way, they turn the line by 0.14 at most",
             "error against tolerance, both logarithmic, least squares")
         {
             Note = FormattableString.Invariant($"measured slope {slope:0.000}"),

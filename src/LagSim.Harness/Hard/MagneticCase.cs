@@ -7,7 +7,8 @@ using static LagSim.Harness.Hard.HardWorlds;
 namespace LagSim.Harness.Hard;
 
 /// <summary>
-/// A force across the velocity, of a magnetic field or of a spin: a helix, or with gravity, which is to it what an electric field is, one that drifts across it; the speed must not decay.
+/// A force across the velocity, of a magnetic field or of a spin: a helix, or with gravity, which is to it what an electric field is, one that drifts across
+/// it; the speed must not decay.
 /// </summary>
 /// <remarks>
 /// The classical method turns the velocity, less its drift, by R(iz) a step, z = omega h: |R| = sqrt(1 - z^6/72 + z^8/576), its argument z less z^5/120 and

@@ -7,9 +7,13 @@ using static LagSim.Harness.Hard.HardWorlds;
 
 namespace LagSim.Harness.Hard;
 
-/// <summary>Impacts of spheres with friction and spin: a bounce that grips or slips, a ball that backspin brings back, one between floor and ceiling, and that energy never grows.</summary>
+/// <summary>
+/// Impacts of spheres with friction and spin: a bounce that grips or slips, a ball that backspin brings back, one between floor and ceiling, and that energy
+/// never grows.
+/// </summary>
 /// <remarks>
-/// Of a solid sphere with slip u = v + r w on a floor, and a normal velocity n: it grips, and leaves with no slip and v - 2/7 u, if that is no more than friction can do, mu (1 + e) n; else v changes by
+/// Of a solid sphere with slip u = v + r w on a floor, and a normal velocity n: it grips, and leaves with no slip and v - 2/7 u, if that is no more than
+/// friction can do, mu (1 + e) n; else v changes by
 /// that, and r w by 5/2 of it (Garwin 1969, with a tangential restitution of zero: nothing here springs back along the surface, as a super ball does).
 /// </remarks>
 internal sealed class ObliqueCase : IHardCase
@@ -63,7 +67,8 @@ internal sealed class ObliqueCase : IHardCase
         double off = Math.Max((seen.Velocity - V(along + change, E * Down)).Length, ((seen.Spin * Radius) - V(0, 0, turning + (2.5 * change))).Length);
         return new HardRow(
             Name, FormattableString.Invariant($"{along} m/s along and {turning} m/s of turning, mu {mu}: {(grips ? "grips" : "slips")}"), off, "velocity_m_per_s",
-            16 * Rounding.Unit * (Math.Abs(along) + Math.Abs(turning) + Down), "16 roundings of the speeds", grips ? "v - 2/7 u, no slip left" : "v - mu (1 + e) n, r w - 5/2 of it");
+            16 * Rounding.Unit * (Math.Abs(along) + Math.Abs(turning) + Down), "16 roundings of the speeds", grips ? "v - 2/7 u, no slip left" : "v - "
+                + "mu (1 + e) n, r w - 5/2 of it");
     }
 
     /// <summary>The velocities along after each bounce of an elastic ball between a floor and a ceiling.</summary>

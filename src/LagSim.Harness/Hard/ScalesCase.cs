@@ -9,7 +9,10 @@ using static LagSim.Harness.Hard.HardWorlds;
 
 namespace LagSim.Harness.Hard;
 
-/// <summary>Random scenes of all sizes, masses, speeds, gravities and forces, by every law, with friction and spin, static spheres and periodic boxes: no state is ever without a number.</summary>
+/// <summary>
+/// Random scenes of all sizes, masses, speeds, gravities and forces, by every law, with friction and spin, static spheres and periodic boxes: no state is ever
+/// without a number.
+/// </summary>
 internal sealed class ScalesCase : IHardCase
 {
     private const int MostEvents = 3000;

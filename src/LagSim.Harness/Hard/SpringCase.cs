@@ -7,9 +7,12 @@ using static LagSim.Harness.Hard.HardWorlds;
 
 namespace LagSim.Harness.Hard;
 
-/// <summary>A spring with a damper, from none to far beyond the critical one, and stiff ones, against exponentials, in closed form and under error control.</summary>
+/// <summary>
+/// A spring with a damper, from none to far beyond the critical one, and stiff ones, against exponentials, in closed form and under error control.
+/// </summary>
 /// <remarks>
-/// With the energy (v^2 + kappa x^2)/2 as a measure of distance no error grows, whatever the damping: a place that is off by dx and a velocity by dv never leave the place off by more than dx +
+/// With the energy (v^2 + kappa x^2)/2 as a measure of distance no error grows, whatever the damping: a place that is off by dx and a velocity by dv never
+/// leave the place off by more than dx +
 /// dv/sqrt(kappa).
 /// </remarks>
 internal sealed class SpringCase : IHardCase
@@ -70,7 +73,8 @@ internal sealed class SpringCase : IHardCase
         return new HardRow(
             Name, FormattableString.Invariant($"{omega:N0} rad/s, damping {ratio:N1} of the critical, {seconds} s, {flight.Text}"), worst, "position_m",
             (each * (1 + (1 / omega))) + roundings + response + (4 * Rounding.Unit * omega * seconds * amplitude),
-            HardFlight.Argument + "; in closed form the response's 8 units in the last place for each radian (LinearResponse); 4 roundings of the reference's angle; no error grows in the norm of the energy",
+            HardFlight.Argument + "; in closed form the response's 8 units in the last place for each radian (LinearResponse); 4 roundings of the "
+                + "reference's angle; no error grows in the norm of the energy",
             "exponentials, sine and cosine")
         {
             Note = FormattableString.Invariant($"{simulation.EventsProcessed} pieces"),

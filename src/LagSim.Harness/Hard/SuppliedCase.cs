@@ -5,7 +5,9 @@ using static LagSim.Harness.Hard.HardWorlds;
 
 namespace LagSim.Harness.Hard;
 
-/// <summary>A program's own force: what it supplies acts as the library's force of the same formula does, bit for bit, and its name and version tell worlds apart.</summary>
+/// <summary>
+/// A program's own force: what it supplies acts as the library's force of the same formula does, bit for bit, and its name and version tell worlds apart.
+/// </summary>
 internal sealed class SuppliedCase : IHardCase
 {
     public string Name => "supplied";
@@ -31,7 +33,8 @@ internal sealed class SuppliedCase : IHardCase
     {
         Force drag = Force.LinearDrag("drag", 0.5), more = Force.LinearDrag("drag", 0.5 * (1 + 1e-15));
         HardFlight flight = HardFlight.Steps(1.0 / 64);
-        yield return Row(drag, flight, Path(context, drag, flight), Path(context, Force.Supplied(new SuppliedForce(more)), flight)) with { Note = "a coefficient off by 1e-15" };
+        yield return Row(drag, flight, Path(context, drag, flight), Path(context, Force.Supplied(new SuppliedForce(more)), flight)) with { Note = "a "
+            + "coefficient off by 1e-15" };
         yield return Told(new Numbered("wind", 1), new Numbered("wind", 2), expected: true) with { Note = "another version taken for the same" };
     }
 

@@ -27,7 +27,8 @@ public sealed class WorkFindingsTests
     {
         WorkPoint second = Peer(1e-2, 9) with { Method = "second" };
         Assert.Equal(
-            ["scene: in front of every peer at every error, by 3 times at least (peer at 1/10 s).", "scene: in front of peer at every error, by 3 times at least.",
+            ["scene: in front of every peer at every error, by 3 times at least (peer at 1/10 s).", "scene: in front of peer at every error, by 3 "
+                + "times at least.",
                 "scene: in front of second at every error, by 9 times at least."],
             WorkFindings.Sentences([Own(1e-6, 1), Peer(1e-2, 3), second]));
         Assert.Equal(

@@ -70,7 +70,8 @@ public sealed class DormandPrinceTests
     }
 
     /// <summary>
-    /// A step that leads to where a force is far stiffer than at its start: a body shot out of a well, which has it back after 76 m, does not blow up. The control: one step of 1 s without regard to its
+    /// A step that leads to where a force is far stiffer than at its start: a body shot out of a well, which has it back after 76 m, does not blow up. The
+    /// control: one step of 1 s without regard to its
     /// end puts it 20,000 km out.
     /// </summary>
     [Theory]
