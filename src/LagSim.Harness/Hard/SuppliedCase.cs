@@ -33,8 +33,10 @@ internal sealed class SuppliedCase : IHardCase
     {
         Force drag = Force.LinearDrag("drag", 0.5), more = Force.LinearDrag("drag", 0.5 * (1 + 1e-15));
         HardFlight flight = HardFlight.Steps(1.0 / 64);
-        yield return Row(drag, flight, Path(context, drag, flight), Path(context, Force.Supplied(new SuppliedForce(more)), flight)) with { Note = "a "
-            + "coefficient off by 1e-15" };
+        yield return Row(drag, flight, Path(context, drag, flight), Path(context, Force.Supplied(new SuppliedForce(more)), flight)) with
+        {
+            Note = "a coefficient off by 1e-15",
+        };
         yield return Told(new Numbered("wind", 1), new Numbered("wind", 2), expected: true) with { Note = "another version taken for the same" };
     }
 
