@@ -70,12 +70,9 @@ public sealed class SceneExplanation
     private static string Names(Scene scene, in BodySpec spec)
     {
         List<string> names = new();
-        for (int n = 0; n < scene.ForceArray.Length; n++)
+        foreach (Force force in spec.Forces.Among(scene.ForceArray))
         {
-            if (spec.Forces.Contains(n))
-            {
-                names.Add($"{scene.ForceArray[n].Name} ({scene.ForceArray[n].Kind})");
-            }
+            names.Add($"{force.Name} ({force.Kind})");
         }
 
         return (scene.Gravity == Vector3D.Zero ? "" : "Gravity, ") + string.Join(", ", names);

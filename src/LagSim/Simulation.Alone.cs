@@ -48,10 +48,14 @@ public sealed partial class Simulation
             && (!bodies[slot].IsTied || IgnoresTies) && flights.IsFree(slot) && !TakesNoShortcut && !SwapsOperands;
         int other = bodies[slot].Partner;
         return isPlain && (other == NoPartner
-            ? queue.IsLeastAloneWith(slot, key)
+            ? IsPlane(slot, bodies[slot].Surface) && queue.IsLeastAloneWith(slot, key)
             : bodies[other].Partner == slot && (!bodies[other].IsTied || IgnoresTies) && flights.IsFree(other) && queue.IsLeastAloneWith(other, key)
                 && TouchesNoSurface(slot, key.Time) && TouchesNoSurface(other, key.Time));
     }
+
+    /// <summary>Whether no lasting contact can come of it but what a closed form carries on: the surface is a plane, and where there is friction there is nothing else to touch.</summary>
+    private bool IsPlane(int slot, int surface) =>
+        surface < Scene.PlaneArray.Length && (bodies[slot].Spec.Friction == 0 || Scene.PlaneArray.Length + Scene.SphereArray.Length == 1);
 
     private bool TouchesNoSurface(int slot, SimTime time)
     {

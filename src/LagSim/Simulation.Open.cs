@@ -68,7 +68,7 @@ public sealed partial class Simulation
             MotionLaw.ClosedForm => new KeplerFlight(Scene, spec).Piece(from, x, v, out dense, out tooLarge),
             _ => DormandPrince54.Step(forces, spec, from, x, v, spin, StepToTry(slot), out dense, out tooLarge, out tooStiff),
         };
-        if (!piece.Acceleration.IsFinite || (!dense.IsFinite && tooLarge == 0))
+        if (!piece.Acceleration.IsFinite || (!dense.IsFinite && tooLarge == 0 && tooStiff == 0))
         {
             throw new SimulationException(
                 $"In the step from {from} the acceleration of body {bodies[slot].Id} became NaN or infinite; what the forces {spec.Forces} give must be finite.");

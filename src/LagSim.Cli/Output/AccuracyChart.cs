@@ -32,6 +32,7 @@ internal static class AccuracyChart
     {
         IReadOnlyList<IWorkMethod> all = WorkMethods.All;
         List<ChartSeries> series = [];
+        int own = all.Count(method => method.Engine == all[0].Engine);
         for (int slot = 0; slot < all.Count; slot++)
         {
             string name = all[slot].Name;
@@ -43,8 +44,8 @@ internal static class AccuracyChart
             if (points.Length > 0)
             {
                 double[] x = [.. points.Select(p => isStep ? p.StepSeconds : p.CpuSeconds)], y = [.. points.Select(p => p.Error)];
-                // the same method: curves coincide
-                series.Add(new ChartSeries(legend(name), x, y, all[slot].Engine == "mathnet" ? SeriesStyle.Dashed : SeriesStyle.Line, slot) { HasDots = true });
+                // LagSim's curves are drawn through and all others dashed: the colours are fewer than the methods, and curves of one method by two hands coincide.
+                series.Add(new ChartSeries(legend(name), x, y, slot < own ? SeriesStyle.Line : SeriesStyle.Dashed, slot) { HasDots = true });
             }
         }
 

@@ -1,5 +1,5 @@
 using System.Collections.Generic;
-using LagSim.Harness.Forces;
+using LagSim.Harness.References;
 using LagSim.Scenes;
 using LagSim.Time;
 

@@ -1,5 +1,5 @@
-using System;
 using System.Collections.Generic;
+using LagSim.Harness.References;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -10,7 +10,8 @@ internal sealed class KeplerWork : WorkScene
 {
     private const double E = 0.5;
     private const double Period = 2;
-    private const double Motion = 2 * Math.PI / Period;
+
+    private static readonly KeplerOrbit Orbit = new(E, Period);
 
     public override string Name => "kepler";
 
@@ -28,24 +29,12 @@ internal sealed class KeplerWork : WorkScene
 
     public override IReadOnlyList<double> IntegratorRates => [15, 30, 60, 120, 240, 480, 960, 1920, 3840];
 
-    public override Force? Acting { get; } = Force.Central("sun", Vector3D.Zero, Motion * Motion);
+    public override Force? Acting { get; } = Orbit.Pull;
 
     public override Scene Build(MotionLaw law, SimDuration step, double tolerance) => new SceneBuilder(Name).WithGravity(Vector3D.Zero).AddForce(Acting!)
-        .AddBody("planet", new BodySpec(0.01, 1, 1, law, step, ForceSet.Of(0), tolerance), Exact(0), new Vector3D(0, -Motion * Math.Sqrt((1 - E) / (1 + E)), 0)).Build();
+        .AddBody("planet", new BodySpec(0.01, 1, 1, law, step, ForceSet.Of(0), tolerance), Orbit.Position(0), Orbit.StartVelocity).Build();
 
     public override (double X, double Y)? Flat(in Vector3D v, int body) => (v.X, v.Y);
 
-    protected override IWatch Watch() => new PathWatch(Exact);
-
-    /// <summary>It starts at its far end.</summary>
-    private static Vector3D Exact(double seconds)
-    {
-        double mean = Math.PI + (Motion * seconds), anomaly = mean;
-        for (int n = 0; n < 50; n++)
-        {
-            anomaly -= (anomaly - (E * Math.Sin(anomaly)) - mean) / (1 - (E * Math.Cos(anomaly)));
-        }
-
-        return new Vector3D(Math.Cos(anomaly) - E, Math.Sqrt(1 - (E * E)) * Math.Sin(anomaly), 0);
-    }
+    protected override IWatch Watch() => new PathWatch(Orbit.Position);
 }

@@ -6,7 +6,9 @@ using LagSim.Time;
 namespace LagSim.Harness.Accuracy;
 
 /// <summary>LagSim with one of its laws of flight.</summary>
-internal sealed class LagSimMethod(MotionLaw law) : IWorkMethod
+/// <param name="law">The law.</param>
+/// <param name="hasFixedSteps">Whether steps are swept and not tolerances, where the law has both.</param>
+internal sealed class LagSimMethod(MotionLaw law, bool hasFixedSteps = false) : IWorkMethod
 {
     internal const string EngineName = "lagsim";
 
@@ -14,7 +16,7 @@ internal sealed class LagSimMethod(MotionLaw law) : IWorkMethod
 
     private Built? last;
 
-    public string Name => $"LagSim {law}";
+    public string Name => $"LagSim {law}{(hasFixedSteps && law == MotionLaw.DormandPrince54 ? ", fixed steps" : "")}";
 
     public string Engine => EngineName;
 
@@ -30,7 +32,7 @@ internal sealed class LagSimMethod(MotionLaw law) : IWorkMethod
     public IReadOnlyList<WorkSetting> Settings(WorkScene scene) => law switch
     {
         MotionLaw.Ballistic => [WorkSetting.None],
-        MotionLaw.RungeKutta4 => [.. scene.IntegratorRates.Append(2 * scene.IntegratorRates[^1]).Select(WorkSetting.Rate)],
+        _ when hasFixedSteps => [.. scene.IntegratorRates.Append(2 * scene.IntegratorRates[^1]).Select(WorkSetting.Rate)],
         _ => [.. Tolerances.Select(WorkSetting.Within)],
     };
 
@@ -43,7 +45,7 @@ internal sealed class LagSimMethod(MotionLaw law) : IWorkMethod
         if (kept is null || kept.Work != scene || kept.Setting != setting)
         {
             SimDuration step = double.IsNaN(setting.StepSeconds) ? BodySpec.DefaultStep : SimDuration.FromSeconds(setting.StepSeconds);
-            double tolerance = double.IsNaN(setting.Tolerance) ? BodySpec.DefaultTolerance : setting.Tolerance;
+            double tolerance = double.IsNaN(setting.Tolerance) ? 0 : setting.Tolerance;
             last = kept = new Built(scene, setting, scene.Build(law, step, tolerance));
         }
 

@@ -12,7 +12,7 @@ public static class WorkFindings
     public const string Caution =
         "Sparse frictionless scenes favour an event-driven engine; stacks, friction and joints do not: there the engines compared here are at home, and LagSim is not.";
 
-    /// <summary>For each scene and peer: where LagSim is not in front, or by how much it is at least.</summary>
+    /// <summary>For each scene, and for each of its peers: where LagSim is not in front, or by how much it is at least.</summary>
     /// <remarks>
     /// LagSim's cost at an error is read from its curves: between two neighbouring settings of a method on the line that joins them in the diagram, at errors
     /// above a setting's that setting's own. Only the kind of error that diagrams show counts.
@@ -25,10 +25,14 @@ public static class WorkFindings
         {
             string kind = scene.First().ErrorKind;
             WorkPoint[] shown = [.. scene.Where(point => point.ErrorKind == kind)], own = [.. shown.Where(IsOwn)];
-            foreach (IGrouping<string, WorkPoint> peer in shown.Where(point => !IsOwn(point)).GroupBy(point => point.Method))
+            Duel[] duels = [.. shown.Where(point => !IsOwn(point) && !double.IsNaN(point.Error)).Select(point => Duel.Of(point, own))];
+            string[] peers = [.. duels.Select(duel => duel.Peer.Method).Distinct()];
+            if (peers.Length > 1)
             {
-                sentences.AddRange(Against(scene.Key, peer.Key, [.. peer.Where(point => !double.IsNaN(point.Error))], own));
+                sentences.Add(Whole(scene.Key, duels));
             }
+
+            sentences.AddRange(peers.SelectMany(peer => Against(scene.Key, peer, [.. duels.Where(duel => duel.Peer.Method == peer)])));
         }
 
         return sentences;
@@ -60,30 +64,43 @@ public static class WorkFindings
         return least;
     }
 
-    private static IEnumerable<string> Against(string scene, string peer, WorkPoint[] points, WorkPoint[] own)
+    /// <summary>The scene in a sentence: in front of all, or at how many points not.</summary>
+    private static string Whole(string scene, Duel[] duels)
     {
-        double least = double.PositiveInfinity;
-        foreach (WorkPoint point in points)
-        {
-            (double cost, string method) = own.GroupBy(o => o.Method).Select(curve => (Cost([.. curve], point.Error), curve.Key)).Min();
-            if (double.IsPositiveInfinity(cost))
-            {
-                yield return $"{scene}: NOT in front of {peer} at {point.Setting}: no setting of LagSim is as exact as {NumberText.Short(point.Error)} {point.ErrorKind}.";
-                least = 0;
-                continue;
-            }
+        Duel[] lost = [.. duels.Where(duel => !duel.IsWon)], won = [.. duels.Where(duel => duel.IsWon)];
+        Duel? closest = won.MinBy(duel => duel.Factor);
+        string least = closest is null ? "" : $"by {NumberText.Short(closest.Factor)} times at least ({closest.Peer.Method} at {closest.Peer.Setting})";
+        return lost.Length == 0 ? $"{scene}: in front of every peer at every error, {least}."
+            : $"{scene}: NOT in front at {lost.Length} of {duels.Length} points of {duels.Select(duel => duel.Peer.Method).Distinct().Count()} peers, named below{(won.Length > 0 ? "; in front at all others " + least : "")}.";
+    }
 
-            double factor = point.CpuSeconds / cost;
-            least = Math.Min(least, factor);
-            if (factor < 1)
-            {
-                yield return $"{scene}: NOT in front of {peer} at {point.Setting} (error {NumberText.Short(point.Error)}): {method} takes {NumberText.Short(1 / factor)} times as long for that error or less.";
-            }
+    private static IEnumerable<string> Against(string scene, string peer, Duel[] duels)
+    {
+        foreach (Duel duel in duels.Where(duel => !duel.IsWon))
+        {
+            WorkPoint point = duel.Peer;
+            yield return double.IsPositiveInfinity(duel.Cost)
+                ? $"{scene}: NOT in front of {peer} at {point.Setting}: no setting of LagSim is as exact as {NumberText.Short(point.Error)} {point.ErrorKind}."
+                : $"{scene}: NOT in front of {peer} at {point.Setting} (error {NumberText.Short(point.Error)}): {duel.Method} takes {NumberText.Short(1 / duel.Factor)} times as long for that error or less.";
         }
 
-        if (least >= 1 && points.Length > 0)
+        if (duels.All(duel => duel.IsWon))
         {
-            yield return $"{scene}: in front of {peer} at every error, by {NumberText.Short(least)} times at least.";
+            yield return $"{scene}: in front of {peer} at every error, by {NumberText.Short(duels.Min(duel => duel.Factor))} times at least.";
+        }
+    }
+
+    /// <summary>A point of a peer, and what its error or less costs LagSim.</summary>
+    private sealed record Duel(WorkPoint Peer, double Cost, string Method)
+    {
+        internal double Factor => Peer.CpuSeconds / Cost;
+
+        internal bool IsWon => Factor >= 1;
+
+        internal static Duel Of(WorkPoint peer, WorkPoint[] own)
+        {
+            (double cost, string method) = own.GroupBy(point => point.Method).Select(curve => (WorkFindings.Cost([.. curve], peer.Error), curve.Key)).Min();
+            return new Duel(peer, cost, method);
         }
     }
 }

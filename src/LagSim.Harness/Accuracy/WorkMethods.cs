@@ -13,8 +13,9 @@ public static class WorkMethods
     [
         new LagSimMethod(MotionLaw.Ballistic),
         new LagSimMethod(MotionLaw.ClosedForm),
-        new LagSimMethod(MotionLaw.RungeKutta4),
+        new LagSimMethod(MotionLaw.RungeKutta4, hasFixedSteps: true),
         new LagSimMethod(MotionLaw.DormandPrince54),
+        new LagSimMethod(MotionLaw.DormandPrince54, hasFixedSteps: true),
         new MathNetMethod(),
         new OdeMethod(),
         new ChipmunkMethod(),

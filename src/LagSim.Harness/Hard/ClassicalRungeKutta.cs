@@ -26,6 +26,13 @@ internal static class ClassicalRungeKutta
         return (x + ((v + (v2 * 2) + (v3 * 2) + v4) * (h / 6)), v + ((k1 + (k2 * 2) + (k3 * 2) + k4) * (h / 6)));
     }
 
+    /// <summary>One step of the midpoint method, of second order.</summary>
+    internal static (Vector3D X, Vector3D V) Midpoint(Acceleration f, double t, Vector3D x, Vector3D v, double h)
+    {
+        Vector3D middle = v + (f(t, x, v) * (h / 2));
+        return (x + (middle * h), v + (f(t + (h / 2), x + (v * (h / 2)), middle) * h));
+    }
+
     /// <summary>As the thesis's code has it: fourth order for the velocity, and the position moved with the velocity at the end.</summary>
     internal static (Vector3D X, Vector3D V) ThesisStep(Acceleration f, double t, Vector3D x, Vector3D v, double h)
     {
@@ -71,5 +78,8 @@ internal static class ClassicalRungeKutta
     }
 
     /// <summary>The same acceleration for the textbook's method.</summary>
-    internal static Acceleration Of(IAcceleration force, Vector3D gravity = default) => (t, x, v) => gravity + force.At(t, x, v);
+    internal static Acceleration Of(IAcceleration force) => (t, x, v) => force.At(t, x, v);
+
+    /// <summary>The acceleration of 1 kg by a force of the library.</summary>
+    internal static Acceleration Of(Force force, Vector3D gravity = default) => (t, x, v) => gravity + force.At(1, t, x, v, Vector3D.Zero);
 }

@@ -17,9 +17,13 @@ public static class HardCases
         new QuadraticDragCase(),
         new OrderCase(),
         new OscillatorCase(),
+        new SpringCase(),
         new StiffCase(),
         new KeplerCase(),
         new MagneticCase(),
+        new SuppliedCase(),
+        new RollingCase(),
+        new ObliqueCase(),
         new MassChainCase(),
         new SimultaneousCase(),
         new BoxReversalCase(),
@@ -33,6 +37,7 @@ public static class HardCases
         new CollapseCase(),
         new EventOrderCase(),
         new ScalesCase(),
+        new BadInputCase(),
     ];
 
     /// <summary>The case of that name.</summary>

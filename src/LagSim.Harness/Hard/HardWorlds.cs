@@ -19,10 +19,6 @@ internal static class HardWorlds
 
     internal static BodySpec Ball(double radius = 0.5, double mass = 1, double e = 1) => new(radius, mass, e);
 
-    /// <summary>A ball on Runge-Kutta steps under the scene's first force.</summary>
-    internal static BodySpec Stepped(double step, double radius = 0.5, double e = 1) =>
-        new(radius, 1, e, MotionLaw.RungeKutta4, SimDuration.FromSeconds(step), ForceSet.Of(0));
-
     internal static SceneBuilder Floating(string name) => new SceneBuilder(name).WithGravity(Vector3D.Zero);
 
     internal static BodyState Read(Simulation simulation, BodyId body, SimTime time)
@@ -37,6 +33,25 @@ internal static class HardWorlds
         simulation.Timeline(body).Where(entry => entry.Key.Kind == EventKind.Impact).ToList();
 
     internal static double[] ImpactTimes(Simulation simulation, BodyId body) => Impacts(simulation, body).Select(entry => entry.Key.Time.ToSeconds()).ToArray();
+
+    /// <summary>When a body bounced, and of how many pieces its path consisted since the bounce before.</summary>
+    internal static List<(double Time, int Pieces)> Hops(Simulation simulation, BodyId body)
+    {
+        List<(double Time, int Pieces)> hops = [];
+        int pieces = 0;
+        foreach (TimelineEntry entry in simulation.Timeline(body))
+        {
+            if (entry.Key.Kind == EventKind.Impact)
+            {
+                hops.Add((entry.Key.Time.ToSeconds(), pieces));
+                pieces = 0;
+            }
+
+            pieces++;
+        }
+
+        return hops;
+    }
 
     internal static Vector3D Momentum(Simulation simulation, double seconds) => Enumerable.Range(0, simulation.BodyCount).Aggregate(
         Vector3D.Zero, (sum, n) => sum + (Read(simulation, n, seconds).Velocity * simulation.SpecOf(BodyId.OfScene(n)).Mass));

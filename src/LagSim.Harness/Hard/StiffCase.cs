@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using LagSim.Harness.Forces;
 using LagSim.Scenes;
 using static LagSim.Harness.Hard.HardWorlds;
 
@@ -41,11 +40,13 @@ internal sealed class StiffCase : IHardCase
     }
 
     private static (Vector3D X, Vector3D V) Euler(double z) => ClassicalRungeKutta.Run(
-        (f, t, x, v, h) => (x + (v * h), v + (f(t, x, v) * h)), ClassicalRungeKutta.Of(new LinearDrag(z / Step)), default, V(1), Step, Steps);
+        (f, t, x, v, h) => (x + (v * h), v + (f(t, x, v) * h)), ClassicalRungeKutta.Of(Damping(z)), default, V(1), Step, Steps);
+
+    private static Force Damping(double z) => Force.LinearDrag("damping", z / Step);
 
     private static double Speed(HardContext context, double z)
     {
-        Scene scene = Floating("damped").AddForce(Force.Supplied(new LinearDrag(z / Step))).AddBody("ball", Stepped(Step), default, V(1)).Build();
+        Scene scene = Floating("damped").AddForce(Damping(z)).AddBody("ball", HardFlight.Steps(Step).Ball(), default, V(1)).Build();
         return Read(context.Run(scene, Steps * Step), 0, Steps * Step).Velocity.X;
     }
 

@@ -127,12 +127,9 @@ internal static class SceneJsonWriter
         if (!body.Spec.Forces.IsEmpty)
         {
             json.WriteStartArray("forces");
-            for (int n = 0; n < scene.Forces.Count; n++)
+            foreach (Force force in body.Spec.Forces.Among(scene.ForceArray))
             {
-                if (body.Spec.Forces.Contains(n))
-                {
-                    json.WriteStringValue(scene.Forces[n].Name);
-                }
+                json.WriteStringValue(force.Name);
             }
 
             json.WriteEndArray();

@@ -35,7 +35,7 @@ internal static class DormandPrince54
     /// <param name="spin">How the body turns, all the step.</param>
     /// <param name="tried">How long a step to try first, as the step before proposes it; zero if nothing does.</param>
     /// <param name="dense">The path's higher coefficients, and the next step to try.</param>
-    /// <param name="error">The error in tolerances that even the shortest step has, which is then not to be used. Else zero.</param>
+    /// <param name="error">The error in tolerances that even the shortest step has, infinite if it has no number; the step is then not to be used. Else zero.</param>
     /// <param name="rate">Of fixed steps the rate in 1/s that was met, where no step that may be taken is short enough for it; the step is then not to be used. Else zero.</param>
     internal static MotionSegment Step(
         in Forces forces, in BodySpec spec, SimTime epoch, in Vector3D x0, in Vector3D v0, in Vector3D spin, SimDuration tried, out DenseOutput dense, out double error,
@@ -74,33 +74,34 @@ internal static class DormandPrince54
             if (isFixed)
             {
                 error = 0;
-                rate = forces.RateAt(spec, x0, v0, spin);
+                rate = Math.Max(forces.RateAt(spec, x0, v0, spin), forces.RateAt(spec, x0 + dx, v7, spin)); // a step may lead to where forces are stiffer
                 if (forces.HasSupplied(spec))
                 {
                     Vector3D x7 = x0 + dx;
                     rate = Math.Max(rate, Stiffness.Rate(x7, x6, v7, v6, a7, forces.At(spec, epoch, h, x7, v6, spin), a6));
                 }
 
-                bool isStable = !(rate * h > MaxRateTimesStep); // also what is not a number: its cause is told elsewhere
+                bool isStable = rate * h <= MaxRateTimesStep; // what is not a number is not
                 if (!isStable && step.Ticks >= 2 * Limits.MinStep.Ticks)
                 {
                     step = SimDuration.FromTicks(step.Ticks / 2);
                     continue;
                 }
 
-                rate = isStable ? 0 : rate;
+                rate = isStable ? 0 : double.IsNaN(rate) ? double.PositiveInfinity : rate;
                 dense = DenseOutput.Between(h, dx, dv, v0, a1, a7);
                 return new MotionSegment(MotionLaw.DormandPrince54, epoch, epoch + step, x0, v0, a1);
             }
 
-            double missX = Difference(v0, v3, v4, v5, v6, v7).Length * h / (spec.Tolerance + (Rounding * (x0.Length + (v0.Length * h))));
+            double moved = Math.Max(x0.Length + (v0.Length * h), a1.Length * h * h); // the last where it starts at rest at the origin
+            double missX = Difference(v0, v3, v4, v5, v6, v7).Length * h / (spec.Tolerance + (Rounding * moved));
             double missV = Difference(a1, a3, a4, a5, a6, a7).Length * h / (spec.Tolerance + (Rounding * (v0.Length + (a1.Length * h))));
             error = Math.Max(missX, missV);
             bool isAccepted = error <= 1; // what is not a number is not
             if (isAccepted || step == StepSize.Shortest)
             {
                 dense = DenseOutput.Between(h, dx, dv, v0, a1, a7, StepSize.Scaled(step, isAccepted ? Math.Min(5, Factor(error)) : 1));
-                error = isAccepted ? 0 : error;
+                error = isAccepted ? 0 : double.IsNaN(error) ? double.PositiveInfinity : error;
                 return new MotionSegment(MotionLaw.DormandPrince54, epoch, epoch + step, x0, v0, a1);
             }
 

@@ -19,13 +19,9 @@ internal readonly struct Forces
     internal Vector3D At(in BodySpec spec, SimTime epoch, double seconds, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         Vector3D sum = scene.Gravity;
-        uint left = spec.Forces.Mask;
-        for (int n = 0; left != 0; n++, left >>= 1)
+        foreach (Force force in spec.Forces.Among(scene.ForceArray))
         {
-            if ((left & 1) != 0)
-            {
-                sum += scene.ForceArray[n].At(spec.Mass, epoch.SecondsSince(start) + seconds, position, velocity, spin);
-            }
+            sum += force.At(spec.Mass, epoch.SecondsSince(start) + seconds, position, velocity, spin);
         }
 
         return sum;
@@ -35,13 +31,9 @@ internal readonly struct Forces
     internal double RateAt(in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         double sum = 0;
-        uint left = spec.Forces.Mask;
-        for (int n = 0; left != 0; n++, left >>= 1)
+        foreach (Force force in spec.Forces.Among(scene.ForceArray))
         {
-            if ((left & 1) != 0)
-            {
-                sum += scene.ForceArray[n].RateAt(spec.Mass, position, velocity, spin);
-            }
+            sum += force.RateAt(spec.Mass, position, velocity, spin);
         }
 
         return sum;
@@ -50,10 +42,9 @@ internal readonly struct Forces
     /// <summary>Whether a force that the body names is a program's own, whose rate is not known.</summary>
     internal bool HasSupplied(in BodySpec spec)
     {
-        uint left = spec.Forces.Mask;
-        for (int n = 0; left != 0; n++, left >>= 1)
+        foreach (Force force in spec.Forces.Among(scene.ForceArray))
         {
-            if ((left & 1) != 0 && scene.ForceArray[n].Kind == ForceKind.Supplied)
+            if (force.Kind == ForceKind.Supplied)
             {
                 return true;
             }

@@ -29,17 +29,12 @@ internal readonly struct LinearFlight
         gamma = 0;
         kappa = 0;
         omega = Vector3D.Zero;
-        uint left = spec.Forces.Mask;
-        for (int n = 0; left != 0; n++, left >>= 1)
+        foreach (Force force in spec.Forces.Among(scene.ForceArray))
         {
-            if ((left & 1) != 0)
-            {
-                Force force = scene.ForceArray[n];
-                gamma += (force.Kind == ForceKind.LinearDrag ? force.Strength : force.Damping) / spec.Mass; // only a spring has damping
-                kappa += force.Kind == ForceKind.Spring ? force.Strength / spec.Mass : 0;
-                omega -= force.Kind == ForceKind.Magnetic ? force.Vector * (force.Strength / spec.Mass) : Vector3D.Zero;
-                omega += force.Kind == ForceKind.Magnus ? spin * (force.Strength / spec.Mass) : Vector3D.Zero;
-            }
+            gamma += (force.Kind == ForceKind.LinearDrag ? force.Strength : force.Damping) / spec.Mass; // only a spring has damping
+            kappa += force.Kind == ForceKind.Spring ? force.Strength / spec.Mass : 0;
+            omega -= force.Kind == ForceKind.Magnetic ? force.Vector * (force.Strength / spec.Mass) : Vector3D.Zero;
+            omega += force.Kind == ForceKind.Magnus ? spin * (force.Strength / spec.Mass) : Vector3D.Zero;
         }
 
         turn = omega.Length;

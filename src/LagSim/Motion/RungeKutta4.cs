@@ -52,18 +52,18 @@ internal static class RungeKutta4
             Vector3D a1 = forces.At(spec, epoch, h, x0 + dx, v0 + dv, spin);
             dense = DenseOutput.Between(h, dx, dv, v0, a0, a1);
 
-            rate = known;
+            rate = spec.Forces.IsEmpty ? 0 : Math.Max(known, forces.RateAt(spec, x0 + dx, v0 + dv, spin)); // a step may lead to where forces are stiffer
             if (estimates)
             {
                 Vector3D x2 = x0 + (v0 * (0.5 * h));
                 Vector3D x3 = x0 + (v2 * (0.5 * h));
-                rate = Math.Max(known, Stiffness.Rate(x3, x2, v3, v2, a3, forces.At(spec, epoch, 0.5 * h, x3, v2, spin), a2));
+                rate = Math.Max(rate, Stiffness.Rate(x3, x2, v3, v2, a3, forces.At(spec, epoch, 0.5 * h, x3, v2, spin), a2));
             }
 
-            bool isStable = !(rate * h > MaxRateTimesStep); // also what is not a number: its cause is told elsewhere
+            bool isStable = rate * h <= MaxRateTimesStep; // what is not a number is not
             if (isStable || step.Ticks < 2 * Limits.MinStep.Ticks)
             {
-                rate = isStable ? 0 : rate;
+                rate = isStable ? 0 : double.IsNaN(rate) ? double.PositiveInfinity : rate;
                 return new MotionSegment(MotionLaw.RungeKutta4, epoch, epoch + step, x0, v0, a0);
             }
 

@@ -17,9 +17,9 @@ internal static class FlightLaws
     /// <summary>Whether all forces of a body are linear in position and velocity.</summary>
     internal static bool AreLinear(in BodySpec spec, Force[] forces)
     {
-        for (int n = 0; n < forces.Length; n++)
+        foreach (Force force in spec.Forces.Among(forces))
         {
-            if (spec.Forces.Contains(n) && forces[n].Kind is not (ForceKind.LinearDrag or ForceKind.Spring or ForceKind.Magnetic or ForceKind.Magnus))
+            if (force.Kind is not (ForceKind.LinearDrag or ForceKind.Spring or ForceKind.Magnetic or ForceKind.Magnus))
             {
                 return false;
             }
@@ -32,13 +32,10 @@ internal static class FlightLaws
     internal static bool IsKepler(in BodySpec spec, in Vector3D gravity, Force[] forces)
     {
         int centres = 0;
-        for (int n = 0; n < forces.Length; n++)
+        foreach (Force force in spec.Forces.Among(forces))
         {
-            if (spec.Forces.Contains(n))
-            {
-                bool isCentre = forces[n].Kind == ForceKind.Central && forces[n].Power == -2 && forces[n].Strength > 0;
-                centres += isCentre ? 1 : 2;
-            }
+            bool isCentre = force.Kind == ForceKind.Central && force.Power == -2 && force.Strength > 0;
+            centres += isCentre ? 1 : 2;
         }
 
         return centres == 1 && gravity == Vector3D.Zero;

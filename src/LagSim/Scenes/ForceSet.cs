@@ -68,6 +68,9 @@ public readonly struct ForceSet : IEquatable<ForceSet>
         return text.Append('}').ToString();
     }
 
+    /// <summary>Those of a scene's forces that are in the set, in the scene's order.</summary>
+    internal ActingForces Among(Force[] forces) => new(forces, Mask);
+
     /// <summary>How many forces there are up to the last that is in the set.</summary>
     internal int UpTo
     {

@@ -62,7 +62,7 @@ internal static class Limits
                 $"{Capital($"{whose}")} flies by ClosedForm and names the forces {spec.Forces}; a closed form there is for linear drag, springs, magnetic fields and Magnus forces together with gravity, and for one inverse-square pull without gravity. Use Automatic, DormandPrince54 or RungeKutta4.");
         }
 
-        CheckRate(spec, whose, forces);
+        CheckRate(spec, whose, gravity, forces);
     }
 
     /// <summary>No point of a body's surface turns faster than a body may be given to move.</summary>
@@ -90,16 +90,21 @@ internal static class Limits
         }
     }
 
-    /// <summary>Forces whose rate does not depend on where the body is are not too stiff for its mass.</summary>
-    private static void CheckRate<T>(in BodySpec spec, T whose, Force[] forces)
+    /// <summary>Forces whose rate does not depend on where the body is are not too stiff for its mass, nor is quadratic drag at the speed that gravity keeps up.</summary>
+    private static void CheckRate<T>(in BodySpec spec, T whose, in Vector3D gravity, Force[] forces)
     {
-        for (int n = 0; n < forces.Length; n++)
+        foreach (Force force in spec.Forces.Among(forces))
         {
-            if (spec.Forces.Contains(n) && forces[n].Kind is ForceKind.LinearDrag or ForceKind.Spring or ForceKind.Magnetic
-                && !(forces[n].RateAt(spec.Mass, Vector3D.Zero, Vector3D.Zero, Vector3D.Zero) <= MaxRate))
+            double rate = force.Kind switch
+            {
+                ForceKind.LinearDrag or ForceKind.Spring or ForceKind.Magnetic => force.RateAt(spec.Mass, Vector3D.Zero, Vector3D.Zero, Vector3D.Zero),
+                ForceKind.QuadraticDrag => 2 * Math.Sqrt(force.Strength / spec.Mass * gravity.Length),
+                _ => 0,
+            };
+            if (!(rate <= MaxRate))
             {
                 throw new SceneException(
-                    $"On {whose}, of {Text(spec.Mass)} kg, force '{forces[n].Name}' acts at a rate of {Text(forces[n].RateAt(spec.Mass, Vector3D.Zero, Vector3D.Zero, Vector3D.Zero))} 1/s; at most {Text(MaxRate)} 1/s is allowed.");
+                    $"On {whose}, of {Text(spec.Mass)} kg, force '{force.Name}', of strength {Text(force.Strength)} and damping {Text(force.Damping)}, acts at a rate of {Text(rate)} 1/s; at most {Text(MaxRate)} 1/s is allowed.");
             }
         }
     }

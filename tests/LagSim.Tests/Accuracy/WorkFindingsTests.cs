@@ -23,6 +23,20 @@ public sealed class WorkFindingsTests
     }
 
     [Fact]
+    public void Sentences_OfTwoPeers_BeginWithTheSceneAsAWhole()
+    {
+        WorkPoint second = Peer(1e-2, 9) with { Method = "second" };
+        Assert.Equal(
+            ["scene: in front of every peer at every error, by 3 times at least (peer at 1/10 s).", "scene: in front of peer at every error, by 3 "
+                + "times at least.",
+                "scene: in front of second at every error, by 9 times at least."],
+            WorkFindings.Sentences([Own(1e-6, 1), Peer(1e-2, 3), second]));
+        Assert.Equal(
+            "scene: NOT in front at 1 of 2 points of 2 peers, named below; in front at all others by 9 times at least (second at 1/10 s).",
+            WorkFindings.Sentences([Own(1e-6, 1), Peer(1e-2, 0.5), second])[0]);
+    }
+
+    [Fact]
     public void Sentences_OfAPeerThatIsMoreExactThanAnySetting_SaySo()
     {
         string sentence = Assert.Single(WorkFindings.Sentences([Own(1e-6, 1), Peer(1e-7, 1000)]));

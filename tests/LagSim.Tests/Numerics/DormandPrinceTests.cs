@@ -69,6 +69,29 @@ public sealed class DormandPrinceTests
         }
     }
 
+    /// <summary>
+    /// A step that leads to where a force is far stiffer than at its start: a body shot out of a well, which has it back after 76 m, does not blow up. The
+    /// control: one step of 1 s without regard to its
+    /// end puts it 20,000 km out.
+    /// </summary>
+    [Theory]
+    [InlineData(MotionLaw.RungeKutta4)]
+    [InlineData(MotionLaw.DormandPrince54)]
+    public void FixedSteps_ThatLeadToStiffForces_AreSubSteppedToo(MotionLaw law)
+    {
+        const double s = 1e-3, v = 1000; // v² / 2 = s r^5 / 5 at 75.8 m
+        Scene scene = new SceneBuilder("well").WithGravity(default).AddForce(Force.Central("well", V(0), s, 4), out ForceSet well)
+            .AddBody("ball", new BodySpec(0.1, 1, 1, law, SimDuration.FromSeconds(1), well, 0), V(0), V(v)).Build();
+        Simulation world = Run(scene, 5);
+        for (int n = 1; n <= 50; n++)
+        {
+            Assert.InRange(Read(world, First, n * 0.1).Position.Length, 0, 760);
+        }
+
+        double middle = -s * Math.Pow(v / 2, 4); // the second stage and the third are of the same place
+        Assert.True(Math.Abs((v + (2 * v) + (2 * (v + (middle / 2))) + (v + middle)) / 6) > 1e7);
+    }
+
     /// <summary>The control: at the same step a Runge-Kutta method without sub-steps leaves the world at once.</summary>
     [Fact]
     public void StiffDrag_OfAnUndividedStep_BlowsUp()

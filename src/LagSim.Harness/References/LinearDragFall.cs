@@ -1,6 +1,6 @@
 using System;
 
-namespace LagSim.Harness.Forces;
+namespace LagSim.Harness.References;
 
 /// <summary>The closed form of a fall along a line under gravity and linear drag: v' = -g - k v.</summary>
 /// <param name="gravity">m/s^2, downwards.</param>
