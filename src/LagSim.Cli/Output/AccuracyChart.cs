@@ -43,8 +43,9 @@ internal static class AccuracyChart
             if (points.Length > 0)
             {
                 double[] x = [.. points.Select(p => isStep ? p.StepSeconds : p.CpuSeconds)], y = [.. points.Select(p => p.Error)];
-                // the same method: curves coincide
-                series.Add(new ChartSeries(legend(name), x, y, all[slot].Engine == "mathnet" ? SeriesStyle.Dashed : SeriesStyle.Line, slot) { HasDots = true });
+                // LagSim's own Runge-Kutta is the same method as MathNet's: curves coincide; and a colour that comes again tells no two apart
+                bool isDashed = all[slot].Engine == "mathnet" || slot >= LineChart.Colours;
+                series.Add(new ChartSeries(legend(name), x, y, isDashed ? SeriesStyle.Dashed : SeriesStyle.Line, slot) { HasDots = true });
             }
         }
 
