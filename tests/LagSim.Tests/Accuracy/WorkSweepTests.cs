@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Threading;
 using LagSim.Harness.Accuracy;
 using LagSim.Scenes;
 using Xunit;
@@ -137,6 +138,25 @@ public sealed class WorkSweepTests
             StringComparison.Ordinal);
     }
 
+    [Theory]
+    [InlineData("elastic49", "LagSim Ballistic")]
+    [InlineData("spring", "LagSim RungeKutta4")]
+    [InlineData("elastic49", "MathNet RungeKutta4")]
+    [InlineData("drop", "ODE")]
+    [InlineData("drop", "Chipmunk")]
+    public void Run_AskedToStop_EndsBetweenTwoSteps(string scene, string name)
+    {
+        IWorkMethod method = Method(name);
+        Assert.SkipWhen(method.Missing is not null, method.Missing ?? "");
+        using CancellationTokenSource stop = new();
+        using IWorkRun run = method.Start(Scene(scene), method.Settings(Scene(scene))[0], stop.Token);
+        run.AdvanceTo(Scene(scene).Seconds / 2);
+        long before = run.Events;
+        stop.Cancel();
+        Assert.Throws<OperationCanceledException>(() => run.AdvanceTo(Scene(scene).Seconds));
+        Assert.InRange(run.Events, before, before + 1);
+    }
+
     private static bool IsFour(WorkOrder order) => Math.Abs(order.Slope - 4) <= 0.1;
 
     private static WorkOrder Order(string scene, IWorkMethod method) =>
@@ -163,7 +183,7 @@ public sealed class WorkSweepTests
         public IReadOnlyList<WorkSetting> Settings(WorkScene scene) =>
             [.. new[] { 100.0, 200, 400, 800, 1600, 3200 }.Select(rate => new WorkSetting("step", 1 / rate))];
 
-        public IWorkRun Start(WorkScene scene, WorkSetting setting) => new Run(scene, setting.StepSeconds);
+        public IWorkRun Start(WorkScene scene, WorkSetting setting, CancellationToken cancellation) => new Run(scene, setting.StepSeconds);
 
         private sealed class Run(WorkScene scene, double step) : IWorkRun
         {
@@ -210,6 +230,6 @@ public sealed class WorkSweepTests
 
         public IReadOnlyList<WorkSetting> Settings(WorkScene scene) => throw new InvalidOperationException("It is not there.");
 
-        public IWorkRun Start(WorkScene scene, WorkSetting setting) => throw new InvalidOperationException("It is not there.");
+        public IWorkRun Start(WorkScene scene, WorkSetting setting, CancellationToken cancellation) => throw new InvalidOperationException("It is not there.");
     }
 }

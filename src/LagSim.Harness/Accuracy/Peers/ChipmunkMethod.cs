@@ -21,7 +21,7 @@ internal sealed class ChipmunkMethod : FlatEngine
 
     public override string? Missing => ChipmunkLibrary.Missing;
 
-    public override IWorkRun Start(WorkScene scene, WorkSetting setting) => new ChipmunkRun(scene, setting.StepSeconds);
+    protected override Run Begin(WorkScene scene, double step) => new ChipmunkRun(scene, step);
 
     private sealed unsafe class ChipmunkRun : FlatRun
     {

@@ -20,7 +20,7 @@ internal sealed class OdeMethod : SteppedEngine
 
     public override string? Missing => OdeLibrary.Missing;
 
-    public override IWorkRun Start(WorkScene scene, WorkSetting setting) => new OdeRun(scene, setting.StepSeconds);
+    protected override Run Begin(WorkScene scene, double step) => new OdeRun(scene, step);
 
     private sealed unsafe class OdeRun : Run
     {

@@ -23,7 +23,7 @@ internal static class PackageEngines
 
         public override string? Missing => $"it is not in this build; -p:WithPeers=true builds it in and needs the package {package}";
 
-        public override IWorkRun Start(WorkScene scene, WorkSetting setting) => throw new System.InvalidOperationException(Missing);
+        protected override Run Begin(WorkScene scene, double step) => throw new System.InvalidOperationException(Missing);
     }
 #endif
 }

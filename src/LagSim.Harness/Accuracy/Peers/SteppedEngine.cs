@@ -1,11 +1,12 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Threading;
 using LagSim.Scenes;
 
 namespace LagSim.Harness.Accuracy.Peers;
 
-/// <summary>A physics engine that goes in steps of equal length, which are swept. A new one says who it is and how a <see cref="Run"/> of it steps.</summary>
+/// <summary>A physics engine, or an integrator, that goes in steps of equal length, which are swept. A new one says who it is and how a <see cref="Run"/> of it steps.</summary>
 internal abstract class SteppedEngine : IWorkMethod
 {
     public abstract string Name { get; }
@@ -16,9 +17,20 @@ internal abstract class SteppedEngine : IWorkMethod
 
     public virtual string? Excludes(WorkScene scene) => null;
 
-    public IReadOnlyList<WorkSetting> Settings(WorkScene scene) => [.. scene.EngineRates.Select(WorkSetting.Rate)];
+    public IReadOnlyList<WorkSetting> Settings(WorkScene scene) => [.. Rates(scene).Select(WorkSetting.Rate)];
 
-    public abstract IWorkRun Start(WorkScene scene, WorkSetting setting);
+    public IWorkRun Start(WorkScene scene, WorkSetting setting, CancellationToken cancellation)
+    {
+        Run run = Begin(scene, setting.StepSeconds);
+        run.Cancellation = cancellation;
+        return run;
+    }
+
+    /// <summary>The steps a second to sweep, from coarse to fine.</summary>
+    protected virtual IReadOnlyList<double> Rates(WorkScene scene) => scene.EngineRates;
+
+    /// <summary>Builds a world of the scene.</summary>
+    protected abstract Run Begin(WorkScene scene, double step);
 
     /// <summary>A world of the engine, step by step.</summary>
     internal abstract class Run(WorkScene work, double step) : IWorkRun
@@ -34,10 +46,14 @@ internal abstract class SteppedEngine : IWorkMethod
 
         public long Events { get; private set; }
 
+        /// <summary>Ends the run between two steps.</summary>
+        internal CancellationToken Cancellation { get; set; }
+
         public void AdvanceTo(double seconds)
         {
             for (long end = (long)Math.Round(seconds / StepSeconds); Events < end; Events++)
             {
+                Cancellation.ThrowIfCancellationRequested();
                 Step();
             }
         }

@@ -26,7 +26,7 @@ internal sealed class BepuMethod : SteppedEngine
 
     public override string? Excludes(WorkScene scene) => BoxWall.Excludes(scene.Scene);
 
-    public override IWorkRun Start(WorkScene scene, WorkSetting setting) => new BepuRun(scene, setting.StepSeconds);
+    protected override Run Begin(WorkScene scene, double step) => new BepuRun(scene, step);
 
     private sealed class BepuRun : Run
     {

@@ -19,7 +19,7 @@ internal sealed class Box2DMethod : FlatEngine
 
     public override string Engine => "box2d";
 
-    public override IWorkRun Start(WorkScene scene, WorkSetting setting) => new Box2DRun(scene, setting.StepSeconds);
+    protected override Run Begin(WorkScene scene, double step) => new Box2DRun(scene, step);
 
     private sealed class Box2DRun : FlatRun
     {

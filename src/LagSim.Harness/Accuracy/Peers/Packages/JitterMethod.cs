@@ -23,7 +23,7 @@ internal sealed class JitterMethod : SteppedEngine
             ? "it takes the greater of two restitutions, and here walls have less than balls"
             : BoxWall.Excludes(scene.Scene);
 
-    public override IWorkRun Start(WorkScene scene, WorkSetting setting) => new JitterRun(scene, setting.StepSeconds);
+    protected override Run Begin(WorkScene scene, double step) => new JitterRun(scene, step);
 
     private sealed class JitterRun : Run
     {
