@@ -77,7 +77,7 @@ public sealed class RecordingComparison
         {
             return new RecordingComparison(
                 ComparisonOutcome.StartDiffers, 0, 0,
-                $"The starts differ: the first session started at {a.Start}, the second at {b.Start}." + Remarks(first, second));
+                $"The starts differ: the first session started at {a.Start.ToShortString()}, the second at {b.Start.ToShortString()}." + Remarks(first, second));
         }
 
         int entries = SameEntries(first, second, out LogEntry? firstEntry, out LogEntry? secondEntry);
