@@ -130,6 +130,15 @@ public sealed class CompareCommandTests
     public void Option_OutOfRange_IsRefusedWithWhatIsAllowed(string option, string value, int code, string names, string allowed) =>
         Tool.Refuses(code, ["compare", option, value], names, allowed);
 
+    [Theory]
+    [InlineData("compare")]
+    [InlineData("hold")]
+    public void DisplayDelay_OfAStrategyThatHasNone_IsRefused(string command)
+    {
+        Tool.Refuses(2, [command, "--strategy", "healing", "--display-delay-ms", "100"], "--display-delay-ms is for the strategy interpolation alone, and --strategy is 'healing'");
+        Tool.Refuses(2, [command, "--strategy", "interpolation", "--display-delay-ms", "100", "--profile", "moon"], "'moon'"); // not refused for that
+    }
+
     [Fact]
     public void Compare_Interrupted_LeavesNoFolder()
     {
