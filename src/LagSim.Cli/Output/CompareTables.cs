@@ -23,7 +23,7 @@ internal static class CompareTables
             table.AddRow([run.Options.Link.Name, run.Options.Strategy, .. Row(run)]);
         }
 
-        console.Rich.Write(table);
+        console.Write(table);
         foreach (string line in Footnotes(runs))
         {
             console.Output.WriteLine(line);
