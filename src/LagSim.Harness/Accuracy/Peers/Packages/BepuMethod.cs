@@ -12,8 +12,8 @@ namespace LagSim.Harness.Accuracy.Peers.Packages;
 /// <remarks>
 /// It has no restitution: a contact is a damped spring. The spring's damping ratio z is what leaves the scene's restitution to half a swing,
 /// e = exp(-pi z / sqrt(1 - z^2)), and nothing limits how fast it pushes out. A stiff spring loses energy to the solver's step, a soft one holds the ball for
-/// long; both are off by as much where the frequency goes with the root of the rate, and by least on <c>drop</c> and <c>elastic49</c> together at
-/// <see cref="Stiffness"/>, of a quarter to twice as much. No friction, no sleeping. A force is an impulse before each step.
+/// long; both fall alike with finer steps where the frequency goes with the root of the rate, by <see cref="Stiffness"/> (docs/ACCURACY.md has what was tried).
+/// No friction, no sleeping. A force is an impulse before each step.
 /// </remarks>
 internal sealed class BepuMethod : SteppedEngine
 {
