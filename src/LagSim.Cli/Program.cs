@@ -2,6 +2,7 @@ using System;
 using System.CommandLine;
 using System.CommandLine.Help;
 using System.IO;
+using System.Linq;
 using System.Text;
 using System.Threading;
 using LagSim.Cli.Commands;
@@ -60,7 +61,7 @@ internal static class Program
 
             Command asked = parsed.CommandResult.Command;
             error.WriteLine(asked == root ? "Try 'lagsim --help'." : $"Try 'lagsim {asked.Name} --help'.");
-            return ExitCode.Usage;
+            return Failure.Tell(output, parsed, string.Join(" ", parsed.Errors.Select(problem => problem.Message)), ExitCode.Usage);
         }
 
         try
@@ -80,13 +81,13 @@ internal static class Program
         catch (UsageException mistake)
         {
             error.WriteLine(Sentence.Printable(mistake.Message));
-            return ExitCode.Usage;
+            return Failure.Tell(output, parsed, mistake.Message, ExitCode.Usage);
         }
         catch (Exception failure) when (failure is SceneFileException or SceneException or SimulationException or PeerGroupException
             or HandMotionException or InputException or IOException or UnauthorizedAccessException)
         {
             error.WriteLine(Sentence.Printable(Sentence.Of(failure)));
-            return ExitCode.Input;
+            return Failure.Tell(output, parsed, Sentence.Of(failure), ExitCode.Input);
         }
     }
 }

@@ -40,7 +40,7 @@ public sealed partial class Simulation
         if (time < SimulatedTo)
         {
             throw new ArgumentOutOfRangeException(
-                nameof(time), time, $"The world is simulated to {SimulatedTo} already; it advances, and an event that lies before rolls it back.");
+                nameof(time), time, $"The world is simulated to {SimulatedTo.ToShortString()} already; it advances, and an event that lies before rolls it back.");
         }
 
         SimTime reached = SimulatedTo;
@@ -82,7 +82,7 @@ public sealed partial class Simulation
         catch (Exception failure)
         {
             // What a scene's own code threw, as a rule: it too ends the simulation, in the one way that callers know.
-            fault = new SimulationException($"The simulation failed at or after {SimulatedTo}: {failure.Message}", failure);
+            fault = new SimulationException($"The simulation failed at or after {SimulatedTo.ToShortString()}: {failure.Message}", failure);
             throw fault;
         }
 

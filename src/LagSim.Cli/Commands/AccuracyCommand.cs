@@ -25,7 +25,7 @@ internal static class AccuracyCommand
         Option<bool> quick = new("--quick") { Description = "Few settings and short runs: some seconds in all, figures of speed not to be trusted." };
         Option<double> longest = CommonOptions.Number("--longest-s", "The longest that a single run may take by its coarser neighbour; finer settings are left out", new WorkOptions().LongestSeconds, 1e-3, 1e5);
         Command command = new("accuracy", "Speed against error: each scene by each method, its step swept; tables, CSV and charts.") { which, peers, quick, longest };
-        common.AddTo(command);
+        common.AddTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {
             string name = parsed.GetValue(which)!, peer = parsed.GetValue(peers)!;

@@ -12,7 +12,16 @@ namespace LagSim.Cli.Commands;
 /// <summary>The options that every command has, and how options are checked.</summary>
 internal sealed class CommonOptions
 {
-    internal Option<ulong> Seed { get; } = new("--seed")
+    internal const string SeedName = "--seed";
+
+    internal const string JsonName = "--json";
+
+    /// <summary>The strategy that a display delay is for.</summary>
+    internal const string Interpolating = "interpolation";
+
+    private const string DisplayDelayName = "--display-delay-ms";
+
+    internal Option<ulong> Seed { get; } = new(SeedName)
     {
         Description = "The luck of links and clocks; the same seed gives the same run.",
         DefaultValueFactory = _ => 1,
@@ -22,18 +31,20 @@ internal sealed class CommonOptions
 
     internal Option<string?> Out { get; } = Folder("--out", "A folder for CSV and SVG files and a report.html that shows them.");
 
-    internal Option<bool> Json { get; } = new("--json") { Description = "Print one JSON document and nothing else on stdout." };
+    internal Option<bool> Json { get; } = new(JsonName) { Description = "Print one JSON document and nothing else on stdout." };
 
-    internal void AddTo(Command command)
+    /// <param name="command">The command.</param>
+    /// <param name="isSeedDrawnFrom">Whether anything of it depends on the seed.</param>
+    internal void AddTo(Command command, bool isSeedDrawnFrom = true)
     {
-        command.Options.Add(Seed);
+        AddSeedAndJsonTo(command, isSeedDrawnFrom);
         command.Options.Add(Out);
-        command.Options.Add(Json);
     }
 
     /// <summary>For a command that has nothing to put into a folder.</summary>
-    internal void AddSeedAndJsonTo(Command command)
+    internal void AddSeedAndJsonTo(Command command, bool isSeedDrawnFrom = true)
     {
+        Seed.Description = isSeedDrawnFrom ? Seed.Description : "Only told again in results: every command takes it, and here nothing is drawn.";
         command.Options.Add(Seed);
         command.Options.Add(Json);
     }
@@ -57,7 +68,18 @@ internal sealed class CommonOptions
 
     /// <summary>How far behind <c>interpolation</c> shows the world.</summary>
     internal static Option<double> DisplayDelay() => Number(
-        "--display-delay-ms", "How far behind shared time the strategy interpolation shows the world", Math.Round(Interpolation.DefaultDelay.ToMilliseconds(), 6), 0, Interpolation.MaxDelay.ToMilliseconds());
+        DisplayDelayName, "How far behind shared time the strategy interpolation shows the world", Math.Round(Interpolation.DefaultDelay.ToMilliseconds(), 6), 0, Interpolation.MaxDelay.ToMilliseconds());
+
+    /// <summary>A display delay that nothing would use is a mistake.</summary>
+    /// <exception cref="UsageException">It was given, and the strategy is another than <c>interpolation</c> alone or among all.</exception>
+    internal static void ThrowIfUnused(ParseResult parsed, Option<double> displayDelay, string strategy, bool isInterpolating)
+    {
+        if (!isInterpolating && parsed.GetResult(displayDelay) is { Implicit: false })
+        {
+            throw new UsageException(
+                $"{DisplayDelayName} is for the strategy {Interpolating} alone, and --strategy is '{strategy}': it would have no effect.");
+        }
+    }
 
     /// <summary>The delay of every joiner's link.</summary>
     internal static Option<double?> Delay(string otherwise) => new("--delay-ms")

@@ -42,6 +42,7 @@ internal static class CompareCommand
         {
             LinkProfile[] links = Links(parsed.GetValue(profile)!);
             string chosen = parsed.GetValue(strategy)!;
+            CommonOptions.ThrowIfUnused(parsed, delay, chosen, chosen is All or CommonOptions.Interpolating);
             IReadOnlyList<string> strategies = chosen == All ? LateEventStrategies.Names : [chosen];
             Scene played = SceneSource.Load(parsed.GetValue(scene)!);
             ulong seed = parsed.GetValue(common.Seed);

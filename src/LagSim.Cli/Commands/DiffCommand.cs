@@ -17,7 +17,7 @@ internal static class DiffCommand
         {
             first, second,
         };
-        common.AddSeedAndJsonTo(command);
+        common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {
             string[] files = [parsed.GetValue(first)!, parsed.GetValue(second)!];

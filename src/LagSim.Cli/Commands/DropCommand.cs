@@ -24,7 +24,7 @@ internal static class DropCommand
         Option<string> strategy = CommonOptions.Word("--strategy", "What a peer does with an event that comes late.", LateEventStrategies.Default, [.. LateEventStrategies.Names, All]);
         Option<double> displayDelay = CommonOptions.DisplayDelay();
         Option<string> motion = CommonOptions.Word("--motion", "How the ball flies: integrated in steps as in the thesis, or in closed form.", "rk4", "rk4", "ballistic");
-        Option<double> rate = CommonOptions.Number("--rate-hz", "Steps a second of rk4", 200, 1, 1e4);
+        Option<double> rate = CommonOptions.Number("--rate-hz", "Steps a second of rk4; ballistic motion has none", 200, 1, 1e4);
         Option<double?> delay = CommonOptions.Delay("default 25");
         Option<string?> profile = CommonOptions.Profile();
         Option<int> peers = CommonOptions.Whole("--peers", "How many peers, the host included", 2, 2, 9);

@@ -13,7 +13,7 @@ internal static class ExplainCommand
         CommonOptions common = new();
         Argument<string> scene = new("SCENE") { Description = "A built-in scene, or a JSON file." };
         Command command = new("explain", "Says what is modelled for a scene, what not, and why.") { scene };
-        common.AddSeedAndJsonTo(command);
+        common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {
             Scene loaded = SceneSource.Load(parsed.GetValue(scene)!);

@@ -56,6 +56,8 @@ internal static class HoldCommand
         command.SetAction(parsed =>
         {
             LinkProfile? asked = CommonOptions.LinkOf(parsed.GetValue(delay), parsed.GetValue(profile));
+            string chosen = parsed.GetValue(strategy)!;
+            CommonOptions.ThrowIfUnused(parsed, displayDelay, chosen, chosen == CommonOptions.Interpolating);
             ulong seed = parsed.GetValue(common.Seed);
             HandMotion motion = HandMotionSource.Load(parsed.GetValue(input)!, seed);
             bool isVirtual = parsed.GetValue(time) == "virtual";
@@ -63,7 +65,7 @@ internal static class HoldCommand
             {
                 HoldSeconds = HoldSeconds(motion, parsed.GetValue(hold), isVirtual),
                 KnotDistanceMetres = parsed.GetValue(distance),
-                Strategy = parsed.GetValue(strategy)!,
+                Strategy = chosen,
                 DisplayDelay = SimDuration.FromMilliseconds(parsed.GetValue(displayDelay)),
                 Peers = parsed.GetValue(peers),
                 IsVirtual = isVirtual,

@@ -33,7 +33,7 @@ internal static class HostCommand
             scene, port, address, joiners, history,
         };
         shared.AddTo(command);
-        common.AddSeedAndJsonTo(command);
+        common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {
             IPAddress local = EndPointText.ParseLocal("--address", parsed.GetValue(address)!);

@@ -25,7 +25,7 @@ internal static class JoinCommand
             host,
         };
         shared.AddTo(command);
-        common.AddSeedAndJsonTo(command);
+        common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {
             SessionRequest request = shared.Read(parsed);

@@ -30,7 +30,7 @@ internal static class RunCommand
         Option<double> every = CommonOptions.Number("--every-s", "The time between samples", 0.01, 1e-9, 1e6);
         Option<int> repeat = CommonOptions.Whole("--repeat", "Run so many times after a warm-up; wall_s is then the least", 1, 1, 1_000_000);
         Command command = new("run", "Runs one scene in virtual time.") { scene, until, motion, events, samples, every, repeat };
-        common.AddTo(command);
+        common.AddTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {
             string? eventFile = parsed.GetValue(events);

@@ -15,7 +15,7 @@ internal static class ScenesCommand
         CommonOptions common = new();
         Argument<string?> name = new("NAME") { Description = "Print this scene as JSON, ready to edit.", Arity = ArgumentArity.ZeroOrOne };
         Command command = new("scenes", "Lists the built-in scenes, or prints one as JSON.") { name };
-        common.AddTo(command);
+        common.AddTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {
             string? chosen = parsed.GetValue(name);

@@ -139,6 +139,10 @@ internal sealed class SessionRunner : IDisposable
         {
             printer.Summary(session, port, recorder?.Failure);
         }
+        else if (!isInterrupted)
+        {
+            printer.Failed(session.EndReason ?? "There was no session.", code);
+        }
 
         return code == ExitCode.Done && recorder?.Failure is not null ? ExitCode.Input : code;
     }

@@ -23,7 +23,7 @@ internal static class AccuracyTables
                 table.AddRow([.. row.Select(Markup.Escape)]);
             }
 
-            console.Rich.Write(table);
+            console.Write(table);
         }
 
         foreach (string line in Footnotes(report))

@@ -1,5 +1,6 @@
 using System.Collections.Generic;
 using System.Linq;
+using LagSim.Cli.Commands;
 using LagSim.Harness.Compare;
 using LagSim.Harness.Metrics;
 using LagSim.Harness.Reports;
@@ -10,7 +11,7 @@ namespace LagSim.Cli.Output;
 internal sealed class CompareFindings
 {
     private const string Healing = "healing";
-    private const string Interpolation = "interpolation";
+    private const string Interpolation = CommonOptions.Interpolating;
 
     /// <summary>What is less than 1 % smaller is not called better.</summary>
     private const double Noticeable = 0.99;

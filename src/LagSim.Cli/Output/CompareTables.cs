@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Harness.Compare;
@@ -23,7 +24,7 @@ internal static class CompareTables
             table.AddRow([run.Options.Link.Name, run.Options.Strategy, .. Row(run)]);
         }
 
-        console.Rich.Write(table);
+        console.Write(table);
         foreach (string line in Footnotes(runs))
         {
             console.Output.WriteLine(line);
@@ -63,7 +64,10 @@ internal static class CompareTables
 
         foreach (CompareRun broken in runs.Where(IsBroken))
         {
-            yield return $"NOT equal: with {broken.Options.Strategy} on {broken.Options.Link.Name} not all peers settled on the same.";
+            yield return $"NOT equal: with {broken.Options.Strategy} on {broken.Options.Link.Name} not all peers settled on the same."
+                + (broken.FirstDifference is SettledDifference first
+                    ? FormattableString.Invariant($" The first body that differs is '{first.Body}', of peer {first.Peer} at T {first.Seconds} s.")
+                    : " No body differs in what was sampled.");
         }
     }
 

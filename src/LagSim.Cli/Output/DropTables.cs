@@ -24,11 +24,11 @@ internal static class DropTables
         foreach (DropRun run in runs)
         {
             WritePicture(console, run);
-            console.Rich.Write(Summary(run));
+            console.Write(Summary(run));
             WriteFacts(console, run);
         }
 
-        console.Rich.Write(Strategies(strategies));
+        console.Write(Strategies(strategies));
         foreach (DropRun late in strategies.Where(run => DelayOf(run) > SimDuration.Zero))
         {
             console.Output.WriteLine($"{late.Options.Strategy} shows everything {NumberText.Short(DelayOf(late).ToMilliseconds())} ms late, what a player does itself included.");

@@ -26,7 +26,7 @@ internal static class ExplainOutput
 
         if (explanation.Bodies.Count > 0)
         {
-            console.Rich.Write(bodies);
+            console.Write(bodies);
         }
 
         Table features = NewTable("what is modelled", ["what", "modelled", "why"]);
@@ -35,7 +35,7 @@ internal static class ExplainOutput
             features.AddRow(feature.Name, feature.IsModelled ? "yes" : "no", Markup.Escape(feature.Why));
         }
 
-        console.Rich.Write(features);
+        console.Write(features);
         console.Output.WriteLine("pieces/s: pieces of path in a simulated second where the body starts, besides those that impacts open; 0: one from impact to impact.");
     }
 

@@ -22,7 +22,7 @@ internal static class HardTables
             table.AddRow([.. Cells(row).Select(Markup.Escape)]);
         }
 
-        console.Rich.Write(table);
+        console.Write(table);
         foreach (string line in Footnotes(report))
         {
             console.Output.WriteLine(line);

@@ -52,18 +52,19 @@ internal static class HoldJson
         json.WriteNumber("knots_per_s", run.KnotsPerSecond);
         json.WriteNumber("holder_bytes_sent_per_s", run.HolderSentPerSecond);
         json.WriteNumber("holder_bytes_received_per_s", run.HolderReceivedPerSecond);
-        RunJson.Errors(json, "holder_error", run.Own);
+        RunJson.Errors(json, "holder_error", run.Own, without: null);
         json.WriteStartArray("held_error");
         foreach (HeldView view in run.Views)
         {
             json.WriteStartObject();
             json.WriteNumber("peer", view.Peer);
-            RunJson.Errors(json, "simulated", view.Simulated);
-            RunJson.Errors(json, "predicted", view.Predicted);
-            json.WriteNumber("hold_last_m", view.HoldLastMetres);
-            json.WriteNumber("velocity_m", view.VelocityMetres);
-            json.WriteNumber("best_in_hindsight_m", view.BestInHindsightMetres);
-            json.WriteString("best_in_hindsight", AdaptivePredictor.Candidates[view.BestCandidate]);
+            bool isMeasured = view.Predicted.Samples > 0; // the candidates are, where the mix of them is
+            RunJson.Errors(json, "simulated", view.Simulated, without: null);
+            RunJson.Errors(json, "predicted", view.Predicted, without: null);
+            JsonDocumentWriter.Number(json, "hold_last_m", isMeasured ? view.HoldLastMetres : null);
+            JsonDocumentWriter.Number(json, "velocity_m", isMeasured ? view.VelocityMetres : null);
+            JsonDocumentWriter.Number(json, "best_in_hindsight_m", isMeasured ? view.BestInHindsightMetres : null);
+            json.WriteString("best_in_hindsight", isMeasured ? AdaptivePredictor.Candidates[view.BestCandidate] : null);
             json.WriteEndObject();
         }
 

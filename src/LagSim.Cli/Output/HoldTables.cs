@@ -122,6 +122,6 @@ internal static class HoldTables
             table.AddRow([.. row]);
         }
 
-        console.Rich.Write(table);
+        console.Write(table);
     }
 }

@@ -11,7 +11,7 @@ namespace LagSim.Cli.Output;
 internal static class JsonDocumentWriter
 {
     internal static void Write(
-        TextWriter output, string command, ulong seed, string? scene, ulong? sceneHash, ulong? stateHash, Action<Utf8JsonWriter> body)
+        TextWriter output, string command, ulong? seed, string? scene, ulong? sceneHash, ulong? stateHash, Action<Utf8JsonWriter> body)
     {
         using MemoryStream bytes = new();
         using (Utf8JsonWriter json = new(bytes, new JsonWriterOptions { Indented = true, Encoder = JavaScriptEncoder.UnsafeRelaxedJsonEscaping }))
@@ -20,7 +20,15 @@ internal static class JsonDocumentWriter
             json.WriteString("tool", "lagsim");
             json.WriteString("version", ToolVersion.Text);
             json.WriteString("command", command);
-            json.WriteNumber("seed", seed);
+            if (seed is ulong number)
+            {
+                json.WriteNumber("seed", number);
+            }
+            else
+            {
+                json.WriteNull("seed"); // what was given is none
+            }
+
             json.WriteString("scene", scene);
             json.WriteString("scene_hash", Hash(sceneHash));
             json.WriteString("state_hash", Hash(stateHash));

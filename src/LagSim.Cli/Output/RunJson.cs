@@ -60,13 +60,18 @@ internal static class RunJson
     }
 
     /// <summary>One error of the contract.</summary>
-    internal static void Errors(Utf8JsonWriter json, string key, in ErrorStatistics errors)
+    /// <param name="json">Where to.</param>
+    /// <param name="key">Its key.</param>
+    /// <param name="errors">The error.</param>
+    /// <param name="without">What stands for the figures of no sample: 0 where a phase may be empty, null where nothing could be measured.</param>
+    internal static void Errors(Utf8JsonWriter json, string key, in ErrorStatistics errors, double? without = 0)
     {
+        double? Figure(double metres, long samples) => samples == 0 ? without : metres;
         json.WriteStartObject(key);
         json.WriteNumber("samples", errors.Samples);
-        json.WriteNumber("max_m", errors.MaxMetres);
-        json.WriteNumber("mean_m", errors.MeanMetres);
-        json.WriteNumber("rms_m", errors.RmsMetres);
+        JsonDocumentWriter.Number(json, "max_m", Figure(errors.MaxMetres, errors.Samples));
+        JsonDocumentWriter.Number(json, "mean_m", Figure(errors.MeanMetres, errors.Samples));
+        JsonDocumentWriter.Number(json, "rms_m", Figure(errors.RmsMetres, errors.Samples));
         json.WriteNumber("differing_bits", errors.DifferingBits);
         json.WriteNumber("stalled_samples", errors.StalledSamples);
         json.WriteEndObject();

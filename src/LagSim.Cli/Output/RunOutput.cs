@@ -55,7 +55,7 @@ internal static class RunOutput
                 Markup.Escape(scene.Bodies[body].Name), Text(state.Position), Text(state.Velocity), MotionNames.Of(state.Motion));
         }
 
-        console.Rich.Write(table);
+        console.Write(table);
     }
 
     private static string Text(in Vector3D v) => $"{NumberText.Short(v.X)}  {NumberText.Short(v.Y)}  {NumberText.Short(v.Z)}";

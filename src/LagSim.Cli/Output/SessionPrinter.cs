@@ -49,6 +49,15 @@ internal sealed class SessionPrinter
     /// <summary>A line about something that is not as it should be.</summary>
     internal void Problem(string sentence) => console.Error.WriteLine(sentence);
 
+    /// <summary>There is no summary, since there was never a world; why stands on the error stream.</summary>
+    internal void Failed(string why, int exitCode)
+    {
+        if (json)
+        {
+            Failure.Write(console.Output, command, seed, why, exitCode);
+        }
+    }
+
     internal void State(in CommittedState state, SimDuration sinceStart, ClockReading? reading)
     {
         double seconds = sinceStart.ToSeconds();

@@ -1,7 +1,9 @@
 using System;
+using System.Collections.Generic;
 using System.IO;
 using System.Threading;
 using Spectre.Console;
+using Spectre.Console.Rendering;
 
 namespace LagSim.Cli.Output;
 
@@ -9,6 +11,7 @@ namespace LagSim.Cli.Output;
 internal sealed class ToolConsole
 {
     private const int WidthOfAFile = 150;
+    private const int UsualWidth = 80;
 
     internal ToolConsole(TextWriter output, TextWriter error, CancellationToken stop)
     {
@@ -42,6 +45,33 @@ internal sealed class ToolConsole
 
     /// <summary>Results, as tables.</summary>
     internal IAnsiConsole Rich { get; }
+
+    /// <summary>Writes a table; on a terminal of less than 80 columns that has no room for it each row as a list, so that no cell is broken into pieces.</summary>
+    internal void Write(Table table)
+    {
+        bool isTooWide = Rich.Profile.Width < UsualWidth
+            && ((IRenderable)table).Measure(RenderOptions.Create(Rich, Rich.Profile.Capabilities), WidthOfAFile * 10).Max > Rich.Profile.Width;
+        Rich.Write(isTooWide ? AsList(table) : table);
+    }
+
+    private static Rows AsList(Table table)
+    {
+        List<IRenderable> parts = table.Title is null ? [] : [new Text(table.Title.Text)];
+        foreach (TableRow row in table.Rows)
+        {
+            Grid cells = new Grid().AddColumn(new GridColumn().NoWrap()).AddColumn();
+            for (int n = 0; n < table.Columns.Count; n++)
+            {
+                cells.AddRow(table.Columns[n].Header, row[n]);
+            }
+
+            parts.Add(Text.Empty);
+            parts.Add(cells);
+        }
+
+        parts.Add(Text.Empty);
+        return new Rows(parts);
+    }
 
     /// <summary>Runs something long, with a bar on the error stream where that is a terminal, else a line at the start.</summary>
     /// <param name="title">What runs.</param>

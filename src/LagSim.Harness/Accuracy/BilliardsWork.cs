@@ -79,7 +79,7 @@ internal sealed class BilliardsWork : WorkScene
 
         private static double Distance(IWorkRun run, Scene other)
         {
-            using LagSimMethod.Run reference = new(other);
+            using LagSimMethod.Run reference = new(other, new SimulationOptions());
             reference.AdvanceTo(run.Seconds);
             double squares = 0;
             for (int n = 0; n < other.Bodies.Count; n++)

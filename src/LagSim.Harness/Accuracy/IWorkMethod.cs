@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 using LagSim.Scenes;
 
 namespace LagSim.Harness.Accuracy;
@@ -25,7 +26,10 @@ public interface IWorkMethod
     IReadOnlyList<WorkSetting> Settings(WorkScene scene);
 
     /// <summary>Builds a world of the scene at time zero.</summary>
-    IWorkRun Start(WorkScene scene, WorkSetting setting);
+    /// <param name="scene">The scene.</param>
+    /// <param name="setting">One of <see cref="Settings"/>.</param>
+    /// <param name="cancellation">Ends <see cref="IWorkRun.AdvanceTo"/> between two steps or instants, by an <see cref="OperationCanceledException"/>.</param>
+    IWorkRun Start(WorkScene scene, WorkSetting setting, CancellationToken cancellation);
 }
 
 /// <summary>A world of some engine on its way. Not thread-safe.</summary>

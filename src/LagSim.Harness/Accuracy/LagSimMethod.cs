@@ -1,5 +1,6 @@
 using System.Collections.Generic;
 using System.Linq;
+using System.Threading;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -36,28 +37,32 @@ internal sealed class LagSimMethod(MotionLaw law, bool hasFixedSteps = false) : 
         _ => [.. Tolerances.Select(WorkSetting.Within)],
     };
 
-    public IWorkRun Start(WorkScene scene, WorkSetting setting) => new Run(Build(scene, setting));
+    public IWorkRun Start(WorkScene scene, WorkSetting setting, CancellationToken cancellation)
+    {
+        Built built = Build(scene, setting, cancellation);
+        return new Run(built.Scene, built.Options);
+    }
 
     /// <summary>The scene is given, as it is to the other engines: that it was built is not part of a run.</summary>
-    private Scene Build(WorkScene scene, WorkSetting setting)
+    private Built Build(WorkScene scene, WorkSetting setting, CancellationToken cancellation)
     {
         Built? kept = last;
-        if (kept is null || kept.Work != scene || kept.Setting != setting)
+        if (kept is null || kept.Work != scene || kept.Setting != setting || kept.Options.Cancellation != cancellation)
         {
             SimDuration step = double.IsNaN(setting.StepSeconds) ? BodySpec.DefaultStep : SimDuration.FromSeconds(setting.StepSeconds);
             double tolerance = double.IsNaN(setting.Tolerance) ? 0 : setting.Tolerance;
-            last = kept = new Built(scene, setting, scene.Build(law, step, tolerance));
+            last = kept = new Built(scene, setting, scene.Build(law, step, tolerance), new SimulationOptions(cancellation: cancellation));
         }
 
-        return kept.Scene;
+        return kept;
     }
 
-    private sealed record Built(WorkScene Work, WorkSetting Setting, Scene Scene);
+    private sealed record Built(WorkScene Work, WorkSetting Setting, Scene Scene, SimulationOptions Options);
 
     /// <summary>A simulation that keeps the default second of history, as one of a game without a session does.</summary>
-    internal sealed class Run(Scene scene) : IWorkRun
+    internal sealed class Run(Scene scene, SimulationOptions options) : IWorkRun
     {
-        private readonly Simulation simulation = new(scene);
+        private readonly Simulation simulation = new(scene, options);
 
         public double Seconds => simulation.SimulatedTo.ToSeconds();
 

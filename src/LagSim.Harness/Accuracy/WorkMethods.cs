@@ -19,6 +19,7 @@ public static class WorkMethods
         new MathNetMethod(),
         new OdeMethod(),
         new ChipmunkMethod(),
+        .. PackageEngines.All,
     ];
 
     /// <summary>The engines besides LagSim, each once.</summary>

@@ -16,7 +16,7 @@ public static class WorkSweep
     /// <param name="methods">The methods; those that are missing or do not suit a scene are left out with a sentence.</param>
     /// <param name="options">How thoroughly.</param>
     /// <param name="progress">Is told which part of all points is done, 0 to 1.</param>
-    /// <param name="cancellation">Ends it between two runs, by an <see cref="OperationCanceledException"/>.</param>
+    /// <param name="cancellation">Ends it between two steps or instants of a run, by an <see cref="OperationCanceledException"/>.</param>
     public static WorkReport Run(
         IReadOnlyList<WorkScene> scenes, IReadOnlyList<IWorkMethod> methods, WorkOptions options, Action<double>? progress = null,
             CancellationToken cancellation = default)
@@ -71,7 +71,7 @@ public static class WorkSweep
 
             IReadOnlyList<double> errors;
             long events;
-            using (IWorkRun run = method.Start(scene, setting))
+            using (IWorkRun run = method.Start(scene, setting, cancellation))
             {
                 errors = scene.Measure(run);
                 events = run.Events;
@@ -101,7 +101,7 @@ public static class WorkSweep
         {
             cancellation.ThrowIfCancellationRequested();
             double began = ThreadClock.Microseconds;
-            using IWorkRun run = method.Start(scene, setting);
+            using IWorkRun run = method.Start(scene, setting, cancellation);
             run.AdvanceTo(scene.Seconds);
             double spent = (ThreadClock.Microseconds - began) * 1e-6;
             least = Math.Min(least, spent);

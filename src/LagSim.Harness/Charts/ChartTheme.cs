@@ -17,6 +17,9 @@ internal static class ChartTheme
     private static readonly string[] LightInks = ["#ffffff", "#1b1f24", "#57606a", "#e4e7eb", "#8c959f", "#6e4fa3"];
     private static readonly string[] DarkInks = ["#14171c", "#e8eaed", "#a3adb8", "#2b313a", "#6b7683", "#c3a9f0"];
 
+    /// <summary>The size of the palette.</summary>
+    internal static int Colours => Light.Length;
+
     /// <summary>The CSS class that gives a curve its colour.</summary>
     internal static string ColourClass(int slot) => "c" + (slot % Light.Length).ToString(CultureInfo.InvariantCulture);
 

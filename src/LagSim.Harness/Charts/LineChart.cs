@@ -17,6 +17,9 @@ public sealed class LineChart
     /// <summary>The width of every chart in pixels of its own coordinates.</summary>
     public const double Width = 960.0;
 
+    /// <summary>How many curves have colours of their own; beyond, colours come again.</summary>
+    public static int Colours => ChartTheme.Colours;
+
     private const double HeadHeight = 34.0;
     private const double PanelGap = 26.0;
     private const double FootHeight = 54.0;

@@ -55,11 +55,20 @@ public sealed record CompareRun(
     Percentiles InputLatency,
     CompareTrace Trace) : IPeerRun
 {
+    /// <summary>Where a peer first settled on another state of a body than the world that had every event on time; null if none did.</summary>
+    public SettledDifference? FirstDifference { get; init; }
+
     /// <summary>Whether all peers settled on the same, and on what a world has that had every event on time, bit for bit.</summary>
     public bool Agrees =>
         new[] { Settled.Before, Settled.During, Settled.After }.Select(phase => phase.ToStatistics()).All(e => e.DifferingBits + e.StalledSamples == 0)
         && StateHashes.All(hash => hash == TruthStateHash) && EventHashes.All(hash => hash == TruthEventHash);
 }
+
+/// <summary>A body that a peer settled on otherwise. Immutable.</summary>
+/// <param name="Seconds">At which sample, in seconds since the start.</param>
+/// <param name="Peer">Whose: the place in the group, 0 is the host.</param>
+/// <param name="Body">The body's name in the scene, or its number if it was spawned.</param>
+public sealed record SettledDifference(double Seconds, int Peer, string Body);
 
 /// <summary>The distances of a run, sample by sample, for charts and CSV.</summary>
 /// <param name="Seconds">Shared time since the start of the scene.</param>

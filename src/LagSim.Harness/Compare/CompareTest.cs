@@ -60,6 +60,8 @@ public static class CompareTest
         return Measure(options, peers, news, heals, inputs, GroupFigures.BytesPerSecond(before, after, seconds));
     }
 
+    private static string NameOf(Scene scene, BodyId body) => body == BodyId.OfScene(body.Index) ? scene.Bodies[body.Index].Name : body.ToString();
+
     /// <summary>Where in the group the player with that number is: joiners have their numbers in the order in which they came.</summary>
     private static int PlaceOf(PeerGroup peers, int number) => Enumerable.Range(0, peers.PeerCount).Single(p => peers.Session(p).Peer == number);
 
@@ -72,6 +74,9 @@ public static class CompareTest
         onTime.TakeSettled(truth);
         PeerSamples[] fromTruth = [onTime, .. peers.Seen];
         IReadOnlyList<(SimTime Stamp, SimTime Dealt)> windows = news.Windows;
+        SettledDifference? difference = PeerComparison.FirstDifference([onTime, .. peers.Settled], peers.Bodies.Length, grid.Count) is (int instant, int who, int which)
+            ? new SettledDifference((grid.At(instant) - peers.Start).ToSeconds(), who - 1, NameOf(options.Scene, peers.Bodies[which]))
+            : null;
         Phase[] phases = Instants(n => NewsWatch.PhaseAt(windows, grid.At(n)));
         return new CompareRun(
             options,
@@ -100,7 +105,10 @@ public static class CompareTest
                 Distances(peers.Seen),
                 Distances(fromTruth),
                 Distances(peers.Settled),
-                windows.Select(w => ((w.Stamp - peers.Start).ToSeconds(), w.Dealt == SimTime.MaxValue ? (double?)null : (w.Dealt - peers.Start).ToSeconds())).ToList()));
+                windows.Select(w => ((w.Stamp - peers.Start).ToSeconds(), w.Dealt == SimTime.MaxValue ? (double?)null : (w.Dealt - peers.Start).ToSeconds())).ToList()))
+        {
+            FirstDifference = difference,
+        };
 
         PhaseErrors Errors(IReadOnlyList<PeerSamples> samples) => PeerComparison.Errors(samples, peers.Bodies.Length, 0, grid.Count, n => phases[n]);
 

@@ -1,6 +1,7 @@
 using System;
 using System.IO;
 using System.Net;
+using System.Net.Sockets;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Time;
@@ -36,7 +37,7 @@ public sealed class UdpRelay : IDisposable
     /// <param name="profile">What each client's link does.</param>
     /// <param name="seed">The luck of all links.</param>
     /// <param name="clock">Real time, read from the relay's thread.</param>
-    /// <exception cref="ArgumentException"><paramref name="host"/> is not the address of one machine and a port from 1 on.</exception>
+    /// <exception cref="ArgumentException"><paramref name="host"/> is not the address of one machine and a port from 1 on, or is the relay's own.</exception>
     /// <exception cref="IOException">The system does not give <paramref name="listen"/>, for instance because its port is in use.</exception>
     public UdpRelay(IPEndPoint listen, IPEndPoint host, LinkProfile profile, ulong seed, IClock clock)
     {
@@ -54,6 +55,12 @@ public sealed class UdpRelay : IDisposable
         towardsHost = UdpDestination.Facing(address.ToEndPoint().Address);
         UdpPort front = new(listen);
         LocalAddress = front.LocalAddress;
+        if (host.Port == LocalAddress.ToEndPoint().Port && IsReachedAt(listen.Address, host.Address))
+        {
+            front.Dispose();
+            throw new ArgumentException($"'{host}' is the relay's own address, to which it would pass everything on for ever; it takes the host's.", nameof(host));
+        }
+
         core = new RelayCore(front, address, profile, seed, MaxClients, OpenPort);
         thread = new WorldThread("LagSim relay", Step);
         front.Arrived += thread.Wake;
@@ -79,6 +86,30 @@ public sealed class UdpRelay : IDisposable
     {
         thread.Dispose();
         core.Dispose();
+    }
+
+    /// <summary>Whether what is sent to an address of the right port comes to who listens at one: at that very address, or at any of this machine.</summary>
+    private static bool IsReachedAt(IPAddress listening, IPAddress to)
+    {
+        bool listensOnAll = listening.Equals(IPAddress.Any) || listening.Equals(IPAddress.IPv6Any);
+        return Plain(listening).Equals(Plain(to)) || (listensOnAll && IsOfThisMachine(to));
+
+        static IPAddress Plain(IPAddress address) => address.IsIPv4MappedToIPv6 ? address.MapToIPv4() : address;
+    }
+
+    /// <summary>A socket can be bound to addresses of this machine, and to no others.</summary>
+    private static bool IsOfThisMachine(IPAddress address)
+    {
+        try
+        {
+            using Socket probe = new(address.AddressFamily, SocketType.Dgram, ProtocolType.Udp);
+            probe.Bind(new IPEndPoint(address, 0));
+            return true;
+        }
+        catch (SocketException)
+        {
+            return false;
+        }
     }
 
     private SimDuration Step() => core.Poll(clock.Now) is SimTime next ? next - clock.Now : SimDuration.MaxValue;

@@ -37,6 +37,30 @@ public static class PeerComparison
         return most;
     }
 
+    /// <summary>The first instant at which a body is not the same to the bit as the first of the peers has it, and the first such body and peer; null if there is none.</summary>
+    /// <param name="peers">One entry a peer; all are compared with the first.</param>
+    /// <param name="bodies">How many bodies there are.</param>
+    /// <param name="count">How many instants there are.</param>
+    public static (int Instant, int Peer, int Body)? FirstDifference(IReadOnlyList<PeerSamples> peers, int bodies, int count)
+    {
+        ArgumentNullException.ThrowIfNull(peers);
+        for (int n = 0; n < count; n++)
+        {
+            for (int body = 0; body < bodies; body++)
+            {
+                for (int peer = 1; peer < peers.Count; peer++)
+                {
+                    if (peers[0].IsShown(n) && peers[peer].IsShown(n) && !peers[0].State(n, body).IsSameBits(peers[peer].State(n, body)))
+                    {
+                        return (n, peer, body);
+                    }
+                }
+            }
+        }
+
+        return null;
+    }
+
     /// <summary>The errors of the instants from <paramref name="first"/> to before <paramref name="end"/>, by phase.</summary>
     /// <param name="peers">One entry a peer, the host first.</param>
     /// <param name="grid">The instants.</param>

@@ -1,6 +1,8 @@
 using System;
 using System.Threading;
 using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Time;
 
 namespace LagSim.Net.Recordings;
 
@@ -77,7 +79,7 @@ public sealed class RecordingComparison
         {
             return new RecordingComparison(
                 ComparisonOutcome.StartDiffers, 0, 0,
-                $"The starts differ: the first session started at {a.Start}, the second at {b.Start}." + Remarks(first, second));
+                $"The starts differ: the first session started at {a.Start.ToShortString()}, the second at {b.Start.ToShortString()}." + Remarks(first, second));
         }
 
         int entries = SameEntries(first, second, out LogEntry? firstEntry, out LogEntry? secondEntry);
@@ -126,7 +128,7 @@ public sealed class RecordingComparison
         return new RecordingComparison(
             ComparisonOutcome.StateDiffers, entries, states,
             $"{log}, and the committed state at {Words.SinceStart(mine.Time, first.Header!.Start)} differs: {mine} in the first; {theirs} in the second."
-                + $" The first {Verdict(firstReplay, first)} The second {Verdict(secondReplay, second)}" + Remarks(first, second))
+                + FirstBody(firstReplay, secondReplay) + $" The first {Verdict(firstReplay, first)} The second {Verdict(secondReplay, second)}" + Remarks(first, second))
         {
             FirstState = mine,
             SecondState = theirs,
@@ -195,6 +197,35 @@ public sealed class RecordingComparison
 
         return same;
     }
+
+    /// <summary>The first body in which the worlds differ, if both recordings are what their replays are; hashes, which are all that a recording has, name none.</summary>
+    private static string FirstBody(RecordingReplay first, RecordingReplay second)
+    {
+        if (first.Outcome != ReplayOutcome.Agrees || second.Outcome != ReplayOutcome.Agrees)
+        {
+            return " A recording holds hashes of states: which body differs in one that departs from its replay, it cannot tell.";
+        }
+
+        Simulation a = first.World!, b = second.World!;
+        SimTime time = first.Actual!.Value.Time;
+        for (int n = 0; n < Math.Max(a.BodyCount, b.BodyCount); n++)
+        {
+            BodyId body = n < a.BodyCount ? a.BodyAt(n) : b.BodyAt(n);
+            bool isInFirst = a.TryRead(body, time, out BodyState mine), isInSecond = b.TryRead(body, time, out BodyState theirs);
+            if (isInFirst != isInSecond || !mine.IsSameBits(theirs))
+            {
+                return $" The first body that differs is {Named(a.Scene, body)}: {State(isInFirst, mine)} in the first, {State(isInSecond, theirs)} in the second.";
+            }
+        }
+
+        return " No body differs in its place or motion: what else belongs to a state does, such as who holds what.";
+    }
+
+    private static string Named(Scene scene, BodyId body) =>
+        body.Index < scene.Bodies.Count && body.Equals(BodyId.OfScene(body.Index)) ? $"'{scene.Bodies[body.Index].Name}'" : $"the spawned body {body}";
+
+    private static string State(bool isThere, in BodyState state) =>
+        isThere ? $"{state.Motion} at {state.Position} m with {state.Velocity} m/s" : "not there";
 
     private static string Verdict(RecordingReplay replay, Recording of) => replay.Outcome switch
     {

@@ -293,7 +293,7 @@ internal sealed class RecordingReader
         }
         else
         {
-            Damaged($"The committed state is of {time}, which does not come after what stands before it.");
+            Damaged($"The committed state is of {time.ToShortString()}, which does not come after what stands before it.");
         }
     }
 

@@ -45,6 +45,9 @@ public sealed class RecordingReplay
     /// <summary>The result as a sentence for people.</summary>
     public string Message { get; }
 
+    /// <summary>The world as it was left, at the time of <see cref="Actual"/> if that is not null; null if it could not be run.</summary>
+    internal Simulation? World { get; private set; }
+
     /// <summary>Runs a recording again, up to its last committed state or to the first that differs.</summary>
     /// <param name="recording">What to run. Of a damaged one that which stands before the damage is run.</param>
     /// <param name="cancellation">Ends the run between two instants of the world.</param>
@@ -63,9 +66,10 @@ public sealed class RecordingReplay
         int applied = 0;
         int agreed = 0;
         CommittedState? last = null;
+        Simulation simulation;
         try
         {
-            Simulation simulation = Begin(recording, cancellation);
+            simulation = Begin(recording, cancellation);
             int[] order = AcceptedByTime(recording);
             foreach (CommittedState expected in recording.CommittedArray)
             {
@@ -89,7 +93,10 @@ public sealed class RecordingReplay
                 {
                     return new RecordingReplay(
                         ReplayOutcome.Differs, applied, agreed, expected, actual,
-                        $"The replay differs at {Words.SinceStart(expected.Time, recording.Header!.Start)}: recorded {expected}; replayed {actual}.");
+                        $"The replay differs at {Words.SinceStart(expected.Time, recording.Header!.Start)}: recorded {expected}; replayed {actual}.")
+                    {
+                        World = simulation,
+                    };
                 }
 
                 last = expected;
@@ -106,6 +113,9 @@ public sealed class RecordingReplay
             ? new RecordingReplay(
                 ReplayOutcome.Agrees, applied, agreed, end, end,
                 $"The replay agrees: {Words.Count(agreed, "committed state")} up to {Words.SinceStart(end.Time, recording.Header!.Start)}, with {Words.Count(applied, "accepted event")}; {end}.")
+            {
+                World = simulation,
+            }
             : new RecordingReplay(
                 ReplayOutcome.NothingToCheck, applied, agreed, null, null, "The recording holds no committed state that a replay could be checked against.");
     }

@@ -119,9 +119,10 @@ internal sealed class SendWindow
     /// </summary>
     private uint FirstNeeded(IEntrySource source, uint last)
     {
-        for (uint number = Acknowledged + 1; number <= last; number++)
+        for (uint number = Acknowledged; number < last; number++) // the last may be the greatest number there is
         {
-            if (source[number].IsOwn || !Session.IsMadeUpFor(source[number].Event))
+            UpdateEntry entry = source[number + 1];
+            if (entry.IsOwn || !Session.IsMadeUpFor(entry.Event))
             {
                 return Acknowledged + 1;
             }

@@ -48,7 +48,7 @@ public abstract partial class Session
         {
             if (World.Submit(external) == SubmitResult.TooOld)
             {
-                throw new InvalidOperationException($"Nothing can be done yet: the shared time is {external.Time}, and what lies before {World.Simulation.HistoryEdge} is committed.");
+                throw new InvalidOperationException($"Nothing can be done yet: the shared time is {external.Time.ToShortString()}, and what lies before {World.Simulation.HistoryEdge.ToShortString()} is committed.");
             }
         }
         catch (SimulationException failure)

@@ -109,5 +109,5 @@ public readonly struct EventKey : IEquatable<EventKey>, IComparable<EventKey>
 
     /// <summary>All parts, for logs and error messages.</summary>
     public override string ToString() => string.Format(
-        CultureInfo.InvariantCulture, "{0} round {1} {2} {3}/{4} by {5}.{6}", Time, Round, Kind, Body, Other, Peer, Sequence);
+        CultureInfo.InvariantCulture, "{0} round {1} {2} {3}/{4} by {5}.{6}", Time.ToShortString(), Round, Kind, Body, Other, Peer, Sequence);
 }

@@ -105,5 +105,5 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
 
     /// <summary>Kind, body, time and origin, for logs and error messages.</summary>
     public override string ToString() =>
-        string.Format(CultureInfo.InvariantCulture, "{0} of body {1} at {2} by {3}.{4}", Kind, Body, Time, Peer, Sequence);
+        string.Format(CultureInfo.InvariantCulture, "{0} of body {1} at {2} by {3}.{4}", Kind, Body, Time.ToShortString(), Peer, Sequence);
 }

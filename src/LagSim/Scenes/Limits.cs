@@ -41,7 +41,7 @@ internal static class Limits
 
         if (spec.Step < MinStep || spec.Step > MaxStep)
         {
-            throw new SceneException($"The integrator step of {whose} is {spec.Step}; it must lie between 1 microsecond and 1 s.");
+            throw new SceneException($"The integrator step of {whose} is {spec.Step.ToShortString()}; it must lie between 1 microsecond and 1 s.");
         }
 
         if (spec.Forces.UpTo > forces.Length)

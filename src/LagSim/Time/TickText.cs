@@ -37,6 +37,23 @@ internal static class TickText
         return text.Append('s').ToString();
     }
 
+    /// <summary>Rounded to the fewest decimals that are nearer to these ticks than to any others: 13 always are, a tick is 9.1e-13 s.</summary>
+    internal static string Shortest(long ticks)
+    {
+        BigInteger magnitude = BigInteger.Abs(ticks), digits = magnitude >> 40, scale = 1;
+        int decimals = 0;
+        while (((digits << 40) + (scale >> 1)) / scale != magnitude)
+        {
+            decimals++;
+            scale *= 10;
+            digits = ((magnitude * scale) + (1L << 39)) >> 40;
+        }
+
+        string text = digits.ToString(CultureInfo.InvariantCulture).PadLeft(decimals + 1, '0');
+        string point = decimals == 0 ? "" : "." + text.Substring(text.Length - decimals);
+        return (ticks < 0 ? "-" : "") + text.Substring(0, text.Length - decimals) + point + "s";
+    }
+
     internal static long Parse(string text)
     {
         if (text is null)

@@ -54,12 +54,12 @@ public sealed class LatencyCompensationWindow
     {
         if (history < MinHistory || history > MaxHistory)
         {
-            throw new ArgumentOutOfRangeException(nameof(history), history, $"The history must lie between {MinHistory} and {MaxHistory}.");
+            throw new ArgumentOutOfRangeException(nameof(history), history, $"The history must lie between {MinHistory.ToShortString()} and {MaxHistory.ToShortString()}.");
         }
 
         if (lookAhead <= SimDuration.Zero || lookAhead > MaxLookAhead)
         {
-            throw new ArgumentOutOfRangeException(nameof(lookAhead), lookAhead, $"The look-ahead must be above zero and at most {MaxLookAhead}.");
+            throw new ArgumentOutOfRangeException(nameof(lookAhead), lookAhead, $"The look-ahead must be above zero and at most {MaxLookAhead.ToShortString()}.");
         }
 
         History = history;

@@ -20,7 +20,7 @@ internal static class SnapshotCheck
     {
         if (snapshot.Start.Ticks < -MaxTicks || snapshot.Time.Ticks > MaxTicks || snapshot.Time <= snapshot.Start)
         {
-            throw new SceneException($"The snapshot is of {snapshot.Time} in a world that began at {snapshot.Start}; neither may be further than 72 days from the origin, and the first comes after the second.");
+            throw new SceneException($"The snapshot is of {snapshot.Time.ToShortString()} in a world that began at {snapshot.Start.ToShortString()}; neither may be further than 72 days from the origin, and the first comes after the second.");
         }
 
         BodySnapshot[] bodies = snapshot.BodyArray;
@@ -69,7 +69,7 @@ internal static class SnapshotCheck
         Limits.Components(body.SpinRate, double.MaxValue, whose, "rate of spin", "rad/s^2");
         if (body.NextStep != SimDuration.Zero && (body.NextStep < StepSize.Shortest || body.NextStep > StepSize.Longest))
         {
-            throw new SceneException($"The next step of {whose} is {body.NextStep}; it must lie between {StepSize.Shortest} and {StepSize.Longest}, or be 0.");
+            throw new SceneException($"The next step of {whose} is {body.NextStep.ToShortString()}; it must lie between {StepSize.Shortest.ToShortString()} and {StepSize.Longest.ToShortString()}, or be 0.");
         }
 
         bool isCarried = body.Law is MotionLaw.Sliding or MotionLaw.Rolling;
@@ -119,7 +119,7 @@ internal static class SnapshotCheck
         if (!isPast || (body.End != hold.Knot + HandPath.Settles && body.End != hold.Knot + HandPath.Stops && body.End != hold.Knot + HandPath.Lasts))
         {
             throw new SceneException(
-                $"The hand that holds {whose} last told where it is at {hold.Knot}, and this piece of its path lasts from {body.Epoch} to {body.End}; it must not begin before, and end {HandPath.Settles}, {HandPath.Stops} or {HandPath.Lasts} after.");
+                $"The hand that holds {whose} last told where it is at {hold.Knot}, and this piece of its path lasts from {body.Epoch.ToShortString()} to {body.End.ToShortString()}; it must not begin before, and end {HandPath.Settles}, {HandPath.Stops} or {HandPath.Lasts} after.");
         }
     }
 
@@ -130,13 +130,13 @@ internal static class SnapshotCheck
             or (>= EventKind.Spawn and <= EventKind.Release) || (opened.Kind == EventKind.Remove && opened.Body != body.Id); // what it lay on is gone
         if (!isKnown || opened.Time < snapshot.Start || opened.Time >= snapshot.Time)
         {
-            throw new SceneException($"The path of {whose} was opened by {opened}; it must be an event that opens one, from {snapshot.Start} on and before {snapshot.Time}.");
+            throw new SceneException($"The path of {whose} was opened by {opened}; it must be an event that opens one, from {snapshot.Start.ToShortString()} on and before {snapshot.Time.ToShortString()}.");
         }
 
         if (body.Epoch < snapshot.Start || body.Epoch > opened.Time || body.End < snapshot.Time)
         {
             throw new SceneException(
-                $"The path of {whose} counts from {body.Epoch} and ends at {body.End}; it must count from between {snapshot.Start} and {opened.Time}, and last to {snapshot.Time}.");
+                $"The path of {whose} counts from {body.Epoch.ToShortString()} and ends at {body.End.ToShortString()}; it must count from between {snapshot.Start.ToShortString()} and {opened.Time.ToShortString()}, and last to {snapshot.Time.ToShortString()}.");
         }
     }
 }

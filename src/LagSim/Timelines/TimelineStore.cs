@@ -201,7 +201,7 @@ internal sealed class TimelineStore
             if (used == Most)
             {
                 throw new TimelinesFullException(
-                    $"At {key.Time} the timelines hold {Most} segments, the most that the options allow: allow more, keep a shorter history, or look for what makes so many events.");
+                    $"At {key.Time.ToShortString()} the timelines hold {Most} segments, the most that the options allow: allow more, keep a shorter history, or look for what makes so many events.");
             }
 
             at = used++;

@@ -114,7 +114,7 @@ internal sealed class WitnessLog
         if (used == most)
         {
             throw new TimelinesFullException(
-                $"At {key.Time} {most} looks at bodies near an impact are kept, as many as the segments that the options allow: allow more, keep a shorter history, or look for what piles up.");
+                $"At {key.Time.ToShortString()} {most} looks at bodies near an impact are kept, as many as the segments that the options allow: allow more, keep a shorter history, or look for what piles up.");
         }
 
         if (used == entries.Length)

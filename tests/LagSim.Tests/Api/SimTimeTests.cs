@@ -1,5 +1,7 @@
 using System;
 using System.Numerics;
+using LagSim.Events;
+using LagSim.Scenes;
 using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.Api.TickGenerators;
@@ -19,6 +21,36 @@ public sealed class SimTimeTests
     {
         ForAny(ticks => SimTime.FromTicks(ticks).ToString() == SimDuration.FromTicks(ticks).ToString());
     }
+
+    [Theory]
+    [InlineData(0L, "0s")]
+    [InlineData(1L, "0.000000000001s")]
+    [InlineData(3L, "0.000000000003s")]
+    [InlineData(10995116278L, "0.01s")] // FromSeconds(0.01) is off by a part of a tick
+    [InlineData(10995116279L, "0.010000000001s")]
+    [InlineData(-1649267441664L, "-1.5s")]
+    [InlineData((1L << 40) - 1, "0.999999999999s")]
+    [InlineData(long.MaxValue, "8388607.999999999999s")]
+    [InlineData(long.MinValue, "-8388608s")]
+    public void ToShortString_OfATime_HasTheFewestDecimals(long ticks, string text)
+    {
+        Assert.Equal(text, SimTime.FromTicks(ticks).ToShortString());
+        Assert.Equal(text, SimDuration.FromTicks(ticks).ToShortString());
+    }
+
+    [Fact]
+    public void ToShortString_OfAnyTime_IsNearerToItThanToAnyOther() => ForAny(ticks =>
+    {
+        string text = SimTime.FromTicks(ticks).ToShortString();
+        string[] parts = text.TrimStart('-')[..^1].Split('.');
+        BigInteger scale = BigInteger.Pow(10, parts.Length == 2 ? parts[1].Length : 0);
+        BigInteger off = (BigInteger.Parse(string.Concat(parts), System.Globalization.CultureInfo.InvariantCulture) << 40) - (BigInteger.Abs(ticks) * scale);
+        return scale <= BigInteger.Pow(10, 13) && BigInteger.Abs(off) * 2 <= scale && text.StartsWith('-') == ticks < 0;
+    });
+
+    [Fact]
+    public void Event_InAMessage_HasAReadableTime() => Assert.Equal(
+        "Impulse of body 0.0.3 at 0.01s by 1.2", ExternalEvent.Impulse(SimTime.FromSeconds(0.01), 1, 2, BodyId.OfScene(3), Vector3D.Up).ToString());
 
     [Theory]
     [MemberData(nameof(SimDurationTests.NotATime), MemberType = typeof(SimDurationTests))]

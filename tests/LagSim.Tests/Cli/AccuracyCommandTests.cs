@@ -66,7 +66,7 @@ public sealed class AccuracyCommandTests
     public void Refusals_NameTheValueAndWhatThereIs()
     {
         Tool.Refuses(2, ["accuracy", "stack"], "'stack'", "all or one of drop, elastic49");
-        Tool.Refuses(2, ["accuracy", "--peers", "havok"], "'havok'", "all, none, mathnet, ode, chipmunk");
+        Tool.Refuses(2, ["accuracy", "--peers", "havok"], "'havok'", "all, none, mathnet, ode, chipmunk, jitter, bepu, box2d");
         Tool.Refuses(2, ["accuracy", "--quick", "--longest-s", "3"], "--quick and --longest-s exclude each other");
         Tool.Refuses(2, ["accuracy", "--longest-s", "0"], "'0'", "--longest-s");
     }

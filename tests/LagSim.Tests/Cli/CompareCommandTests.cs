@@ -130,6 +130,15 @@ public sealed class CompareCommandTests
     public void Option_OutOfRange_IsRefusedWithWhatIsAllowed(string option, string value, int code, string names, string allowed) =>
         Tool.Refuses(code, ["compare", option, value], names, allowed);
 
+    [Theory]
+    [InlineData("compare")]
+    [InlineData("hold")]
+    public void DisplayDelay_OfAStrategyThatHasNone_IsRefused(string command)
+    {
+        Tool.Refuses(2, [command, "--strategy", "healing", "--display-delay-ms", "100"], "--display-delay-ms is for the strategy interpolation alone, and --strategy is 'healing'");
+        Tool.Refuses(2, [command, "--strategy", "interpolation", "--display-delay-ms", "100", "--profile", "moon"], "'moon'"); // not refused for that
+    }
+
     [Fact]
     public void Compare_Interrupted_LeavesNoFolder()
     {
@@ -148,7 +157,13 @@ public sealed class CompareCommandTests
     {
         CompareRun broken = As(Run("none"), "healing");
         Assert.Equal(1, CompareCommand.ExitCodeOf([Run("full-rollback"), broken]));
-        Assert.Contains("NOT equal: with healing on delay-100ms not all peers settled on the same.", CompareTables.Footnotes([broken]));
+        Assert.Null(Run("healing").FirstDifference);
+        SettledDifference first = broken.FirstDifference!;
+        Assert.Contains(broken.Options.Scene.Bodies, body => body.Name == first.Body);
+        Assert.InRange(first.Peer, 0, broken.Options.Peers - 1);
+        Assert.Contains(
+            FormattableString.Invariant($"NOT equal: with healing on delay-100ms not all peers settled on the same. The first body that differs is '{first.Body}', of peer {first.Peer} at T {first.Seconds} s."),
+            CompareTables.Footnotes([broken]));
         Assert.Equal(1, CompareCommand.ExitCodeOf([Run("healing") with { TruthStateHash = 1 }])); // all the same, and all wrong
     }
 

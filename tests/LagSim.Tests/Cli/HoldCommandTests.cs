@@ -141,6 +141,22 @@ public sealed class HoldCommandTests
     private static string Motion(Func<int, double> x) => HandMotionFile.Header + "\n" + string.Concat(Enumerable.Range(0, 241).Select(n => string.Create(
         CultureInfo.InvariantCulture, $"{n / 90.0},{x(n)},1,0\n")));
 
+    [Theory]
+    [InlineData("2000", JsonValueKind.Null)] // longer than the motion: no knot comes while it lasts
+    [InlineData("100", JsonValueKind.Number)]
+    public void Json_OfWhatNoSampleWasMeasuredOf_IsNull(string delay, JsonValueKind kind)
+    {
+        using JsonDocument document = JsonDocument.Parse(
+            Tool.Run("hold", "--motion-input", "slow", "--hold-s", "1", "--delay-ms", delay, "--json").Done().Output);
+        JsonElement held = document.RootElement.GetProperty("runs")[0].GetProperty("held_error")[0];
+        Assert.Equal(kind == JsonValueKind.Null, held.GetProperty("predicted").GetProperty("samples").GetInt64() == 0);
+        Assert.Equal(
+            [kind, kind, kind, kind, kind],
+            new[] { held.GetProperty("predicted").GetProperty("rms_m"), held.GetProperty("predicted").GetProperty("max_m"), held.GetProperty("hold_last_m"), held.GetProperty("velocity_m"), held.GetProperty("best_in_hindsight_m") }
+                .Select(figure => figure.ValueKind));
+        Assert.Equal(kind == JsonValueKind.Null, held.GetProperty("best_in_hindsight").ValueKind == JsonValueKind.Null);
+    }
+
     private static string[] Names(JsonElement element) => element.EnumerateObject().Select(property => property.Name).ToArray();
 
     private static string? Text(JsonElement element, string key) => element.GetProperty(key).GetString();

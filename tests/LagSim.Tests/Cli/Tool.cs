@@ -1,5 +1,7 @@
 using System;
 using System.IO;
+using System.Linq;
+using System.Text.Json;
 using LagSim.Cli;
 using Xunit;
 
@@ -28,12 +30,25 @@ internal sealed class Tool
         return new Tool(code, output.ToString(), error.ToString());
     }
 
-    /// <summary>A call that must be refused with that exit code, nothing on stdout, and all of these in what it says.</summary>
+    /// <summary>A call that must be refused with that exit code, and all of these in what it says; on stdout nothing, or the same as JSON if that was asked for.</summary>
     internal static void Refuses(int exitCode, string[] arguments, params string[] says)
     {
         Tool tool = Run(arguments);
         Assert.True(exitCode == tool.ExitCode, $"{string.Join(' ', arguments)}: exit code {tool.ExitCode}: {tool.Error}");
-        Assert.Equal("", tool.Output);
+        if (arguments.Contains("--json"))
+        {
+            using JsonDocument document = JsonDocument.Parse(tool.Output);
+            Assert.Equal(
+                ["tool", "version", "command", "seed", "scene", "scene_hash", "state_hash", "error", "exit_code"],
+                document.RootElement.EnumerateObject().Select(property => property.Name));
+            Assert.Equal((arguments[0], exitCode), (document.RootElement.GetProperty("command").GetString(), document.RootElement.GetProperty("exit_code").GetInt32()));
+            Assert.Contains(says[0], document.RootElement.GetProperty("error").GetString(), StringComparison.Ordinal);
+        }
+        else
+        {
+            Assert.Equal("", tool.Output);
+        }
+
         Assert.All(says, word => Assert.Contains(word, tool.Error, StringComparison.Ordinal));
         Assert.DoesNotContain("   at ", tool.Error, StringComparison.Ordinal); // a sentence, not a stack
     }

@@ -65,6 +65,39 @@ public sealed class UsageTests
         Assert.Contains("or delay-Nms for any N from 0 to 2000.", help, StringComparison.Ordinal);
     }
 
+    [Theory]
+    [InlineData("run", true)]
+    [InlineData("replay", true)]
+    [InlineData("accuracy", true)]
+    [InlineData("drop", false)]
+    [InlineData("check", false)]
+    [InlineData("hard", false)]
+    public void Seed_WhereNothingIsDrawn_SaysSoInTheHelp(string command, bool isIdle) =>
+        Assert.Equal(isIdle, Tool.Run(command, "--help").Done().Output.Contains("here nothing is drawn", StringComparison.Ordinal));
+
+    [Fact]
+    public void Help_OfAnOptionThatHasNoEffectOnSome_SaysSo()
+    {
+        Assert.Contains("Steps a second of rk4; ballistic motion has none", Tool.Run("drop", "--help").Output, StringComparison.Ordinal);
+        Assert.Contains("one that is there is replaced", Tool.Run("host", "--help").Output, StringComparison.Ordinal);
+    }
+
+    [Theory]
+    [InlineData("drop", "--restitution", "2", "--restitution is '2'")]
+    [InlineData("run", "--until-s", "x", "--until-s is 'x'")]
+    [InlineData("compare", "--profile", "moon", "There is no link profile 'moon'")]
+    public void Json_OfACallThatIsRefused_IsADocumentWithTheError(string command, string option, string value, string says) =>
+        Tool.Refuses(Usage, command == "run" ? [command, "drop", option, value, "--json"] : [command, option, value, "--json"], says);
+
+    [Fact]
+    public void Json_OfAnInputThatIsNone_HasTheSeedThatWasGiven()
+    {
+        Tool tool = Tool.Run("run", "no-such-scene", "--json", "--seed", "7");
+        using System.Text.Json.JsonDocument document = System.Text.Json.JsonDocument.Parse(tool.Output);
+        Assert.Equal((3, 7UL), (tool.ExitCode, document.RootElement.GetProperty("seed").GetUInt64()));
+        Assert.Contains(document.RootElement.GetProperty("error").GetString()!, tool.Error, StringComparison.Ordinal);
+    }
+
     [Fact]
     public void Scenes_OutWithoutAScene_IsRefused() => Tool.Refuses(Usage, ["scenes", "--out", "never-made"], "'never-made'", "NAME");
 

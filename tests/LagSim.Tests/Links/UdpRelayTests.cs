@@ -126,6 +126,35 @@ public sealed class UdpRelayTests : IDisposable
         Assert.Throws<IOException>(() => new UdpRelay(taken, taken, LinkProfiles.Lan, 1, clock));
     }
 
+    [Theory]
+    [InlineData("127.0.0.1", "127.0.0.1", true)]
+    [InlineData("0.0.0.0", "127.0.0.1", true)]
+    [InlineData("127.0.0.1", "::ffff:127.0.0.1", true)]
+    [InlineData("127.0.0.1", "127.0.0.2", false)] // another address, where somebody else may listen
+    [InlineData("0.0.0.0", "203.0.113.7", false)] // another machine
+    public void Constructor_ToItsOwnAddress_IsRefused(string listen, string to, bool isOwn)
+    {
+        int port;
+        using (UdpPort free = new(AnyFreePort))
+        {
+            port = free.LocalAddress.ToEndPoint().Port;
+        }
+
+        IPEndPoint here = new(IPAddress.Parse(listen), port), there = new(IPAddress.Parse(to), port);
+        for (int n = 0; n < 2; n++)
+        {
+            if (isOwn)
+            {
+                ArgumentException refused = Assert.Throws<ArgumentException>(() => new UdpRelay(here, there, LinkProfiles.Lan, 1, clock)); // twice: the port was given back
+                Assert.Contains($"'{there}' is the relay's own address", refused.Message, StringComparison.Ordinal);
+            }
+            else
+            {
+                new UdpRelay(here, there, LinkProfiles.Lan, 1, clock).Dispose();
+            }
+        }
+    }
+
     private UdpRelay Relay(LinkProfile profile) => new(AnyFreePort, host.LocalAddress.ToEndPoint(), profile, 1, clock);
 
     private static RelayTraffic Settled(UdpRelay relay, Func<RelayTraffic, bool> condition)

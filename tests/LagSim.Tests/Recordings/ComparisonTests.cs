@@ -69,6 +69,23 @@ public sealed class ComparisonTests
     }
 
     [Fact]
+    public void Of_StatesThatBothReplay_NamesTheFirstBodyThatDiffers()
+    {
+        // The second joined with another copy of the world, in which the left ball was never lifted; since then it is what its own log makes of that.
+        LogEntry[] lost = [.. Log.Where(entry => entry.Index != 1)];
+        JoinedState wrong = new(3, World(lost).Snapshot(Start + Seconds(1)));
+        RecordingComparison compared = Compare(Small(), Small(Log[2..], truth: lost, joined: wrong));
+
+        Assert.Equal((ComparisonOutcome.StateDiffers, 4), (compared.Outcome, compared.EntriesCompared));
+        Assert.Equal((ReplayOutcome.Agrees, ReplayOutcome.Agrees), (compared.FirstReplay!.Outcome, compared.SecondReplay!.Outcome));
+        World(Log).TryRead(First, Start + Seconds(1), out BodyState lifted);
+        World(lost).TryRead(First, Start + Seconds(1), out BodyState falling);
+        Assert.Contains(
+            $" The first body that differs is 'left': Ballistic at {lifted.Position} m with {lifted.Velocity} m/s in the first, Ballistic at {falling.Position} m with {falling.Velocity} m/s in the second. ",
+            compared.Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
     public void Of_AStateThatDeparts_WithoutTheForceItNeeds_SaysThatThereIsNoReplay()
     {
         Simulation world = new RandomWorld(1).OnTime();

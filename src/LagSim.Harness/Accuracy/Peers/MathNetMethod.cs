@@ -14,37 +14,32 @@ namespace LagSim.Harness.Accuracy.Peers;
 /// the time, 60 times by bisection, until the touch is found to a rounding; there the velocity is reflected, and what is left of the step is done. So bodies
 /// that meet each other are left out.
 /// </remarks>
-internal sealed class MathNetMethod : IWorkMethod
+internal sealed class MathNetMethod : SteppedEngine
 {
     private const int Halvings = 60;
 
     static MathNetMethod() => Control.UseManaged(); // native providers are looked for at first use, which takes long
 
-    public string Name => "MathNet RungeKutta4";
+    public override string Name => "MathNet RungeKutta4";
 
-    public string Engine => "mathnet";
+    public override string Engine => "mathnet";
 
-    public string? Missing => null;
+    public override string? Excludes(WorkScene scene) => scene.HasPairs ? "it is an integrator; contacts of bodies with each other are not in it" : null;
 
-    public string? Excludes(WorkScene scene) => scene.HasPairs ? "it is an integrator; contacts of bodies with each other are not in it" : null;
+    protected override IReadOnlyList<double> Rates(WorkScene scene) => scene.IntegratorRates;
 
-    public IReadOnlyList<WorkSetting> Settings(WorkScene scene) => [.. scene.IntegratorRates.Select(WorkSetting.Rate)];
+    protected override Run Begin(WorkScene scene, double step) => new MathNetRun(scene, step);
 
-    public IWorkRun Start(WorkScene scene, WorkSetting setting) => new Run(scene, setting.StepSeconds);
-
-    private sealed class Run : IWorkRun
+    private sealed class MathNetRun : Run
     {
-        private readonly Scene scene;
-        private readonly double step;
         private readonly Vector<double>[] states;
         private readonly Func<double, Vector<double>, Vector<double>> slope;
 
-        internal Run(WorkScene work, double step)
+        internal MathNetRun(WorkScene work, double step)
+            : base(work, step)
         {
-            scene = work.Scene;
-            this.step = step;
-            states = [.. scene.Bodies.Select(body => Vector<double>.Build.DenseOfArray([.. Numbers(body.Position), .. Numbers(body.Velocity)]))];
-            Vector3D gravity = scene.Gravity;
+            states = [.. Scene.Bodies.Select(body => Vector<double>.Build.DenseOfArray([.. Numbers(body.Position), .. Numbers(body.Velocity)]))];
+            Vector3D gravity = Scene.Gravity;
             slope = (t, y) =>
             {
                 Vector3D a = gravity + work.Push(1, t, new Vector3D(y[0], y[1], y[2]), new Vector3D(y[3], y[4], y[5]));
@@ -52,32 +47,25 @@ internal sealed class MathNetMethod : IWorkMethod
             };
         }
 
-        public double Seconds => Events * step;
+        public override Vector3D Position(int body) => Place(states[body]);
 
-        public long Events { get; private set; }
+        public override Vector3D Velocity(int body) => Speed(states[body]);
 
-        public void AdvanceTo(double seconds)
+        public override void Dispose()
         {
-            for (long end = (long)Math.Round(seconds / step); Events < end; Events++)
-            {
-                for (int n = 0; n < states.Length; n++)
-                {
-                    states[n] = Step(states[n], scene.Bodies[n].Spec);
-                }
-            }
         }
 
-        public Vector3D Position(int body) => Place(states[body]);
-
-        public Vector3D Velocity(int body) => Speed(states[body]);
-
-        public void Dispose()
+        protected override void Step()
         {
+            for (int n = 0; n < states.Length; n++)
+            {
+                states[n] = Step(states[n], Scene.Bodies[n].Spec);
+            }
         }
 
         private Vector<double> Step(Vector<double> state, BodySpec spec)
         {
-            double t = Seconds, left = step;
+            double t = Seconds, left = StepSeconds;
             while (true)
             {
                 Vector<double> end = Integrate(state, t, left);
@@ -106,7 +94,7 @@ internal sealed class MathNetMethod : IWorkMethod
 
         private StaticPlane? Crossed(Vector<double> state, BodySpec spec)
         {
-            foreach (StaticPlane plane in scene.Planes)
+            foreach (StaticPlane plane in Scene.Planes)
             {
                 if (plane.Gap(Place(state), spec.Radius) < 0 && Vector3D.Dot(plane.Normal, Speed(state)) < 0)
                 {

@@ -1,6 +1,4 @@
 using System;
-using System.Collections.Generic;
-using System.Linq;
 using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using LagSim.Scenes;
@@ -14,52 +12,43 @@ namespace LagSim.Harness.Accuracy.Peers;
 /// Its other stepper, <c>dWorldStep</c>, complains of internal errors of its solver on some of the scenes. No friction, restitution at any speed
 /// (<c>bounce_vel</c> 0), no automatic disabling (its default), no damping (its default). A force is added before each step.
 /// </remarks>
-internal sealed class OdeMethod : IWorkMethod
+internal sealed class OdeMethod : SteppedEngine
 {
-    public string Name => "ODE";
+    public override string Name => "ODE";
 
-    public string Engine => "ode";
+    public override string Engine => "ode";
 
-    public string? Missing => OdeLibrary.Missing;
+    public override string? Missing => OdeLibrary.Missing;
 
-    public string? Excludes(WorkScene scene) => null;
+    protected override Run Begin(WorkScene scene, double step) => new OdeRun(scene, step);
 
-    public IReadOnlyList<WorkSetting> Settings(WorkScene scene) => [.. scene.EngineRates.Select(WorkSetting.Rate)];
-
-    public IWorkRun Start(WorkScene scene, WorkSetting setting) => new Run(scene, setting.StepSeconds);
-
-    private sealed unsafe class Run : IWorkRun
+    private sealed unsafe class OdeRun : Run
     {
-        private readonly Scene scene;
-        private readonly WorkScene work;
-        private readonly double step;
         private readonly nint[] bodies;
         private readonly nint world;
         private readonly nint space;
         private readonly nint contacts;
         private GCHandle self;
 
-        internal Run(WorkScene work, double step)
+        internal OdeRun(WorkScene work, double step)
+            : base(work, step)
         {
-            scene = work.Scene;
-            this.work = work;
-            this.step = step;
             OdeLibrary.UseThread();
             world = OdeLibrary.WorldCreate();
             space = OdeLibrary.HashSpaceCreate(0);
             contacts = OdeLibrary.JointGroupCreate(0);
             self = GCHandle.Alloc(this);
-            OdeLibrary.WorldSetGravity(world, scene.Gravity.X, scene.Gravity.Y, scene.Gravity.Z);
-            for (int n = 0; n < scene.Planes.Count; n++)
+            OdeLibrary.WorldSetGravity(world, Scene.Gravity.X, Scene.Gravity.Y, Scene.Gravity.Z);
+            for (int n = 0; n < Scene.Planes.Count; n++)
             {
-                StaticPlane plane = scene.Planes[n];
-                OdeLibrary.GeomSetData(OdeLibrary.CreatePlane(space, plane.Normal.X, plane.Normal.Y, plane.Normal.Z, plane.Offset), scene.Bodies.Count + n);
+                StaticPlane plane = Scene.Planes[n];
+                OdeLibrary.GeomSetData(OdeLibrary.CreatePlane(space, plane.Normal.X, plane.Normal.Y, plane.Normal.Z, plane.Offset), Scene.Bodies.Count + n);
             }
 
-            bodies = new nint[scene.Bodies.Count];
+            bodies = new nint[Scene.Bodies.Count];
             for (int n = 0; n < bodies.Length; n++)
             {
-                SceneBody body = scene.Bodies[n];
+                SceneBody body = Scene.Bodies[n];
                 nint ball = bodies[n] = OdeLibrary.BodyCreate(world);
                 OdeLibrary.Mass mass;
                 OdeLibrary.MassSetSphereTotal(&mass, body.Spec.Mass, body.Spec.Radius);
@@ -72,32 +61,11 @@ internal sealed class OdeMethod : IWorkMethod
             }
         }
 
-        public double Seconds => Events * step;
+        public override Vector3D Position(int body) => Read(OdeLibrary.BodyGetPosition(bodies[body]));
 
-        public long Events { get; private set; }
+        public override Vector3D Velocity(int body) => Read(OdeLibrary.BodyGetLinearVel(bodies[body]));
 
-        public void AdvanceTo(double seconds)
-        {
-            for (long end = (long)Math.Round(seconds / step); Events < end; Events++)
-            {
-                OdeLibrary.SpaceCollide(space, GCHandle.ToIntPtr(self), &Near);
-                for (int n = 0; work.Acting is not null && n < bodies.Length; n++)
-                {
-                    double mass = scene.Bodies[n].Spec.Mass;
-                    Vector3D push = work.Push(mass, Seconds, Position(n), Velocity(n)) * mass;
-                    OdeLibrary.BodyAddForce(bodies[n], push.X, push.Y, push.Z);
-                }
-
-                OdeLibrary.WorldQuickStep(world, step);
-                OdeLibrary.JointGroupEmpty(contacts);
-            }
-        }
-
-        public Vector3D Position(int body) => Read(OdeLibrary.BodyGetPosition(bodies[body]));
-
-        public Vector3D Velocity(int body) => Read(OdeLibrary.BodyGetLinearVel(bodies[body]));
-
-        public void Dispose()
+        public override void Dispose()
         {
             if (self.IsAllocated)
             {
@@ -106,6 +74,19 @@ internal sealed class OdeMethod : IWorkMethod
                 OdeLibrary.WorldDestroy(world);
                 self.Free();
             }
+        }
+
+        protected override void Step()
+        {
+            OdeLibrary.SpaceCollide(space, GCHandle.ToIntPtr(self), &Near);
+            for (int n = 0; Work.Acting is not null && n < bodies.Length; n++)
+            {
+                Vector3D push = Force(n);
+                OdeLibrary.BodyAddForce(bodies[n], push.X, push.Y, push.Z);
+            }
+
+            OdeLibrary.WorldQuickStep(world, StepSeconds);
+            OdeLibrary.JointGroupEmpty(contacts);
         }
 
         private static Vector3D Read(double* v) => new(v[0], v[1], v[2]);
@@ -120,13 +101,13 @@ internal sealed class OdeMethod : IWorkMethod
                 return;
             }
 
-            Run run = (Run)GCHandle.FromIntPtr(data).Target!;
+            OdeRun run = (OdeRun)GCHandle.FromIntPtr(data).Target!;
             contact.Mode = OdeLibrary.ContactBounce;
             contact.Bounce = Math.Min(run.Restitution(OdeLibrary.GeomGetData(first)), run.Restitution(OdeLibrary.GeomGetData(second)));
             OdeLibrary.JointAttach(OdeLibrary.JointCreateContact(run.world, run.contacts, &contact), a, b);
         }
 
         private double Restitution(nint part) =>
-            part < bodies.Length ? scene.Bodies[(int)part].Spec.Restitution : scene.Planes[(int)part - bodies.Length].Restitution;
+            part < bodies.Length ? Scene.Bodies[(int)part].Spec.Restitution : Scene.Planes[(int)part - bodies.Length].Restitution;
     }
 }

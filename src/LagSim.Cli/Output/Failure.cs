@@ -1,0 +1,45 @@
+using System.CommandLine;
+using System.CommandLine.Parsing;
+using System.IO;
+using System.Linq;
+using LagSim.Cli.Commands;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>A command that failed, for who reads JSON: one document there too, with the sentence that stands on stderr.</summary>
+internal static class Failure
+{
+    /// <summary>Writes the document if JSON was asked for, and hands the exit code on.</summary>
+    internal static int Tell(TextWriter output, ParseResult parsed, string sentence, int exitCode)
+    {
+        Command command = parsed.CommandResult.Command;
+        if (!IsGiven(parsed, command, CommonOptions.JsonName))
+        {
+            return exitCode;
+        }
+
+        ulong? seed = parsed.Errors.Count == 0 ? parsed.GetValue<ulong>(CommonOptions.SeedName) : null;
+        try
+        {
+            Write(output, command.Name, seed, sentence, exitCode);
+            output.Flush();
+        }
+        catch (IOException)
+        {
+            // Nobody reads it; the sentence stands on stderr.
+        }
+
+        return exitCode;
+    }
+
+    /// <summary>The document.</summary>
+    internal static void Write(TextWriter output, string command, ulong? seed, string sentence, int exitCode) =>
+        JsonDocumentWriter.Write(output, command, seed, null, null, null, json =>
+        {
+            json.WriteString("error", sentence);
+            json.WriteNumber("exit_code", exitCode);
+        });
+
+    private static bool IsGiven(ParseResult parsed, Command command, string name) =>
+        command.Options.FirstOrDefault(option => option.Name == name) is Option option && parsed.GetResult(option) is OptionResult { Implicit: false };
+}
