@@ -48,14 +48,10 @@ public sealed partial class Simulation
             && (!bodies[slot].IsTied || IgnoresTies) && flights.IsFree(slot) && !TakesNoShortcut && !SwapsOperands;
         int other = bodies[slot].Partner;
         return isPlain && (other == NoPartner
-            ? IsPlane(slot, bodies[slot].Surface) && queue.IsLeastAloneWith(slot, key)
+            ? queue.IsLeastAloneWith(slot, key)
             : bodies[other].Partner == slot && (!bodies[other].IsTied || IgnoresTies) && flights.IsFree(other) && queue.IsLeastAloneWith(other, key)
                 && TouchesNoSurface(slot, key.Time) && TouchesNoSurface(other, key.Time));
     }
-
-    /// <summary>Whether no lasting contact can come of it but what a closed form carries on: the surface is a plane, and where there is friction there is nothing else to touch.</summary>
-    private bool IsPlane(int slot, int surface) =>
-        surface < Scene.PlaneArray.Length && (bodies[slot].Spec.Friction == 0 || Scene.PlaneArray.Length + Scene.SphereArray.Length == 1);
 
     private bool TouchesNoSurface(int slot, SimTime time)
     {
@@ -68,8 +64,10 @@ public sealed partial class Simulation
         return misses;
     }
 
-    /// <summary>What the general way makes of such an impact, to the bit, by the same rules.</summary>
-    private void HandleAlone(int slot, in EventKey key)
+    /// <summary>
+    /// What the general way makes of such an impact, to the bit, by the same rules. False, and nothing is done, if the two part so slowly that lasting contact may come of it: then who else is in touch counts.
+    /// </summary>
+    private bool TryHandleAlone(int slot, in EventKey key)
     {
         int other = bodies[slot].Partner;
         double residual = bodies[slot].Residual;
@@ -99,6 +97,11 @@ public sealed partial class Simulation
         }
 
         SetTargets(key.Round);
+        if (MayLast(contacts[0], contacts[0].Target * 0.5)) // by half, since what parts them is the target but for rounding
+        {
+            return false;
+        }
+
         TellContacts(key);
         solver.Solve(contacts.AsSpan(0, 1), partyMasses.AsSpan(0, partyCount), partyVelocities.AsSpan(0, partyCount));
         Rub();
@@ -119,5 +122,6 @@ public sealed partial class Simulation
 
         AloneProcessed++;
         PairsProcessed += partyCount - 1;
+        return true;
     }
 }

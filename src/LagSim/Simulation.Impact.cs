@@ -12,13 +12,13 @@ namespace LagSim;
 public sealed partial class Simulation
 {
     /// <summary>
-    /// How high, in units of the scene's resolution, the hops are by which a lasting contact that no support covers (on a static sphere, on
-    /// another body, on a plane under a force that is not uniform) goes on: 1 micrometre by default, some thousand a second.
+    /// How high, in units of the scene's resolution, a rebound must rise not to be the last of a contact that is pressed together and that no plane alone carries: 1 micrometre by default.
+    /// Lasting contact with a hand goes on by hops of that height, some thousand a second.
     /// </summary>
     private const double HopHeight = 1000;
 
     /// <summary>
-    /// The slowest rebound in m/s of a contact that no support covers. Bodies that touch and move as one close again and again by rounding
+    /// The slowest rebound in m/s of a contact that nothing presses together. Bodies that touch and move as one close again and again by rounding
     /// alone, at some 1e-16 m/s; this parts them, by less than a tenth of a millimetre a day.
     /// </summary>
     private const double LeastRebound = 1e-9;
@@ -45,9 +45,8 @@ public sealed partial class Simulation
 
     private bool TryHandleImpact(int slot, in EventKey key)
     {
-        if (IsAlone(slot, key))
+        if (IsAlone(slot, key) && TryHandleAlone(slot, key))
         {
-            HandleAlone(slot, key);
             return true;
         }
 
@@ -91,7 +90,7 @@ public sealed partial class Simulation
         contactCount = struck;
 
         EventKey canonical = CanonicalKey(key);
-        bool mayLast = MayLast(-residual);
+        bool mayLast = MayLast();
         if (mayLast)
         {
             OpenIslands(canonical, -residual, mayRest: false);

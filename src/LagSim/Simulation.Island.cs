@@ -77,17 +77,19 @@ public sealed partial class Simulation
     }
 
     /// <summary>Whether a contact of the impact at hand may go on as one that lasts, on which no closed form carries a body.</summary>
-    private bool MayLast(double carry)
+    private bool MayLast()
     {
         bool may = false;
-        for (int i = 0; i < contactCount && !may && !Scene.Box.Exists && !IgnoresIslands; i++)
+        for (int i = 0; i < contactCount && !may; i++)
         {
-            ref readonly ContactPoint c = ref contacts[i];
-            may = ImpactSolver.Opening(c, partyVelocities) <= 2 * LastingSpeed && (!IsSupportable(c) || Friction(c) > 0) && !AreInFreeFlight(c);
+            may = MayLast(contacts[i], ImpactSolver.Opening(contacts[i], partyVelocities));
         }
 
         return may;
     }
+
+    private bool MayLast(in ContactPoint c, double opening) =>
+        opening <= 2 * LastingSpeed && (!IsSupportable(c) || Friction(c) > 0) && !AreInFreeFlight(c) && !Scene.Box.Exists && !IgnoresIslands;
 
     /// <summary>Whether two bodies have met in free flight: gravity alone does not press them together, whatever rounding has to say.</summary>
     private bool AreInFreeFlight(in ContactPoint c) =>

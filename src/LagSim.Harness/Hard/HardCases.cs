@@ -32,6 +32,7 @@ public static class HardCases
         new SmallFastCase(),
         new FarCase(),
         new RestCase(),
+        new DomeCase(),
         new HardSphereGasCase(),
         new HaffCase(),
         new CollapseCase(),

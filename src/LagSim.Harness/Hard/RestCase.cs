@@ -10,8 +10,6 @@ namespace LagSim.Harness.Hard;
 /// <summary>What lies still: on a plane, on a slope, on another ball, in a small pile. No drift, no gain of energy, a finite number of events.</summary>
 internal sealed class RestCase : IHardCase
 {
-    private const double Hop = 1000 * SceneBuilder.DefaultResolution; // how high a lasting contact that no plane covers hops
-
     public string Name => "rest";
 
     public string Title => "at rest on a plane, a slope, another ball, in a small pile: no drift, no gain of energy, finitely many events";
@@ -135,15 +133,11 @@ internal sealed class RestCase : IHardCase
     private IEnumerable<HardRow> Lasting(string what, int contacts, double seconds, (double Drift, double Gain, long Events) seen)
     {
         string size = FormattableString.Invariant($"{what}, {seconds} s");
-        double hops = 2 * Math.Sqrt(2 * Hop / Gravity); // how long one takes
         yield return new HardRow(
-            Name, size, seen.Drift, "drift_m", Math.Max(1, contacts) * 2 * Hop,
-                "two hops of a thousand resolutions a contact, by which a contact lasts that no plane covers", "nothing moves");
+            Name, size, seen.Drift, "drift_m", SceneBuilder.DefaultResolution, "the scene's resolution: what is nearer to equilibrium rests", "nothing moves");
         yield return new HardRow(
-            Name, size, seen.Gain, "energy_gain_j", Math.Max(1, contacts) * Gravity * Hop, "what it takes to lift a ball of 1 kg by a hop, for each contact",
-                "the energy at the start");
+            Name, size, seen.Gain, "energy_gain_j", 64 * Rounding.Unit * Gravity * 3, "64 roundings of the energy of three balls", "the energy at the start");
         yield return new HardRow(
-            Name, size, seen.Events, "events", Math.Max(1, contacts) * 2 * seconds / hops,
-                "two events a hop and contact: one where it ends, one of who is pushed by it", "2 sqrt(2h/g) a hop");
+            Name, size, seen.Events, "events", 4 * Math.Max(1, contacts), "an impact a contact, as each is found, and few steps until all rest", "nothing happens any more");
     }
 }

@@ -113,6 +113,7 @@ internal sealed class ImpactSolver
         double change = c.Target - Opening(c, velocities);
         if (!(change > 0))
         {
+            c.Impulse = 0; // what was solved before may be solved again
             return;
         }
 

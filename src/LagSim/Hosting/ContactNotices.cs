@@ -21,7 +21,7 @@ namespace LagSim.Hosting;
 /// </remarks>
 public sealed class ContactNotices : IImpactObserver
 {
-    /// <summary>The least closing speed where nothing else is said, 0.05 m/s: ten times that of the hops by which a body lies on another.</summary>
+    /// <summary>The least closing speed where nothing else is said, 0.05 m/s: ten times that of the least bounces that are followed on other bodies.</summary>
     public const double DefaultMinClosingSpeed = 0.05;
 
     /// <summary>How many notices wait to be read at most, where nothing else is said.</summary>

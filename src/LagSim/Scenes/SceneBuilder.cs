@@ -38,7 +38,7 @@ public sealed class SceneBuilder
     }
 
     /// <summary>Sets the length in metres, 1e-15 to 1e-3, below which bounces on a plane are not followed hop by hop; default 1e-9.</summary>
-    /// <remarks>A thousand times this is the height of the hops by which contacts that no plane covers last: what shall look at rest needs it small.</remarks>
+    /// <remarks>On anything but a plane alone a bounce is the last that rises less than a thousand times this; and within that distance what lasts is in contact.</remarks>
     public SceneBuilder WithResolution(double metres)
     {
         resolution = metres;

@@ -218,13 +218,13 @@ public sealed class InvariantTests
     internal void Check_HealingInAWayKnownToBeWrong_IsSeenToFail(HealingFault fault)
     {
         int seed = 0;
-        while (seed < 600 && !Differs(seed, simulation => simulation.Fault = fault, HealingMode.CausalCone))
+        while (seed < 1000 && !Differs(seed, simulation => simulation.Fault = fault, HealingMode.CausalCone))
         {
             seed++;
         }
 
         TestContext.Current.SendDiagnosticMessage($"{fault} is seen in world {seed}.");
-        Assert.True(seed < 600, $"{fault} is not seen in 600 worlds.");
+        Assert.True(seed < 1000, $"{fault} is not seen in 1000 worlds.");
     }
 
     [Fact]

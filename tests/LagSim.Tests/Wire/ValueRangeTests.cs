@@ -152,9 +152,9 @@ public class ValueRangeTests
         AssertHeader(WireRefusal.TooShort, 0x53, 0x4C, 3);
         AssertHeader(WireRefusal.NotLagSim, 0x4C, 0x53, 3, 1);
         AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, 1, 1);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 4, 0);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 4, 12);
-        AssertHeader(WireRefusal.None, 0x53, 0x4C, 4, 11);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 5, 0);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 5, 12);
+        AssertHeader(WireRefusal.None, 0x53, 0x4C, 5, 11);
     }
 
     [Fact]
