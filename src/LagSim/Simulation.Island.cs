@@ -20,6 +20,7 @@ public sealed partial class Simulation
     private readonly IslandStep island;
     private int[] group = new int[4]; // by party: the least party that it is in contact with, through others as well
     private bool[] needsSteps = new bool[4]; // by least party of a group
+    private bool[] isMember = new bool[4]; // of those that are grouped
     private bool[] isOpened = new bool[4];
     private int[] numbers = new int[4]; // by party: its number in the step at hand, or -1
     private int[] fellows = new int[4]; // by number in the step at hand: the party
@@ -39,7 +40,8 @@ public sealed partial class Simulation
         Array.Clear(isOpened, 0, partyCount);
         FindTouching(carry);
 
-        // What touches is stepped together to see what pushes; and what pushes, and all between its bodies that touches, is an island.
+        // What touches is stepped together to see what pushes; and of the bodies that push each other those that touch are an island.
+        Array.Fill(isMember, true, 0, partyCount);
         Group(byPush: false);
         int stepped = 0;
         for (int least = 0; least < partyCount; least++)
@@ -61,9 +63,15 @@ public sealed partial class Simulation
         }
 
         Group(byPush: true);
+        for (int i = 0; i < partyCount; i++)
+        {
+            isMember[i] = needsSteps[group[i]];
+        }
+
+        Group(byPush: false);
         for (int least = 0; least < partyCount; least++)
         {
-            if (group[least] == least && needsSteps[least])
+            if (group[least] == least && isMember[least])
             {
                 OpenIsland(key, least, carry, mayRest, stepped);
                 stepped = 0;
@@ -71,7 +79,7 @@ public sealed partial class Simulation
         }
     }
 
-    /// <summary>All that touches among the parties at hand, and with static surfaces, at the tick, and neither opens nor closes.</summary>
+    /// <summary>All that touches among the parties at hand, and with static surfaces, at the tick, whether it lasts or not: what opens may close again within a step.</summary>
     private void FindTouching(double carry)
     {
         touchingCount = 0;
@@ -85,7 +93,7 @@ public sealed partial class Simulation
             Vector3D place = PlaceOf(i, carry);
             for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
             {
-                if (IsNear(place, surface, partyRadii[i]) && IsSlow(Vector3D.Dot(SurfaceNormal(surface, place), partyVelocities[i])))
+                if (IsNear(place, surface, partyRadii[i]))
                 {
                     AddTouching(new ContactPoint(i, ContactPoint.Static, surface, default));
                 }
@@ -93,8 +101,7 @@ public sealed partial class Simulation
 
             for (int j = i + 1; j < partyCount; j++)
             {
-                if (!double.IsPositiveInfinity(partyMasses[j]) && AreNear(place, PlaceOf(j, carry), partyRadii[i] + partyRadii[j])
-                    && IsSlow(Opening(place, partyVelocities[i], PlaceOf(j, carry), partyVelocities[j])))
+                if (!double.IsPositiveInfinity(partyMasses[j]) && AreNear(place, PlaceOf(j, carry), partyRadii[i] + partyRadii[j]))
                 {
                     AddTouching(new ContactPoint(i, j, -1, default));
                 }
@@ -152,7 +159,7 @@ public sealed partial class Simulation
         return isOneOfSeveral;
     }
 
-    /// <summary>Groups the parties by what touches, or pushes, each group named by its least, and tells which of them need steps.</summary>
+    /// <summary>Groups the members among the parties by what touches, or pushes, each group named by its least, and tells which of them need steps.</summary>
     private void Group(bool byPush)
     {
         for (int i = 0; i < partyCount; i++)
@@ -164,7 +171,7 @@ public sealed partial class Simulation
         for (int i = 0; i < touchingCount; i++)
         {
             ref readonly ContactPoint c = ref touching[i];
-            if (c.Second == ContactPoint.Static || (byPush && !c.Pushes))
+            if (c.Second == ContactPoint.Static || (byPush && !c.Pushes) || !isMember[c.First] || !isMember[c.Second])
             {
                 continue;
             }
@@ -180,7 +187,7 @@ public sealed partial class Simulation
         for (int i = 0; i < touchingCount; i++)
         {
             ref readonly ContactPoint c = ref touching[i];
-            needsSteps[group[c.First]] |= (c.Pushes || !byPush) && NeedsSteps(c, byPush);
+            needsSteps[group[c.First]] |= (c.Pushes || !byPush) && isMember[c.First] && NeedsSteps(c, byPush);
         }
     }
 
@@ -208,7 +215,7 @@ public sealed partial class Simulation
             }
         }
 
-        island.Take(time);
+        island.Take(time, LastingSpeed);
     }
 
     private void OpenIsland(in EventKey key, int least, double carry, bool mayRest, int stepped)
@@ -227,11 +234,11 @@ public sealed partial class Simulation
         bool rests = mayRest && AreSlow();
         if (rests)
         {
-            island.Take(key.Time, fromRest: true);
+            island.TakeFromRest(key.Time);
             rests = StaysAtRest();
             if (!rests)
             {
-                island.Take(key.Time);
+                island.Take(key.Time, LastingSpeed);
             }
         }
 
@@ -292,6 +299,7 @@ public sealed partial class Simulation
         int size = parties.Length;
         Array.Resize(ref group, size);
         Array.Resize(ref needsSteps, size);
+        Array.Resize(ref isMember, size);
         Array.Resize(ref isOpened, size);
         Array.Resize(ref numbers, size);
         Array.Resize(ref fellows, size);

@@ -17,8 +17,6 @@ public sealed partial class Simulation
     /// <summary>Whether so fast an opening is that of a contact of which a step is under way: nothing of it closes when it begins.</summary>
     private bool IsCalm(double opening) => opening <= LastingSpeed && opening >= -LeastClosing;
 
-    /// <summary>Whether a contact that opens so fast may be taken into a step, which first ends what closes as plastically as an impact so slow does.</summary>
-    private bool IsSlow(double opening) => Math.Abs(opening) <= LastingSpeed;
 
     /// <summary>Whether two bodies on these pieces of their paths are in lasting contact: their island keeps them apart, and nobody looks for an impact of theirs.</summary>
     private bool Lasts(int slot, int piece, int other, int otherPiece)

@@ -113,14 +113,18 @@ internal sealed class IslandStep
         Rubs |= friction > 0;
     }
 
-    /// <summary>Takes the step from <paramref name="time"/> on, before which what closes is stopped without a rebound; with <paramref name="fromRest"/> as if nobody moved.</summary>
-    internal void Take(SimTime time, bool fromRest = false)
+    /// <summary>Takes the step from <paramref name="time"/> on. Before it what closes by no more than so many m/s is stopped without a rebound; what is faster has an impact of its own to come.</summary>
+    internal void Take(SimTime time, double closing)
     {
-        if (!fromRest)
-        {
-            Settle();
-        }
+        Settle(closing);
+        TakeWith(time, fromRest: false);
+    }
 
+    /// <summary>Takes the step as if nobody moved.</summary>
+    internal void TakeFromRest(SimTime time) => TakeWith(time, fromRest: true);
+
+    private void TakeWith(SimTime time, bool fromRest)
+    {
         for (int b = 0; b < BodyCount; b++)
         {
             ref Member m = ref members[b];
@@ -180,8 +184,8 @@ internal sealed class IslandStep
             MotionLaw.Constrained, time, time + Length, m.Start, m.Velocity, (quadratic * 2).WithoutNegativeZero(), crowding: crowding);
     }
 
-    /// <summary>Stops what closes at the start.</summary>
-    private void Settle()
+    /// <summary>Stops what closes at the start by no more than so many m/s.</summary>
+    private void Settle(double closing)
     {
         for (int b = 0; b < BodyCount; b++)
         {
@@ -190,12 +194,18 @@ internal sealed class IslandStep
         }
 
         bool closes = false;
+        int count = 0;
         for (int i = 0; i < ContactCount; i++)
         {
             ref readonly Touch t = ref touches[i];
-            points[i] = new ContactPoint(t.First, t.Second, t.Surface, default) { Normal = Normal(t, atEnd: false) };
-            coefficients[i] = t.Friction;
-            closes |= ImpactSolver.Opening(points[i], velocities.AsSpan(0, BodyCount)) < -Still;
+            ContactPoint point = new(t.First, t.Second, t.Surface, default) { Normal = Normal(t, atEnd: false) };
+            double opening = ImpactSolver.Opening(point, velocities.AsSpan(0, BodyCount));
+            if (opening >= -closing)
+            {
+                points[count] = point;
+                coefficients[count++] = t.Friction;
+                closes |= opening < -Still;
+            }
         }
 
         if (!closes)
@@ -203,7 +213,7 @@ internal sealed class IslandStep
             return;
         }
 
-        Solve(ContactCount, again: false);
+        Solve(count, again: false);
         for (int b = 0; b < BodyCount; b++)
         {
             members[b].StartVelocity = velocities[b].WithoutNegativeZero();

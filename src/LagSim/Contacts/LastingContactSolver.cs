@@ -15,6 +15,9 @@ internal sealed class LastingContactSolver
     /// <summary>So many times at most normals and friction take turns.</summary>
     private const int MostTurns = 64;
 
+    /// <summary>So many times if there are more contacts than are solved exactly.</summary>
+    private const int FewTurns = 4;
+
     /// <summary>So often friction goes through all contacts in a turn.</summary>
     private const int Sweeps = 4;
 
@@ -59,6 +62,7 @@ internal sealed class LastingContactSolver
             speed = Math.Max(speed, Math.Max(velocities[b].Length, spins[b].Length * radii[b]));
         }
 
+        int turns = contacts.Length > ImpactSolver.MostAtOnce ? FewTurns : MostTurns;
         for (int turn = 0; ; turn++)
         {
             freeVelocities.AsSpan(0, velocities.Length).CopyTo(velocities);
@@ -69,7 +73,7 @@ internal sealed class LastingContactSolver
             }
 
             SolveNormals(contacts, masses, velocities, again || turn > 0);
-            if (turn == MostTurns || !(Rub(contacts, coefficients, masses, radii, velocities, spins) > Settled * speed))
+            if (turn == turns || !(Rub(contacts, coefficients, masses, radii, velocities, spins) > Settled * speed))
             {
                 return;
             }

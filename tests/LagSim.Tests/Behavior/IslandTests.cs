@@ -1,0 +1,130 @@
+using System;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Behavior;
+
+/// <summary>Bodies in lasting contact move and rest as one: with friction against statics, without a gain of energy, and all of them wake when something happens to one.</summary>
+public sealed class IslandTests
+{
+    private const double R = 0.5;
+
+    /// <summary>A ball on two that touch, on a floor: the friction that keeps them is at least the tangent of 15 degrees, 0.268, between the balls.</summary>
+    [Theory]
+    [InlineData(0.1, false)]
+    [InlineData(0.26, false)]
+    [InlineData(0.28, true)]
+    [InlineData(1, true)]
+    public void Pile_OfThreeWithFriction_HoldsFromTheTangentOf15DegreesOn(double mu, bool holds)
+    {
+        Simulation world = new(Pile(mu), KeepAll);
+        world.AdvanceTo(At(3));
+        Assert.Equal(holds, Math.Abs(Read(world, Third, 3).Position.Y - (R + Math.Sqrt(0.75))) < 1e-6);
+        Assert.Equal(holds, Read(world, First, 3).Motion == MotionLaw.Resting && Read(world, First, 3).Position.X > -R - 1e-6);
+        Assert.True(LeastGap(world, At(3)) > -1e-9);
+        Assert.InRange(world.EventsProcessed, 1, 5000);
+    }
+
+    [Theory]
+    [InlineData(0)]
+    [InlineData(0.4)]
+    public void Piles_AtRandom_GainNoEnergyAndSinkIntoNothing(double mu)
+    {
+        for (int seed = 0; seed < 12; seed++)
+        {
+            Simulation world = new(Heap(seed, mu), KeepAll);
+            double last = Energy(world, At(0)), most = last;
+            for (double t = 0.05; t <= 2; t += 0.05)
+            {
+                world.AdvanceTo(At(t));
+                double energy = Energy(world, At(t)) + Turning(world, At(t));
+                Assert.True(energy <= last + (Gravity / R / 512 / 512 * most), $"seed {seed}: {energy - last} J more at {t} s"); // what steps of order 2 may be off
+                Assert.True(LeastGap(world, At(t)) > -1e-6, $"seed {seed}: {LeastGap(world, At(t))} m at {t} s");
+                last = energy;
+            }
+        }
+    }
+
+    /// <summary>What is done to one of an island that rests is done to what lay on it too, late or in time.</summary>
+    [Theory]
+    [InlineData(EventKind.Remove)]
+    [InlineData(EventKind.Teleport)]
+    [InlineData(EventKind.SetVelocity)]
+    [InlineData(EventKind.Grab)]
+    public void Stack_WhoseLowerBallIsTakenAway_Falls(EventKind kind)
+    {
+        ExternalEvent taken = kind switch
+        {
+            EventKind.Remove => ExternalEvent.Remove(At(1), 1, 1, First),
+            EventKind.Teleport => ExternalEvent.Teleport(At(1), 1, 1, First, V(10, 3), V(0)),
+            EventKind.SetVelocity => ExternalEvent.SetVelocity(At(1), 1, 1, First, V(20)),
+            _ => ExternalEvent.Grab(At(1), 1, 1, First),
+        };
+        Scene scene = new SceneBuilder("stack").AddPlane("floor", Vector3D.Up, V(0), 0.5).AddBody("below", Ball(e: 0.5), V(0, R)).AddBody("above", Ball(e: 0.5), V(0, 3 * R)).Build();
+        Simulation world = new(scene, KeepAll);
+        world.Submit(taken);
+        Simulation late = new(scene, KeepAll);
+        late.AdvanceTo(At(2));
+        Assert.Equal(MotionLaw.Resting, Read(late, Second, 2).Motion);
+        late.Submit(taken);
+        foreach (Simulation simulation in new[] { world, late })
+        {
+            if (kind == EventKind.Grab)
+            {
+                simulation.Submit(ExternalEvent.HoldKnot(At(1.1), 1, 2, First, V(5, R), V(0)));
+            }
+
+            simulation.AdvanceTo(At(2));
+        }
+
+        Assert.True(Read(world, Second, 1.6).Position.Y < 3 * R - 0.1, $"{Read(world, Second, 1.6).Position.Y} m");
+        Assert.Equal(world.StateHash(At(2)), late.StateHash(At(2)));
+        Assert.Equal(world.EventHash(At(2)), late.EventHash(At(2)));
+    }
+
+    /// <summary>A spring that pulls through a floor: the ball comes to rest where both hold it.</summary>
+    [Fact]
+    public void Spring_ThroughAFloor_EndsAtRest()
+    {
+        Scene scene = new SceneBuilder("spring").AddPlane("floor", Vector3D.Up, V(0), 0.3)
+            .AddForce(Force.Spring("spring", V(0, -1), 40, 4), out ForceSet spring)
+            .AddBody("ball", new BodySpec(R, 1, 0.3, forces: spring), V(0.4, 1)).Build();
+        Simulation world = new(scene, KeepAll);
+        world.AdvanceTo(At(20));
+        BodyState state = Read(world, First, 20);
+        Near(V(0, R), state.Position, 1e-6);
+        Assert.Equal(MotionLaw.Resting, state.Motion);
+    }
+
+    private static Scene Pile(double mu) => new SceneBuilder("pile").AddPlane("floor", Vector3D.Up, V(0), 0.5).AddBody("left", Rough(mu), V(-R, R)).AddBody("right", Rough(mu), V(R, R))
+        .AddBody("top", Rough(mu), V(0, R + Math.Sqrt(0.75))).Build();
+
+    private static BodySpec Rough(double mu) => new(R, 1, 0.5, friction: mu);
+
+    private static Scene Heap(int seed, double mu)
+    {
+        Random random = new(seed);
+        SceneBuilder builder = new SceneBuilder("heap").AddPlane("floor", Vector3D.Up, V(0), 0.4).AddPlane("west", V(1), V(-1.1), 0.4).AddPlane("east", V(-1), V(1.1), 0.4)
+            .AddPlane("back", V(0, 0, 1), V(0, 0, -0.8), 0.4).AddPlane("front", V(0, 0, -1), V(0, 0, 0.8), 0.4);
+        for (int i = 0; i < 5; i++)
+        {
+            builder.AddBody($"ball {i}", new BodySpec(R, random.Next(1, 4), 0.4, friction: mu), V((random.NextDouble() - 0.5) * 1.1, R + (1.05 * i), (random.NextDouble() - 0.5) * 0.5));
+        }
+
+        return builder.Build();
+    }
+
+    private static double Turning(Simulation world, SimTime time)
+    {
+        double sum = 0;
+        foreach (BodyId body in Bodies(world))
+        {
+            sum += 0.2 * world.SpecOf(body).Mass * R * R * Read(world, body, time).Spin.LengthSquared;
+        }
+
+        return sum;
+    }
+}
