@@ -11,12 +11,11 @@ public sealed partial class Simulation
     /// <summary>A contact that opens slower than this, in m/s, may last: a quarter of a hop's speed, at which it would soon be struck again.</summary>
     private double LastingSpeed => 0.25 * HopSpeed(Math.Max(Scene.Gravity.Length, 1));
 
-    /// <summary>One that closes faster than this, in m/s, is struck first: a step that began with more would be that much too deep on the way.</summary>
-    private double LeastClosing => 1e-3 * HopSpeed(Math.Max(Scene.Gravity.Length, 1));
+    /// <summary>One that closes faster than this, in m/s, as a step begins is struck first: else the two would be that much too deep on the way.</summary>
+    private double MostClosing => 1e-3 * HopSpeed(Math.Max(Scene.Gravity.Length, 1));
 
     /// <summary>Whether so fast an opening is that of a contact of which a step is under way: nothing of it closes when it begins.</summary>
-    private bool IsCalm(double opening) => opening <= LastingSpeed && opening >= -LeastClosing;
-
+    private bool IsCalm(double opening) => opening <= LastingSpeed && opening >= -MostClosing;
 
     /// <summary>Whether two bodies on these pieces of their paths are in lasting contact: their island keeps them apart, and nobody looks for an impact of theirs.</summary>
     private bool Lasts(int slot, int piece, int other, int otherPiece)

@@ -16,9 +16,7 @@ namespace LagSim.Contacts;
 /// weight, rather than by factors of the matrix of their products: where a light body carries a heavy one, that matrix has already lost
 /// the heavy one to rounding. No square roots: small integer systems, such as equal masses in a row, stay exact and a symmetric impact
 /// keeps its symmetry.</para>
-/// <para>More than <see cref="MostAtOnce"/> contacts, as in a large heap, are solved one after the other in their order, again and again (projected Gauss-Seidel), until nothing changes or often enough: whenever
-/// that ends it has not gained energy.</para>
-/// <para>Cost: contacts^2 times bodies; of more contacts at most <see cref="MostSweeps"/> times their number. Allocates only when an impact has more contacts or bodies than any before.</para>
+/// <para>Cost: contacts^2 times bodies; more than <see cref="MostAtOnce"/> contacts, as in a large heap, are left to <see cref="ContactSweeps"/>. Allocates only when an impact has more contacts or bodies than any before.</para>
 /// </remarks>
 internal sealed class ImpactSolver
 {
@@ -26,9 +24,6 @@ internal sealed class ImpactSolver
 
     /// <summary>So many contacts at most are solved exactly: beyond, what that costs grows too fast for one event.</summary>
     internal const int MostAtOnce = 96;
-
-    /// <summary>So often at most more contacts are gone through.</summary>
-    private const int MostSweeps = 256;
 
     /// <summary>By what share of what is exchanged the energy may be off by rounding.</summary>
     private const double Rounding = 1e-9;
@@ -73,7 +68,7 @@ internal sealed class ImpactSolver
 
         if (contacts.Length > MostAtOnce)
         {
-            Sweep(contacts, masses, velocities);
+            ContactSweeps.Solve(contacts, masses, velocities);
             return;
         }
 
@@ -93,52 +88,13 @@ internal sealed class ImpactSolver
         }
         else if (contacts.Length > MostAtOnce)
         {
-            Sweep(contacts, masses, velocities);
+            ContactSweeps.Solve(contacts, masses, velocities);
         }
         else
         {
             SolveSeveral(contacts, masses, velocities, again: true);
         }
     }
-
-    /// <summary>Gives each contact what it lacks, or takes back of what it has, in their order, until that is next to nothing.</summary>
-    private static void Sweep(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities)
-    {
-        double scale = 0;
-        for (int i = 0; i < contacts.Length; i++)
-        {
-            contacts[i].Impulse = 0;
-            scale = Math.Max(scale, Math.Abs(contacts[i].Target - Opening(contacts[i], velocities)));
-        }
-
-        double most = scale;
-        for (int sweep = 0; sweep < MostSweeps && most > Tolerance * scale; sweep++)
-        {
-            most = 0;
-            for (int i = 0; i < contacts.Length; i++)
-            {
-                ref ContactPoint c = ref contacts[i];
-                bool isPair = c.Second != ContactPoint.Static;
-                double inverse = Inverse(masses[c.First]) + (isPair ? Inverse(masses[c.Second]) : 0);
-                double lacks = c.Target - Opening(c, velocities);
-                double given = inverse > 0 ? Math.Max(-c.Impulse, lacks / inverse) : 0;
-                if (given != 0)
-                {
-                    c.Impulse += given;
-                    velocities[c.First] += c.Normal * (given * Inverse(masses[c.First]));
-                    if (isPair)
-                    {
-                        velocities[c.Second] -= c.Normal * (given * Inverse(masses[c.Second]));
-                    }
-
-                    most = Math.Max(most, Math.Abs(given) * inverse);
-                }
-            }
-        }
-    }
-
-    // Of a body in a hand zero: nothing moves it.
-    private static double Inverse(double mass) => IsHand(mass) ? 0 : 1 / mass;
 
     private void SolveSeveral(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, bool again)
     {

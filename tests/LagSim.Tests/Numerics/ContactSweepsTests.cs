@@ -1,0 +1,118 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Contacts;
+using LagSim.Scenes;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Numerics;
+
+/// <summary>Contacts of large heaps, solved by sweeps; and what a solver makes of the same contacts again.</summary>
+public sealed class ContactSweepsTests
+{
+    [Fact]
+    public void Solve_LayersOfBalls_HardlyAnyClosesAndNoEnergyIsGained()
+    {
+        // The slowest mode of a column of n equal balls on a floor loses 1 - cos^2(pi / (2n + 1)) of it a sweep: 1.4e-4 of the speed is left of 8 after 256.
+        for (int seed = 0; seed < 20; seed++)
+        {
+            (double closing, double gain) = Settle(seed, (c, m, v) => new ImpactSolver().Solve(c, m, v));
+            Assert.True(closing < 1e-3 && gain <= 1e-12, $"seed {seed}: closing {closing} m/s, {gain} J more");
+        }
+    }
+
+    [Fact]
+    public void Check_OneSweepOrTwiceTheSpeed_IsSeenToFail()
+    {
+        Assert.True(Settle(0, (c, m, v) => ContactSweeps.Solve(c, m, v, sweeps: 1)).Closing > 0.1);
+        Assert.True(Settle(0, (c, m, v) =>
+        {
+            for (int i = 0; i < c.Length; i++)
+            {
+                c[i].Target = 2 * Math.Max(0, -ImpactSolver.Opening(c[i], v)); // parts at twice the speed
+            }
+
+            ContactSweeps.Solve(c, m, v);
+        }).Gain > 1e-3);
+    }
+
+    [Fact]
+    public void SolveAgain_OtherVelocities_IsWhatIsSolvedAnew()
+    {
+        double control = 0;
+        for (int seed = 0; seed < 50; seed++)
+        {
+            (ContactPoint[] contacts, double[] masses, Vector3D[] first) = Layers(seed, 3);
+            Vector3D[] second = Layers(seed + 1000, 3).Velocities, anew = [.. second], again = [.. second];
+            ImpactSolver solver = new();
+            solver.Solve(contacts, masses, first);
+            solver.SolveAgain(contacts, masses, again);
+            new ImpactSolver().Solve(contacts, masses, anew);
+            for (int b = 0; b < anew.Length; b++)
+            {
+                Near(anew[b], again[b], 1e-9);
+                control = Math.Max(control, (anew[b] - second[b]).Length);
+            }
+        }
+
+        Assert.True(control > 0.1); // else nothing was solved
+    }
+
+    private delegate void Solver(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities);
+
+    /// <summary>How fast any contact still closes, and how much more energy there is.</summary>
+    private static (double Closing, double Gain) Settle(int seed, Solver solve)
+    {
+        (ContactPoint[] contacts, double[] masses, Vector3D[] velocities) = Layers(seed, 8);
+        Assert.True(contacts.Length > ImpactSolver.MostAtOnce);
+        double before = Energy(masses, velocities), closing = 0;
+        solve(contacts, masses, velocities);
+        foreach (ContactPoint c in contacts)
+        {
+            closing = Math.Max(closing, -ImpactSolver.Opening(c, velocities));
+        }
+
+        return (closing, Energy(masses, velocities) - before);
+    }
+
+    private static double Energy(double[] masses, Vector3D[] velocities)
+    {
+        double sum = 0;
+        for (int b = 0; b < masses.Length; b++)
+        {
+            sum += 0.5 * masses[b] * velocities[b].LengthSquared;
+        }
+
+        return sum;
+    }
+
+    /// <summary>A square of balls that touch their neighbours, the lowest a floor, with any velocities; nothing bounces.</summary>
+    private static (ContactPoint[] Contacts, double[] Masses, Vector3D[] Velocities) Layers(int seed, int side)
+    {
+        Random random = new(seed);
+        List<ContactPoint> contacts = [];
+        double[] masses = new double[side * side];
+        Vector3D[] velocities = new Vector3D[side * side];
+        Random shape = new(side); // the same for every seed
+        for (int b = 0; b < masses.Length; b++)
+        {
+            masses[b] = 1 + shape.Next(3);
+            velocities[b] = V(random.NextDouble() - 0.5, -random.NextDouble());
+            if (b < side)
+            {
+                contacts.Add(new ContactPoint(b, ContactPoint.Static, 0, default) { Normal = V(0, 1) });
+            }
+            else
+            {
+                contacts.Add(new ContactPoint(b - side, b, -1, default) { Normal = V(0, -1) });
+            }
+
+            if (b % side > 0)
+            {
+                contacts.Add(new ContactPoint(b - 1, b, -1, default) { Normal = V(-1) });
+            }
+        }
+
+        return ([.. contacts], masses, velocities);
+    }
+}
