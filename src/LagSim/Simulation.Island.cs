@@ -211,7 +211,7 @@ public sealed partial class Simulation
             if (numbers[c.First] >= 0 && (c.Second == ContactPoint.Static || numbers[c.Second] >= 0))
             {
                 stepContacts[island.ContactCount] = i;
-                island.AddContact(numbers[c.First], c.Second == ContactPoint.Static ? ContactPoint.Static : numbers[c.Second], c.Surface, Friction(c));
+                island.AddContact(numbers[c.First], c.Second == ContactPoint.Static ? ContactPoint.Static : numbers[c.Second], c.Surface, Friction(c), RollingLever(c));
             }
         }
 

@@ -65,6 +65,15 @@ public sealed partial class Simulation
     private bool MayLast(in ContactPoint c, double opening) =>
         opening <= 2 * LastingSpeed && (!IsSupportable(c) || Friction(c) > 0) && !AreInFreeFlight(c) && !Scene.Box.Exists && !IgnoresIslands;
 
+    /// <summary>The lever of rolling resistance of a contact, in metres: the larger of its two bodies', each of which has no more resistance than friction.</summary>
+    private double RollingLever(in ContactPoint c)
+    {
+        double friction = Friction(c);
+        double first = Math.Min(bodies[parties[c.First]].Spec.RollingResistance, friction) * partyRadii[c.First];
+        double second = c.Second == ContactPoint.Static ? 0 : Math.Min(bodies[parties[c.Second]].Spec.RollingResistance, friction) * partyRadii[c.Second];
+        return Math.Max(first, second);
+    }
+
     /// <summary>Whether two bodies have met in free flight: gravity alone does not press them together, whatever rounding has to say.</summary>
     private bool AreInFreeFlight(in ContactPoint c) =>
         c.Second != ContactPoint.Static && flights.IsFree(parties[c.First]) && flights.IsFree(parties[c.Second]);

@@ -16,14 +16,14 @@ namespace LagSim.Contacts;
 /// weight, rather than by factors of the matrix of their products: where a light body carries a heavy one, that matrix has already lost
 /// the heavy one to rounding. No square roots: small integer systems, such as equal masses in a row, stay exact and a symmetric impact
 /// keeps its symmetry.</para>
-/// <para>Cost: contacts^2 times bodies; more than <see cref="MostAtOnce"/> contacts, as in a large heap, are left to <see cref="ContactSweeps"/>. Allocates only when an impact has more contacts or bodies than any before.</para>
+/// <para>Cost: contacts^2 times bodies; more than <see cref="MostAtOnce"/> contacts, as in a large heap, are left to <see cref="ProjectedGradients"/>. Allocates only when an impact has more contacts or bodies than any before.</para>
 /// </remarks>
 internal sealed class ImpactSolver
 {
     private const double Tolerance = 1e-12;
 
     /// <summary>So many contacts at most are solved exactly: beyond, what that costs grows too fast for one event.</summary>
-    internal const int MostAtOnce = 96;
+    internal const int MostAtOnce = 32;
 
     /// <summary>By what share of what is exchanged the energy may be off by rounding.</summary>
     private const double Rounding = 1e-9;
@@ -34,6 +34,7 @@ internal sealed class ImpactSolver
     /// </summary>
     private const double Cancelled = 1e-6;
 
+    private readonly ProjectedGradients gradients = new();
     private double[] demand = new double[4]; // target - u before
     private double[] impulse = new double[4];
     private int[] active = new int[4];
@@ -68,7 +69,7 @@ internal sealed class ImpactSolver
 
         if (contacts.Length > MostAtOnce)
         {
-            ContactSweeps.Solve(contacts, masses, velocities);
+            gradients.Solve(contacts, masses, velocities);
             return;
         }
 
@@ -88,7 +89,7 @@ internal sealed class ImpactSolver
         }
         else if (contacts.Length > MostAtOnce)
         {
-            ContactSweeps.Solve(contacts, masses, velocities);
+            gradients.Solve(contacts, masses, velocities, again: true);
         }
         else
         {

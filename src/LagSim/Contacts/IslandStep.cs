@@ -49,7 +49,7 @@ internal sealed class IslandStep
     private Vector3D[] velocities = new Vector3D[4];
     private Vector3D[] spins = new Vector3D[4];
     private ContactPoint[] points = new ContactPoint[8];
-    private double[] coefficients = new double[8];
+    private Rub[] rubs = new Rub[8];
     private int[] closed = new int[8];
 
     internal IslandStep(Scene scene, Forces forces)
@@ -98,18 +98,18 @@ internal sealed class IslandStep
     }
 
     /// <summary>Adds a contact of a body with another, or with a static surface: planes by index, static spheres after them.</summary>
-    internal void AddContact(int first, int second, int surface, double friction)
+    internal void AddContact(int first, int second, int surface, double friction, double lever)
     {
         if (ContactCount == touches.Length)
         {
             int size = ContactCount * 2;
             Array.Resize(ref touches, size);
             Array.Resize(ref points, size);
-            Array.Resize(ref coefficients, size);
+            Array.Resize(ref rubs, size);
             Array.Resize(ref closed, size);
         }
 
-        touches[ContactCount++] = new Touch { First = first, Second = second, Surface = surface, Friction = friction };
+        touches[ContactCount++] = new Touch { First = first, Second = second, Surface = surface, Friction = friction, Lever = lever };
         Rubs |= friction > 0;
     }
 
@@ -203,7 +203,7 @@ internal sealed class IslandStep
             if (opening >= -closing)
             {
                 points[count] = point;
-                coefficients[count++] = t.Friction;
+                rubs[count++] = new Rub { Friction = t.Friction };
                 closes |= opening < -Still;
             }
         }
@@ -213,7 +213,7 @@ internal sealed class IslandStep
             return;
         }
 
-        Solve(count, again: false);
+        Solve(count, LastingContactSolver.Start.Anew);
         for (int b = 0; b < BodyCount; b++)
         {
             members[b].StartVelocity = velocities[b].WithoutNegativeZero();
@@ -229,7 +229,7 @@ internal sealed class IslandStep
             ref Touch t = ref touches[i];
             t.Gap = Gap(t, atEnd: false);
             points[i] = new ContactPoint(t.First, t.Second, t.Surface, default) { Normal = Normal(t, atEnd: false) };
-            coefficients[i] = t.Friction;
+            rubs[i] = new Rub { Friction = t.Friction, Lever = t.Lever };
             t.Bend = 0;
         }
 
@@ -249,7 +249,7 @@ internal sealed class IslandStep
                 points[i].Restored = points[i].Target;
             }
 
-            Solve(ContactCount, again: n > 0);
+            Solve(ContactCount, n == 0 ? LastingContactSolver.Start.Anew : LastingContactSolver.Start.Again);
             for (int b = 0; b < BodyCount; b++)
             {
                 ref Member m = ref members[b];
@@ -312,15 +312,18 @@ internal sealed class IslandStep
             ref readonly Touch t = ref touches[i];
             if (t.Push > 0 || Gap(t, atEnd: true) <= 0)
             {
-                points[count] = new ContactPoint(t.First, t.Second, t.Surface, default) { Normal = Normal(t, atEnd: true) };
-                coefficients[count] = t.Friction;
+                Vector3D normal = Normal(t, atEnd: true);
+                points[count] = new ContactPoint(t.First, t.Second, t.Surface, default) { Normal = normal, Impulse = t.Push };
+                rubs[count] = rubs[i];
+                rubs[count].Push -= normal * Vector3D.Dot(normal, rubs[count].Push);
+                rubs[count].Turn -= normal * Vector3D.Dot(normal, rubs[count].Turn);
                 closed[count++] = i;
             }
         }
 
         if (count > 0)
         {
-            Solve(count, again: false);
+            Solve(count, LastingContactSolver.Start.Near);
         }
 
         for (int k = 0; k < count; k++)
@@ -335,9 +338,9 @@ internal sealed class IslandStep
         }
     }
 
-    private void Solve(int count, bool again) => solver.Solve(
-        points.AsSpan(0, count), coefficients.AsSpan(0, count), masses.AsSpan(0, BodyCount), radii.AsSpan(0, BodyCount), velocities.AsSpan(0, BodyCount),
-        spins.AsSpan(0, BodyCount), again);
+    private void Solve(int count, LastingContactSolver.Start start) => solver.Solve(
+        points.AsSpan(0, count), rubs.AsSpan(0, count), masses.AsSpan(0, BodyCount), radii.AsSpan(0, BodyCount), velocities.AsSpan(0, BodyCount),
+        spins.AsSpan(0, BodyCount), start);
 
     /// <summary>A power of two of ticks, so short that in the step no normal turns far and no force changes much.</summary>
     private long Ticks()
@@ -429,6 +432,7 @@ internal sealed class IslandStep
         internal int Second;
         internal int Surface;
         internal double Friction;
+        internal double Lever; // of rolling resistance
         internal double Gap; // at the start
         internal double Bend; // how much faster the gap opens in the mean than the normal at the start tells
         internal double Push; // the impulses of both halves, in N s

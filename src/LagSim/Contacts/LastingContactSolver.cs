@@ -3,80 +3,91 @@ using LagSim.Scenes;
 
 namespace LagSim.Contacts;
 
-/// <summary>Solves contacts that last together with Coulomb friction: normals and friction by turns, until neither changes the other any more.</summary>
+/// <summary>Solves contacts that last together with Coulomb friction and rolling resistance.</summary>
 /// <remarks>
-/// <para>Along the normals it is <see cref="ImpactSolver"/>, exact at any ratio of masses; against the slip each contact gives what stops it, or as much as its normal impulse allows, one
-/// contact after the other in their order (Kaufman et al. 2008, "Staggered projections for frictional contact in multibody systems"). It ends along the normals, so whatever friction has not
-/// settled by then, nothing is driven into anything.</para>
-/// <para>Cost: without friction that of one <see cref="ImpactSolver"/>, else up to <see cref="MostTurns"/> times it. Allocates only when there are more contacts or bodies than ever before.</para>
+/// <para>The law along the normals is that of <see cref="ImpactSolver"/>; across it each contact gives what stops the slip, or as much as its normal impulse allows, and what stops the two from
+/// rolling on each other, or as much as that allows. All contacts are gone through in their order, again and again, each with all three at once (Moreau and Jean's non-smooth contact dynamics; Jean 1999,
+/// Comput. Methods Appl. Mech. Eng. 177, 235-257), with over-relaxation; then, with friction as it is, the normals are solved by themselves. So whatever friction has not settled by then,
+/// nothing is driven into anything. That is repeated if the normals change much by it, as where a light body carries a heavy one.</para>
+/// <para>Cost: without friction that of one <see cref="ImpactSolver"/>; else up to <see cref="MostTurns"/> times that and up to <see cref="Sweeps"/> sweeps each. Allocates only when there are more
+/// contacts or bodies than ever before.</para>
 /// </remarks>
 internal sealed class LastingContactSolver
 {
-    /// <summary>So many times at most normals and friction take turns.</summary>
-    private const int MostTurns = 64;
+    /// <summary>So many times at most friction is solved, and the normals after it.</summary>
+    private const int MostTurns = 4;
 
-    /// <summary>So many times if there are more contacts than are solved exactly.</summary>
-    private const int FewTurns = 4;
+    /// <summary>So often at most all contacts are gone through in a turn.</summary>
+    private const int Sweeps = 32;
 
-    /// <summary>So often friction goes through all contacts in a turn.</summary>
-    private const int Sweeps = 4;
+    /// <summary>What a contact gives, by what it alone would need: more than 1, for its neighbours take some of it back. Below 2 no energy is gained by it.</summary>
+    private const double Relaxation = 1.3;
 
     /// <summary>What changes by less than this part of the largest speed is settled.</summary>
-    private const double Settled = 1e-10;
+    private const double Settled = 1e-9;
 
     private readonly ImpactSolver normals = new();
-    private Vector3D[] rubbing = new Vector3D[8]; // the friction's impulse on the first of each contact
-    private Vector3D[] freeVelocities = new Vector3D[4];
-    private Vector3D[] freeSpins = new Vector3D[4];
+    private Body[] bodies = new Body[4];
 
     /// <summary>Changes velocities and spins so that each contact opens at least at its target, or pushes.</summary>
     /// <param name="contacts">With normals and targets; the impulses along the normals are set.</param>
-    /// <param name="coefficients">Of friction, by number of contact; all zero: the spins stay as they are.</param>
-    /// <param name="masses">By number of body, like the rest.</param>
+    /// <param name="rubs">By number of contact; without any friction the spins stay as they are.</param>
+    /// <param name="masses">By number of body, like the rest; none is infinite.</param>
     /// <param name="radii">In metres.</param>
     /// <param name="velocities">In m/s.</param>
     /// <param name="spins">In rad/s.</param>
-    /// <param name="again">Whether the bodies and normals are those that were solved last.</param>
+    /// <param name="start">What is known of the solution.</param>
     internal void Solve(
-        Span<ContactPoint> contacts, Span<double> coefficients, Span<double> masses, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins, bool again)
+        Span<ContactPoint> contacts, Span<Rub> rubs, Span<double> masses, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins, Start start)
     {
         double most = 0;
-        for (int i = 0; i < coefficients.Length; i++)
+        for (int i = 0; i < rubs.Length; i++)
         {
-            most = Math.Max(most, coefficients[i]);
+            most = Math.Max(most, rubs[i].Friction);
         }
 
         if (!(most > 0))
         {
-            SolveNormals(contacts, masses, velocities, again);
+            SolveNormals(contacts, masses, velocities, start == Start.Again);
             return;
         }
 
-        Grow(contacts.Length, velocities.Length);
-        velocities.CopyTo(freeVelocities);
-        spins.CopyTo(freeSpins);
-        Array.Clear(rubbing, 0, contacts.Length);
-        double speed = 0;
-        for (int b = 0; b < velocities.Length; b++)
+        double speed = Free(masses, radii, velocities, spins);
+        if (start == Start.Anew)
         {
-            speed = Math.Max(speed, Math.Max(velocities[b].Length, spins[b].Length * radii[b]));
-        }
+            for (int i = 0; i < rubs.Length; i++)
+            {
+                rubs[i].Push = Vector3D.Zero;
+                rubs[i].Turn = Vector3D.Zero;
+            }
 
-        int turns = contacts.Length > ImpactSolver.MostAtOnce ? FewTurns : MostTurns;
-        for (int turn = 0; ; turn++)
+            SolveNormals(contacts, masses, velocities, again: false);
+        }
+        else
         {
-            freeVelocities.AsSpan(0, velocities.Length).CopyTo(velocities);
-            freeSpins.AsSpan(0, spins.Length).CopyTo(spins);
             for (int i = 0; i < contacts.Length; i++)
             {
-                Push(contacts[i], rubbing[i], masses, radii, velocities, spins);
+                PushAcross(contacts[i], rubs[i].Push, velocities, spins);
+                TurnBy(contacts[i], rubs[i].Turn, spins);
+                PushAlong(contacts[i], contacts[i].Impulse, velocities);
+            }
+        }
+
+        for (int turn = 0; turn < MostTurns && (Sweep(contacts, rubs, radii, velocities, spins, Settled * speed) || (turn == 0 && start == Start.Near)); turn++)
+        {
+            for (int b = 0; b < velocities.Length; b++)
+            {
+                velocities[b] = bodies[b].Velocity;
+                spins[b] = bodies[b].Spin;
             }
 
-            SolveNormals(contacts, masses, velocities, again || turn > 0);
-            if (turn == turns || !(Rub(contacts, coefficients, masses, radii, velocities, spins) > Settled * speed))
+            for (int i = 0; i < contacts.Length; i++)
             {
-                return;
+                PushAcross(contacts[i], rubs[i].Push, velocities, spins);
+                TurnBy(contacts[i], rubs[i].Turn, spins);
             }
+
+            SolveNormals(contacts, masses, velocities, turn > 0 || start != Start.Near);
         }
     }
 
@@ -92,64 +103,138 @@ internal sealed class LastingContactSolver
         }
     }
 
-    /// <summary>One turn of friction. Returns by how much of a speed it has changed at most; if that is next to nothing, the velocities are those that it was left with.</summary>
-    private double Rub(
-        Span<ContactPoint> contacts, Span<double> coefficients, Span<double> masses, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins)
+    /// <summary>Remembers how the bodies move without contacts; returns the largest speed, with the centre or on the surface.</summary>
+    private double Free(Span<double> masses, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins)
     {
-        double most = 0;
+        if (velocities.Length > bodies.Length)
+        {
+            bodies = new Body[Math.Max(velocities.Length, 2 * bodies.Length)];
+        }
+
+        double speed = 0;
+        for (int b = 0; b < velocities.Length; b++)
+        {
+            double turning = ImpactFriction.TurnPerImpulse / (masses[b] * radii[b]);
+            bodies[b] = new Body { Velocity = velocities[b], Spin = spins[b], PerPush = 1 / masses[b], PerSurfacePush = turning, PerTurn = turning / radii[b] };
+            speed = Math.Max(speed, Math.Max(velocities[b].Length, spins[b].Length * radii[b]));
+        }
+
+        return speed;
+    }
+
+    /// <summary>Goes through all contacts until a sweep changes no speed by more than <paramref name="settled"/>, or often enough. False if the first did not, and changed nothing that counts.</summary>
+    private bool Sweep(Span<ContactPoint> contacts, Span<Rub> rubs, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins, double settled)
+    {
         for (int sweep = 0; sweep < Sweeps; sweep++)
         {
+            double most = 0;
             for (int i = 0; i < contacts.Length; i++)
             {
-                ref readonly ContactPoint c = ref contacts[i];
-                double inverse = (1 / masses[c.First]) + (c.Second == ContactPoint.Static ? 0 : 1 / masses[c.Second]);
-                Vector3D slip = ImpactFriction.Slip(c, radii, velocities, spins);
-                Vector3D wanted = rubbing[i] - (slip / (ImpactFriction.SlipPerImpulse * inverse));
-                double allowed = coefficients[i] * c.Impulse;
-                double size = wanted.Length;
-                wanted = size > allowed ? wanted * (allowed / size) : wanted;
-                Vector3D change = wanted - rubbing[i];
-                if (change != Vector3D.Zero)
-                {
-                    Push(c, change, masses, radii, velocities, spins);
-                    rubbing[i] = wanted;
-                    most = Math.Max(most, change.Length * inverse);
-                }
+                most = Math.Max(most, Relax(ref contacts[i], ref rubs[i], radii, velocities, spins));
             }
+
+            if (!(most > settled))
+            {
+                return sweep > 0;
+            }
+        }
+
+        return true;
+    }
+
+    /// <summary>Gives a contact what it needs if nothing else changed. Returns by how much of a speed that has changed.</summary>
+    private double Relax(ref ContactPoint c, ref Rub rub, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins)
+    {
+        bool isPair = c.Second != ContactPoint.Static;
+        double inverse = bodies[c.First].PerPush + (isPair ? bodies[c.Second].PerPush : 0);
+        double more = Math.Max(-c.Impulse, Relaxation * (c.Target - ImpactSolver.Opening(c, velocities)) / inverse);
+        c.Impulse += more;
+        PushAlong(c, more, velocities);
+
+        Vector3D slip = ImpactFriction.Slip(c, radii, velocities, spins);
+        Vector3D across = Within(rub.Push - (slip * (Relaxation / (ImpactFriction.SlipPerImpulse * inverse))), rub.Friction * c.Impulse) - rub.Push;
+        rub.Push += across;
+        PushAcross(c, across, velocities, spins);
+        double most = Math.Max(Math.Abs(more), across.Length) * inverse;
+
+        if (rub.Lever > 0)
+        {
+            Vector3D rolling = spins[c.First] - (isPair ? spins[c.Second] : Vector3D.Zero);
+            rolling -= c.Normal * Vector3D.Dot(c.Normal, rolling); // what turns about the normal does not roll
+            double perTurn = bodies[c.First].PerTurn + (isPair ? bodies[c.Second].PerTurn : 0);
+            Vector3D turn = Within(rub.Turn - (rolling * (Relaxation / perTurn)), rub.Lever * c.Impulse) - rub.Turn;
+            rub.Turn += turn;
+            TurnBy(c, turn, spins);
+            most = Math.Max(most, turn.Length * perTurn * radii[c.First]);
         }
 
         return most;
     }
 
-    private static void Push(
-        in ContactPoint c, in Vector3D push, Span<double> masses, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins)
+    private static Vector3D Within(in Vector3D wanted, double allowed)
     {
-        if (push == Vector3D.Zero)
-        {
-            return;
-        }
+        double size = wanted.Length;
+        return size > allowed ? wanted * (allowed / size) : wanted;
+    }
 
-        Vector3D turn = Vector3D.Cross(push, c.Normal) * ImpactFriction.TurnPerImpulse;
-        velocities[c.First] += push / masses[c.First];
-        spins[c.First] += turn / (masses[c.First] * radii[c.First]);
-        if (c.Second != ContactPoint.Static)
+    private void PushAlong(in ContactPoint c, double impulse, Span<Vector3D> velocities)
+    {
+        if (impulse != 0)
         {
-            velocities[c.Second] -= push / masses[c.Second];
-            spins[c.Second] += turn / (masses[c.Second] * radii[c.Second]);
+            velocities[c.First] += c.Normal * (impulse * bodies[c.First].PerPush);
+            if (c.Second != ContactPoint.Static)
+            {
+                velocities[c.Second] -= c.Normal * (impulse * bodies[c.Second].PerPush);
+            }
         }
     }
 
-    private void Grow(int contacts, int bodies)
+    private void PushAcross(in ContactPoint c, in Vector3D push, Span<Vector3D> velocities, Span<Vector3D> spins)
     {
-        if (contacts > rubbing.Length)
+        if (push != Vector3D.Zero)
         {
-            rubbing = new Vector3D[contacts * 2];
+            Vector3D turn = Vector3D.Cross(push, c.Normal);
+            velocities[c.First] += push * bodies[c.First].PerPush;
+            spins[c.First] += turn * bodies[c.First].PerSurfacePush;
+            if (c.Second != ContactPoint.Static)
+            {
+                velocities[c.Second] -= push * bodies[c.Second].PerPush;
+                spins[c.Second] += turn * bodies[c.Second].PerSurfacePush;
+            }
         }
+    }
 
-        if (bodies > freeVelocities.Length)
+    private void TurnBy(in ContactPoint c, in Vector3D turn, Span<Vector3D> spins)
+    {
+        if (turn != Vector3D.Zero)
         {
-            freeVelocities = new Vector3D[bodies * 2];
-            freeSpins = new Vector3D[bodies * 2];
+            spins[c.First] += turn * bodies[c.First].PerTurn;
+            if (c.Second != ContactPoint.Static)
+            {
+                spins[c.Second] -= turn * bodies[c.Second].PerTurn;
+            }
         }
+    }
+
+    /// <summary>What is known of a solution before it is looked for.</summary>
+    internal enum Start
+    {
+        /// <summary>Nothing.</summary>
+        Anew,
+
+        /// <summary>The contacts' impulses are nearly right, though bodies or normals have changed.</summary>
+        Near,
+
+        /// <summary>Nearly right, and bodies and normals are those that were solved last.</summary>
+        Again,
+    }
+
+    private struct Body
+    {
+        internal Vector3D Velocity; // without contacts
+        internal Vector3D Spin;
+        internal double PerPush; // of its velocity, by an impulse
+        internal double PerSurfacePush; // of its spin, by one on its surface
+        internal double PerTurn; // and by one that turns it
     }
 }

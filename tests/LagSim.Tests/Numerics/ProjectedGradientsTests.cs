@@ -8,7 +8,7 @@ using static LagSim.Tests.TestWorlds;
 namespace LagSim.Tests.Numerics;
 
 /// <summary>Contacts of large heaps, solved by sweeps; and what a solver makes of the same contacts again.</summary>
-public sealed class ContactSweepsTests
+public sealed class ProjectedGradientsTests
 {
     [Fact]
     public void Solve_LayersOfBalls_HardlyAnyClosesAndNoEnergyIsGained()
@@ -24,7 +24,7 @@ public sealed class ContactSweepsTests
     [Fact]
     public void Check_OneSweepOrTwiceTheSpeed_IsSeenToFail()
     {
-        Assert.True(Settle(0, (c, m, v) => ContactSweeps.Solve(c, m, v, sweeps: 1)).Closing > 0.1);
+        Assert.True(Settle(0, (c, m, v) => new ProjectedGradients().Solve(c, m, v, steps: 1)).Closing > 0.1);
         Assert.True(Settle(0, (c, m, v) =>
         {
             for (int i = 0; i < c.Length; i++)
@@ -32,7 +32,7 @@ public sealed class ContactSweepsTests
                 c[i].Target = 2 * Math.Max(0, -ImpactSolver.Opening(c[i], v)); // parts at twice the speed
             }
 
-            ContactSweeps.Solve(c, m, v);
+            new ProjectedGradients().Solve(c, m, v);
         }).Gain > 1e-3);
     }
 

@@ -1,0 +1,268 @@
+using System;
+using LagSim.Scenes;
+
+namespace LagSim.Contacts;
+
+/// <summary>Solves many contacts at once, as of a large heap, by conjugate gradients that are kept from pulling.</summary>
+/// <remarks>
+/// <para>The law is that of <see cref="ImpactSolver"/>: the impulses p >= 0 that make 1/2 p'Ap + p'(u - target) least, which is the change of energy where all targets are 0. The method is
+/// "modified proportioning with reduced gradient projections" (Dostál and Schöberl 2005, Comput. Optim. Appl. 30, 23-43): conjugate gradients among the contacts that push, a step along
+/// the gradient cut off at zero where one of them would pull, and one along what closes where that has come to outweigh the rest. What it makes least never grows, so where nothing is to part faster
+/// than at rest no energy is gained, whenever it ends.</para>
+/// <para>Each contact is measured by the root of its 1/mass, so that unequal masses count alike. Cost: the number of contacts, times some 50 to 300 steps, at most <see cref="MostSteps"/>; more where
+/// light bodies carry heavy ones. Allocates only when there are more contacts or bodies than ever before.</para>
+/// </remarks>
+internal sealed class ProjectedGradients
+{
+    /// <summary>So many steps at most.</summary>
+    internal const int MostSteps = 1000;
+
+    /// <summary>What lacks less than this part of the most that any contact lacked is met.</summary>
+    private const double Met = 1e-12;
+
+    private double[] scales = new double[8]; // by contact: what its impulse is measured in
+    private double[] impulses = new double[8]; // in those
+    private double[] gradient = new double[8]; // how much faster than asked for each opens, likewise
+    private double[] direction = new double[8];
+    private double[] response = new double[8]; // of the gradient to a step along the direction
+    private Vector3D[] change = new Vector3D[4]; // by body: of its velocity
+
+    /// <summary>Changes the velocities by the impulses of all contacts, and sets those. Masses and velocities by number of body; one in a hand has an infinite mass.</summary>
+    /// <param name="contacts">With normals and targets.</param>
+    /// <param name="masses">In kg.</param>
+    /// <param name="velocities">In m/s.</param>
+    /// <param name="again">Whether to begin with the contacts' impulses as they are, not with none.</param>
+    /// <param name="steps">So many at most.</param>
+    internal void Solve(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, bool again = false, int steps = MostSteps)
+    {
+        Grow(contacts.Length, velocities.Length);
+        double stride = Prepare(contacts, masses, velocities, again, out double lacking);
+        Begin(contacts);
+        for (int step = 0; step < steps; step++)
+        {
+            double free = 0; // how far from met those are that push, each no further than until it pulls no more
+            double bound = 0; // and those that do not, and close
+            double most = 0;
+            for (int i = 0; i < contacts.Length; i++)
+            {
+                double g = gradient[i];
+                if (impulses[i] > 0)
+                {
+                    free += Math.Min(impulses[i] / stride, g) * g;
+                    most = Math.Max(most, Math.Abs(g) / scales[i]);
+                }
+                else if (g < 0)
+                {
+                    bound += g * g;
+                    most = Math.Max(most, -g / scales[i]);
+                }
+            }
+
+            if (!(most > Met * lacking))
+            {
+                break;
+            }
+
+            bool goesOn = bound <= free ? Follow(contacts, masses, velocities, stride) : Release(contacts, masses);
+            if (!goesOn)
+            {
+                break;
+            }
+        }
+
+        for (int i = 0; i < contacts.Length; i++)
+        {
+            contacts[i].Impulse = impulses[i] * scales[i];
+        }
+
+        Respond(contacts, masses, impulses);
+        for (int b = 0; b < velocities.Length; b++)
+        {
+            velocities[b] += change[b];
+        }
+    }
+
+    /// <summary>Scales, first impulses and the gradient there. Returns a step along the gradient that is sure to lead down.</summary>
+    private double Prepare(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, bool again, out double lacking)
+    {
+        Array.Clear(direction, 0, contacts.Length);
+        Array.Clear(change, 0, velocities.Length);
+        for (int i = 0; i < contacts.Length; i++)
+        {
+            ref readonly ContactPoint c = ref contacts[i];
+            double inverse = Inverse(masses[c.First]) + (c.Second == ContactPoint.Static ? 0 : Inverse(masses[c.Second]));
+            scales[i] = inverse > 0 ? 1 / Math.Sqrt(inverse) : 0; // of two hands: nothing changes how they open
+            impulses[i] = again && inverse > 0 ? c.Impulse / scales[i] : 0;
+            change[c.First] += new Vector3D(scales[i], 0, 0);
+            if (c.Second != ContactPoint.Static)
+            {
+                change[c.Second] += new Vector3D(scales[i], 0, 0);
+            }
+        }
+
+        double norm = 1; // at least as large as what multiplies any impulses most: the largest sum of a row of A, without signs
+        for (int i = 0; i < contacts.Length; i++)
+        {
+            ref readonly ContactPoint c = ref contacts[i];
+            double row = scales[i] * ((change[c.First].X * Inverse(masses[c.First]))
+                + (c.Second == ContactPoint.Static ? 0 : change[c.Second].X * Inverse(masses[c.Second])));
+            norm = Math.Max(norm, row);
+        }
+
+        Evaluate(contacts, masses, velocities);
+        lacking = 0;
+        for (int i = 0; i < contacts.Length; i++)
+        {
+            lacking = scales[i] > 0 ? Math.Max(lacking, Math.Abs(contacts[i].Target - ImpactSolver.Opening(contacts[i], velocities))) : lacking;
+        }
+
+        return 1.75 / norm;
+    }
+
+    /// <summary>A step along the direction, or as far along it as nobody pulls and then one along the gradient. False if nothing is to be had that way.</summary>
+    private bool Follow(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, double stride)
+    {
+        double curvature = Probe(contacts, masses);
+        if (!(curvature > 0))
+        {
+            return false;
+        }
+
+        double slope = 0;
+        double room = double.PositiveInfinity;
+        for (int i = 0; i < contacts.Length; i++)
+        {
+            slope += gradient[i] * direction[i];
+            room = direction[i] > 0 ? Math.Min(room, impulses[i] / direction[i]) : room;
+        }
+
+        double along = Math.Min(slope / curvature, room);
+        for (int i = 0; i < contacts.Length; i++)
+        {
+            impulses[i] = Math.Max(0, impulses[i] - (along * direction[i]));
+            gradient[i] -= along * response[i];
+        }
+
+        if (along < room)
+        {
+            double kept = 0; // so that the next direction undoes nothing of this one
+            for (int i = 0; i < contacts.Length; i++)
+            {
+                kept += impulses[i] > 0 ? gradient[i] * response[i] : 0;
+            }
+
+            for (int i = 0; i < contacts.Length; i++)
+            {
+                direction[i] = (impulses[i] > 0 ? gradient[i] : 0) - (kept / curvature * direction[i]);
+            }
+
+            return true;
+        }
+
+        for (int i = 0; i < contacts.Length; i++)
+        {
+            impulses[i] = Math.Max(0, impulses[i] - (impulses[i] > 0 ? stride * gradient[i] : 0));
+        }
+
+        Evaluate(contacts, masses, velocities);
+        Begin(contacts);
+        return true;
+    }
+
+    /// <summary>Lets those push that do not and close.</summary>
+    private bool Release(Span<ContactPoint> contacts, Span<double> masses)
+    {
+        double slope = 0;
+        for (int i = 0; i < contacts.Length; i++)
+        {
+            direction[i] = impulses[i] > 0 ? 0 : Math.Min(0, gradient[i]);
+            slope += gradient[i] * direction[i];
+        }
+
+        double curvature = Probe(contacts, masses);
+        if (!(curvature > 0))
+        {
+            return false;
+        }
+
+        for (int i = 0; i < contacts.Length; i++)
+        {
+            impulses[i] -= slope / curvature * direction[i];
+            gradient[i] -= slope / curvature * response[i];
+        }
+
+        Begin(contacts);
+        return true;
+    }
+
+    /// <summary>Begins a new sequence of directions: down the gradient, among those that push.</summary>
+    private void Begin(Span<ContactPoint> contacts)
+    {
+        for (int i = 0; i < contacts.Length; i++)
+        {
+            direction[i] = impulses[i] > 0 ? gradient[i] : 0;
+        }
+    }
+
+    /// <summary>How the gradient responds to the direction; returns how much, along it.</summary>
+    private double Probe(Span<ContactPoint> contacts, Span<double> masses)
+    {
+        Respond(contacts, masses, direction);
+        double curvature = 0;
+        for (int i = 0; i < contacts.Length; i++)
+        {
+            response[i] = scales[i] * ImpactSolver.Opening(contacts[i], change);
+            curvature += direction[i] * response[i];
+        }
+
+        return curvature;
+    }
+
+    /// <summary>The gradient at the impulses as they are.</summary>
+    private void Evaluate(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities)
+    {
+        Respond(contacts, masses, impulses);
+        for (int i = 0; i < contacts.Length; i++)
+        {
+            ref readonly ContactPoint c = ref contacts[i];
+            gradient[i] = scales[i] * (ImpactSolver.Opening(c, velocities) - c.Target + ImpactSolver.Opening(c, change));
+        }
+    }
+
+    /// <summary>The changes of velocity that impulses make.</summary>
+    private void Respond(Span<ContactPoint> contacts, Span<double> masses, double[] pushes)
+    {
+        Array.Clear(change, 0, change.Length);
+        for (int i = 0; i < contacts.Length; i++)
+        {
+            ref readonly ContactPoint c = ref contacts[i];
+            Vector3D push = c.Normal * (scales[i] * pushes[i]);
+            change[c.First] += push * Inverse(masses[c.First]);
+            if (c.Second != ContactPoint.Static)
+            {
+                change[c.Second] -= push * Inverse(masses[c.Second]);
+            }
+        }
+    }
+
+    // Of a body in a hand zero: nothing moves it.
+    private static double Inverse(double mass) => double.IsPositiveInfinity(mass) ? 0 : 1 / mass;
+
+    private void Grow(int contacts, int bodies)
+    {
+        if (contacts > impulses.Length)
+        {
+            int count = Math.Max(contacts, 2 * impulses.Length);
+            scales = new double[count];
+            impulses = new double[count];
+            gradient = new double[count];
+            direction = new double[count];
+            response = new double[count];
+        }
+
+        if (bodies > change.Length)
+        {
+            change = new Vector3D[Math.Max(bodies, 2 * change.Length)];
+        }
+    }
+}
