@@ -16,14 +16,20 @@ namespace LagSim.Contacts;
 /// weight, rather than by factors of the matrix of their products: where a light body carries a heavy one, that matrix has already lost
 /// the heavy one to rounding. No square roots: small integer systems, such as equal masses in a row, stay exact and a symmetric impact
 /// keeps its symmetry.</para>
-/// <para>Cost: contacts^2 times bodies; more than <see cref="MostAtOnce"/> contacts, as in a large heap, are left to <see cref="ProjectedGradients"/>. Allocates only when an impact has more contacts or bodies than any before.</para>
+/// <para>Cost: contacts^2 times bodies; more than <see cref="FewAtOnce"/> contacts, as in a heap, are left to <see cref="ProjectedGradients"/>. Allocates only when an impact has more contacts or bodies than any before.</para>
 /// </remarks>
 internal sealed class ImpactSolver
 {
     private const double Tolerance = 1e-12;
 
     /// <summary>So many contacts at most are solved exactly: beyond, what that costs grows too fast for one event.</summary>
-    internal const int MostAtOnce = 32;
+    internal const int MostAtOnce = 96;
+
+    /// <summary>So many are always solved exactly; more than these only if masses differ by more than <see cref="LikeMasses"/>, else gradients get as near in less time.</summary>
+    internal const int FewAtOnce = 32;
+
+    /// <summary>By what factor masses may differ for <see cref="ProjectedGradients"/> to get to the rounding in its steps.</summary>
+    internal const double LikeMasses = 1000;
 
     /// <summary>By what share of what is exchanged the energy may be off by rounding.</summary>
     private const double Rounding = 1e-9;
@@ -67,7 +73,7 @@ internal sealed class ImpactSolver
             return;
         }
 
-        if (contacts.Length > MostAtOnce)
+        if (AreForGradients(contacts.Length, masses))
         {
             gradients.Solve(contacts, masses, velocities);
             return;
@@ -87,7 +93,7 @@ internal sealed class ImpactSolver
         {
             Single(ref contacts[0], masses, velocities);
         }
-        else if (contacts.Length > MostAtOnce)
+        else if (AreForGradients(contacts.Length, masses))
         {
             gradients.Solve(contacts, masses, velocities, again: true);
         }
@@ -95,6 +101,24 @@ internal sealed class ImpactSolver
         {
             SolveSeveral(contacts, masses, velocities, again: true);
         }
+    }
+
+    private static bool AreForGradients(int count, Span<double> masses)
+    {
+        if (count <= FewAtOnce || count > MostAtOnce)
+        {
+            return count > MostAtOnce;
+        }
+
+        double least = double.PositiveInfinity;
+        double most = 0;
+        for (int b = 0; b < masses.Length; b++)
+        {
+            least = Math.Min(least, masses[b]);
+            most = IsHand(masses[b]) ? most : Math.Max(most, masses[b]);
+        }
+
+        return most <= LikeMasses * least;
     }
 
     private void SolveSeveral(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, bool again)

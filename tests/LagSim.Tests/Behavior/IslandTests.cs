@@ -48,6 +48,39 @@ public sealed class IslandTests
         }
     }
 
+    /// <summary>Along a groove whose sides lie aslant by an angle of cosine k, rolling resistance c takes c g k / (k² + 2/5) from a ball's speed.</summary>
+    [Theory]
+    [InlineData(0.02)]
+    [InlineData(0)]
+    public void RollingResistance_InAGroove_BringsToRest(double resistance)
+    {
+        const double sine = 0.6, k = 0.8, speed = 0.5;
+        BodySpec ball = new(R, 1, 0, friction: 0.5, rollingResistance: resistance);
+        Simulation world = new(
+            new SceneBuilder("groove").AddPlane("left", V(sine, k), 0.0, friction: 1).AddPlane("right", V(-sine, k), 0.0, friction: 1)
+                .AddBody("ball", ball, V(0, R / k), V(0, 0, speed), spin: V(speed / (R * k))).Build(),
+            KeepAll);
+        double brake = resistance * Gravity * k / ((k * k) + 0.4);
+        world.AdvanceTo(At(4));
+        BodyState end = Read(world, First, 4);
+        Assert.Equal(resistance > 0 ? MotionLaw.Resting : MotionLaw.Constrained, end.Motion);
+        Near(resistance > 0 ? speed * speed / (2 * brake) : speed * 4, end.Position.Z, 1e-6);
+    }
+
+    /// <summary>Beside the top of a dome a ball stays where the slope is no more than its rolling resistance.</summary>
+    [Theory]
+    [InlineData(0.11, true)]
+    [InlineData(0.09, false)]
+    public void RollingResistance_OnADome_HoldsUpToItsSlope(double resistance, bool holds)
+    {
+        Vector3D place = V(0.1, 1) / V(0.1, 1).Length * (2 + R);
+        Simulation world = new(
+            new SceneBuilder("dome").AddStaticSphere("dome", V(0), 2, 0, friction: 1).AddBody("ball", new BodySpec(R, 1, 0, friction: 1, rollingResistance: resistance), place).Build(), KeepAll);
+        world.AdvanceTo(At(1));
+        Assert.Equal(holds ? MotionLaw.Resting : MotionLaw.Constrained, Read(world, First, 1).Motion);
+        Assert.Equal(holds, (Read(world, First, 1).Position - place).Length < 1e-9);
+    }
+
     /// <summary>What is done to one of an island that rests is done to what lay on it too, late or in time.</summary>
     [Theory]
     [InlineData(EventKind.Remove)]
