@@ -158,6 +158,10 @@ public sealed partial class Simulation
         }
 
         EventsProcessed++;
+        if (openedCount > 0)
+        {
+            TakeStepsAhead();
+        }
     }
 
     /// <summary>Whether the piece of the partner's path that the pending impact was found with is no longer what the partner is on then.</summary>

@@ -17,7 +17,7 @@ public sealed partial class Simulation
     /// <summary>With friction an island rests if what pulls at it moves it by less than this part of that: so much the solver leaves.</summary>
     private const double Unsettled = 1e-6;
 
-    private readonly IslandStep island;
+    private IslandStep island;
     private int[] group = new int[4]; // by party: the least party that it is in contact with, through others as well
     private bool[] needsSteps = new bool[4]; // by least party of a group
     private bool[] isMember = new bool[4]; // of those that are grouped
@@ -41,8 +41,7 @@ public sealed partial class Simulation
         FindTouching(carry);
 
         // What touches is stepped together to see what pushes; and of the bodies that push each other those that touch are an island.
-        Array.Fill(isMember, true, 0, partyCount);
-        Group(byPush: false);
+        GroupAllThatTouches();
         int stepped = 0;
         for (int least = 0; least < partyCount; least++)
         {
@@ -77,6 +76,12 @@ public sealed partial class Simulation
                 stepped = 0;
             }
         }
+    }
+
+    private void GroupAllThatTouches()
+    {
+        Array.Fill(isMember, true, 0, partyCount);
+        Group(byPush: false);
     }
 
     /// <summary>All that touches among the parties at hand, and with static surfaces, at the tick, whether it lasts or not: what opens may close again within a step.</summary>
@@ -194,13 +199,23 @@ public sealed partial class Simulation
     /// <summary>Takes the step of a group of parties, with all that touches among them.</summary>
     private void StepGroup(int least, double carry, SimTime time)
     {
-        island.Clear();
+        FillStep(island, least, carry);
+        if (stepsAhead is null || !stepsAhead.TryUse(ref island, time))
+        {
+            island.Take(time, LastingSpeed);
+        }
+    }
+
+    private void FillStep(IslandStep step, int least, double carry)
+    {
+        step.Clear();
         for (int i = 0; i < partyCount; i++)
         {
             numbers[i] = -1;
             if (group[i] == least)
             {
-                numbers[i] = island.AddBody(bodies[parties[i]].Spec, PlaceOf(i, carry), partyVelocities[i].WithoutNegativeZero(), partySpins[i]);
+                numbers[i] = step.AddBody(
+                    bodies[parties[i]].Spec, PlaceOf(i, carry), partyVelocities[i].WithoutNegativeZero(), partySpins[i].WithoutNegativeZero());
                 fellows[numbers[i]] = i;
             }
         }
@@ -210,12 +225,10 @@ public sealed partial class Simulation
             ref readonly ContactPoint c = ref touching[i];
             if (numbers[c.First] >= 0 && (c.Second == ContactPoint.Static || numbers[c.Second] >= 0))
             {
-                stepContacts[island.ContactCount] = i;
-                island.AddContact(numbers[c.First], c.Second == ContactPoint.Static ? ContactPoint.Static : numbers[c.Second], c.Surface, Friction(c), RollingLever(c));
+                stepContacts[step.ContactCount] = i;
+                step.AddContact(numbers[c.First], c.Second == ContactPoint.Static ? ContactPoint.Static : numbers[c.Second], c.Surface, Friction(c), RollingLever(c));
             }
         }
-
-        island.Take(time, LastingSpeed);
     }
 
     private void OpenIsland(in EventKey key, int least, double carry, bool mayRest, int stepped)
@@ -240,6 +253,11 @@ public sealed partial class Simulation
             {
                 island.Take(key.Time, LastingSpeed);
             }
+        }
+
+        if (!rests)
+        {
+            NoteOpened(parties[fellows[0]]);
         }
 
         for (int n = 0; n < island.BodyCount; n++)

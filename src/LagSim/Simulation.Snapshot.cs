@@ -29,6 +29,8 @@ public sealed partial class Simulation
         cancellation = options.Cancellation;
         healing = options.Healing;
         mostPairs = options.MostPairs;
+        threads = options.Threads;
+        otherThread = options.OtherThread;
         clock = EventKey.Before(snapshot.Time);
         SimulatedTo = snapshot.Time - SimDuration.OneTick;
         HistoryEdge = snapshot.Time;

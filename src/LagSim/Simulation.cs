@@ -47,6 +47,8 @@ public sealed partial class Simulation
         cancellation = options.Cancellation;
         healing = options.Healing;
         mostPairs = options.MostPairs;
+        threads = options.Threads;
+        otherThread = options.OtherThread;
         clock = EventKey.Before(Start);
         SimulatedTo = Start - SimDuration.OneTick;
         HistoryEdge = Start;

@@ -1,3 +1,4 @@
+using System;
 using System.Threading;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -14,6 +15,8 @@ public sealed class SimulationOptions
     /// <summary>The most segments where nothing else is said: 8,388,608, some 2 GB.</summary>
     public const int DefaultMaxSegments = 1 << 23;
 
+    private const int MostThreads = 64;
+
     /// <summary>Above this an index of the paths costs less than to look at everybody.</summary>
     internal const int DefaultMostPairs = 64;
 
@@ -27,28 +30,39 @@ public sealed class SimulationOptions
     /// How many pieces of path all timelines together may hold, at least one; default <see cref="DefaultMaxSegments"/>. Each takes some 250
     /// bytes. A simulation that would need more ends with a <see cref="SimulationException"/>.
     /// </param>
-    /// <param name="cancellation">Ends whatever the simulation is at, from any thread, between two instants, with an <see cref="System.OperationCanceledException"/>.</param>
+    /// <param name="cancellation">Ends whatever the simulation is at, from any thread, between two instants, with an <see cref="OperationCanceledException"/>.</param>
     /// <param name="healing">How an event is brought in that lies before the simulated time. It has no influence on the result, to the bit.</param>
-    /// <exception cref="System.ArgumentOutOfRangeException">The history or the most segments are not above zero, or the start more than 72 days from the origin.</exception>
+    /// <param name="threads">
+    /// How many threads at most may be at work for this simulation at once, the one that calls it included: from 1 to 64; default as many as there are processors, at most 8. The others are the
+    /// pool's, and take steps of islands ahead where there are several; what comes of it is the same, to the bit, on any number.
+    /// </param>
+    /// <exception cref="ArgumentOutOfRangeException">The threads are not from 1 to 64, the history or the most segments are not above zero, or the start more than 72 days from the origin.</exception>
     public SimulationOptions(
-        SimTime start = default, SimDuration? history = null, int maxSegments = DefaultMaxSegments, CancellationToken cancellation = default, HealingMode healing = HealingMode.CausalCone)
+        SimTime start = default, SimDuration? history = null, int maxSegments = DefaultMaxSegments, CancellationToken cancellation = default, HealingMode healing = HealingMode.CausalCone,
+        int? threads = null)
     {
         if (history is SimDuration given && given <= SimDuration.Zero)
         {
-            throw new System.ArgumentOutOfRangeException(nameof(history), given, "The history must be longer than zero.");
+            throw new ArgumentOutOfRangeException(nameof(history), given, "The history must be longer than zero.");
         }
 
         if (start.Ticks is < -(3L << 61) or > 3L << 61)
         {
-            throw new System.ArgumentOutOfRangeException(nameof(start), start, "The start must lie within 72 days (3 x 2^21 s) of the origin.");
+            throw new ArgumentOutOfRangeException(nameof(start), start, "The start must lie within 72 days (3 x 2^21 s) of the origin.");
         }
 
         if (maxSegments <= 0)
         {
-            throw new System.ArgumentOutOfRangeException(nameof(maxSegments), maxSegments, "At least one segment must be allowed.");
+            throw new ArgumentOutOfRangeException(nameof(maxSegments), maxSegments, "At least one segment must be allowed.");
+        }
+
+        if (threads is < 1 or > MostThreads)
+        {
+            throw new ArgumentOutOfRangeException(nameof(threads), threads, $"One thread is at work at least, and {MostThreads} at most.");
         }
 
         Start = start;
+        Threads = threads ?? Math.Min(Environment.ProcessorCount, 8);
         MaxSegments = maxSegments;
         Cancellation = cancellation;
         Healing = healing;
@@ -67,6 +81,12 @@ public sealed class SimulationOptions
     /// <summary>How an event is brought in that lies before the simulated time.</summary>
     public HealingMode Healing { get; }
 
+    /// <summary>How many threads at most may be at work for the simulation at once.</summary>
+    public int Threads { get; }
+
+    /// <summary>Has something done on another thread, some time; null for the pool. A test sets it.</summary>
+    internal Action<WaitCallback, object>? OtherThread { get; set; }
+
     /// <summary>Up to how many bodies all pairs are looked at; a test sets it to have an index in small worlds.</summary>
     internal int MostPairs { get; set; } = DefaultMostPairs;
 
@@ -74,11 +94,11 @@ public sealed class SimulationOptions
     public CancellationToken Cancellation { get; }
 
     /// <summary>The same, for the twin of a sync test: no cancellation, so that it is never behind.</summary>
-    internal SimulationOptions FullyRolledBack() => new(Start, History, MaxSegments, default, HealingMode.FullRollback) { MostPairs = MostPairs };
+    internal SimulationOptions FullyRolledBack() => new(Start, History, MaxSegments, default, HealingMode.FullRollback, 1) { MostPairs = MostPairs };
 
     /// <summary>Is told of impacts, those of the very first instant included; null for nobody.</summary>
     internal IImpactObserver? Observer { get; private set; }
 
     /// <summary>The same with an observer.</summary>
-    internal SimulationOptions WithObserver(IImpactObserver? observer) => new(Start, History, MaxSegments, Cancellation, Healing) { Observer = observer, MostPairs = MostPairs };
+    internal SimulationOptions WithObserver(IImpactObserver? observer) => new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = observer, MostPairs = MostPairs, OtherThread = OtherThread };
 }

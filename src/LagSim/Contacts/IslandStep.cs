@@ -91,7 +91,7 @@ internal sealed class IslandStep
             Array.Resize(ref spins, size);
         }
 
-        members[BodyCount] = new Member { Spec = spec, Start = position, StartVelocity = velocity, StartSpin = spin };
+        members[BodyCount] = new Member { Spec = spec, Start = position, GivenVelocity = velocity, GivenSpin = spin };
         masses[BodyCount] = spec.Mass;
         radii[BodyCount] = spec.Radius;
         return BodyCount++;
@@ -116,6 +116,13 @@ internal sealed class IslandStep
     /// <summary>Takes the step from <paramref name="time"/> on. Before it what closes by no more than so many m/s is stopped without a rebound; what is faster has an impact of its own to come.</summary>
     internal void Take(SimTime time, double closing)
     {
+        for (int b = 0; b < BodyCount; b++)
+        {
+            ref Member m = ref members[b];
+            m.StartVelocity = m.GivenVelocity;
+            m.StartSpin = m.GivenSpin;
+        }
+
         Settle(closing);
         TakeWith(time, fromRest: false);
     }
@@ -136,6 +143,27 @@ internal sealed class IslandStep
         double h = Length.ToSeconds();
         Move(h);
         Kick(time, h);
+    }
+
+    /// <summary>Whether another step is of the same bodies from the same states, to the bit, with the same contacts.</summary>
+    internal bool IsFrom(IslandStep other)
+    {
+        bool isSame = BodyCount == other.BodyCount && ContactCount == other.ContactCount;
+        for (int b = 0; b < BodyCount && isSame; b++)
+        {
+            ref readonly Member m = ref members[b];
+            ref readonly Member o = ref other.members[b];
+            isSame = m.Start.Equals(o.Start) && m.GivenVelocity.Equals(o.GivenVelocity) && m.GivenSpin.Equals(o.GivenSpin) && m.Spec.Equals(o.Spec);
+        }
+
+        for (int i = 0; i < ContactCount && isSame; i++)
+        {
+            ref readonly Touch t = ref touches[i];
+            ref readonly Touch o = ref other.touches[i];
+            isSame = t.First == o.First && t.Second == o.Second && t.Surface == o.Surface && t.Friction == o.Friction && t.Lever == o.Lever;
+        }
+
+        return isSame;
     }
 
     /// <summary>Whether a contact pushes in the step, by more than rounding.</summary>
@@ -414,7 +442,9 @@ internal sealed class IslandStep
     {
         internal BodySpec Spec;
         internal Vector3D Start;
-        internal Vector3D StartVelocity;
+        internal Vector3D GivenVelocity;
+        internal Vector3D GivenSpin;
+        internal Vector3D StartVelocity; // once nothing closes
         internal Vector3D StartSpin;
         internal Vector3D Velocity; // with which the step begins: that of the start, or none
         internal Vector3D Acceleration; // at the start, if nothing touched it
