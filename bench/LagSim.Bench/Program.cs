@@ -22,6 +22,7 @@ internal static class Program
         ["hardspheres"] = HardSphereTable.Print,
         ["bounce"] = BounceTable.Print,
         ["gas"] = WalledGasTable.Print,
+        ["heaps"] = HeapTable.Print,
         ["large"] = LargeTable.Print,
     };
 
