@@ -29,16 +29,19 @@ internal sealed class FreeFlights
     private readonly double near;
     private readonly bool hasBox;
     private readonly bool falls;
-    private Flight[] flights = new Flight[16];
-    private double[] radii = new double[16];
-    private Approach[] approaches = new Approach[64];
+    private Flight[] flights;
+    private double[] radii;
+    private Approach[] approaches = Array.Empty<Approach>();
 
     /// <summary>Nobody yet.</summary>
     /// <param name="gravity">The acceleration of free flight, in m/s².</param>
     /// <param name="near">How far apart two may be, in metres, that are not to be called apart.</param>
     /// <param name="box">The box whose sides meet; empty if there is none.</param>
-    internal FreeFlights(in Vector3D gravity, double near, in PeriodicBox box)
+    /// <param name="expected">For how many bodies there is room at first.</param>
+    internal FreeFlights(in Vector3D gravity, double near, in PeriodicBox box, int expected = 0)
     {
+        flights = new Flight[expected];
+        radii = new double[expected];
         this.gravity = gravity;
         this.near = near;
         this.box = box;

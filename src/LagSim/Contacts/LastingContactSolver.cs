@@ -25,9 +25,9 @@ internal sealed class LastingContactSolver
     private const double Settled = 1e-10;
 
     private readonly ImpactSolver normals = new();
-    private Vector3D[] rubbing = new Vector3D[8]; // the friction's impulse on the first of each contact
-    private Vector3D[] freeVelocities = new Vector3D[4];
-    private Vector3D[] freeSpins = new Vector3D[4];
+    private Vector3D[] rubbing = Array.Empty<Vector3D>(); // the friction's impulse on the first of each contact
+    private Vector3D[] freeVelocities = Array.Empty<Vector3D>();
+    private Vector3D[] freeSpins = Array.Empty<Vector3D>();
 
     /// <summary>Changes velocities and spins so that each contact opens at least at its target, or pushes.</summary>
     /// <param name="contacts">With normals and targets; the impulses along the normals are set.</param>
