@@ -19,7 +19,7 @@ internal sealed class EventLog
     private int[] last;
 
     /// <summary>No events yet; with room for as many bodies as are expected at first.</summary>
-    internal EventLog(int expected)
+    internal EventLog(int expected = 0)
     {
         first = new int[expected];
         last = new int[expected];

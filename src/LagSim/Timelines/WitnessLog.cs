@@ -26,7 +26,7 @@ internal sealed class WitnessLog
     private int[] oldest;
 
     /// <summary>No entries yet, and at most <paramref name="most"/> of all bodies; with room for as many of those as are expected at first.</summary>
-    internal WitnessLog(int most, int expected)
+    internal WitnessLog(int most, int expected = 0)
     {
         this.most = most;
         newest = new int[expected];
