@@ -23,6 +23,7 @@ internal static class Program
         ["bounce"] = BounceTable.Print,
         ["gas"] = WalledGasTable.Print,
         ["large"] = LargeTable.Print,
+        ["build"] = BuildTable.Print,
     };
 
     /// <summary>Benchmarks, or with the name of a table that table; <c>brief</c> after it for a run of seconds whose figures say little; <c>tables</c> for all but traffic.</summary>

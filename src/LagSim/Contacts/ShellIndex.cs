@@ -62,7 +62,7 @@ internal sealed class ShellIndex : IPairIndex
     /// <param name="tickLength">How far a body moves in a tick at most, in metres.</param>
     /// <param name="box">The box whose sides meet; empty if there is none.</param>
     /// <param name="expected">For how many bodies there is room at first.</param>
-    internal ShellIndex(TimelineStore timelines, double cell, double speed, double near, double tickLength, in PeriodicBox box, int expected)
+    internal ShellIndex(TimelineStore timelines, double cell, double speed, double near, double tickLength, in PeriodicBox box, int expected = 0)
     {
         this.timelines = timelines;
         this.cell = cell;
