@@ -80,7 +80,7 @@ internal sealed class FreeFlights
         flight.Position = path.Position;
         flight.Velocity = path.Velocity;
         flight.Margin = MarginOf(slot);
-        bool isStraight = path.Law is MotionLaw.Sliding or MotionLaw.Resting && path.Epoch == opened && path.Acceleration == Vector3D.Zero;
+        bool isStraight = !isFree && path.Law is (MotionLaw.Sliding or MotionLaw.Resting) && path.Epoch == opened && path.Acceleration == Vector3D.Zero;
         if (isStraight || slot < straightFrom.Length)
         {
             SetStraight(slot, isStraight ? opened : SimTime.MaxValue);
@@ -117,9 +117,11 @@ internal sealed class FreeFlights
         ref readonly Flight a = ref flights[slot];
         ref readonly Flight b = ref flights[other];
         double reach = a.Margin + b.Margin + near;
-        StateAt(a, fromA == from ? 0 : from.SecondsSince(fromA), isFree && falls, ref reach, out double x, out double y, out double z, out double u, out double v, out double w);
+        double since = fromA == from ? 0 : from.SecondsSince(fromA);
+        StateAt(a, since, isFree && falls, ref reach, out double x, out double y, out double z, out double u, out double v, out double w);
         reach += Slack * (Math.Abs(x) + Math.Abs(y) + Math.Abs(z));
-        StateAt(b, fromB == from ? 0 : from.SecondsSince(fromB), isOtherFree && falls, ref reach, out double p, out double q, out double r, out double k, out double m, out double n);
+        since = fromB == from ? 0 : from.SecondsSince(fromB);
+        StateAt(b, since, isOtherFree && falls, ref reach, out double p, out double q, out double r, out double k, out double m, out double n);
         x -= p;
         y -= q;
         z -= r;
@@ -163,6 +165,7 @@ internal sealed class FreeFlights
     /// <summary>Since when the body rests or slides straight on; never if it does not.</summary>
     private SimTime StraightFrom(int slot) => slot < straightFrom.Length ? straightFrom[slot] : SimTime.MaxValue;
 
+    /// <summary>Where a body is so many seconds after its path was opened, and how fast; what rounding may do to it there widens the reach.</summary>
     private void StateAt(
         in Flight flight, double since, bool isFalling, ref double reach, out double x, out double y, out double z, out double u, out double v, out double w)
     {

@@ -32,7 +32,7 @@ internal sealed class EventQueue
     private readonly NearEvents near;
     private long[] samples = Array.Empty<long>(); // only once slices are made
     private Node[] nodes; // by slot
-    private int[] slices = Array.Empty<int>(); // only once there are more than a few events: a ring: the first slot of each slice from the one at hand on; and at the end that of what lies beyond
+    private int[] slices = Array.Empty<int>(); // a ring, made once events are many: the first slot of each slice from the one at hand on
     private int inSlices;
     private int beyond = None;
     private int inBeyond;

@@ -3,23 +3,6 @@ using System.Collections.Generic;
 
 namespace LagSim.Scenes;
 
-/// <summary>Two bodies that overlap, by their places in the scene, the one that was added first as the first; and how deep in metres.</summary>
-internal readonly struct Overlap
-{
-    internal Overlap(int first, int second, double depth)
-    {
-        First = first;
-        Second = second;
-        Depth = depth;
-    }
-
-    internal int First { get; }
-
-    internal int Second { get; }
-
-    internal double Depth { get; }
-}
-
 /// <summary>Which two of many balls overlap: space is halved until few are left together, and who lies on both sides of a cut is looked at on both.</summary>
 /// <remarks>
 /// Cost: n log n for balls that fill space; where cuts part nothing, as among balls of all sizes in one place, what sort and sweep costs. The two sides of a cut have nothing to do with

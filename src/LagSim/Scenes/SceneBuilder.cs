@@ -57,7 +57,8 @@ public sealed class SceneBuilder
     }
 
     /// <summary>On how many threads <see cref="Build"/> checks a large scene at most, 1 to <see cref="MaxThreads"/>; default as many as there are processors.</summary>
-    /// <remarks>It has no influence on the scene, to the bit, nor on which error is told. Less than 4,096 bodies are checked on the caller's thread alone, and so is everything where there is one processor.</remarks>
+    /// <remarks>It has no influence on the scene, to the bit, nor on which error is told. Less than 16,384 bodies are checked on the caller's thread alone, and so is everything
+    /// where there is one processor.</remarks>
     public SceneBuilder WithThreads(int most)
     {
         threads = most;

@@ -11,8 +11,8 @@ namespace LagSim.Scenes;
 /// </remarks>
 internal static class TwoAtOnce
 {
-    /// <summary>Fewer bodies than so many are not worth a thread, which costs some tenth of a millisecond.</summary>
-    internal const int LeastBodies = 4096;
+    /// <summary>Fewer bodies than so many are not worth a thread: they are checked in a few milliseconds, and a thread takes some tenth of one to begin, or more where others are at work.</summary>
+    internal const int LeastBodies = 16_384;
 
     /// <summary>Does both at once, or one after the other if only one thread may be used.</summary>
     internal static void Do(int threads, Action first, Action second)
