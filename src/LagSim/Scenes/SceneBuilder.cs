@@ -168,7 +168,7 @@ public sealed class SceneBuilder
             }
         });
         Scene? scene = null;
-        TwoAtOnce.Do(used, NameAndHash, () => StartOverlap.Check(bodyArray, planes, spheres, box, resolution, used));
+        TwoAtOnce.Do(used, NameAndHash, () => StartOverlap.Check(bodyArray, planes, spheres, box, resolution, Math.Max(1, used - 1)));
         return scene!;
 
         void NameAndHash()
