@@ -24,6 +24,7 @@ internal static class Program
         ["gas"] = WalledGasTable.Print,
         ["heaps"] = HeapTable.Print,
         ["large"] = LargeTable.Print,
+        ["build"] = BuildTable.Print,
     };
 
     /// <summary>Benchmarks, or with the name of a table that table; <c>brief</c> after it for a run of seconds whose figures say little; <c>tables</c> for all but traffic.</summary>

@@ -17,7 +17,7 @@ public sealed partial class Simulation
     private readonly int threads;
     private readonly Action<WaitCallback, object>? otherThread;
     private StepsAhead? stepsAhead; // made when there are two islands
-    private int[] opened = new int[4]; // a slot of each island that the event at hand has opened
+    private int[] opened = Array.Empty<int>(); // a slot of each island that the event at hand has opened
     private int openedCount;
     private int lastOpened = -1; // and of one that an event before has
 
@@ -28,7 +28,7 @@ public sealed partial class Simulation
     {
         if (openedCount == opened.Length)
         {
-            Array.Resize(ref opened, openedCount * 2);
+            Array.Resize(ref opened, Math.Max(4, openedCount * 2));
         }
 
         opened[openedCount++] = slot;

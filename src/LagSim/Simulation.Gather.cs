@@ -146,7 +146,7 @@ public sealed partial class Simulation
     {
         if (contactCount == contacts.Length)
         {
-            Array.Resize(ref contacts, contactCount * 2);
+            Array.Resize(ref contacts, Math.Max(8, contactCount * 2));
         }
 
         contacts[contactCount++] = contact;

@@ -34,7 +34,7 @@ public sealed partial class Simulation
     private double[] partyRadii = new double[4];
     private double[] coefficients = new double[8];
     private Vector3D[] partyAccelerations = new Vector3D[4];
-    private ContactPoint[] contacts = new ContactPoint[8];
+    private ContactPoint[] contacts = new ContactPoint[1]; // as many as nearly all impacts have
     private int[] touched = new int[8];
     private readonly List<int> lookedAt = new(); // of the impact at hand, if it looks at what is near
     private int partyCount;

@@ -18,14 +18,14 @@ public sealed partial class Simulation
     private const double Unsettled = 1e-6;
 
     private IslandStep island;
-    private int[] group = new int[4]; // by party: the least party that it is in contact with, through others as well
-    private bool[] needsSteps = new bool[4]; // by least party of a group
-    private bool[] isMember = new bool[4]; // of those that are grouped
-    private bool[] isOpened = new bool[4];
-    private int[] numbers = new int[4]; // by party: its number in the step at hand, or -1
-    private int[] fellows = new int[4]; // by number in the step at hand: the party
-    private ContactPoint[] touching = new ContactPoint[8]; // of the parties at hand what touches
-    private int[] stepContacts = new int[8]; // by contact in the step at hand: its number among those
+    private int[] group = Array.Empty<int>(); // by party: the least party that it is in contact with, through others as well
+    private bool[] needsSteps = Array.Empty<bool>(); // by least party of a group
+    private bool[] isMember = Array.Empty<bool>(); // of those that are grouped
+    private bool[] isOpened = Array.Empty<bool>();
+    private int[] numbers = Array.Empty<int>(); // by party: its number in the step at hand, or -1
+    private int[] fellows = Array.Empty<int>(); // by number in the step at hand: the party
+    private ContactPoint[] touching = Array.Empty<ContactPoint>(); // of the parties at hand what touches
+    private int[] stepContacts = Array.Empty<int>(); // by contact in the step at hand: its number among those
     private int touchingCount;
 
     /// <summary>Takes no contact for one that lasts: only a test's negative control sets it.</summary>
@@ -118,8 +118,8 @@ public sealed partial class Simulation
     {
         if (touchingCount == touching.Length)
         {
-            Array.Resize(ref touching, touchingCount * 2);
-            Array.Resize(ref stepContacts, touchingCount * 2);
+            Array.Resize(ref touching, Math.Max(8, touchingCount * 2));
+            Array.Resize(ref stepContacts, touching.Length);
         }
 
         touching[touchingCount] = contact;

@@ -1,8 +1,5 @@
 using System;
 using System.Collections.Generic;
-using LagSim.Contacts;
-using LagSim.Events;
-using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -20,26 +17,8 @@ public sealed partial class Simulation
     /// <exception cref="SceneException">The snapshot holds a value that cannot be of a world of this scene; the sentence names it.</exception>
     /// <exception cref="SimulationException">It cannot be simulated.</exception>
     public Simulation(Scene scene, WorldSnapshot snapshot, SimulationOptions? options = null)
+        : this(Checked(scene, snapshot), options ??= new SimulationOptions(), snapshot.Start, snapshot.Time, snapshot.BodyArray.Length)
     {
-        Scene = scene ?? throw new ArgumentNullException(nameof(scene));
-        SnapshotCheck.Throw(snapshot ?? throw new ArgumentNullException(nameof(snapshot)), scene);
-        options ??= new SimulationOptions();
-        Start = snapshot.Start;
-        history = options.History;
-        cancellation = options.Cancellation;
-        healing = options.Healing;
-        mostPairs = options.MostPairs;
-        threads = options.Threads;
-        otherThread = options.OtherThread;
-        clock = EventKey.Before(snapshot.Time);
-        SimulatedTo = snapshot.Time - SimDuration.OneTick;
-        HistoryEdge = snapshot.Time;
-        flights = new FreeFlights(scene.Gravity, NearGap, scene.Box);
-        timelines = new TimelineStore(Start, options.MaxSegments, flights);
-        witnesses = new WitnessLog(options.MaxSegments);
-        Observer = options.Observer;
-        forces = new Forces(scene, Start);
-        island = new IslandStep(scene, forces);
         foreach (ref readonly BodySnapshot body in snapshot.BodyArray.AsSpan())
         {
             int slot = AddBody(body.Id, body.Spec);
@@ -52,6 +31,13 @@ public sealed partial class Simulation
         PredictAll();
         AdvanceTo(snapshot.Time);
         twin = healing == HealingMode.SyncTest ? new Simulation(scene, snapshot, options.FullyRolledBack()) : null;
+    }
+
+    private static Scene Checked(Scene scene, WorldSnapshot snapshot)
+    {
+        _ = scene ?? throw new ArgumentNullException(nameof(scene));
+        SnapshotCheck.Throw(snapshot ?? throw new ArgumentNullException(nameof(snapshot)), scene);
+        return scene;
     }
 
     /// <summary>The world after everything before <paramref name="time"/>. Changes nothing. Cost: the segments of all bodies since then.</summary>

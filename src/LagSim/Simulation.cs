@@ -21,16 +21,19 @@ namespace LagSim;
 /// </remarks>
 public sealed partial class Simulation
 {
+    /// <summary>A world has room for so many bodies at least: whether a quarter is free tells whether it grows.</summary>
+    private const int FewestSlots = 4;
+
     private readonly TimelineStore timelines;
-    private readonly EventLog log = new();
-    private readonly EventQueue queue = new();
+    private readonly EventLog log;
+    private readonly EventQueue queue;
     private readonly Forces forces;
     private readonly FreeFlights flights;
     private readonly SimDuration history;
     private readonly CancellationToken cancellation;
     private readonly HealingMode healing;
-    private readonly List<int> order = new(); // slots by ascending identity
-    private Body[] bodies = new Body[16];
+    private readonly List<int> order; // slots by ascending identity
+    private Body[] bodies;
     private readonly Stack<int> freeSlots = new();
     private int slotCount;
     private Exception? fault;
@@ -39,27 +42,8 @@ public sealed partial class Simulation
     /// <exception cref="ArgumentNullException">There is no scene.</exception>
     /// <exception cref="OperationCanceledException">The options' token asked for an end.</exception>
     public Simulation(Scene scene, SimulationOptions? options = null)
+        : this(scene ?? throw new ArgumentNullException(nameof(scene)), options ??= new SimulationOptions(), options.Start, options.Start, scene.BodyArray.Length)
     {
-        Scene = scene ?? throw new ArgumentNullException(nameof(scene));
-        options ??= new SimulationOptions();
-        Start = options.Start;
-        history = options.History;
-        cancellation = options.Cancellation;
-        healing = options.Healing;
-        mostPairs = options.MostPairs;
-        threads = options.Threads;
-        otherThread = options.OtherThread;
-        clock = EventKey.Before(Start);
-        SimulatedTo = Start - SimDuration.OneTick;
-        HistoryEdge = Start;
-        flights = new FreeFlights(scene.Gravity, NearGap, scene.Box);
-        bodies = new Body[Math.Max(bodies.Length, scene.BodyArray.Length)];
-        order.Capacity = scene.BodyArray.Length;
-        timelines = new TimelineStore(Start, options.MaxSegments, flights, scene.BodyArray.Length);
-        witnesses = new WitnessLog(options.MaxSegments);
-        Observer = options.Observer;
-        forces = new Forces(scene, Start);
-        island = new IslandStep(scene, forces);
         for (int i = 0; i < scene.BodyArray.Length; i++)
         {
             ref readonly SceneBody body = ref scene.BodyArray[i];
@@ -71,6 +55,32 @@ public sealed partial class Simulation
         PredictAll();
         AdvanceTo(Start);
         twin = healing == HealingMode.SyncTest ? new Simulation(scene, options.FullyRolledBack()) : null;
+    }
+
+    /// <summary>A world without bodies, with room for as many as are expected; what none of them may need is made when one does.</summary>
+    private Simulation(Scene scene, SimulationOptions options, SimTime start, SimTime from, int expected)
+    {
+        Scene = scene;
+        Start = start;
+        history = options.History;
+        cancellation = options.Cancellation;
+        healing = options.Healing;
+        mostPairs = options.MostPairs;
+        threads = options.Threads;
+        otherThread = options.OtherThread;
+        clock = EventKey.Before(from);
+        SimulatedTo = from - SimDuration.OneTick;
+        HistoryEdge = from;
+        bodies = new Body[Math.Max(FewestSlots, expected)];
+        order = new List<int>(expected);
+        queue = new EventQueue(expected);
+        log = new EventLog(expected);
+        flights = new FreeFlights(scene.Gravity, NearGap, scene.Box, expected);
+        timelines = new TimelineStore(start, options.MaxSegments, flights, expected);
+        witnesses = new WitnessLog(options.MaxSegments, expected);
+        Observer = options.Observer;
+        forces = new Forces(scene, start);
+        island = new IslandStep(scene, forces);
     }
 
     /// <summary>What was there at the start.</summary>

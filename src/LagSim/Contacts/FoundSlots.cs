@@ -6,8 +6,11 @@ namespace LagSim.Contacts;
 internal sealed class FoundSlots
 {
     private int[] found = new int[64];
-    private uint[] foundBy = new uint[16]; // slot -> the search that found it last
+    private uint[] foundBy; // slot -> the search that found it last
     private uint search;
+
+    /// <summary>Nothing found; with room for as many slots as are expected at first.</summary>
+    internal FoundSlots(int expected) => foundBy = new uint[expected];
 
     internal int Count { get; private set; }
 

@@ -7,7 +7,7 @@ namespace LagSim.Contacts;
 
 /// <summary>
 /// Of each body whose newest piece of path is free flight under the scene's gravity what is needed of it, side by side: two of them move along a straight
-/// line as seen from each other, so that most pairs are seen at once to stay apart.
+/// line as seen from each other, so that most pairs are seen at once to stay apart. So do two that rest or slide straight on.
 /// </summary>
 /// <remarks>
 /// It answers no in doubt, and then the pair is looked at as ever; so it changes no bit of what happens. It is there for speed alone: a look at a pair's segments
@@ -29,16 +29,20 @@ internal sealed class FreeFlights
     private readonly double near;
     private readonly bool hasBox;
     private readonly bool falls;
-    private Flight[] flights = new Flight[16];
-    private double[] radii = new double[16];
-    private Approach[] approaches = new Approach[64];
+    private Flight[] flights;
+    private double[] radii;
+    private Approach[] approaches = Array.Empty<Approach>();
+    private SimTime[] straightFrom = Array.Empty<SimTime>(); // only once something rests or slides: since when on a line, or never
 
     /// <summary>Nobody yet.</summary>
     /// <param name="gravity">The acceleration of free flight, in m/s².</param>
     /// <param name="near">How far apart two may be, in metres, that are not to be called apart.</param>
     /// <param name="box">The box whose sides meet; empty if there is none.</param>
-    internal FreeFlights(in Vector3D gravity, double near, in PeriodicBox box)
+    /// <param name="expected">For how many bodies there is room at first.</param>
+    internal FreeFlights(in Vector3D gravity, double near, in PeriodicBox box, int expected = 0)
     {
+        flights = new Flight[expected];
+        radii = new double[expected];
         this.gravity = gravity;
         this.near = near;
         this.box = box;
@@ -76,41 +80,125 @@ internal sealed class FreeFlights
         flight.Position = path.Position;
         flight.Velocity = path.Velocity;
         flight.Margin = MarginOf(slot);
+        bool isStraight = !isFree && path.Law is (MotionLaw.Sliding or MotionLaw.Resting) && path.Epoch == opened && path.Acceleration == Vector3D.Zero;
+        if (isStraight || slot < straightFrom.Length)
+        {
+            SetStraight(slot, isStraight ? opened : SimTime.MaxValue);
+        }
     }
 
     /// <summary>The body has no path.</summary>
-    internal void Clear(int slot) => flights[slot].From = SimTime.MaxValue;
+    internal void Clear(int slot)
+    {
+        flights[slot].From = SimTime.MaxValue;
+        if (slot < straightFrom.Length)
+        {
+            straightFrom[slot] = SimTime.MaxValue;
+        }
+    }
 
     /// <summary>
     /// Whether two bodies surely come nowhere near each other from a time on, on the pieces of path that are their newest, those opened by then; false if it cannot be told
-    /// so easily. A tick more on both sides is looked at.
+    /// so easily. A tick more on both sides is looked at. It is told of free flights and of those who rest or slide straight on; of one of each where they begin at rest to each other,
+    /// or come no nearer within the span however the one falls.
     /// </summary>
     internal bool AreApart(int slot, int other, SimTime from, SimTime until)
     {
-        ref readonly Flight a = ref flights[slot];
-        ref readonly Flight b = ref flights[other];
-        if (a.From > from || b.From > from)
+        bool isFree = IsFree(slot);
+        bool isOtherFree = IsFree(other);
+        SimTime fromA = isFree ? flights[slot].From : StraightFrom(slot);
+        SimTime fromB = isOtherFree ? flights[other].From : StraightFrom(other);
+        if (fromA > from || fromB > from)
         {
             return false;
         }
 
-        double sinceA = from.SecondsSince(a.From);
-        double sinceB = from.SecondsSince(b.From);
-        Vector3D fallA = gravity * (0.5 * sinceA);
-        Vector3D fallB = gravity * (0.5 * sinceB);
-        Vector3D wayA = (a.Velocity + fallA) * sinceA;
-        Vector3D wayB = (b.Velocity + fallB) * sinceB;
-        Vector3D apart = box.Nearest(a.Position + wayA - (b.Position + wayB));
-        Vector3D opening = a.Velocity - b.Velocity + (gravity * (sinceA - sinceB));
+        // Scalars: among few this is most of what an impact costs.
+        ref readonly Flight a = ref flights[slot];
+        ref readonly Flight b = ref flights[other];
+        double reach = a.Margin + b.Margin + near;
+        double since = fromA == from ? 0 : from.SecondsSince(fromA);
+        StateAt(a, since, isFree && falls, ref reach, out double x, out double y, out double z, out double u, out double v, out double w);
+        reach += Slack * (Math.Abs(x) + Math.Abs(y) + Math.Abs(z));
+        since = fromB == from ? 0 : from.SecondsSince(fromB);
+        StateAt(b, since, isOtherFree && falls, ref reach, out double p, out double q, out double r, out double k, out double m, out double n);
+        x -= p;
+        y -= q;
+        z -= r;
+        u -= k;
+        v -= m;
+        w -= n;
+        if (hasBox)
+        {
+            x = PeriodicBox.Nearest(x, box.Size.X);
+            y = PeriodicBox.Nearest(y, box.Size.Y);
+            z = PeriodicBox.Nearest(z, box.Size.Z);
+        }
 
-        double along = Vector3D.Dot(apart, opening);
-        double square = Vector3D.Dot(opening, opening);
-        double span = until.SecondsSince(from) + TickConversion.SecondsPerTick;
-        double nearest = along >= 0 ? -TickConversion.SecondsPerTick : square * span < -along ? span : -along / square;
-        Vector3D least = apart + (opening * nearest);
-        double reach = radii[slot] + radii[other] + near + (Slack * (Size(a.Position) + Size(b.Position) + Size(wayA) + Size(wayB)
-            + (Size(gravity) * ((sinceA * sinceA) + (sinceB * sinceB)))));
-        return Vector3D.Dot(least, least) > reach * reach * (1 + 1e-6); // not so of what is not a number
+        double span = until == from ? TickConversion.SecondsPerTick : until.SecondsSince(from) + TickConversion.SecondsPerTick;
+        if (isFree != isOtherFree && falls)
+        {
+            if (u == 0 && v == 0 && w == 0 && fromA == from && fromB == from)
+            {
+                // From rest to each other it is a line in the square of time.
+                double pull = isFree ? 0.5 : -0.5;
+                (u, v, w) = (gravity.X * pull, gravity.Y * pull, gravity.Z * pull);
+                span *= span;
+            }
+            else
+            {
+                reach += Size(gravity) * span * span;
+            }
+        }
+
+        double along = (x * u) + (y * v) + (z * w);
+        double nearest = -TickConversion.SecondsPerTick;
+        if (along < 0)
+        {
+            double square = Square(u, v, w);
+            nearest = square * span < -along ? span : -along / square;
+        }
+
+        return Square(x + (u * nearest), y + (v * nearest), z + (w * nearest)) > reach * reach * (1 + 1e-6); // not so of what is not a number
+    }
+
+    /// <summary>Since when the body rests or slides straight on; never if it does not.</summary>
+    private SimTime StraightFrom(int slot) => slot < straightFrom.Length ? straightFrom[slot] : SimTime.MaxValue;
+
+    /// <summary>Where a body is so many seconds after its path was opened, and how fast; what rounding may do to it there widens the reach.</summary>
+    private void StateAt(
+        in Flight flight, double since, bool isFalling, ref double reach, out double x, out double y, out double z, out double u, out double v, out double w)
+    {
+        (u, v, w) = (flight.Velocity.X, flight.Velocity.Y, flight.Velocity.Z);
+        (x, y, z) = (flight.Position.X, flight.Position.Y, flight.Position.Z);
+        if (since == 0)
+        {
+            return;
+        }
+
+        double half = isFalling ? 0.5 * since : 0;
+        x += (u + (gravity.X * half)) * since;
+        y += (v + (gravity.Y * half)) * since;
+        z += (w + (gravity.Z * half)) * since;
+        if (isFalling)
+        {
+            u += gravity.X * since;
+            v += gravity.Y * since;
+            w += gravity.Z * since;
+            reach += FallSlack(since);
+        }
+    }
+
+    private void SetStraight(int slot, SimTime from)
+    {
+        if (slot >= straightFrom.Length)
+        {
+            int known = straightFrom.Length;
+            Array.Resize(ref straightFrom, flights.Length);
+            Array.Fill(straightFrom, SimTime.MaxValue, known, straightFrom.Length - known);
+        }
+
+        straightFrom[slot] = from;
     }
 
     /// <summary>Whether the body's newest piece of path is free flight.</summary>

@@ -19,9 +19,9 @@ internal sealed class ImpactFriction
     /// <summary>How much an impulse at the surface turns a solid sphere, times 1/(m r).</summary>
     internal const double TurnPerImpulse = 2.5;
 
-    private Vector3D[] changes = new Vector3D[4];
-    private Vector3D[] turns = new Vector3D[4];
-    private int[] rubbing = new int[4];
+    private Vector3D[] changes = Array.Empty<Vector3D>();
+    private Vector3D[] turns = Array.Empty<Vector3D>();
+    private int[] rubbing = Array.Empty<int>();
 
     /// <summary>Changes velocities and spins. All by number of body but the coefficients, which are by number of contact.</summary>
     internal void Solve(

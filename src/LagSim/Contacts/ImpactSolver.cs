@@ -41,23 +41,23 @@ internal sealed class ImpactSolver
     private const double Cancelled = 1e-6;
 
     private readonly ProjectedGradients gradients = new();
-    private double[] demand = new double[4]; // target - u before
-    private double[] impulse = new double[4];
-    private int[] active = new int[4];
-    private bool[] isActive = new bool[4];
-    private bool[] dependent = new bool[4];
+    private double[] demand = Array.Empty<double>(); // target - u before
+    private double[] impulse = Array.Empty<double>();
+    private int[] active = Array.Empty<int>();
+    private bool[] isActive = Array.Empty<bool>();
+    private bool[] dependent = Array.Empty<bool>();
 
     // By place in the active set.
-    private Vector3D[] basis = new Vector3D[16]; // row by row: the orthogonal rows, a part for each body
-    private double[] extent = new double[16]; // the lengths of those parts
-    private double[] share = new double[16]; // row by row: how much of each earlier basis row a contact's row has
-    private double[] weight = new double[4]; // of a basis row: its square, by 1/mass
-    private double[] along = new double[4]; // the impulse along each basis row
-    private double[] trial = new double[4];
+    private Vector3D[] basis = Array.Empty<Vector3D>(); // row by row: the orthogonal rows, a part for each body
+    private double[] extent = Array.Empty<double>(); // the lengths of those parts
+    private double[] share = Array.Empty<double>(); // row by row: how much of each earlier basis row a contact's row has
+    private double[] weight = Array.Empty<double>(); // of a basis row: its square, by 1/mass
+    private double[] along = Array.Empty<double>(); // the impulse along each basis row
+    private double[] trial = Array.Empty<double>();
 
     // By body.
-    private double[] size = new double[4];
-    private Vector3D[] change = new Vector3D[4];
+    private double[] size = Array.Empty<double>();
+    private Vector3D[] change = Array.Empty<Vector3D>();
 
     private int bodies;
     private int kept; // how many contacts are in the active set that the last solution ended with

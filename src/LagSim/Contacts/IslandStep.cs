@@ -42,15 +42,15 @@ internal sealed class IslandStep
     private readonly Scene scene;
     private readonly Forces forces;
     private readonly LastingContactSolver solver = new();
-    private Member[] members = new Member[4];
-    private Touch[] touches = new Touch[8];
-    private double[] masses = new double[4];
-    private double[] radii = new double[4];
-    private Vector3D[] velocities = new Vector3D[4];
-    private Vector3D[] spins = new Vector3D[4];
-    private ContactPoint[] points = new ContactPoint[8];
-    private Rub[] rubs = new Rub[8];
-    private int[] closed = new int[8];
+    private Member[] members = Array.Empty<Member>();
+    private Touch[] touches = Array.Empty<Touch>();
+    private double[] masses = Array.Empty<double>();
+    private double[] radii = Array.Empty<double>();
+    private Vector3D[] velocities = Array.Empty<Vector3D>();
+    private Vector3D[] spins = Array.Empty<Vector3D>();
+    private ContactPoint[] points = Array.Empty<ContactPoint>();
+    private Rub[] rubs = Array.Empty<Rub>();
+    private int[] closed = Array.Empty<int>();
 
     internal IslandStep(Scene scene, Forces forces)
     {
@@ -83,7 +83,7 @@ internal sealed class IslandStep
     {
         if (BodyCount == members.Length)
         {
-            int size = BodyCount * 2;
+            int size = Math.Max(4, BodyCount * 2);
             Array.Resize(ref members, size);
             Array.Resize(ref masses, size);
             Array.Resize(ref radii, size);
@@ -102,7 +102,7 @@ internal sealed class IslandStep
     {
         if (ContactCount == touches.Length)
         {
-            int size = ContactCount * 2;
+            int size = Math.Max(8, ContactCount * 2);
             Array.Resize(ref touches, size);
             Array.Resize(ref points, size);
             Array.Resize(ref rubs, size);

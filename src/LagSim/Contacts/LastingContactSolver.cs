@@ -27,7 +27,7 @@ internal sealed class LastingContactSolver
     private const double Settled = 1e-9;
 
     private readonly ImpactSolver normals = new();
-    private Body[] bodies = new Body[4];
+    private Body[] bodies = Array.Empty<Body>();
 
     /// <summary>Changes velocities and spins so that each contact opens at least at its target, or pushes.</summary>
     /// <param name="contacts">With normals and targets; the impulses along the normals are set.</param>

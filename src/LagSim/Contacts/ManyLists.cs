@@ -12,15 +12,17 @@ internal sealed class ManyLists<T>
     private const int SmallestBits = 2;
 
     private readonly int[] free = new int[32]; // by bits of the size: a block that no list has
-    private T[] pool = new T[256];
-    private int[] nextFree = new int[256 >> SmallestBits]; // by place of a free block: the next of that size
+    private T[] pool;
+    private int[] nextFree; // by place of a free block: the next of that size
     private int used;
     private Block[] blocks;
 
-    /// <summary>So many empty lists.</summary>
-    internal ManyLists(int count)
+    /// <summary>So many empty lists; with room for so much in all of them at first.</summary>
+    internal ManyLists(int count, int room = 256)
     {
         blocks = new Block[count];
+        pool = new T[room];
+        nextFree = new int[(room >> SmallestBits) + 1];
         Array.Fill(free, None);
     }
 

@@ -13,11 +13,13 @@ internal sealed class PresentShells
     /// <summary>Who would have to look into more cells looks at everybody.</summary>
     internal const double MostCells = 512;
 
+    private const int FewestLists = 64;
+
     private readonly CellGrid grid;
     private readonly PeriodicBox box;
     private readonly double widestInCells;
     private readonly List<Entry> wide = new();
-    private ManyLists<Entry> cells = new(64); // by the cell's number, hashed
+    private ManyLists<Entry> cells; // by the cell's number, hashed
     private int listed;
     private double widest; // extent of what has been in cells
 
@@ -25,8 +27,16 @@ internal sealed class PresentShells
     /// <param name="grid">The cells.</param>
     /// <param name="box">The box whose sides meet; empty if there is none.</param>
     /// <param name="widestInCells">The extent, in metres, above which a shell is in no cell.</param>
-    internal PresentShells(CellGrid grid, in PeriodicBox box, double widestInCells)
+    /// <param name="expected">For how many bodies there are lists at first.</param>
+    internal PresentShells(CellGrid grid, in PeriodicBox box, double widestInCells, int expected)
     {
+        int lists = FewestLists;
+        while (lists < expected)
+        {
+            lists *= 2;
+        }
+
+        cells = new ManyLists<Entry>(lists, Math.Max(lists, 2 * expected)); // of two in three lists, the smallest of which have room for four
         this.grid = grid;
         this.box = box;
         this.widestInCells = widestInCells;
@@ -137,7 +147,7 @@ internal sealed class PresentShells
     private void Spread()
     {
         ManyLists<Entry> before = cells;
-        cells = new ManyLists<Entry>(before.Count * 2);
+        cells = new ManyLists<Entry>(before.Count * 2, before.Count * 4);
         for (int bucket = 0; bucket < before.Count; bucket++)
         {
             foreach (ref Entry entry in before.Of(bucket))

@@ -39,6 +39,8 @@ internal sealed class ShellIndex : IPairIndex
     private const double FirstStray = 1.0 / 8;
     private const double LeastStray = 1.0 / 32;
 
+    private const int NeighboursExpected = 8;
+
     private readonly TimelineStore timelines;
     private readonly PeriodicBox box;
     private readonly double cell;
@@ -47,9 +49,9 @@ internal sealed class ShellIndex : IPairIndex
     private readonly double shortestStay;
     private readonly PresentShells present;
     private readonly PastShells past;
-    private readonly FoundSlots found = new();
-    private readonly ManyLists<int> lists = new(16);
-    private Stay[] stays = new Stay[16];
+    private readonly FoundSlots found;
+    private readonly ManyLists<int> lists;
+    private Stay[] stays;
     private int lookingBack; // how many have others in their lists who may not have them in theirs: those whose shells were made in a heal
 
     /// <summary>An empty index.</summary>
@@ -59,7 +61,8 @@ internal sealed class ShellIndex : IPairIndex
     /// <param name="near">How far apart two bodies may be, in metres, that are still candidates.</param>
     /// <param name="tickLength">How far a body moves in a tick at most, in metres.</param>
     /// <param name="box">The box whose sides meet; empty if there is none.</param>
-    internal ShellIndex(TimelineStore timelines, double cell, double speed, double near, double tickLength, in PeriodicBox box)
+    /// <param name="expected">For how many bodies there is room at first.</param>
+    internal ShellIndex(TimelineStore timelines, double cell, double speed, double near, double tickLength, in PeriodicBox box, int expected = 0)
     {
         this.timelines = timelines;
         this.cell = cell;
@@ -69,7 +72,10 @@ internal sealed class ShellIndex : IPairIndex
         double shortest = Math.Min(ShortestStay, FarLess * cell / speed); // of the two the first if nobody moves
         shortestStay = Math.Max(FewTicks * TickConversion.SecondsPerTick, shortest);
         CellGrid grid = new(cell, box);
-        present = new PresentShells(grid, box, 0.5 * cell);
+        found = new FoundSlots(expected);
+        lists = new ManyLists<int>(expected, NeighboursExpected * expected);
+        stays = new Stay[expected];
+        present = new PresentShells(grid, box, 0.5 * cell, expected);
         past = new PastShells(grid, box, 0.5 * cell);
     }
 

@@ -29,10 +29,10 @@ internal sealed class EventQueue
     private const int InSlice = -2;
     private const int Beyond = -3;
 
-    private readonly NearEvents near = new();
-    private readonly long[] samples = new long[MostSamples];
-    private Node[] nodes = Array.Empty<Node>(); // by slot
-    private int[] slices = new int[2 * Few / PerSlice]; // a ring: the first slot of each slice from the one at hand on; and at the end that of what lies beyond
+    private readonly NearEvents near;
+    private long[] samples = Array.Empty<long>(); // only once slices are made
+    private Node[] nodes; // by slot
+    private int[] slices = Array.Empty<int>(); // a ring, made once events are many: the first slot of each slice from the one at hand on
     private int inSlices;
     private int beyond = None;
     private int inBeyond;
@@ -42,7 +42,13 @@ internal sealed class EventQueue
     private long taken; // how many events were taken out of slices since
     private long changes; // since the slices were made
 
-    internal EventQueue() => Array.Fill(slices, None);
+    /// <summary>Nothing pending yet; with room for as many bodies as are expected at first.</summary>
+    internal EventQueue(int expected = 0)
+    {
+        near = new NearEvents(Math.Max(4, Math.Min(expected, 2 * Few)));
+        nodes = new Node[expected];
+        Array.Fill(nodes, new Node { Where = NotQueued });
+    }
 
     internal int Count => near.Count + inSlices + inBeyond;
 
@@ -282,7 +288,7 @@ internal sealed class EventQueue
         inBeyond = 0;
         changes = 0;
         taken = 0;
-        int size = slices.Length;
+        int size = Math.Max(slices.Length, 2 * Few / PerSlice);
         while (size * PerSlice < 2 * count)
         {
             size *= 2;
@@ -322,6 +328,7 @@ internal sealed class EventQueue
         long least = long.MaxValue;
         int every = Math.Max(1, (Count + MostSamples - 1) / MostSamples);
         int seen = 0;
+        samples = samples.Length > 0 ? samples : new long[MostSamples];
         sampled = 0;
         for (int slot = 0; slot < nodes.Length; slot++)
         {

@@ -10,7 +10,10 @@ internal sealed class NearEvents
 {
     private const int Children = 4;
 
-    private Item[] items = new Item[128];
+    private Item[] items;
+
+    /// <summary>No events yet; with room for so many at first, at least one.</summary>
+    internal NearEvents(int room) => items = new Item[room];
 
     internal int Count { get; private set; }
 

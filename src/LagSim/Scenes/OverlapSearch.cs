@@ -4,46 +4,51 @@ using System.Collections.Generic;
 namespace LagSim.Scenes;
 
 /// <summary>Which two of many balls overlap: space is halved until few are left together, and who lies on both sides of a cut is looked at on both.</summary>
-/// <remarks>Cost: n log n for balls that fill space; where cuts part nothing, as among balls of all sizes in one place, what sort and sweep costs.</remarks>
+/// <remarks>
+/// Cost: n log n for balls that fill space; where cuts part nothing, as among balls of all sizes in one place, what sort and sweep costs. The two sides of a cut have nothing to do with
+/// each other, so another thread may have one; of what both find the lower side's counts, which is what one thread would have found.
+/// </remarks>
 internal sealed class OverlapSearch
 {
     private const int Few = 32;
 
-    private readonly List<Ball> balls = new();
-    private readonly List<int> items = new(); // sets of balls, one behind the other
     private readonly PeriodicBox box;
     private readonly double tolerance;
+    private Ball[] balls;
+    private int ballCount;
 
     /// <summary>A search among the bodies of a scene; how deep in metres two may be in each other, besides rounding.</summary>
-    internal OverlapSearch(List<SceneBody> bodies, in PeriodicBox box, double tolerance)
+    internal OverlapSearch(SceneBody[] bodies, in PeriodicBox box, double tolerance)
     {
         this.box = box;
         this.tolerance = tolerance;
+        balls = new Ball[bodies.Length];
         double widest = 0;
-        foreach (SceneBody body in bodies)
+        for (int n = 0; n < bodies.Length; n++)
         {
-            widest = Math.Max(widest, body.Spec.Radius);
+            widest = Math.Max(widest, bodies[n].Spec.Radius);
         }
 
         int images = box.Exists ? 8 : 1;
         for (int image = 0; image < images; image++)
         {
-            for (int n = 0; n < bodies.Count; n++)
+            for (int n = 0; n < bodies.Length; n++)
             {
                 AddImage(bodies[n].Position, bodies[n].Spec.Radius, n, image, widest);
             }
         }
     }
 
-    /// <summary>Two bodies that overlap, the one that was added first as the first, and how deep in metres; false if there are none.</summary>
-    internal bool TryFind(out int first, out int second, out double depth)
+    /// <summary>Two bodies that overlap, the same two on any number of threads; null if there are none.</summary>
+    internal Overlap? Find(int threads = 1)
     {
-        for (int i = 0; i < balls.Count; i++)
+        List<int> all = new(2 * ballCount); // sets of balls, one behind the other
+        for (int i = 0; i < ballCount; i++)
         {
-            items.Add(i);
+            all.Add(i);
         }
 
-        return TryFind(0, items.Count, out first, out second, out depth);
+        return Find(all, 0, ballCount, threads);
     }
 
     /// <summary>In a periodic box who reaches as far as another may over a side is there a second time, a side further; so along each axis.</summary>
@@ -63,12 +68,17 @@ internal sealed class OverlapSearch
             }
         }
 
-        balls.Add(new Ball { At = at, Place = place, Radius = radius, Body = body });
+        if (ballCount == balls.Length)
+        {
+            Array.Resize(ref balls, Math.Max(4, ballCount * 2));
+        }
+
+        balls[ballCount++] = new Ball { At = at, Place = place, Radius = radius, Body = body };
     }
 
-    private bool TryFind(int from, int to, out int first, out int second, out double depth)
+    private Overlap? Find(List<int> items, int from, int to, int threads)
     {
-        int axis = WidestAxis(from, to, out double middle);
+        int axis = WidestAxis(items, from, to, out double middle);
         int left = 0;
         int right = 0;
         for (int i = from; i < to; i++)
@@ -81,32 +91,51 @@ internal sealed class OverlapSearch
         int count = to - from;
         if (count <= Few || left == count || right == count || left + right > count + (count / 2))
         {
-            return TrySweep(from, to, axis, out first, out second, out depth);
+            return Sweep(items, from, to, axis);
         }
 
-        return TryFindIn(from, to, axis, double.NegativeInfinity, middle, out first, out second, out depth)
-            || TryFindIn(from, to, axis, middle, double.PositiveInfinity, out first, out second, out depth);
+        return threads > 1 && count >= TwoAtOnce.LeastBodies
+            ? FindOnTwoThreads(items, from, to, axis, middle, threads)
+            : FindIn(items, from, to, axis, double.NegativeInfinity, middle) ?? FindIn(items, from, to, axis, middle, double.PositiveInfinity);
     }
 
-    private bool TryFindIn(int from, int to, int axis, double least, double most, out int first, out int second, out double depth)
+    private Overlap? FindIn(List<int> items, int from, int to, int axis, double least, double most)
     {
         int start = items.Count;
+        Choose(items, from, to, axis, least, most, items);
+        Overlap? found = Find(items, start, items.Count, 1);
+        items.RemoveRange(start, items.Count - start);
+        return found;
+    }
+
+    /// <summary>The same; each side has a list of its own.</summary>
+    private Overlap? FindOnTwoThreads(List<int> items, int from, int to, int axis, double middle, int threads)
+    {
+        List<int> lower = new(to - from);
+        List<int> upper = new(to - from);
+        Choose(items, from, to, axis, double.NegativeInfinity, middle, lower);
+        Choose(items, from, to, axis, middle, double.PositiveInfinity, upper);
+        Overlap? below = null;
+        Overlap? above = null;
+        TwoAtOnce.Do(
+            threads, () => below = Find(lower, 0, lower.Count, threads - (threads / 2)), () => above = Find(upper, 0, upper.Count, threads / 2));
+        return below ?? above;
+    }
+
+    private void Choose(List<int> items, int from, int to, int axis, double least, double most, List<int> into)
+    {
         for (int i = from; i < to; i++)
         {
             (double low, double high) = Extent(items[i], axis);
             if (low <= most && high >= least)
             {
-                items.Add(items[i]);
+                into.Add(items[i]);
             }
         }
-
-        bool isFound = TryFind(start, items.Count, out first, out second, out depth);
-        items.RemoveRange(start, items.Count - start);
-        return isFound;
     }
 
     /// <summary>Sort and sweep: only those whose extents along the axis overlap are compared.</summary>
-    private bool TrySweep(int from, int to, int axis, out int first, out int second, out double depth)
+    private Overlap? Sweep(List<int> items, int from, int to, int axis)
     {
         double[] lows = new double[to - from];
         int[] order = new int[to - from];
@@ -122,17 +151,16 @@ internal sealed class OverlapSearch
             double high = Extent(order[i], axis).High;
             for (int j = i + 1; j < order.Length && lows[j] <= high; j++)
             {
-                if (AreDeep(balls[order[i]], balls[order[j]], out depth))
+                if (AreDeep(balls[order[i]], balls[order[j]], out double depth))
                 {
-                    first = Math.Min(balls[order[i]].Body, balls[order[j]].Body);
-                    second = Math.Max(balls[order[i]].Body, balls[order[j]].Body);
-                    return true;
+                    int a = balls[order[i]].Body;
+                    int b = balls[order[j]].Body;
+                    return new Overlap(Math.Min(a, b), Math.Max(a, b), depth);
                 }
             }
         }
 
-        (first, second, depth) = (0, 0, 0);
-        return false;
+        return null;
     }
 
     private bool AreDeep(in Ball a, in Ball b, out double depth)
@@ -143,7 +171,7 @@ internal sealed class OverlapSearch
         return gap < -slack && a.Body != b.Body;
     }
 
-    private int WidestAxis(int from, int to, out double middle)
+    private int WidestAxis(List<int> items, int from, int to, out double middle)
     {
         int widest = 0;
         double most = -1;
@@ -172,8 +200,9 @@ internal sealed class OverlapSearch
 
     private (double Low, double High) Extent(int ball, int axis)
     {
-        double at = Along(balls[ball].At, axis);
-        return (at - balls[ball].Radius, at + balls[ball].Radius);
+        ref readonly Ball whole = ref balls[ball];
+        double at = Along(whole.At, axis);
+        return (at - whole.Radius, at + whole.Radius);
     }
 
     private static double Along(in Vector3D v, int axis) => axis == 0 ? v.X : axis == 1 ? v.Y : v.Z;

@@ -13,6 +13,9 @@ public sealed class SceneBuilder
     /// <summary>The resolution where a scene sets none: 1 nm.</summary>
     public const double DefaultResolution = 1e-9;
 
+    /// <summary>The most threads that may be asked for.</summary>
+    public const int MaxThreads = 64;
+
     /// <summary>The most bodies a scene may have.</summary>
     public const int MaxBodies = BodyId.MaxIndex + 1;
 
@@ -26,6 +29,7 @@ public sealed class SceneBuilder
     private PeriodicBox box;
     private double resolution = DefaultResolution;
     private double? smallestSpawn;
+    private int? threads;
 
     /// <summary>Starts a scene of that name with default gravity and nothing in it.</summary>
     public SceneBuilder(string name) => this.name = name ?? throw new ArgumentNullException(nameof(name));
@@ -49,6 +53,15 @@ public sealed class SceneBuilder
     public SceneBuilder WithSmallestRadius(double metres)
     {
         smallestSpawn = metres;
+        return this;
+    }
+
+    /// <summary>On how many threads <see cref="Build"/> checks a large scene at most, 1 to <see cref="MaxThreads"/>; default as many as there are processors.</summary>
+    /// <remarks>It has no influence on the scene, to the bit, nor on which error is told. Less than 16,384 bodies are checked on the caller's thread alone, and so is everything
+    /// where there is one processor.</remarks>
+    public SceneBuilder WithThreads(int most)
+    {
+        threads = most;
         return this;
     }
 
@@ -126,37 +139,58 @@ public sealed class SceneBuilder
         return this;
     }
 
-    /// <summary>Checks everything and makes the scene. Cost: O(n log n) in the bodies.</summary>
+    /// <summary>Checks everything and makes the scene. Cost: O(n log n) in the bodies, on several threads if they are many (<see cref="WithThreads"/>).</summary>
     /// <exception cref="SceneException">Something is not valid; the sentence names the value and what is allowed.</exception>
     public Scene Build()
     {
         CheckWhole();
-        double smallest = smallestSpawn ?? double.MaxValue;
+        int used = bodies.Count < TwoAtOnce.LeastBodies ? 1 : threads ?? Environment.ProcessorCount;
         Force[] forceArray = forces.ToArray();
         SceneBody[] bodyArray = bodies.ToArray();
-        for (int i = 0; i < bodyArray.Length; i++)
+        TwoAtOnce.InParts(0, bodyArray.Length, used, (from, to) =>
         {
-            Limits.CheckSpec(bodyArray[i].Spec, Whose(bodyArray[i]), gravity, forceArray);
-            bodyArray[i] = bodyArray[i].With(FlightLaws.Chosen(bodyArray[i].Spec, gravity, forceArray));
-            smallest = Math.Min(smallest, bodyArray[i].Spec.Radius);
-        }
-
-        smallest = smallest == double.MaxValue ? Limits.MaxRadius : smallest;
+            for (int i = from; i < to; i++)
+            {
+                Limits.CheckSpec(bodyArray[i].Spec, Whose(bodyArray[i]), gravity, forceArray);
+                bodyArray[i] = bodyArray[i].With(FlightLaws.Chosen(bodyArray[i].Spec, gravity, forceArray));
+            }
+        });
+        double smallest = Smallest();
         CheckBox();
-        foreach (SceneBody body in bodies)
+        TwoAtOnce.InParts(0, bodyArray.Length, used, (from, to) =>
         {
-            Limits.CheckPosition(body.Position, Whose(body));
-            Limits.CheckVelocity(body.Velocity, smallest, Whose(body));
-            Limits.CheckSpin(body.Spin, body.Spec.Radius, smallest, Whose(body));
-        }
+            for (int i = from; i < to; i++)
+            {
+                ref readonly SceneBody body = ref bodyArray[i];
+                Limits.CheckPosition(body.Position, Whose(body));
+                Limits.CheckVelocity(body.Velocity, smallest, Whose(body));
+                Limits.CheckSpin(body.Spin, body.Spec.Radius, smallest, Whose(body));
+            }
+        });
+        Scene? scene = null;
+        TwoAtOnce.Do(used, NameAndHash, () => StartOverlap.Check(bodyArray, planes, spheres, box, resolution, Math.Max(1, used - 1)));
+        return scene!;
 
-        CheckNames();
-        StartOverlap.Check(bodies, planes, spheres, box, resolution);
-        return new Scene(
-            name, gravity.WithoutNegativeZero(), resolution, planes.ToArray(), spheres.ToArray(), bodyArray, forceArray, smallest, spawners, box);
+        void NameAndHash()
+        {
+            CheckNames();
+            scene = new Scene(
+                name, gravity.WithoutNegativeZero(), resolution, planes.ToArray(), spheres.ToArray(), bodyArray, forceArray, smallest, spawners, box);
+        }
     }
 
-    internal static string Whose(in SceneBody body) => $"body '{body.Name}'";
+    internal static BodyText Whose(in SceneBody body) => new(body.Name);
+
+    private double Smallest()
+    {
+        double smallest = smallestSpawn ?? double.MaxValue;
+        foreach (SceneBody body in bodies)
+        {
+            smallest = Math.Min(smallest, body.Spec.Radius);
+        }
+
+        return smallest == double.MaxValue ? Limits.MaxRadius : smallest;
+    }
 
     /// <summary>The normal at unit length. One that has it but for rounding stays as it is, so that a plane read back has the same bits.</summary>
     private static Vector3D Unit(string planeName, in Vector3D normal)
@@ -179,6 +213,11 @@ public sealed class SceneBuilder
         if (smallestSpawn is double least)
         {
             Limits.InRange(least, Limits.MinRadius, Limits.MaxRadius, $"scene '{name}'", "smallest radius", "m");
+        }
+
+        if (threads is < 1 or > MaxThreads)
+        {
+            throw new SceneException($"Scene '{name}' is to be checked on {threads} threads; 1 to {MaxThreads} are allowed.");
         }
 
         if (bodies.Count > MaxBodies)
@@ -269,5 +308,15 @@ public sealed class SceneBuilder
                 throw new SceneException($"Two parts of scene '{name}' are named '{names[i]}'; every name must be unique.");
             }
         }
+    }
+
+    /// <summary>Whose value is wrong, in words: made only where there is something to say.</summary>
+    internal readonly struct BodyText
+    {
+        private readonly string name;
+
+        internal BodyText(string name) => this.name = name;
+
+        public override string ToString() => $"body '{name}'";
     }
 }

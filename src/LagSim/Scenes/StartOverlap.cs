@@ -6,39 +6,46 @@ namespace LagSim.Scenes;
 /// <summary>Refuses a scene whose bodies start inside one another, a plane or a static sphere.</summary>
 internal static class StartOverlap
 {
-    internal static void Check(List<SceneBody> bodies, List<StaticPlane> planes, List<StaticSphere> spheres, PeriodicBox box, double tolerance)
+    internal static void Check(SceneBody[] bodies, List<StaticPlane> planes, List<StaticSphere> spheres, PeriodicBox box, double tolerance, int threads)
     {
-        foreach (SceneBody body in bodies)
+        TwoAtOnce.InParts(0, bodies.Length, threads, (from, to) =>
         {
-            // Rounding of the given numbers themselves must not count as an overlap.
-            double slack = tolerance + (1e-15 * (Size(body.Position) + body.Spec.Radius));
-            foreach (StaticPlane plane in planes)
+            for (int i = from; i < to; i++)
             {
-                double gap = plane.Gap(body.Position, body.Spec.Radius);
-                if (gap < -slack)
-                {
-                    throw Overlap(body.Name, $"plane '{plane.Name}'", -gap);
-                }
+                CheckStatic(bodies[i], planes, spheres, tolerance);
             }
+        });
+        if (new OverlapSearch(bodies, box, tolerance).Find(threads) is Overlap found)
+        {
+            throw Inside(bodies[found.First].Name, SceneBuilder.Whose(bodies[found.Second]), found.Depth);
+        }
+    }
 
-            foreach (StaticSphere sphere in spheres)
+    private static void CheckStatic(in SceneBody body, List<StaticPlane> planes, List<StaticSphere> spheres, double tolerance)
+    {
+        // Rounding of the given numbers themselves must not count as an overlap.
+        double slack = tolerance + (1e-15 * (Size(body.Position) + body.Spec.Radius));
+        foreach (StaticPlane plane in planes)
+        {
+            double gap = plane.Gap(body.Position, body.Spec.Radius);
+            if (gap < -slack)
             {
-                double gap = (body.Position - sphere.Centre).Length - sphere.Radius - body.Spec.Radius;
-                if (gap < -slack)
-                {
-                    throw Overlap(body.Name, $"static sphere '{sphere.Name}'", -gap);
-                }
+                throw Inside(body.Name, $"plane '{plane.Name}'", -gap);
             }
         }
 
-        if (new OverlapSearch(bodies, box, tolerance).TryFind(out int first, out int second, out double depth))
+        foreach (StaticSphere sphere in spheres)
         {
-            throw Overlap(bodies[first].Name, SceneBuilder.Whose(bodies[second]), depth);
+            double gap = (body.Position - sphere.Centre).Length - sphere.Radius - body.Spec.Radius;
+            if (gap < -slack)
+            {
+                throw Inside(body.Name, $"static sphere '{sphere.Name}'", -gap);
+            }
         }
     }
 
     private static double Size(in Vector3D v) => Math.Abs(v.X) + Math.Abs(v.Y) + Math.Abs(v.Z);
 
-    private static SceneException Overlap(string body, string other, double depth) =>
+    private static SceneException Inside<T>(string body, T other, double depth) =>
         new($"Body '{body}' starts {Limits.Text(depth)} m deep inside {other}; bodies must start apart or touching.");
 }

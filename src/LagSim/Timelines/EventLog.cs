@@ -10,11 +10,20 @@ internal sealed class EventLog
 {
     internal const int None = -1;
 
-    private Entry[] entries = new Entry[16];
+    private const int FirstRoom = 16;
+
+    private Entry[] entries = Array.Empty<Entry>();
     private int used;
     private int free = None;
-    private int[] first = Array.Empty<int>();
-    private int[] last = Array.Empty<int>();
+    private int[] first;
+    private int[] last;
+
+    /// <summary>No events yet; with room for as many bodies as are expected at first.</summary>
+    internal EventLog(int expected = 0)
+    {
+        first = new int[expected];
+        last = new int[expected];
+    }
 
     /// <summary>Makes room for a body's events.</summary>
     internal void AddSlot(int slot)
@@ -61,7 +70,7 @@ internal sealed class EventLog
             at = used++;
             if (at == entries.Length)
             {
-                Array.Resize(ref entries, used * 2);
+                Array.Resize(ref entries, Math.Max(FirstRoom, at * 2));
             }
         }
 

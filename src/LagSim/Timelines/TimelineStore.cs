@@ -24,7 +24,7 @@ internal sealed class TimelineStore
 
     private const int Growth = 64;
 
-    private const int FirstRoom = 32;
+    private const int FirstRoom = 4;
 
     /// <summary>If all that can be dropped is less than one part in so many, it would soon be looked for again.</summary>
     private const int LittleRoom = 32;
@@ -40,18 +40,18 @@ internal sealed class TimelineStore
     private int[] mates = Array.Empty<int>(); // rings through the segments of an island; only once there is one of several
     private int free = None;
     private int used;
-    private int[] first = Array.Empty<int>();
-    private int[] last = Array.Empty<int>();
+    private int[] first;
+    private int[] last;
     private SimTime dropped = SimTime.MinValue; // the latest edge of the history that was heard of
 
     /// <summary>
     /// No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to
-    /// <paramref name="flights"/>; with room for as many as are expected at first.
+    /// <paramref name="flights"/>; with room for as many bodies as are expected at first, and for few of them for a second segment each.
     /// </summary>
     internal TimelineStore(SimTime origin, int most = SimulationOptions.DefaultMaxSegments, FreeFlights? flights = null, int expected = 0)
     {
         int room = FirstRoom;
-        while (room < expected && room < Large)
+        while (room < 2 * expected && room < Large)
         {
             room *= 2;
         }
@@ -59,6 +59,10 @@ internal sealed class TimelineStore
         room = Math.Max(room, expected + (expected / Growth));
         pieces = new Piece[room];
         links = new Link[room];
+        first = new int[expected];
+        last = new int[expected];
+        Array.Fill(first, None);
+        Array.Fill(last, None);
         this.origin = origin;
         this.flights = flights;
         Most = most;

@@ -16,15 +16,24 @@ internal sealed class WitnessLog
 {
     internal const int None = -1;
 
+    private const int FirstRoom = 4;
+
     private readonly int most;
-    private Entry[] entries = new Entry[4];
+    private Entry[] entries = Array.Empty<Entry>();
     private int used;
     private int free = None;
-    private int[] newest = Array.Empty<int>();
-    private int[] oldest = Array.Empty<int>();
+    private int[] newest;
+    private int[] oldest;
 
-    /// <summary>No entries yet, and at most <paramref name="most"/> of all bodies.</summary>
-    internal WitnessLog(int most) => this.most = most;
+    /// <summary>No entries yet, and at most <paramref name="most"/> of all bodies; with room for as many of those as are expected at first.</summary>
+    internal WitnessLog(int most, int expected = 0)
+    {
+        this.most = most;
+        newest = new int[expected];
+        oldest = new int[expected];
+        Array.Fill(newest, None);
+        Array.Fill(oldest, None);
+    }
 
     /// <summary>Makes room for a body's entries; those of the body that had the slot before are forgotten.</summary>
     internal void AddSlot(int slot)
@@ -119,7 +128,7 @@ internal sealed class WitnessLog
 
         if (used == entries.Length)
         {
-            Array.Resize(ref entries, used * 2);
+            Array.Resize(ref entries, Math.Max(FirstRoom, used * 2));
         }
 
         return used++;

@@ -149,7 +149,8 @@ public sealed class FreeFlightsTests
         Assert.True(flights.AreApart(0, 1, At(1), At(2)));
         Assert.False(flights.AreApart(0, 1, At(0.5), At(2))); // one was elsewhere then
         flights.Set(1, MotionSegment.AtRest(At(1), V(100)), At(1));
-        Assert.False(flights.AreApart(0, 1, At(1), At(2)));
+        Assert.True(flights.AreApart(0, 1, At(1), At(2)));
+        Assert.False(flights.AreApart(0, 1, At(1), At(100))); // by then the other may have fallen as far
         flights.Set(1, Flight(At(1), V(100), V(0), V(0, -2)), At(1));
         Assert.False(flights.AreApart(0, 1, At(1), At(2)));
         flights.Set(1, Flight(At(0.5), V(100), V(0), V(0, -1)), At(1)); // a path taken over
