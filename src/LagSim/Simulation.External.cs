@@ -36,7 +36,7 @@ public sealed partial class Simulation
     {
         if (arrival < external.Time)
         {
-            throw new ArgumentOutOfRangeException(nameof(arrival), arrival, $"An event of {external.Time.ToShortString()} cannot arrive before it happened.");
+            throw new ArgumentOutOfRangeException(nameof(arrival), arrival.ToShortString(), $"An event of {external.Time.ToShortString()} cannot arrive before it happened.");
         }
 
         ThrowIfFaulted();

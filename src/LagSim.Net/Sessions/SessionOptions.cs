@@ -198,7 +198,7 @@ public sealed class SessionOptions
     {
         if (value < SimDuration.FromSeconds(least) || value > SimDuration.FromSeconds(most))
         {
-            throw new ArgumentOutOfRangeException(name, value, FormattableString.Invariant($"{name} must lie between {least} s and {most} s."));
+            throw new ArgumentOutOfRangeException(name, value.ToShortString(), FormattableString.Invariant($"{name} must lie between {least} s and {most} s."));
         }
     }
 }
