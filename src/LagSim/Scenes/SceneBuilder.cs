@@ -147,7 +147,7 @@ public sealed class SceneBuilder
         {
             Limits.CheckPosition(body.Position, Whose(body));
             Limits.CheckVelocity(body.Velocity, smallest, Whose(body));
-            Limits.CheckSpin(body.Spin, body.Spec.Radius, smallest, Whose(body));
+            Limits.CheckSpin(body.Spin, body.Spec, smallest, Whose(body), forceArray);
         }
 
         CheckNames();

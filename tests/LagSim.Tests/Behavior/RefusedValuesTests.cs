@@ -47,6 +47,7 @@ public sealed class RefusedValuesTests
         ["gravity"] = (b => b.WithGravity(V(0, double.NaN)), ["gravity", "NaN"]),
         ["resolution"] = (b => b.WithResolution(0), ["resolution", "0"]),
         ["smallest radius"] = (b => b.WithSmallestRadius(-1), ["smallest radius", "-1"]),
+        ["Magnus too fast"] = (b => b.AddForce(Force.Magnus("air", 2e3)).AddBody("m", new BodySpec(0.5, 1, 1, forces: ForceSet.Of(0)), V(90, 90), spin: V(0, 0, 1e3)), ["'m'", "'air'", "2000000", "1000000 1/s"]),
         ["no normal"] = (b => b.AddPlane("p", V(0), V(0)), ["'p'", "normal"]),
         ["plane restitution"] = (b => b.AddPlane("p", V(1), V(0), 2), ["'p'", "restitution", "2"]),
         ["sphere radius"] = (b => b.AddStaticSphere("s", V(0), 0), ["'s'", "radius"]),
