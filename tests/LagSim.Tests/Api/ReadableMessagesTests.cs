@@ -28,7 +28,7 @@ public sealed class ReadableMessagesTests
         ["snapshot ahead"] = (() => Run(Drop(1, 1), 0.3).Snapshot(At(0.7)), "0.7s"),
         ["arrival"] = (() => Run(Drop(1, 1), 0.1).SubmitForwarded(ExternalEvent.Remove(At(0.3), 1, 1, First), At(0.2)), "0.2s"),
         ["history"] = (() => _ = new SimulationOptions(history: Span(-0.1)), "-0.1s"),
-        ["start"] = (() => _ = new SimulationOptions(At(7e6 + 0.1)), "7000000.1s"),
+        ["start"] = (() => _ = new SimulationOptions(At(7e6) + Span(0.1)), "7000000.1s"),
         ["window history"] = (() => _ = new LatencyCompensationWindow(Span(0.001)), "0.001s"),
         ["window look-ahead"] = (() => _ = new LatencyCompensationWindow(Span(1), Span(7.3)), "7.3s"),
         ["window lag"] = (() => new LatencyCompensationWindow(Span(1), Span(0.1)).WithLocalLag(EventKind.Impulse, Span(0.3)), "0.3s"),
@@ -43,7 +43,7 @@ public sealed class ReadableMessagesTests
         ["longest without a knot"] = (() => _ = new HandSender(First, new HandSenderOptions { Longest = Span(7.1) }), "7.1s"),
         ["between two knots"] = (() => _ = new HandSender(First, new HandSenderOptions { Longest = Span(0.1), Shortest = Span(0.3) }), "0.3s"),
         ["display delay"] = (() => _ = new Interpolation(Span(7.1)), "7.1s"),
-        ["offset of clocks"] = (() => new SharedClock(new VirtualClock()).Adjust(Span(7e6 + 0.1)), "7000000.1s"),
+        ["offset of clocks"] = (() => new SharedClock(new VirtualClock()).Adjust(Span(7e6) + Span(0.1)), "7000000.1s"),
         ["virtual clock"] = (() => _ = new VirtualClock { Now = At(-0.1) }, "-0.1s"),
         ["datagram"] = (() => Send(0.7, 0.3), "0.3s"),
     };
