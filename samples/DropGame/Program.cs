@@ -4,6 +4,7 @@
 //   dotnet run --project samples/DropGame -- join 127.0.0.1:5000
 using System;
 using System.Collections.Generic;
+using System.IO;
 using System.Net;
 using System.Threading;
 using LagSim;
@@ -14,6 +15,13 @@ using LagSim.Scenes;
 using LagSim.Time;
 
 const int FramesPerSecond = 30, DemoSeconds = 6, Rows = 16;
+(int port, IPEndPoint? there) = (0, null);
+bool isDemo = args is [], isHost = args is ["host"] || (args is ["host", string number] && int.TryParse(number, out port) && port is >= 0 and <= IPEndPoint.MaxPort);
+if (!isDemo && !isHost && !(args is ["join", string address] && IPEndPoint.TryParse(address, out there) && there.Port > 0))
+{
+    Console.Error.WriteLine($"'{string.Join(' ', args)}' must be nothing, 'host', 'host PORT' with a port of 0 (any free) to {IPEndPoint.MaxPort}, or 'join ADDRESS:PORT'.");
+    return 2;
+}
 
 Scene scene = new SceneBuilder("drop game")
     .AddPlane("floor", Vector3D.Up, Vector3D.Zero)
@@ -27,34 +35,22 @@ BodyId ball = scene.BodyNamed("ball"), rock = scene.BodyNamed("rock");
 List<PeerThread> peers = [];
 try
 {
-    if (args is ["join", string address] && IPEndPoint.TryParse(address, out IPEndPoint? there))
+    peers.Add(there is not null ? PeerThread.Join(there) : PeerThread.Host(scene, port));
+    int own = peers[0].LocalAddress.ToEndPoint().Port;
+    Console.WriteLine(there is null ? $"listening on port {own}" : $"joining {there}");
+    if (isDemo)
     {
-        peers.Add(PeerThread.Join(there));
-    }
-    else if (args is [] || (args is ["host", ..] && args.Length <= 2))
-    {
-        PeerThread host = PeerThread.Host(scene, args.Length == 2 ? int.Parse(args[1]) : 0);
-        peers.Add(host);
-        Console.WriteLine($"listening on port {host.LocalAddress.ToEndPoint().Port}");
-        if (args is [])
-        {
-            peers.Add(PeerThread.Join(new IPEndPoint(IPAddress.Loopback, host.LocalAddress.ToEndPoint().Port)));
-        }
-    }
-    else
-    {
-        Console.Error.WriteLine("Say nothing, 'host PORT', or 'join ADDRESS:PORT'.");
-        return 2;
+        peers.Add(PeerThread.Join(new IPEndPoint(IPAddress.Loopback, own)));
     }
 
     PeerThread me = peers[0];
-    if (!me.WaitUntilRunning(TimeSpan.FromMinutes(args is [] ? 0.2 : 10)))
+    if (!me.WaitUntilRunning(TimeSpan.FromMinutes(isDemo ? 0.2 : 10)))
     {
         Console.Error.WriteLine(me.Session.EndReason ?? "Nobody came.");
         return 3;
     }
 
-    bool isDemo = args is [], hasKeys = !Console.IsInputRedirected;
+    bool hasKeys = !Console.IsInputRedirected;
     for (int frame = 0; me.State == SessionState.Running && (!isDemo || frame < FramesPerSecond * DemoSeconds); frame++)
     {
         // Input: what a player does takes effect at once here, and at its own time everywhere else.
@@ -67,10 +63,9 @@ try
             _ = peers[1].Do(PlayerAction.Teleport(ball, new Vector3D(-4, 12, 0), new Vector3D(4, 0, 0)));
         }
 
-        // Picture: any instant of it can be read; a frame draws the one it is at.
         if (me.Latest() is Picture picture && !Console.IsOutputRedirected)
         {
-            Draw(picture, me.Session.SharedTime.Now);
+            Draw(picture, me.Session.SharedTime.Now); // any instant of a picture can be read; a frame draws the one it is at
         }
 
         Thread.Sleep(1000 / FramesPerSecond);
@@ -79,6 +74,11 @@ try
     SessionCounters counters = await me.Ask(session => session.Counters.Copy());
     Console.WriteLine($"events {counters.EventsAccepted}, of them late {counters.Heals}; {me.Session.EndReason ?? "goodbye"}");
     return isDemo && counters.EventsAccepted == 0 ? 1 : 0;
+}
+catch (IOException taken)
+{
+    Console.Error.WriteLine(taken.Message);
+    return 3;
 }
 finally
 {

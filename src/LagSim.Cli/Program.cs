@@ -25,32 +25,33 @@ internal static class Program
         return code == ExitCode.CheckFailed ? code : interruption.ExitCode ?? code; // a check that failed is told however it ended
     }
 
+    /// <summary>The tool with all its commands.</summary>
+    // Not a RootCommand: that is named after the assembly, which cannot be called as the tool is.
+    internal static Command Root(ToolConsole console) => new("lagsim", "LagSim: a shared physical world without lag. Results go to stdout, progress to stderr.")
+    {
+        new HelpOption(),
+        new VersionOption(),
+        CheckCommand.Create(console),
+        DropCommand.Create(console),
+        CompareCommand.Create(console),
+        HoldCommand.Create(console),
+        AccuracyCommand.Create(console),
+        HardCommand.Create(console),
+        FuzzCommand.Create(console),
+        RunCommand.Create(console),
+        ScenesCommand.Create(console),
+        ExplainCommand.Create(console),
+        HostCommand.Create(console),
+        JoinCommand.Create(console),
+        RelayCommand.Create(console),
+        DiffCommand.Create(console),
+        ReplayCommand.Create(console),
+    };
+
     /// <summary>One call of the tool, results to one writer, progress and errors to the other, until it is done or asked to stop.</summary>
     internal static int Run(string[] arguments, TextWriter output, TextWriter error, CancellationToken stop)
     {
-        ToolConsole console = new(output, error, stop);
-        // Not a RootCommand: that is named after the assembly, which cannot be called as the tool is.
-        Command root = new("lagsim", "LagSim: a shared physical world without lag. Results go to stdout, progress to stderr.")
-        {
-            new HelpOption(),
-            new VersionOption(),
-            CheckCommand.Create(console),
-            DropCommand.Create(console),
-            CompareCommand.Create(console),
-            HoldCommand.Create(console),
-            AccuracyCommand.Create(console),
-            HardCommand.Create(console),
-            FuzzCommand.Create(console),
-            RunCommand.Create(console),
-            ScenesCommand.Create(console),
-            ExplainCommand.Create(console),
-            HostCommand.Create(console),
-            JoinCommand.Create(console),
-            RelayCommand.Create(console),
-            DiffCommand.Create(console),
-            ReplayCommand.Create(console),
-        };
-
+        Command root = Root(new ToolConsole(output, error, stop));
         ParseResult parsed = root.Parse(arguments);
         if (parsed.Errors.Count > 0)
         {

@@ -40,7 +40,7 @@ public sealed partial class Simulation
         if (time < SimulatedTo)
         {
             throw new ArgumentOutOfRangeException(
-                nameof(time), time, $"The world is simulated to {SimulatedTo.ToShortString()} already; it advances, and an event that lies before rolls it back.");
+                nameof(time), time.ToShortString(), $"The world is simulated to {SimulatedTo.ToShortString()} already; it advances, and an event that lies before rolls it back.");
         }
 
         SimTime reached = SimulatedTo;

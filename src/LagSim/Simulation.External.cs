@@ -36,7 +36,7 @@ public sealed partial class Simulation
     {
         if (arrival < external.Time)
         {
-            throw new ArgumentOutOfRangeException(nameof(arrival), arrival, $"An event of {external.Time.ToShortString()} cannot arrive before it happened.");
+            throw new ArgumentOutOfRangeException(nameof(arrival), arrival.ToShortString(), $"An event of {external.Time.ToShortString()} cannot arrive before it happened.");
         }
 
         ThrowIfFaulted();
@@ -144,7 +144,7 @@ public sealed partial class Simulation
                 }
                 else
                 {
-                    OpenFlight(slot, key, external.Position, external.Velocity);
+                    OpenFlight(slot, key, external.Position, external.Velocity, spin: external.Spin.WithoutNegativeZero());
                 }
             }
 
@@ -187,8 +187,7 @@ public sealed partial class Simulation
 
             if (isPermitted)
             {
-                Vector3D spin = external.Kind == EventKind.Teleport ? Vector3D.Zero : timelines.SpinOf(last).At(seconds);
-                Open(slot, key, position, velocity, 0, carriers.Slice(0, count), 0, spin);
+                Open(slot, key, position, velocity, 0, carriers.Slice(0, count), 0, timelines.SpinOf(last).At(seconds));
             }
         }
     }

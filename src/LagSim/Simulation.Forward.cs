@@ -20,6 +20,7 @@ public sealed partial class Simulation
     {
         Vector3D position = external.Position;
         Vector3D velocity = external.Velocity;
+        Vector3D spin = external.Spin;
         if (external.Kind != EventKind.Spawn)
         {
             // Should its stamp have left the history, when a later rollback comes here again, the oldest state that is kept has to do.
@@ -30,13 +31,15 @@ public sealed partial class Simulation
             {
                 return;
             }
+
+            spin = timelines.SpinOf(then).At(seconds);
         }
 
         // A world of its own with the same start, so that a force that depends on time sees the same time. It goes on to its end whatever is
         // cancelled, for the instant at hand is half done; and it takes any state, also one that may not come in by the door.
         Simulation alone = new(Scene.WithoutBodies(), new SimulationOptions(Start, SimDuration.MaxValue, maxSegments: timelines.Most));
         alone.AdvanceTo(SimTime.Max(alone.SimulatedTo, external.Time - SimDuration.OneTick));
-        ExternalEvent spawn = ExternalEvent.Spawn(external.Time, 1, 1, bodies[slot].Spec, position, velocity);
+        ExternalEvent spawn = ExternalEvent.Spawn(external.Time, 1, 1, bodies[slot].Spec, position, velocity, spin);
         alone.Insert(spawn, spawn.Key, forwarded: false);
         alone.AdvanceTo(SimTime.Max(alone.SimulatedTo, key.Time));
         int end = alone.timelines.Last(alone.SlotOf(new BodyId(1, 1, 0)));

@@ -71,19 +71,19 @@ public sealed partial class Simulation
         if (!piece.Acceleration.IsFinite || (!dense.IsFinite && tooLarge == 0 && tooStiff == 0))
         {
             throw new SimulationException(
-                $"In the step from {from} the acceleration of body {bodies[slot].Id} became NaN or infinite; what the forces {spec.Forces} give must be finite.");
+                $"In the step from {from.ToShortString()} the acceleration of body {bodies[slot].Id} became NaN or infinite; what the forces {spec.Forces} give must be finite.");
         }
 
         if (tooStiff > 0)
         {
             throw new SimulationException(
-                $"From {from} on the forces on body {bodies[slot].Id} act at a rate of {Limits.Text(tooStiff)} 1/s; {spec.Flight} with fixed steps follows at most {Limits.Text(MaxRate(spec.Flight))} 1/s, with the shortest step there is.");
+                $"From {from.ToShortString()} on the forces on body {bodies[slot].Id} act at a rate of {Limits.Text(tooStiff)} 1/s; {spec.Flight} with fixed steps follows at most {Limits.Text(MaxRate(spec.Flight))} 1/s, with the shortest step there is.");
         }
 
         if (tooLarge > 0)
         {
             throw new SimulationException(
-                $"From {from} on the forces on body {bodies[slot].Id} change so fast that a step of {StepSize.Shortest} still has {Limits.Text(tooLarge)} times the error of the tolerance, {Limits.Text(spec.Tolerance)}; allow more, or keep it out of the singularity.");
+                $"From {from.ToShortString()} on the forces on body {bodies[slot].Id} change so fast that a step of {StepSize.Shortest.ToShortString()} still has {Limits.Text(tooLarge)} times the error of the tolerance, {Limits.Text(spec.Tolerance)}; allow more, or keep it out of the singularity.");
         }
 
         return piece;

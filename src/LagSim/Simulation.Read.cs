@@ -145,7 +145,7 @@ public sealed partial class Simulation
         if (time < HistoryEdge || time > Horizon)
         {
             throw new ArgumentOutOfRangeException(
-                nameof(time), time, $"Readable is from {HistoryEdge.ToShortString()}, the edge of the history, to {Horizon.ToShortString()}, where the next event is due.");
+                nameof(time), time.ToShortString(), $"Readable is from {HistoryEdge.ToShortString()}, the edge of the history, to {Horizon.ToShortString()}, where the next event is due.");
         }
     }
 }

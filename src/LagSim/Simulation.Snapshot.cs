@@ -48,7 +48,7 @@ public sealed partial class Simulation
         if (time < HistoryEdge || time > SimulatedTo || time <= Start)
         {
             throw new ArgumentOutOfRangeException(
-                nameof(time), time, $"A snapshot can be taken from {SimTime.Max(HistoryEdge, Start + SimDuration.OneTick).ToShortString()} to {SimulatedTo.ToShortString()}, up to where the world is simulated.");
+                nameof(time), time.ToShortString(), $"A snapshot can be taken from {SimTime.Max(HistoryEdge, Start + SimDuration.OneTick).ToShortString()} to {SimulatedTo.ToShortString()}, up to where the world is simulated.");
         }
 
         SimTime last = time - SimDuration.OneTick;

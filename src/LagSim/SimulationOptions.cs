@@ -43,12 +43,12 @@ public sealed class SimulationOptions
     {
         if (history is SimDuration given && given <= SimDuration.Zero)
         {
-            throw new ArgumentOutOfRangeException(nameof(history), given, "The history must be longer than zero.");
+            throw new ArgumentOutOfRangeException(nameof(history), given.ToShortString(), "The history must be longer than zero.");
         }
 
         if (start.Ticks is < -(3L << 61) or > 3L << 61)
         {
-            throw new ArgumentOutOfRangeException(nameof(start), start, "The start must lie within 72 days (3 x 2^21 s) of the origin.");
+            throw new ArgumentOutOfRangeException(nameof(start), start.ToShortString(), "The start must lie within 72 days (3 x 2^21 s) of the origin.");
         }
 
         if (maxSegments <= 0)

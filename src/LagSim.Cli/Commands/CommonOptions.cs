@@ -5,6 +5,7 @@ using System.Globalization;
 using System.Linq;
 using LagSim.Cli.Output;
 using LagSim.Harness.Links;
+using LagSim.Harness.Scenes;
 using LagSim.Net.Strategies;
 
 namespace LagSim.Cli.Commands;
@@ -13,6 +14,8 @@ namespace LagSim.Cli.Commands;
 internal sealed class CommonOptions
 {
     internal const string SeedName = "--seed";
+
+    internal static readonly string SceneText = $"A built-in scene's name ({BuiltInScenes.KnownNames}), or a JSON file; see 'lagsim scenes'.";
 
     internal const string JsonName = "--json";
 
@@ -23,7 +26,7 @@ internal sealed class CommonOptions
 
     internal Option<ulong> Seed { get; } = new(SeedName)
     {
-        Description = "The luck of links and clocks; the same seed gives the same run.",
+        Description = "What chance decides: links, clocks, random cases. The same seed gives the same run.",
         DefaultValueFactory = _ => 1,
         HelpName = "N",
         CustomParser = ParseSeed,

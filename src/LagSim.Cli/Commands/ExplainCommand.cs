@@ -11,7 +11,7 @@ internal static class ExplainCommand
     internal static Command Create(ToolConsole console)
     {
         CommonOptions common = new();
-        Argument<string> scene = new("SCENE") { Description = "A built-in scene, or a JSON file." };
+        Argument<string> scene = new("SCENE") { Description = CommonOptions.SceneText };
         Command command = new("explain", "Says what is modelled for a scene, what not, and why.") { scene };
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>

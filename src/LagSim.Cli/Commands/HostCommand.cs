@@ -18,7 +18,7 @@ internal static class HostCommand
     {
         CommonOptions common = new();
         SessionArguments shared = new();
-        Option<string> scene = new("--scene") { Description = "A built-in scene's name, or a JSON file.", HelpName = "SCENE", Required = true };
+        Option<string> scene = new("--scene") { Description = CommonOptions.SceneText, HelpName = "SCENE", Required = true };
         Option<int> port = CommonOptions.Whole("--port", "The UDP port; 0 takes any free one", 0, 0, 65535);
         Option<string> address = new("--address")
         {

@@ -22,7 +22,7 @@ internal static class RunCommand
     internal static Command Create(ToolConsole console)
     {
         CommonOptions common = new();
-        Argument<string> scene = new("SCENE") { Description = "A built-in scene's name, or a JSON file." };
+        Argument<string> scene = new("SCENE") { Description = CommonOptions.SceneText };
         Option<double> until = CommonOptions.Number("--until-s", "How long to run", 10, 0, 1e6);
         Option<string> motion = CommonOptions.Word("--motion", "The law of all bodies; by default the scene's own.", "scene", ["scene", .. MotionNames.Flight]);
         Option<string?> events = CommonOptions.File("--events", "Write every event to this CSV file; - is stdout.");

@@ -8,7 +8,6 @@ internal static class OutputFolder
 {
     /// <summary>Tries it out, and leaves everything as it was.</summary>
     /// <exception cref="IOException">The folder cannot be made, or nothing can be written to it.</exception>
-    /// <exception cref="UnauthorizedAccessException">The same, for lack of permission.</exception>
     internal static void ThrowIfNotWritable(string folder)
     {
         string path = Path.TrimEndingDirectorySeparator(Path.GetFullPath(folder));
@@ -23,6 +22,10 @@ internal static class OutputFolder
             Directory.CreateDirectory(path);
             using FileStream probe = new(
                 Path.Combine(path, $".lagsim-{Guid.NewGuid():N}"), FileMode.CreateNew, FileAccess.Write, FileShare.None, 1, FileOptions.DeleteOnClose);
+        }
+        catch (Exception failure) when (failure is IOException or UnauthorizedAccessException)
+        {
+            throw new IOException($"--out is '{folder}'; it must be a folder that can be made and written to. {failure.Message}", failure);
         }
         finally
         {

@@ -37,7 +37,8 @@ internal sealed class DragWork : WorkScene
 
     public override Force? Acting { get; } = Force.LinearDrag("drag", K);
 
-    public override Scene Build(MotionLaw law, SimDuration step, double tolerance) => new SceneBuilder(Name).AddPlane("floor", Vector3D.Up, Vector3D.Zero).AddForce(Acting!)
+    public override Scene Build(MotionLaw law, SimDuration step, double tolerance) =>
+        new SceneBuilder(Name).AddPlane("floor", Vector3D.Up, Vector3D.Zero).AddForce(Acting!)
         .AddBody("ball", new BodySpec(Radius, 1, Restitution, law, step, ForceSet.Of(0), tolerance), new Vector3D(0, Drop + Radius, 0)).Build();
 
     public override (double X, double Y)? Flat(in Vector3D v, int body) => (v.X, v.Y);

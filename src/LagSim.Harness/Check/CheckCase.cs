@@ -223,7 +223,8 @@ internal sealed class CheckCase
 
             BodySpec spec = kind == EventKind.Spawn ? room.DrawSpec() : spawn >= 0 ? deeds[spawn].Spec : room.SpecOf(body);
             deeds.Add(new CheckDeed(
-                at, peer, kind, kind == EventKind.Spawn ? -1 : body, kind == EventKind.Spawn ? -1 : spawn, room.DrawPosition(), room.DrawVelocity(6), spec));
+                at, peer, kind, kind == EventKind.Spawn ? -1 : body, kind == EventKind.Spawn ? -1 : spawn, room.DrawPosition(), room.DrawVelocity(6), spec,
+                kind == EventKind.Spawn ? room.DrawSpin(spec) : default));
             removals += kind == EventKind.Remove ? 1 : 0;
             if (kind == EventKind.Spawn)
             {

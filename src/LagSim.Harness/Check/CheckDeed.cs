@@ -15,11 +15,13 @@ namespace LagSim.Harness.Check;
 /// <param name="Position">Where to, in metres; of a grab by which point from the body's centre, of a knot where the hand is.</param>
 /// <param name="Velocity">Metres per second, of an impulse the change of velocity, of a knot the hand's.</param>
 /// <param name="Spec">Of a spawn what appears; of an impulse what it is done to.</param>
-internal sealed record CheckDeed(double AtSeconds, int Peer, EventKind Kind, int Body, int Spawn, Vector3D Position, Vector3D Velocity, BodySpec Spec)
+/// <param name="Spin">Radians per second, of a spawn.</param>
+internal sealed record CheckDeed(
+    double AtSeconds, int Peer, EventKind Kind, int Body, int Spawn, Vector3D Position, Vector3D Velocity, BodySpec Spec, Vector3D Spin = default)
 {
     internal PlayerAction On(BodyId body) => Kind switch
     {
-        EventKind.Spawn => PlayerAction.Spawn(Spec, Position, Velocity),
+        EventKind.Spawn => PlayerAction.Spawn(Spec, Position, Velocity, Spin),
         EventKind.Remove => PlayerAction.Remove(body),
         EventKind.Teleport => PlayerAction.Teleport(body, Position, Velocity),
         EventKind.SetVelocity => PlayerAction.SetVelocity(body, Velocity),

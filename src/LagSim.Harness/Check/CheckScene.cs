@@ -19,6 +19,7 @@ internal sealed class CheckScene
 
     private readonly SeededRandom random;
     private readonly SeededRandom flights; // a stream of its own: what flies how changes nothing else that is drawn
+    private readonly SeededRandom spins;
     private readonly int forcedPercent;
     private readonly int roughPercent;
     private readonly double rolling;
@@ -39,6 +40,7 @@ internal sealed class CheckScene
     {
         this.random = random;
         flights = random.Fork(1);
+        spins = random.Fork(2);
         bool isForced = flights.IsLucky(45);
         roughPercent = flights.IsLucky(30) ? 70 : 0;
         rolling = flights.Pick(0, 0.01, 0.05);
@@ -141,6 +143,11 @@ internal sealed class CheckScene
 
     internal Vector3D DrawPosition() => new(
         random.NextDouble(-1, 1) * (half - 0.3), random.NextDouble(0.7, (2 * half) - 0.3), isFlat ? 0 : random.NextDouble(-1, 1) * (half - 0.3));
+
+    /// <summary>Of most balls with friction, any; of others none, as it would change nothing.</summary>
+    internal Vector3D DrawSpin(in BodySpec spec) => spec.Friction > 0 && spins.IsLucky(75)
+        ? new Vector3D(spins.NextDouble(-1, 1), spins.NextDouble(-1, 1), spins.NextDouble(-1, 1)) * 20
+        : Vector3D.Zero;
 
     /// <summary>Up to that much along each axis; in a calm room mostly straight up or down, which is what can come to rest.</summary>
     internal Vector3D DrawVelocity(double most) => isCalm && random.IsLucky(75)

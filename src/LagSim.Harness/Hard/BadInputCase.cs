@@ -15,11 +15,13 @@ internal sealed class BadInputCase : IHardCase
 {
     private const double Apart = 10; // metres that the ball falls, at least
 
-    private static readonly double[] Few = [0, -1, 1, double.Epsilon, 1e-310, 1e-30, 1e-6, 0.5, 1e4, 1.1e30, double.MaxValue, double.NegativeInfinity, double.NaN];
+    private static readonly double[] Few = [0, -1, 1, double.Epsilon, 1e-310, 1e-30, 1e-6, 0.5, 1e4, 1.1e30, double.MaxValue, double.NegativeInfinity,
+        double.NaN];
 
     private static readonly double[] Values =
     [
-        0, -0.0, 1, -1, double.Epsilon, -double.Epsilon, 1e-310, 2.2250738585072014e-308, 1e-300, 1e-155, 1e-31, 1e-30, 1e-12, 1e-9, 1e-6, 1e-3, 0.5, 2, 1e3, 1e9, 1.1e9, 1e12, 1e30, 1.1e30, 1e155, 1e300,
+        0, -0.0, 1, -1, double.Epsilon, -double.Epsilon, 1e-310, 2.2250738585072014e-308, 1e-300, 1e-155, 1e-31, 1e-30, 1e-12, 1e-9, 1e-6, 1e-3, 0.5, 2, 1e3,
+        1e9, 1.1e9, 1e12, 1e30, 1.1e30, 1e155, 1e300,
         double.MaxValue, -double.MaxValue, double.PositiveInfinity, double.NegativeInfinity, double.NaN,
     ];
 
@@ -43,7 +45,8 @@ internal sealed class BadInputCase : IHardCase
         ("gravity", g => Ball(new BodySpec(0.5, 1, 0.5), floor: -1e7).WithGravity(V(0, g)), g => g / 2),
         ("resolution", r => Ball(new BodySpec(0.5, 1, 0.5)).WithResolution(r), _ => -Gravity / 2),
         ("smallest radius", r => Ball(new BodySpec(0.5, 1, 0.5)).WithSmallestRadius(r), _ => -Gravity / 2),
-        ("offset of a plane", d => new SceneBuilder("bad").AddPlane("floor", Vector3D.Up, d - Apart - 0.5).AddBody("ball", new BodySpec(0.5, 1, 0), V(0, d)), d => d - (Gravity / 2)),
+        ("offset of a plane", d => new SceneBuilder("bad").AddPlane("floor", Vector3D.Up, d - Apart - 0.5).AddBody("ball", new BodySpec(0.5, 1, 0), V(0, d)),
+            d => d - (Gravity / 2)),
         ("radius of a static sphere", r => Ball(new BodySpec(0.5, 1, 0.5)).AddStaticSphere("stone", V(0, 3e9), r), _ => -Gravity / 2),
         ("coefficient of linear drag", c => Pulled(MotionLaw.Automatic, 1e-9, Force.LinearDrag("oil", c)), Dragged),
         ("coefficient of quadratic drag", k => Pulled(MotionLaw.Automatic, 1e-9, Force.QuadraticDrag("air", k)), _ => null),
@@ -67,7 +70,8 @@ internal sealed class BadInputCase : IHardCase
 
     public IEnumerable<HardRow> Controls(HardContext context)
     {
-        yield return Row(context, "mass", m => Ball(new BodySpec(0.5, Math.Clamp(m, 1e-30, 1e30), 0.5)).WithGravity(V(0, -Gravity * (1 + 1e-6))), _ => -Gravity / 2) with
+        yield return Row(context, "mass", m => Ball(new BodySpec(0.5, Math.Clamp(m, 1e-30, 1e30), 0.5)).WithGravity(V(0, -Gravity * (1 + 1e-6))),
+            _ => -Gravity / 2) with
         {
             Note = "masses clamped in silence, and gravity off by a millionth",
         };
@@ -104,7 +108,8 @@ internal sealed class BadInputCase : IHardCase
         }
 
         return new HardRow(
-            Name, FormattableString.Invariant($"{what}, {values.Length} values"), wrong, "count", 0, "a sentence has the value in it, or it has not; a place is within 1e-8 of the textbook's, with tolerances of 1e-9, and a part of its size",
+            Name, FormattableString.Invariant($"{what}, {values.Length} values"), wrong, "count", 0,
+            "a sentence has the value in it, or it has not; a place is within 1e-8 of the textbook's, with tolerances of 1e-9, and a part of its size",
             "the value in the sentence; the place a second later")
         {
             Note = FormattableString.Invariant($"{refused} refused{(first.Length > 0 ? "; " : "")}{first}"),

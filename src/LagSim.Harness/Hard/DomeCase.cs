@@ -25,7 +25,8 @@ internal sealed class DomeCase : IHardCase
             Simulation simulation = context.Run(Scene(start), Length(start));
             TimelineEntry[] path = [.. simulation.Timeline(First)];
             TimelineEntry left = path.First(entry => entry.Key.Time > SimTime.Zero && entry.State.Motion == MotionLaw.Ballistic);
-            double worst = path.Where(entry => entry.State.Motion == MotionLaw.Constrained).Max(entry => Math.Abs(Energy(entry.State) - (Gravity * Reach * Math.Cos(start))));
+            double worst = path.Where(entry => entry.State.Motion == MotionLaw.Constrained)
+                .Max(entry => Math.Abs(Energy(entry.State) - (Gravity * Reach * Math.Cos(start))));
             double off = path.Where(entry => entry.State.Motion == MotionLaw.Constrained).Max(entry => Math.Abs(entry.State.Position.Length - Reach));
             foreach (HardRow row in Rows(start, Angle(left.State.Position), worst, off))
             {
@@ -73,12 +74,15 @@ internal sealed class DomeCase : IHardCase
         double rate = Math.Sqrt(2.0 / 3 * Gravity * Math.Cos(start) / Reach); // rad/s there
         string size = FormattableString.Invariant($"from {start} rad");
         yield return new HardRow(
-            Name, size, Math.Abs(angle - leaves), "angle_rad", 2 * Step * rate, "the way of two steps of 1/512 s: it leaves at the end of one in which the dome has pushed last",
+            Name, size, Math.Abs(angle - leaves), "angle_rad", 2 * Step * rate,
+            "the way of two steps of 1/512 s: it leaves at the end of one in which the dome has pushed last",
             "cos = 2/3 of the cosine at which it began");
         double change = Step * rate;
         yield return new HardRow(
-            Name, size, energy / (Gravity * Reach), "energy_relative", change * change, "second order: the square of the angle of a step", "the energy at the start");
+            Name, size, energy / (Gravity * Reach), "energy_relative", change * change, "second order: the square of the angle of a step",
+            "the energy at the start");
         yield return new HardRow(
-            Name, size, off, "distance_m", 1000 * SceneBuilder.DefaultResolution, "a thousand resolutions, within which a contact lasts; no drift is added from step to step", "the sum of the radii");
+            Name, size, off, "distance_m", 1000 * SceneBuilder.DefaultResolution,
+            "a thousand resolutions, within which a contact lasts; no drift is added from step to step", "the sum of the radii");
     }
 }

@@ -58,8 +58,8 @@ internal abstract class DragCase : IHardCase
         yield return FallRow(steps, x.Y, 0) with { Note = "the thesis's update of the position" };
     }
 
-    /// <summary>The laws, steps and tolerances.</summary>
-    protected abstract IEnumerable<HardFlight> Flights(HardContext context);
+    /// <summary>Whether the library has the flight in closed form.</summary>
+    protected abstract bool HasClosedForm { get; }
 
     /// <summary>The drag on 1 kg, so many times as strong.</summary>
     protected abstract Force Drag(double factor);
@@ -78,6 +78,12 @@ internal abstract class DragCase : IHardCase
 
     /// <summary>How far off fixed steps leave place and speed after a flight, the contact at its end being found on the quintic of its step.</summary>
     protected abstract (double Place, double Speed) StepErrors(double step, Hop hop);
+
+    /// <summary>The laws, steps and tolerances.</summary>
+    private IEnumerable<HardFlight> Flights(HardContext context) =>
+        context.Sizes([1.0 / 32], [1.0 / 16, 1.0 / 64, 1.0 / 256]).Select(HardFlight.Steps)
+            .Concat(HasClosedForm ? context.Sizes([0.0], [0, 1e-9, 1e-6]).Select(HardFlight.Closed) : [])
+            .Concat(context.Sizes([1e-9], [1e-6, 1e-9, 1e-12]).Select(HardFlight.Controlled));
 
     private HardRow FallRow(HardContext context, HardFlight flight, double factor)
     {

@@ -122,14 +122,16 @@ internal sealed class KeplerCase : IHardCase
         return seen;
     }
 
-    private static double WorstOf(KeplerOrbit orbit, Vector3D[] seen, double period) => Worst(seen.Select((x, n) => (x - orbit.Position(Instant(n, period))).Length));
+    private static double WorstOf(KeplerOrbit orbit, Vector3D[] seen, double period) =>
+        Worst(seen.Select((x, n) => (x - orbit.Position(Instant(n, period))).Length));
 
     private HardRow StepRow(KeplerOrbit orbit, int steps, Vector3D[] seen)
     {
         double own = WorstOf(orbit, Textbook(orbit, ClassicalRungeKutta.Step, steps), steps * Step);
         double rounding = 10 / (1 - orbit.E) * 40 * Rounding.Walk(steps);
         return new HardRow(
-            Name, FormattableString.Invariant($"e {orbit.E}, {steps:N0} steps"), WorstOf(orbit, seen, steps * Step), "position_over_semi_major_axis", (1.01 * own)
+            Name, FormattableString.Invariant($"e {orbit.E}, {steps:N0} steps"), WorstOf(orbit, seen, steps * Step), "position_over_semi_major_axis",
+            (1.01 * own)
                 + rounding,
             "what the textbook's classical method leaves at this very step, written apart from the engine, and 1 % of it; a walk of 40 roundings a step, which the orbit magnifies by 10/(1 - e)",
             "Kepler's equation, at 16 instants of the orbit");
@@ -170,7 +172,8 @@ internal sealed class KeplerCase : IHardCase
                 (speed * 3 / orbit.Mu * ((orbit.Mu / (r * r) * dx) + (v * dv)) * (t - seconds)) + (10 / (1 - orbit.E) * (dx + (dv / orbit.Motion)));
         }
 
-        return added + Math.Sqrt(squares) + (flight.Law == MotionLaw.ClosedForm ? flight.Tolerance : 0) + (8 * Rounding.Unit * 2 * Math.PI * speed / orbit.Motion);
+        return added + Math.Sqrt(squares) + (flight.Law == MotionLaw.ClosedForm ? flight.Tolerance : 0)
+            + (8 * Rounding.Unit * 2 * Math.PI * speed / orbit.Motion);
     }
 
     private HardRow SlopeRow(double e, Func<double, double> worst)

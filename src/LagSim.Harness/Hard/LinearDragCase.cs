@@ -1,6 +1,4 @@
 using System;
-using System.Collections.Generic;
-using System.Linq;
 using LagSim.Harness.References;
 using LagSim.Scenes;
 using static LagSim.Harness.Hard.HardWorlds;
@@ -38,10 +36,7 @@ internal sealed class LinearDragCase : DragCase
         "what the method itself leaves, |u|/k |R(-kh)^n - exp(-knh)|",
         "local errors (kh)^5/120 |v - u| a step and (h/2)^6/720 of the quintic at each contact");
 
-    protected override IEnumerable<HardFlight> Flights(HardContext context) =>
-        context.Sizes([1.0 / 32], [1.0 / 16, 1.0 / 64, 1.0 / 256]).Select(HardFlight.Steps)
-            .Concat(context.Sizes([0.0], [0, 1e-9, 1e-6]).Select(HardFlight.Closed))
-            .Concat(context.Sizes([1e-9], [1e-6, 1e-9, 1e-12]).Select(HardFlight.Controlled));
+    protected override bool HasClosedForm => true;
 
     protected override Force Drag(double factor) => Force.LinearDrag("drag", K * factor);
 

@@ -82,7 +82,8 @@ internal sealed class MagneticCase : IHardCase
     private IEnumerable<HardRow> RowsOf(HardContext context, HardFlight flight, bool isMagnus, double omega, double seconds, double gravity)
     {
         Force across = Across(isMagnus, omega, out Vector3D spin);
-        Scene scene = new SceneBuilder("gyration").WithGravity(V(0, -gravity)).AddForce(across).AddBody("ball", flight.Ball(0.01), default, Start, spin: spin).Build();
+        Scene scene = new SceneBuilder("gyration").WithGravity(V(0, -gravity)).AddForce(across).AddBody("ball", flight.Ball(0.01), default, Start, spin: spin)
+            .Build();
         Simulation simulation = context.Simulate(scene);
         simulation.AdvanceTo(Time.SimTime.FromSeconds(seconds));
         BodyState state = Read(simulation, 0, seconds);
@@ -117,7 +118,8 @@ internal sealed class MagneticCase : IHardCase
             yield break;
         }
 
-        // What a piece leaves of the velocity goes round with it, and moves the place by no more than over omega; the textbook's angle has roundings of its own.
+        // What a piece leaves of the velocity goes round with it, and moves the place by no more than over omega; the textbook's angle has roundings of its
+        // own.
         double fast = flight.ErrorOf(pieces, Start.Length + (2 * drift.Length)), far = flight.ErrorOf(pieces, place.Length + (2 * radius));
         yield return new HardRow(Name, size, speed, "speed_relative", fast / across, HardFlight.Argument + ", none of it magnified", works);
         yield return new HardRow(

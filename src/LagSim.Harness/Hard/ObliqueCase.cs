@@ -66,7 +66,8 @@ internal sealed class ObliqueCase : IHardCase
         bool grips = 2.0 / 7 * Math.Abs(slip) <= most;
         double off = Math.Max((seen.Velocity - V(along + change, E * Down)).Length, ((seen.Spin * Radius) - V(0, 0, turning + (2.5 * change))).Length);
         return new HardRow(
-            Name, FormattableString.Invariant($"{along} m/s along and {turning} m/s of turning, mu {mu}: {(grips ? "grips" : "slips")}"), off, "velocity_m_per_s",
+            Name, FormattableString.Invariant($"{along} m/s along and {turning} m/s of turning, mu {mu}: {(grips ? "grips" : "slips")}"), off,
+            "velocity_m_per_s",
             16 * Rounding.Unit * (Math.Abs(along) + Math.Abs(turning) + Down), "16 roundings of the speeds", grips ? "v - 2/7 u, no slip left" : "v - "
                 + "mu (1 + e) n, r w - 5/2 of it");
     }
@@ -112,7 +113,8 @@ internal sealed class ObliqueCase : IHardCase
             for (int body = 0; body < 4; body++)
             {
                 builder.AddBody(
-                    FormattableString.Invariant($"ball {body}"), new BodySpec(random.NextDouble(0.1, 0.5), random.NextDouble(0.1, 10), e, friction: random.NextDouble()),
+                    FormattableString.Invariant($"ball {body}"),
+                    new BodySpec(random.NextDouble(0.1, 0.5), random.NextDouble(0.1, 10), e, friction: random.NextDouble()),
                     V(1.1 * body, random.NextDouble(0.5, 3)), Any(random) * 3, spin: Any(random) * 20);
             }
 

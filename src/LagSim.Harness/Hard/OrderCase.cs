@@ -42,7 +42,10 @@ internal sealed class OrderCase : IHardCase
         yield return Row("smooth, position", step => Textbook(ClassicalRungeKutta.ThesisStep, step),
             smooth) with
         { Note = "the thesis's update of the position" };
-        yield return Fifth(context, "through contacts, position", Floor, End, MotionLaw.RungeKutta4) with { Note = "the classical method in place of Dormand and Prince's" };
+        yield return Fifth(context, "through contacts, position", Floor, End, MotionLaw.RungeKutta4) with
+        {
+            Note = "the classical method in place of Dormand and Prince's",
+        };
         yield return Row("through contacts, position", step => Textbook(ClassicalRungeKutta.Snapped(Floor, E), step),
             bounced) with
         { Note = "contacts moved to the end of their step" };

@@ -63,7 +63,8 @@ internal sealed class OscillatorCase : IHardCase
         double expected = Math.Pow(factor, steps * parts);
         double stages = 1 + (z * (1 + (z / 2 * (1 + (z / 3 * (1 + (z / 4)))))));
         return new HardRow(
-            Name, FormattableString.Invariant($"omega h = {whole}, {steps:N0} steps{(parts > 1 ? ", which the engine halves" : "")}"), Math.Abs((amplitude / expected) - 1), "amplitude_relative",
+            Name, FormattableString.Invariant($"omega h = {whole}, {steps:N0} steps{(parts > 1 ? ", which the engine halves" : "")}"),
+            Math.Abs((amplitude / expected) - 1), "amplitude_relative",
             HardFlight.RoundingsAPiece * stages / factor * Rounding.Walk(steps * parts) * Math.Sqrt(3),
             "a walk of one rounding a step of the size of the stages, 1 + z + z^2/2 + z^3/6 + z^4/24, magnified by the 31 that the quintic's coefficients add to, and 9 for the rest",
             "factor sqrt(1 - z^6/72 + z^8/576) a step")

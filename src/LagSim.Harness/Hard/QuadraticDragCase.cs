@@ -1,6 +1,4 @@
 using System;
-using System.Collections.Generic;
-using System.Linq;
 using LagSim.Harness.References;
 using LagSim.Scenes;
 using static LagSim.Harness.Hard.HardWorlds;
@@ -37,9 +35,7 @@ internal sealed class QuadraticDragCase : DragCase
         "Lotkin's local errors 73/720 M L^4 h^5 a step, M = 2g, L = 2k u (u the terminal speed), added with nothing damped",
         "Lotkin's local errors, k (gh)^2 h where the speed changes sign, (h/2)^6/720 of the quintic at a contact");
 
-    protected override IEnumerable<HardFlight> Flights(HardContext context) =>
-        context.Sizes([1.0 / 32], [1.0 / 16, 1.0 / 64, 1.0 / 256]).Select(HardFlight.Steps)
-            .Concat(context.Sizes([1e-9], [1e-6, 1e-9, 1e-12]).Select(HardFlight.Controlled));
+    protected override bool HasClosedForm => false;
 
     protected override Force Drag(double factor) => Force.QuadraticDrag("drag", K * factor);
 

@@ -138,6 +138,7 @@ internal sealed class RestCase : IHardCase
         yield return new HardRow(
             Name, size, seen.Gain, "energy_gain_j", 64 * Rounding.Unit * Gravity * 3, "64 roundings of the energy of three balls", "the energy at the start");
         yield return new HardRow(
-            Name, size, seen.Events, "events", 4 * Math.Max(1, contacts), "an impact a contact, as each is found, and few steps until all rest", "nothing happens any more");
+            Name, size, seen.Events, "events", 4 * Math.Max(1, contacts), "an impact a contact, as each is found, and few steps until all rest",
+            "nothing happens any more");
     }
 }

@@ -97,7 +97,8 @@ internal sealed class RollingCase : IHardCase
         BodyState state = Read(simulation, 0, 2 * stops);
         double way = speed * speed / (2 * brake), off = Math.Abs(state.Position.X - way);
         return new HardRow(
-            Name, FormattableString.Invariant($"rolls with resistance {resistance} to rest"), state.Motion == MotionLaw.Resting ? off : double.NaN, "position_m",
+            Name, FormattableString.Invariant($"rolls with resistance {resistance} to rest"), state.Motion == MotionLaw.Resting ? off : double.NaN,
+            "position_m",
             (Rounding.Tick * Rounding.Tick * brake) + (16 * Rounding.Unit * way), "what is left of the way in a tick, and 16 roundings", "7 v^2/(10 c g)");
     }
 

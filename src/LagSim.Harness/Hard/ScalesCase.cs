@@ -111,7 +111,8 @@ internal sealed class ScalesCase : IHardCase
         for (int n = 0; n < bodies; n++)
         {
             BodySpec ball = new(scale * random.NextDouble(0.05, 0.9), Power(random, -9, 9), Part(random), law, step);
-            builder.AddBody(FormattableString.Invariant($"ball {n}"), ball, V(2 * n, 1 + (2 * random.NextDouble()), random.NextDouble() - 0.5) * scale, Any(random) * speed);
+            builder.AddBody(FormattableString.Invariant($"ball {n}"), ball, V(2 * n, 1 + (2 * random.NextDouble()), random.NextDouble() - 0.5) * scale,
+                Any(random) * speed);
         }
 
         return (builder.Build(), seconds);
@@ -132,7 +133,8 @@ internal sealed class ScalesCase : IHardCase
         Force[] forces =
         [
             Force.LinearDrag("oil", Strong(random, mass / time), Any(random) * speed), Force.QuadraticDrag("air", Strong(random, mass / length)),
-            Force.Spring("spring", default, Strong(random, mass / time / time), Strong(random, mass / time)), Force.Magnetic("coil", V(0, 1, 1), Strong(random, mass / time)),
+            Force.Spring("spring", default, Strong(random, mass / time / time), Strong(random, mass / time)),
+            Force.Magnetic("coil", V(0, 1, 1), Strong(random, mass / time)),
             Force.Magnus("curve", Strong(random, mass * 0.01)), Force.Central("well", V(0, 0, 4 * length), Strong(random, length * length * speed / time)),
             Force.Central("slide", V(0, 0, -4 * length), Strong(random, speed / time), (int)(9 * random.NextDouble()) - 4),
         ];
@@ -145,7 +147,8 @@ internal sealed class ScalesCase : IHardCase
                 Laws[(int)(random.NextDouble() * (IsLucky(random) ? 3 : 4))], SimDuration.FromSeconds(Math.Clamp(0.02 * time, 1e-6, 1)), acting,
                 IsLucky(random) ? 0 : Math.Min(1, 1e-6 * length), IsLucky(random) ? Part(random) : 0, Part(random));
             builder.AddBody(
-                FormattableString.Invariant($"ball {n}"), ball, V(n % 3, n / 3) * (0.7 * length), Any(random) * speed, spin: IsLucky(random) ? Any(random) * (1 / time) : default);
+                FormattableString.Invariant($"ball {n}"), ball, V(n % 3, n / 3) * (0.7 * length), Any(random) * speed,
+                spin: IsLucky(random) ? Any(random) * (1 / time) : default);
         }
 
         return (builder.Build(), Math.Min(1e5, 5 * time));
@@ -159,7 +162,8 @@ internal sealed class ScalesCase : IHardCase
         for (int n = 0; n < 6; n++)
         {
             builder.AddBody(
-                FormattableString.Invariant($"ball {n}"), new BodySpec(random.NextDouble(0.1, 0.9) * length, Power(random, -9, 9), Part(random), friction: IsLucky(random) ? Part(random) : 0),
+                FormattableString.Invariant($"ball {n}"),
+                new BodySpec(random.NextDouble(0.1, 0.9) * length, Power(random, -9, 9), Part(random), friction: IsLucky(random) ? Part(random) : 0),
                 V(1 + (2 * (n % 3)), 1 + (2 * (n / 3)), 5) * length, Any(random) * speed, spin: IsLucky(random) ? Any(random) * (speed / length) : default);
         }
 

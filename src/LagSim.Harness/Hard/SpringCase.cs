@@ -54,7 +54,8 @@ internal sealed class SpringCase : IHardCase
     {
         const double start = 1;
         double kappa = omega * omega, gamma = 2 * ratio * omega, push = 0.5 * omega;
-        Scene scene = Floating("spring").AddForce(Force.Spring("spring", V(2), kappa * factor, gamma)).AddBody("ball", flight.Ball(0.01), V(2 + start), V(push)).Build();
+        Scene scene = Floating("spring").AddForce(Force.Spring("spring", V(2), kappa * factor, gamma))
+            .AddBody("ball", flight.Ball(0.01), V(2 + start), V(push)).Build();
         Simulation simulation = context.Simulate(scene);
         DampedOscillator exact = new(gamma, kappa);
         double worst = 0;

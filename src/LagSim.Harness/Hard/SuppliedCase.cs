@@ -67,7 +67,8 @@ internal sealed class SuppliedCase : IHardCase
         }
 
         return new HardRow(
-            Name, FormattableString.Invariant($"{force.Kind}, {flight.Text}, bouncing"), others, "states_of_other_bits", 0, "the same operations in the same order give the same bits",
+            Name, FormattableString.Invariant($"{force.Kind}, {flight.Text}, bouncing"), others, "states_of_other_bits", 0,
+            "the same operations in the same order give the same bits",
             "the library's force of the same formula, at 64 instants");
     }
 

@@ -22,7 +22,7 @@ public sealed class VirtualClock : IClock
         {
             if (value < Now)
             {
-                throw new ArgumentOutOfRangeException(nameof(value), value, $"The clock reads {Now.ToShortString()} and only goes forward.");
+                throw new ArgumentOutOfRangeException(nameof(value), value.ToShortString(), $"The clock reads {Now.ToShortString()} and only goes forward.");
             }
 
             Volatile.Write(ref ticks, value.Ticks);

@@ -22,7 +22,7 @@ public static class BuiltInScenes
     public static IReadOnlyList<string> Names => AllNames;
 
     /// <summary>What may be asked for, in words: for errors.</summary>
-    internal static string KnownNames => $"{string.Join(", ", AllNames)}, crowd-N for N from 1 to {MaxCrowd}";
+    public static string KnownNames => $"{string.Join(", ", AllNames)}, crowd-N for N from 1 to {MaxCrowd}";
 
     /// <summary>The built-in scene of that name, as it is unless told otherwise.</summary>
     public static bool TryGet(string name, [NotNullWhen(true)] out Scene? scene)

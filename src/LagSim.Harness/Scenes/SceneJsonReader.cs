@@ -119,7 +119,7 @@ internal ref partial struct SceneJsonReader
             return;
         }
 
-        SceneBuilder alone = new("scene");
+        SceneBuilder alone = new SceneBuilder("scene").WithGravity(Vector3D.Zero); // with which anything goes that is right in itself
         try
         {
             part(alone);

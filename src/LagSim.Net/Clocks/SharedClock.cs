@@ -98,7 +98,7 @@ public sealed class SharedClock : IClock
             SimDuration offset = estimate.OffsetAt(now);
             if (offset.Ticks is < -MaxOffset or >= MaxOffset)
             {
-                throw new ArgumentOutOfRangeException(nameof(estimate), offset, "Two clocks of a session are at most 48 days apart.");
+                throw new ArgumentOutOfRangeException(nameof(estimate), offset.ToShortString(), "Two clocks of a session are at most 48 days apart.");
             }
 
             if (set)

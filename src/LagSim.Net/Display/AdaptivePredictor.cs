@@ -85,7 +85,7 @@ public sealed class AdaptivePredictor
 
         if (delay < SimDuration.Zero)
         {
-            throw new ArgumentOutOfRangeException(nameof(delay), delay, "The delay must be at least zero.");
+            throw new ArgumentOutOfRangeException(nameof(delay), delay.ToShortString(), "The delay must be at least zero.");
         }
 
         double seconds = delay.ToSeconds();

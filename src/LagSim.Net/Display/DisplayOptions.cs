@@ -67,7 +67,7 @@ public sealed class DisplayOptions
 
     private static SimDuration Span(SimDuration value, SimDuration least, SimDuration most, string name) => value >= least && value <= most
         ? value
-        : throw new ArgumentOutOfRangeException(name, value, $"This span must lie between {least} and {most}.");
+        : throw new ArgumentOutOfRangeException(name, value.ToShortString(), $"This span must lie between {least.ToShortString()} and {most.ToShortString()}.");
 
     private static double Number(double value, bool isAllowed, string name, string allowed) => isAllowed && !double.IsInfinity(value)
         ? value

@@ -214,18 +214,16 @@ public sealed class RecordingComparison
             bool isInFirst = a.TryRead(body, time, out BodyState mine), isInSecond = b.TryRead(body, time, out BodyState theirs);
             if (isInFirst != isInSecond || !mine.IsSameBits(theirs))
             {
-                return $" The first body that differs is {Named(a.Scene, body)}: {State(isInFirst, mine)} in the first, {State(isInSecond, theirs)} in the second.";
+                return $" The first body that differs is {Words.Named(a.Scene, body)}: {State(isInFirst, mine)} in the first, {State(isInSecond, theirs)} in the second.";
             }
         }
 
         return " No body differs in its place or motion: what else belongs to a state does, such as who holds what.";
     }
 
-    private static string Named(Scene scene, BodyId body) =>
-        body.Index < scene.Bodies.Count && body.Equals(BodyId.OfScene(body.Index)) ? $"'{scene.Bodies[body.Index].Name}'" : $"the spawned body {body}";
-
     private static string State(bool isThere, in BodyState state) =>
-        isThere ? $"{state.Motion} at {state.Position} m with {state.Velocity} m/s" : "not there";
+        !isThere ? "not there"
+        : $"{state.Motion} at {state.Position} m with {state.Velocity} m/s" + (state.Spin == Vector3D.Zero ? "" : $" and {state.Spin} rad/s");
 
     private static string Verdict(RecordingReplay replay, Recording of) => replay.Outcome switch
     {

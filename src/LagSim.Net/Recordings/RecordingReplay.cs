@@ -1,4 +1,6 @@
 using System;
+using System.Collections.Generic;
+using System.Text;
 using System.Threading;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
@@ -16,6 +18,8 @@ namespace LagSim.Net.Recordings;
 /// </remarks>
 public sealed class RecordingReplay
 {
+    private const int MostNamed = 5;
+
     private RecordingReplay(
         ReplayOutcome outcome, int eventsApplied, int statesChecked, CommittedState? expected, CommittedState? actual, string message)
     {
@@ -93,7 +97,8 @@ public sealed class RecordingReplay
                 {
                     return new RecordingReplay(
                         ReplayOutcome.Differs, applied, agreed, expected, actual,
-                        $"The replay differs at {Words.SinceStart(expected.Time, recording.Header!.Start)}: recorded {expected}; replayed {actual}.")
+                        $"The replay differs at {Words.SinceStart(expected.Time, recording.Header!.Start)}: recorded {expected}; replayed {actual}."
+                            + WhoseDoing(simulation, recording, expected, actual, last?.Time ?? recording.Joined?.Time))
                     {
                         World = simulation,
                     };
@@ -118,6 +123,30 @@ public sealed class RecordingReplay
             }
             : new RecordingReplay(
                 ReplayOutcome.NothingToCheck, applied, agreed, null, null, "The recording holds no committed state that a replay could be checked against.");
+    }
+
+    /// <summary>
+    /// Which bodies the difference can be of. Hashes do not tell, but up to the last state that agrees all was the same, so it came about in what has happened since.
+    /// </summary>
+    private static string WhoseDoing(Simulation replayed, Recording recording, in CommittedState expected, in CommittedState actual, SimTime? agreed)
+    {
+        SimTime start = recording.Header!.Start;
+        StringBuilder named = new();
+        int count = 0;
+        for (int n = 0; n < replayed.BodyCount; n++)
+        {
+            BodyId body = replayed.BodyAt(n);
+            IReadOnlyList<TimelineEntry> kept = replayed.Timeline(body);
+            if (kept[kept.Count - 1].Key.Time > (agreed ?? start))
+            {
+                named.Append(count < MostNamed ? (count == 0 ? ": " : ", ") + Words.Named(replayed.Scene, body) : count == MostNamed ? ", ..." : "");
+                count++;
+            }
+        }
+
+        string since = agreed is SimTime time ? $"{Words.SinceStart(time, start)}, the last that agrees" : "the start";
+        return (expected.StateHash == actual.StateHash ? " The states are the same; what happened on the way there is not." : "")
+            + $" A recording holds hashes, which name no body. Since {since}, the replay has events of {count} of {Words.Count(replayed.BodyCount, "body")}{named}.";
     }
 
     private static Simulation Begin(Recording recording, CancellationToken cancellation)

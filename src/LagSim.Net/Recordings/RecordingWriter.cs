@@ -132,7 +132,7 @@ public sealed class RecordingWriter : IDisposable
         if (time < lastCommitted || (hasCommitted && time == lastCommitted))
         {
             throw new ArgumentOutOfRangeException(
-                nameof(time), time, $"A committed state must lie {(hasCommitted ? "after" : "at or after")} {lastCommitted}.");
+                nameof(time), time.ToShortString(), $"A committed state must lie {(hasCommitted ? "after" : "at or after")} {lastCommitted.ToShortString()}.");
         }
 
         WireWriter writer = new(content);

@@ -69,7 +69,7 @@ public sealed class Divergence
         return head + Finding switch
         {
             DivergenceFinding.EventDiffers => $"The first that differs: at the host {Text(HostVersion, true)}; here {Text(OwnVersion, HasOwnEffect)}.",
-            DivergenceFinding.EventsAgree => "The host has the same ones: its world made something else of them, or the hash that it told is not its world's.",
+            DivergenceFinding.EventsAgree => "The host has the same ones: its world made something else of them, or the hash that it told is not its world's. A replay of a recording of each tells which of the two departs from its own events.",
             DivergenceFinding.Forgotten => "Not all of them are still kept, so which one differs cannot be told.",
             DivergenceFinding.Unanswered => "The host did not tell its own.",
             DivergenceFinding.NotPromised => "With this strategy worlds need not agree.",

@@ -48,7 +48,7 @@ public sealed class HandSender
     {
         if (hasSent && time < sent)
         {
-            throw new ArgumentOutOfRangeException(nameof(time), time, $"A knot of {sent} was sent already; samples come in the order of their times.");
+            throw new ArgumentOutOfRangeException(nameof(time), time.ToShortString(), $"A knot of {sent.ToShortString()} was sent already; samples come in the order of their times.");
         }
 
         SimDuration since = hasSent ? time - sent : SimDuration.MaxValue;

@@ -29,12 +29,12 @@ public sealed class HandSenderOptions
         SimDuration most = HandPath.Lasts / 2;
         if (Longest < SimDuration.FromMilliseconds(1) || Longest > most)
         {
-            throw new ArgumentOutOfRangeException(nameof(Longest), Longest, $"The longest time without a knot lies between 1 ms and {most}.");
+            throw new ArgumentOutOfRangeException(nameof(Longest), Longest.ToShortString(), $"The longest time without a knot lies between 1 ms and {most.ToShortString()}.");
         }
 
         if (Shortest < SimDuration.FromMilliseconds(1) || Shortest > Longest)
         {
-            throw new ArgumentOutOfRangeException(nameof(Shortest), Shortest, $"The least time between two knots lies between 1 ms and the longest, {Longest}.");
+            throw new ArgumentOutOfRangeException(nameof(Shortest), Shortest.ToShortString(), $"The least time between two knots lies between 1 ms and the longest, {Longest.ToShortString()}.");
         }
 
         return new HandSenderOptions { Distance = Distance, Shortest = Shortest, Longest = Longest };

@@ -22,7 +22,7 @@ internal sealed class PlayerLimits
     internal Verdict WhyNot(in ExternalEvent external, Simulation world, SimTime now, out string sentence)
     {
         sentence = "";
-        if (external.Kind == EventKind.Spawn && external.Velocity.Length <= options.MaxGivenSpeed)
+        if (external.Kind == EventKind.Spawn && external.Velocity.Length <= options.MaxGivenSpeed && SurfaceSpeed(external) <= options.MaxGivenSpeed)
         {
             byte player = external.Peer;
             ForgetBefore(now - options.Window.History);
@@ -35,14 +35,16 @@ internal sealed class PlayerLimits
             return Verdict.NoRight;
         }
 
-        double speed = SpeedAfter(external, world, out double before);
+        bool turns = external.Kind == EventKind.Spawn && SurfaceSpeed(external) > external.Velocity.Length;
+        double before = 0;
+        double speed = turns ? SurfaceSpeed(external) : SpeedAfter(external, world, out before);
         if (speed <= options.MaxGivenSpeed || speed <= before)
         {
             return Verdict.Accepted;
         }
 
         sentence = FormattableString.Invariant(
-            $"The {external.Kind} gives body {external.Body} a speed of {speed:R} m/s; in this session a player may give {options.MaxGivenSpeed:R} m/s at most.");
+            $"The {external.Kind} gives {(turns ? "the surface of body" : "body")} {external.Body} a speed of {speed:R} m/s; in this session a player may give {options.MaxGivenSpeed:R} m/s at most.");
         return Verdict.Invalid;
     }
 
@@ -71,6 +73,9 @@ internal sealed class PlayerLimits
             body.Removed = SimTime.MaxValue;
         }
     }
+
+    /// <summary>How fast the spin of a spawn moves its surface: friction makes speed of it.</summary>
+    private static double SurfaceSpeed(in ExternalEvent spawn) => spawn.Spin.Length * spawn.Spec.Radius;
 
     /// <summary>
     /// How fast the event leaves its body, and how fast that was; an impulse, and the way a hand has to make up for, are judged by the world as it is known now.

@@ -48,7 +48,7 @@ public sealed class SessionOptions
 
     /// <summary>
     /// The highest speed in m/s that an event of a player may give, above 0, up to <see cref="double.PositiveInfinity"/> for no limit beyond the world's own; default
-    /// 1,000. It holds for the velocity of a spawn, a teleport, a set velocity, a knot or a release, for the way that a knot has a held body make up for, and for what
+    /// 1,000. It holds for the velocity of a spawn, a teleport, a set velocity, a knot or a release, for the surface of a spawn that turns, for the way that a knot has a held body make up for, and for what
     /// an impulse leaves, unless that is slower than what was there. A host
     /// refuses more as <see cref="Verdict.Invalid"/>, by its own option; a joiner's own <see cref="Session.Do"/> goes by the joiner's.
     /// </summary>
@@ -198,7 +198,7 @@ public sealed class SessionOptions
     {
         if (value < SimDuration.FromSeconds(least) || value > SimDuration.FromSeconds(most))
         {
-            throw new ArgumentOutOfRangeException(name, value, FormattableString.Invariant($"{name} must lie between {least} s and {most} s."));
+            throw new ArgumentOutOfRangeException(name, value.ToShortString(), FormattableString.Invariant($"{name} must lie between {least} s and {most} s."));
         }
     }
 }

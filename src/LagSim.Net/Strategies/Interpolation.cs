@@ -28,7 +28,7 @@ public sealed class Interpolation : ILateEventStrategy
         DisplayDelay = delay ?? DefaultDelay;
         if (DisplayDelay < SimDuration.Zero || DisplayDelay > MaxDelay)
         {
-            throw new ArgumentOutOfRangeException(nameof(delay), DisplayDelay, $"The world is shown 0 s to {MaxDelay.ToShortString()} behind shared time.");
+            throw new ArgumentOutOfRangeException(nameof(delay), DisplayDelay.ToShortString(), $"The world is shown 0 s to {MaxDelay.ToShortString()} behind shared time.");
         }
     }
 

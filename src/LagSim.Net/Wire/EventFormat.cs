@@ -10,7 +10,7 @@ namespace LagSim.Net.Wire;
 public static class EventFormat
 {
     /// <summary>The length of the longest event, a spawn, in bytes.</summary>
-    public const int MaxBytes = HeadBytes + SpecBytes + (2 * VectorBytes);
+    public const int MaxBytes = HeadBytes + SpecBytes + (3 * VectorBytes);
 
     /// <summary>The length of the shortest event, a removal, in bytes.</summary>
     public const int MinBytes = HeadBytes + BodyBytes;
@@ -46,6 +46,7 @@ public static class EventFormat
         && WireFormat.IsInRange(what.Time)
         && what.Position.IsFinite
         && what.Velocity.IsFinite
+        && what.Spin.IsFinite
         && (what.Kind != EventKind.Spawn || IsSpecWellFormed(what.Spec));
 
     /// <summary>Writes an event; every -0.0 becomes 0.0.</summary>
@@ -79,6 +80,11 @@ public static class EventFormat
         {
             writer.WriteVector(what.Velocity);
         }
+
+        if (what.Kind == EventKind.Spawn)
+        {
+            writer.WriteVector(what.Spin);
+        }
     }
 
     /// <summary>Reads an event; the reader refuses what is not well formed. Never throws.</summary>
@@ -94,9 +100,10 @@ public static class EventFormat
         BodyId body = kind == EventKind.Spawn ? default : BodyId.FromPacked(reader.ReadUInt64());
         Vector3D position = HasPosition(kind) ? reader.ReadVector() : default;
         Vector3D velocity = HasVelocity(kind) ? reader.ReadVector() : default;
+        Vector3D spin = kind == EventKind.Spawn ? reader.ReadVector() : default;
         ExternalEvent what = kind switch
         {
-            EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity),
+            EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity, spin),
             EventKind.Remove => ExternalEvent.Remove(time, peer, sequence, body),
             EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity),
             EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),

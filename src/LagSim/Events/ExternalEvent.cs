@@ -13,7 +13,7 @@ namespace LagSim.Events;
 public readonly struct ExternalEvent : IEquatable<ExternalEvent>
 {
     private ExternalEvent(
-        EventKind kind, SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec)
+        EventKind kind, SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec, Vector3D spin = default)
     {
         Kind = kind;
         Time = time;
@@ -23,6 +23,7 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
         Position = position;
         Velocity = velocity;
         Spec = spec;
+        Spin = spin;
     }
 
     /// <summary>What is done.</summary>
@@ -51,32 +52,36 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     /// <summary>Of a spawn what appears; else <c>default</c>.</summary>
     public BodySpec Spec { get; }
 
+    /// <summary>Radians per second about the vector, of a spawn; else zero.</summary>
+    public Vector3D Spin { get; }
+
     /// <summary>Its place in the canonical order.</summary>
     public EventKey Key => new(Time, 0, Kind, Body, Body, Peer, Sequence);
 
     /// <summary>A new body appears; its identity is (<paramref name="peer"/>, <paramref name="sequence"/>, 0).</summary>
-    public static ExternalEvent Spawn(SimTime time, byte peer, uint sequence, BodySpec spec, Vector3D position, Vector3D velocity = default) =>
-        new(EventKind.Spawn, time, peer, sequence, new BodyId(peer, sequence, 0), position, velocity, spec);
+    public static ExternalEvent Spawn(
+        SimTime time, byte peer, uint sequence, BodySpec spec, Vector3D position, Vector3D velocity = default, Vector3D spin = default) =>
+        new(EventKind.Spawn, time, peer, sequence, new BodyId(peer, sequence, 0), position, velocity, spec, spin);
 
     /// <summary>The body disappears.</summary>
     public static ExternalEvent Remove(SimTime time, byte peer, uint sequence, BodyId body) =>
         new(EventKind.Remove, time, peer, sequence, body, default, default, default);
 
-    /// <summary>The body is put somewhere, with a velocity (default: none).</summary>
+    /// <summary>The body is put somewhere, with a velocity (default: none). It turns as it did.</summary>
     public static ExternalEvent Teleport(SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity = default) =>
         new(EventKind.Teleport, time, peer, sequence, body, position, velocity, default);
 
-    /// <summary>The body's velocity becomes this.</summary>
+    /// <summary>The body's velocity becomes this. It turns as it did.</summary>
     public static ExternalEvent SetVelocity(SimTime time, byte peer, uint sequence, BodyId body, Vector3D velocity) =>
         new(EventKind.SetVelocity, time, peer, sequence, body, default, velocity, default);
 
-    /// <summary>The body's momentum changes by this many newton seconds.</summary>
+    /// <summary>The body's momentum changes by this many newton seconds, as of a push through its centre: it turns as it did.</summary>
     public static ExternalEvent Impulse(SimTime time, byte peer, uint sequence, BodyId body, Vector3D impulse) =>
         new(EventKind.Impulse, time, peer, sequence, body, default, impulse, default);
 
     /// <summary>
     /// The peer's hand takes the body, by a point that lies <paramref name="offset"/> from its centre, in metres. Until the first knot the hand is taken to be at
-    /// rest where the body was. What is held already, or faster than may be given, it does not get.
+    /// rest where the body was. What is held already, or faster than may be given, it does not get. What is held does not turn, nor when it is let go.
     /// </summary>
     public static ExternalEvent Grab(SimTime time, byte peer, uint sequence, BodyId body, Vector3D offset = default) =>
         new(EventKind.Grab, time, peer, sequence, body, offset, default, default);
@@ -90,12 +95,12 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
         new(EventKind.Release, time, peer, sequence, body, default, velocity, default);
 
     /// <summary>The same deed at another time; how a peer that does not heal applies what it hears late.</summary>
-    public ExternalEvent At(SimTime time) => new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec);
+    public ExternalEvent At(SimTime time) => new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec, Spin);
 
     /// <inheritdoc/>
     public bool Equals(ExternalEvent other) =>
         Kind == other.Kind && Time == other.Time && Peer == other.Peer && Sequence == other.Sequence && Body == other.Body
-        && Position.Equals(other.Position) && Velocity.Equals(other.Velocity) && Spec.Equals(other.Spec);
+        && Position.Equals(other.Position) && Velocity.Equals(other.Velocity) && Spec.Equals(other.Spec) && Spin.Equals(other.Spin);
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is ExternalEvent other && Equals(other);

@@ -78,6 +78,7 @@ public static class ExternalEventCheck
                 $"The radius of {whose} is {Limits.Text(external.Spec.Radius)} m; the scene promises none below {Limits.Text(scene.SmallestRadius)} m.");
         }
 
+        Limits.CheckSpin(external.Spin, external.Spec, scene.SmallestRadius, whose, scene.ForceArray);
         CheckPlace(external.Position, external.Spec.Radius, scene, whose);
         if (scene.Box.Exists)
         {

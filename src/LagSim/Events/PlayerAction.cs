@@ -12,39 +12,43 @@ public readonly struct PlayerAction
     private readonly Vector3D position;
     private readonly Vector3D velocity;
     private readonly BodySpec spec;
+    private readonly Vector3D spin;
 
-    private PlayerAction(EventKind kind, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec)
+    private PlayerAction(EventKind kind, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec, Vector3D spin = default)
     {
         Kind = kind;
         this.body = body;
         this.position = position;
         this.velocity = velocity;
         this.spec = spec;
+        this.spin = spin;
     }
 
     /// <summary>What is done; <see cref="EventKind.None"/> of the default.</summary>
     public EventKind Kind { get; }
 
-    /// <summary>A new body appears, at metres and with metres per second. Its identity comes with the stamp.</summary>
-    public static PlayerAction Spawn(BodySpec spec, Vector3D position, Vector3D velocity = default) =>
-        new(EventKind.Spawn, default, position, velocity, spec);
+    /// <summary>
+    /// A new body appears, at metres, with metres per second, and turning by radians per second about <paramref name="spin"/> (default: not). Its identity comes with the stamp.
+    /// </summary>
+    public static PlayerAction Spawn(BodySpec spec, Vector3D position, Vector3D velocity = default, Vector3D spin = default) =>
+        new(EventKind.Spawn, default, position, velocity, spec, spin);
 
     /// <summary>The body disappears.</summary>
     public static PlayerAction Remove(BodyId body) => new(EventKind.Remove, body, default, default, default);
 
-    /// <summary>The body is put somewhere (metres), with a velocity (m/s; default: none).</summary>
+    /// <summary>The body is put somewhere (metres), with a velocity (m/s; default: none). It turns as it did.</summary>
     public static PlayerAction Teleport(BodyId body, Vector3D position, Vector3D velocity = default) =>
         new(EventKind.Teleport, body, position, velocity, default);
 
-    /// <summary>The body's velocity becomes this, in m/s.</summary>
+    /// <summary>The body's velocity becomes this, in m/s. It turns as it did.</summary>
     public static PlayerAction SetVelocity(BodyId body, Vector3D velocity) => new(EventKind.SetVelocity, body, default, velocity, default);
 
-    /// <summary>The body's momentum changes by this many newton seconds.</summary>
+    /// <summary>The body's momentum changes by this many newton seconds, as of a push through its centre: it turns as it did.</summary>
     public static PlayerAction Impulse(BodyId body, Vector3D impulse) => new(EventKind.Impulse, body, default, impulse, default);
 
     /// <summary>
     /// The player's hand takes the body, by a point that lies <paramref name="offset"/> (metres) from its centre. It lasts as long as the hand tells where it
-    /// is, a second at a time; see <see cref="Motion.HandPath"/>.
+    /// is, a second at a time; see <see cref="Motion.HandPath"/>. What is held does not turn, nor when it is let go.
     /// </summary>
     public static PlayerAction Grab(BodyId body, Vector3D offset = default) => new(EventKind.Grab, body, offset, default, default);
 
@@ -58,7 +62,7 @@ public readonly struct PlayerAction
     /// <exception cref="InvalidOperationException">This is <c>default</c>, no action.</exception>
     public ExternalEvent Stamp(SimTime time, byte peer, uint sequence) => Kind switch
     {
-        EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity),
+        EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity, spin),
         EventKind.Remove => ExternalEvent.Remove(time, peer, sequence, body),
         EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity),
         EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),

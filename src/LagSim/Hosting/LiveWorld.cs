@@ -177,17 +177,17 @@ public sealed class LiveWorld
         SimDuration ahead = lookAhead ?? LatencyCompensationWindow.DefaultLookAhead;
         if (ahead <= SimDuration.Zero || ahead > LatencyCompensationWindow.MaxLookAhead)
         {
-            throw new ArgumentOutOfRangeException(nameof(lookAhead), ahead, "The look-ahead must be above zero and at most 1 s.");
+            throw new ArgumentOutOfRangeException(nameof(lookAhead), ahead.ToShortString(), "The look-ahead must be above zero and at most 1 s.");
         }
 
         if (picturePast < SimDuration.Zero)
         {
-            throw new ArgumentOutOfRangeException(nameof(picturePast), picturePast, "A picture cannot show less than no past.");
+            throw new ArgumentOutOfRangeException(nameof(picturePast), picturePast.Value.ToShortString(), "A picture cannot show less than no past.");
         }
 
         if (options.History <= ahead)
         {
-            throw new ArgumentOutOfRangeException(nameof(options), options.History, $"The history must exceed the look-ahead, {ahead}.");
+            throw new ArgumentOutOfRangeException(nameof(options), options.History.ToShortString(), $"The history must exceed the look-ahead, {ahead.ToShortString()}.");
         }
 
         contacts?.Follow();

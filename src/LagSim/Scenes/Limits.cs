@@ -65,14 +65,24 @@ internal static class Limits
         CheckRate(spec, whose, gravity, forces);
     }
 
-    /// <summary>No point of a body's surface turns faster than a body may be given to move.</summary>
-    internal static void CheckSpin<T>(in Vector3D spin, double radius, double smallestRadius, T whose)
+    /// <summary>No point of a body's surface turns faster than a body may be given to move, nor does a Magnus force turn its path faster than may be followed.</summary>
+    internal static void CheckSpin<T>(in Vector3D spin, in BodySpec spec, double smallestRadius, T whose, Force[] forces)
     {
         Components(spin, double.MaxValue, whose, "spin", "rad/s");
-        double limit = MaxGivenSpeed(smallestRadius) / radius;
+        double limit = MaxGivenSpeed(smallestRadius) / spec.Radius;
         if (!(spin.Length <= limit))
         {
             throw new SceneException($"The spin of {whose} is {spin} rad/s; at most {Text(limit)} rad/s is allowed, at which its surface moves as fast as a body may be given to.");
+        }
+
+        foreach (Force force in spec.Forces.Among(forces))
+        {
+            double rate = force.Kind == ForceKind.Magnus ? force.RateAt(spec.Mass, Vector3D.Zero, Vector3D.Zero, spin) : 0;
+            if (!(rate <= MaxRate))
+            {
+                throw new SceneException(
+                    $"On {whose}, of {Text(spec.Mass)} kg and with a spin of {spin} rad/s, force '{force.Name}', of strength {Text(force.Strength)}, acts at a rate of {Text(rate)} 1/s; at most {Text(MaxRate)} 1/s is allowed.");
+            }
         }
     }
 

@@ -164,7 +164,7 @@ public sealed class SceneBuilder
                 ref readonly SceneBody body = ref bodyArray[i];
                 Limits.CheckPosition(body.Position, Whose(body));
                 Limits.CheckVelocity(body.Velocity, smallest, Whose(body));
-                Limits.CheckSpin(body.Spin, body.Spec.Radius, smallest, Whose(body));
+                Limits.CheckSpin(body.Spin, body.Spec, smallest, Whose(body), forceArray);
             }
         });
         Scene? scene = null;

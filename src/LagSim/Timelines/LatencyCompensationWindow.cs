@@ -54,12 +54,12 @@ public sealed class LatencyCompensationWindow
     {
         if (history < MinHistory || history > MaxHistory)
         {
-            throw new ArgumentOutOfRangeException(nameof(history), history, $"The history must lie between {MinHistory.ToShortString()} and {MaxHistory.ToShortString()}.");
+            throw new ArgumentOutOfRangeException(nameof(history), history.ToShortString(), $"The history must lie between {MinHistory.ToShortString()} and {MaxHistory.ToShortString()}.");
         }
 
         if (lookAhead <= SimDuration.Zero || lookAhead > MaxLookAhead)
         {
-            throw new ArgumentOutOfRangeException(nameof(lookAhead), lookAhead, $"The look-ahead must be above zero and at most {MaxLookAhead.ToShortString()}.");
+            throw new ArgumentOutOfRangeException(nameof(lookAhead), lookAhead.ToShortString(), $"The look-ahead must be above zero and at most {MaxLookAhead.ToShortString()}.");
         }
 
         History = history;
@@ -141,7 +141,7 @@ public sealed class LatencyCompensationWindow
         SimDuration most = LookAhead < half ? LookAhead : half;
         if (lag < SimDuration.Zero || lag > most)
         {
-            throw new ArgumentOutOfRangeException(nameof(lag), lag, $"A local lag must lie between 0 s and {most}, the lesser of the look-ahead and half the history.");
+            throw new ArgumentOutOfRangeException(nameof(lag), lag.ToShortString(), $"A local lag must lie between 0 s and {most.ToShortString()}, the lesser of the look-ahead and half the history.");
         }
     }
 }

@@ -81,13 +81,13 @@ internal static class SnapshotCheck
 
         if (body.Law == MotionLaw.Resting && body.End != SimTime.MaxValue)
         {
-            throw new SceneException($"The rest of {whose} ends at {body.End}; it lasts until something else happens, so its end must be {SimTime.MaxValue}.");
+            throw new SceneException($"The rest of {whose} ends at {body.End.ToShortString()}; it lasts until something else happens, so its end must be {SimTime.MaxValue.ToShortString()}.");
         }
 
         if (body.Law == MotionLaw.Constrained && (body.Epoch != body.Opened.Time || body.End <= body.Epoch || body.End - body.Epoch > IslandStep.Longest))
         {
             throw new SceneException(
-                $"The step of {whose}, which is Constrained, lasts from {body.Epoch} to {body.End} and was opened at {body.Opened.Time}; it must begin where it was opened and last at most {IslandStep.Longest}.");
+                $"The step of {whose}, which is Constrained, lasts from {body.Epoch.ToShortString()} to {body.End.ToShortString()} and was opened at {body.Opened.Time.ToShortString()}; it must begin where it was opened and last at most {IslandStep.Longest.ToShortString()}.");
         }
 
         for (int n = 0; n < body.SupportCount; n++)

@@ -56,9 +56,7 @@ public sealed class WorkSweepTests
 #endif
     public void Peer_ThatIsThere_DropsAsItWasMeasuredBefore(string engine, string name, double published)
     {
-        IWorkMethod method = Method(name);
-        Assert.Equal(engine, method.Engine);
-        Assert.SkipWhen(method.Missing is not null, method.Missing ?? "");
+        Assert.Equal(engine, ThatIsThere(name).Engine);
         WorkPoint[] points = Sweep("drop", name, 3);
         Assert.InRange(points[0].Error, 0.9 * published, 1.1 * published);
         Assert.True(points[2].Error < points[0].Error / (engine == "bepu" ? 3 : 5), $"{points[2]}"); // 1/1000 s; springs are of order one half
@@ -87,7 +85,7 @@ public sealed class WorkSweepTests
 #endif
     public void Peer_ThatIsThere_MovesAsTheSceneSays(string scene, string name, int settings)
     {
-        Assert.SkipWhen(Method(name).Missing is not null, Method(name).Missing ?? "");
+        ThatIsThere(name);
         WorkPoint[] points = [.. Sweep(scene, name, settings).Where(point => point.ErrorKind == Scene(scene).ErrorKinds[0])];
         Assert.All(points, point => Assert.InRange(point.Error, 1e-6, 0.5));
         // the force acts, on the places of the step
@@ -105,7 +103,7 @@ public sealed class WorkSweepTests
     [InlineData("Box2D.NET", "Box2D.NET")]
     public void EngineThatIsNotInTheBuild_IsNamedWithTheSwitchAndThePackageItNeeds(string name, string package)
     {
-        WorkReport report = WorkSweep.Run([Scene("drop")], [Method(name)], Short, null, TestContext.Current.CancellationToken);
+        WorkReport report = Run([Scene("drop")], [Method(name)]);
         Assert.Equal($"{name} is left out: it is not in this build; -p:WithPeers=true builds it in and needs the package {package}.", Assert.Single(report.LeftOut));
         Assert.Empty(report.Points);
     }
@@ -121,9 +119,8 @@ public sealed class WorkSweepTests
     [Fact]
     public void WhatIsLeftOut_IsSaidWithItsReason()
     {
-        WorkReport report = WorkSweep.Run(
-            [Scene("drag"), Scene("billiards")], [Method("LagSim Ballistic"), Method("MathNet RungeKutta4"), new Absent()], Short with { MostSettings = 1 },
-                null, TestContext.Current.CancellationToken);
+        WorkReport report = Run(
+            [Scene("drag"), Scene("billiards")], [Method("LagSim Ballistic"), Method("MathNet RungeKutta4"), new Absent()], Short with { MostSettings = 1 });
         Assert.Equal(
             [
                 "absent is left out: nobody has it.",
@@ -131,8 +128,7 @@ public sealed class WorkSweepTests
                 "billiards: MathNet RungeKutta4 is left out: it is an integrator; contacts of bodies with each other are not in it.",
             ],
             report.LeftOut);
-        WorkReport hurried = WorkSweep.Run([Scene("spring")], [Method("LagSim RungeKutta4")], Short with { LongestSeconds = 1e-12 }, null,
-            TestContext.Current.CancellationToken);
+        WorkReport hurried = Run([Scene("spring")], [Method("LagSim RungeKutta4")], Short with { LongestSeconds = 1e-12 });
         Assert.Single(hurried.Points);
         Assert.Contains("spring: LagSim RungeKutta4 at 1/20 s and finer is left out: it would take about ", Assert.Single(hurried.LeftOut),
             StringComparison.Ordinal);
@@ -146,8 +142,7 @@ public sealed class WorkSweepTests
     [InlineData("drop", "Chipmunk")]
     public void Run_AskedToStop_EndsBetweenTwoSteps(string scene, string name)
     {
-        IWorkMethod method = Method(name);
-        Assert.SkipWhen(method.Missing is not null, method.Missing ?? "");
+        IWorkMethod method = ThatIsThere(name);
         using CancellationTokenSource stop = new();
         using IWorkRun run = method.Start(Scene(scene), method.Settings(Scene(scene))[0], stop.Token);
         run.AdvanceTo(Scene(scene).Seconds / 2);
@@ -159,13 +154,23 @@ public sealed class WorkSweepTests
 
     private static bool IsFour(WorkOrder order) => Math.Abs(order.Slope - 4) <= 0.1;
 
-    private static WorkOrder Order(string scene, IWorkMethod method) =>
-        Assert.Single(WorkSweep.Run([Scene(scene)], [method], Short, null, TestContext.Current.CancellationToken).Orders);
+    private static WorkReport Run(WorkScene[] scenes, IWorkMethod[] methods, WorkOptions? options = null) =>
+        WorkSweep.Run(scenes, methods, options ?? Short, null, TestContext.Current.CancellationToken);
+
+    private static WorkOrder Order(string scene, IWorkMethod method) => Assert.Single(Run([Scene(scene)], [method]).Orders);
 
     private static WorkPoint[] Sweep(string scene, string method, int settings) =>
-        [.. WorkSweep.Run([Scene(scene)], [Method(method)], Short with { MostSettings = settings }, null, TestContext.Current.CancellationToken).Points];
+        [.. Run([Scene(scene)], [Method(method)], Short with { MostSettings = settings }).Points];
 
     private static WorkScene Scene(string name) => WorkScenes.TryGet(name, out WorkScene? found) ? found : throw new ArgumentException(name);
+
+    /// <summary>The method, of an engine that is on this machine; the test is skipped where it is not.</summary>
+    private static IWorkMethod ThatIsThere(string name)
+    {
+        IWorkMethod method = Method(name);
+        Assert.SkipWhen(method.Missing is not null, method.Missing ?? "");
+        return method;
+    }
 
     private static IWorkMethod Method(string name) => WorkMethods.All.Single(method => method.Name == name);
 

@@ -47,6 +47,7 @@ public sealed class RefusedValuesTests
         ["gravity"] = (b => b.WithGravity(V(0, double.NaN)), ["gravity", "NaN"]),
         ["resolution"] = (b => b.WithResolution(0), ["resolution", "0"]),
         ["smallest radius"] = (b => b.WithSmallestRadius(-1), ["smallest radius", "-1"]),
+        ["Magnus too fast"] = (b => b.AddForce(Force.Magnus("air", 2e3)).AddBody("m", new BodySpec(0.5, 1, 1, forces: ForceSet.Of(0)), V(90, 90), spin: V(0, 0, 1e3)), ["'m'", "'air'", "2000000", "1000000 1/s"]),
         ["no normal"] = (b => b.AddPlane("p", V(0), V(0)), ["'p'", "normal"]),
         ["plane restitution"] = (b => b.AddPlane("p", V(1), V(0), 2), ["'p'", "restitution", "2"]),
         ["sphere radius"] = (b => b.AddStaticSphere("s", V(0), 0), ["'s'", "radius"]),
@@ -66,6 +67,8 @@ public sealed class RefusedValuesTests
         ["into the dome"] = (ExternalEvent.Teleport(At(1), 1, 1, First, V(10, 1)), ["position", "'dome'"]),
         ["spawn too small"] = (ExternalEvent.Spawn(At(1), 1, 1, Ball(0.1), V(0, 5)), ["radius", "0.1", "0.5"]),
         ["spawn without spec"] = (ExternalEvent.Spawn(At(1), 1, 1, default, V(0, 5)), ["radius", "0"]),
+        ["spawn that turns too fast"] = (ExternalEvent.Spawn(At(1), 1, 1, Ball(), V(0, 5), spin: V(0, 0, 1e12)), ["spin", "1000000000000", "rad/s"]),
+        ["spawn with a spin of NaN"] = (ExternalEvent.Spawn(At(1), 1, 1, Ball(), V(0, 5), spin: V(double.NaN)), ["spin", "NaN"]),
         ["spawn below the floor"] = (ExternalEvent.Spawn(At(1), 1, 1, Ball(), V(0, -5)), ["5.5", "'floor'"]),
     };
 

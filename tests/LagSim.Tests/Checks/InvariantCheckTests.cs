@@ -49,6 +49,7 @@ public sealed class InvariantCheckTests
         Assert.Contains(cases, c => c.Scene.Bodies.Any(b => b.Spec.Restitution == 0));
         Assert.Contains(cases, c => c.Scene.Bodies.Max(b => b.Spec.Mass) >= 1e6 * c.Scene.Bodies.Min(b => b.Spec.Mass));
         Assert.Equal(8, cases.SelectMany(c => c.Deeds).Select(d => d.Kind).Distinct().Count());
+        Assert.Contains(cases.SelectMany(c => c.Deeds), d => d.Kind == EventKind.Spawn && d.Spin != Vector3D.Zero && d.Spec.Friction > 0);
         HashSet<string> links = [.. cases.SelectMany(c => c.Players.Skip(1)).Select(p => p.Link.Name)];
         Assert.Superset(LinkProfiles.All.Where(p => !p.Name.StartsWith("delay-", StringComparison.Ordinal)).Select(p => p.Name).ToHashSet(), links);
         Assert.Contains(cases.SelectMany(c => c.Players), p => p.Link.RoundTripMilliseconds > 3_000);

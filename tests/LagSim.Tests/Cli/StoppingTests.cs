@@ -86,7 +86,8 @@ public sealed class StoppingTests
         File.WriteAllText(folder["kept"], "");
         OutputFolder.ThrowIfNotWritable(folder.Path);
         OutputFolder.ThrowIfNotWritable(folder["new/one/"]);
-        Assert.ThrowsAny<IOException>(() => OutputFolder.ThrowIfNotWritable(folder["kept/below"]));
+        IOException failure = Assert.Throws<IOException>(() => OutputFolder.ThrowIfNotWritable(folder["kept/below"]));
+        Assert.StartsWith($"--out is '{folder["kept/below"]}'; it must be a folder that can be made and written to. ", failure.Message, StringComparison.Ordinal);
         Assert.Equal([folder["kept"]], Directory.GetFileSystemEntries(folder.Path));
     }
 

@@ -44,6 +44,17 @@ public sealed class ComparisonTests
     }
 
     [Fact]
+    public void Of_ASpawnThatTurnsOtherwise_IsNamedWithBothSpins()
+    {
+        ExternalEvent was = Log[1].Event;
+        LogEntry[] other = With(2, Verdict.Accepted, ExternalEvent.Spawn(was.Time, was.Peer, was.Sequence, was.Spec, was.Position, was.Velocity, V(0, 0, 1e-9)));
+        RecordingComparison compared = Compare(Small(), Small(other, truth: other));
+        Assert.Equal((ComparisonOutcome.EventDiffers, 1), (compared.Outcome, compared.EntriesCompared));
+        Assert.Contains("m/s and (0, 0, 0) rad/s. In the second", compared.Message, StringComparison.Ordinal);
+        Assert.EndsWith("m/s and (0, 0, 1E-09) rad/s.", compared.Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
     public void Of_AnotherVerdict_IsNamed()
     {
         RecordingComparison compared = Compare(Small(), Small(With(3, Verdict.Accepted, Log[2].Event)));

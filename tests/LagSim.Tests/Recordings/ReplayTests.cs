@@ -56,6 +56,26 @@ public sealed class ReplayTests
     }
 
     [Fact]
+    public void Run_AnEventTheRecordedPeerNeverHad_NamesTheBodiesThatHadEventsSince()
+    {
+        Simulation whole = World(Log);
+        foreach ((uint lost, double since, double differs) in new[] { (1u, 0.0, 0.5), (4u, 0.5, 1.0), (6u, 1.0, 1.5) })
+        {
+            string[] named = [.. Bodies(whole)
+                .Where(body => whole.Timeline(body).Any(e => e.Key.Time > Start + Seconds(since) && e.Key.Time <= Start + Seconds(differs)))
+                .Select(body => body == First ? "'left'" : body == Second ? "'right'" : "the spawned body 2.1.0")];
+            string message = Replayed(Read(Small(truth: [.. Log.Where(entry => entry.Index != lost)]))).Message;
+            Assert.StartsWith(FormattableString.Invariant($"The replay differs at T {differs} s: "), message, StringComparison.Ordinal);
+            Assert.EndsWith(
+                FormattableString.Invariant($" Since T {since} s, the last that agrees, the replay has events of {named.Length} of 3 bodies: {string.Join(", ", named)}."),
+                message, StringComparison.Ordinal);
+        }
+
+        string still = Replayed(Read(Bytes(w => w.WriteCommitted(Start + Seconds(0.1), 1, 2)))).Message;
+        Assert.EndsWith(" Since the start, the replay has events of 0 of 2 bodies.", still, StringComparison.Ordinal); // the control: nothing has happened by then
+    }
+
+    [Fact]
     public void Run_AnotherVerdict_Differs()
     {
         Assert.Equal(ReplayOutcome.Differs, Replayed(Read(Small(With(3, Verdict.Accepted, Log[2].Event)))).Outcome);
@@ -69,7 +89,10 @@ public sealed class ReplayTests
         Simulation world = World([]);
         SimTime time = Start + Seconds(1);
         byte[] bytes = Bytes(writer => writer.WriteCommitted(time, world.StateHash(time), world.EventHash(time) ^ 1));
-        Assert.Equal(ReplayOutcome.Differs, Replayed(Read(bytes)).Outcome);
+        RecordingReplay replay = Replayed(Read(bytes));
+        Assert.Equal(ReplayOutcome.Differs, replay.Outcome);
+        Assert.Contains(" The states are the same; what happened on the way there is not. ", replay.Message, StringComparison.Ordinal);
+        Assert.EndsWith(" Since the start, the replay has events of 2 of 2 bodies: 'left', 'right'.", replay.Message, StringComparison.Ordinal);
     }
 
     [Fact]

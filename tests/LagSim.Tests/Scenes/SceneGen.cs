@@ -74,7 +74,7 @@ internal static class SceneGen
             0 => Force.LinearDrag(name, strength, vector),
             1 => Force.QuadraticDrag(name, strength, vector),
             2 => Force.Spring(name, vector, strength * 1e-20, strength),
-            5 => Force.Magnus(name, strength),
+            5 => Force.Magnus(name, strength * 1e-10), // spins are up to 1e8 rad/s
             3 => Force.Magnetic(name, vector * 1e-3, strength),
             _ => Force.Central(name, vector, strength, power),
         });

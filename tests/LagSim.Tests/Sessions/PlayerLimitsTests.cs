@@ -30,10 +30,12 @@ public sealed class PlayerLimitsTests
             ExternalEvent.Impulse(now, fast.Peer, 7, new BodyId(fast.Peer, 6, 0), V(0, 0.2)),
             ExternalEvent.Teleport(now, fast.Peer, 8, First, V(0, 8), V(0, 99)),
             ExternalEvent.SetVelocity(now, fast.Peer, 9, First, V(0, 99)),
-            ExternalEvent.Impulse(now, fast.Peer, 10, Second, V(0, 150)));
+            ExternalEvent.Impulse(now, fast.Peer, 10, Second, V(0, 150)),
+            ExternalEvent.Spawn(now, fast.Peer, 11, Ball(0.5), V(0, 8), V(0, 9), V(0, 0, 202)), // its surface at 101 m/s
+            ExternalEvent.Spawn(now, fast.Peer, 12, Ball(0.5), V(0, 8), V(0, 9), V(0, 0, 198)));
         group.Run(0.1);
-        Assert.Equal([1, 2, 3, 4, 5, 7], Said(group, Verdict.Invalid));
-        Assert.Equal([6, 8, 9, 10], Said(group, Verdict.Accepted));
+        Assert.Equal([1, 2, 3, 4, 5, 7, 11], Said(group, Verdict.Invalid));
+        Assert.Equal([6, 8, 9, 10, 12], Said(group, Verdict.Accepted));
         Assert.Null(group.Difference());
     }
 

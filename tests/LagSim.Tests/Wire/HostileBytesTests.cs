@@ -104,58 +104,19 @@ public class HostileBytesTests
         Assert.Equal(0, GC.GetAllocatedBytesForCurrentThread() - before);
     }
 
-    private static IEnumerable<byte[]> Valid(int each)
+    private static IEnumerable<byte[]> Valid(int each) => new[]
     {
-        foreach (KnockDatagram knock in Gen.Sample(WireGen.Knock, 30, each))
-        {
-            yield return AnyDatagram.Bytes(knock.Encode);
-        }
-
-        foreach (ChallengeDatagram challenge in Gen.Sample(WireGen.Challenge, 30, each))
-        {
-            yield return AnyDatagram.Bytes(challenge.Encode);
-        }
-
-        foreach (FetchDatagram fetch in Gen.Sample(WireGen.Fetch, 30, each))
-        {
-            yield return AnyDatagram.Bytes(fetch.Encode);
-        }
-
-        foreach (DoubtDatagram doubt in Gen.Sample(WireGen.Doubt, 30, each))
-        {
-            yield return AnyDatagram.Bytes(doubt.Encode);
-        }
-
-        foreach (EvidenceDatagram evidence in Gen.Sample(WireGen.Evidence, 30, each))
-        {
-            yield return AnyDatagram.Bytes(evidence.Encode);
-        }
-
-        foreach (JoinDatagram join in Gen.Sample(WireGen.Join, 30, each))
-        {
-            yield return AnyDatagram.Bytes(join.Encode);
-        }
-
-        foreach (WelcomeDatagram welcome in Gen.Sample(WireGen.Welcome, 30, each))
-        {
-            yield return AnyDatagram.Bytes(welcome.Encode);
-        }
-
-        foreach (RefusalDatagram answer in Gen.Sample(WireGen.Refusal, 30, each))
-        {
-            yield return AnyDatagram.Bytes(answer.Encode);
-        }
-
-        foreach (LeaveDatagram leave in Gen.Sample(WireGen.Leave, 30, each))
-        {
-            yield return AnyDatagram.Bytes(leave.Encode);
-        }
-
-        foreach (UpdateDatagram update in Gen.Sample(WireGen.Update, 30, each))
-        {
-            yield return AnyDatagram.Bytes(update.Encode);
-        }
-    }
+        WireGen.Knock.Select(knock => AnyDatagram.Bytes(knock.Encode)),
+        WireGen.Challenge.Select(challenge => AnyDatagram.Bytes(challenge.Encode)),
+        WireGen.Fetch.Select(fetch => AnyDatagram.Bytes(fetch.Encode)),
+        WireGen.Doubt.Select(doubt => AnyDatagram.Bytes(doubt.Encode)),
+        WireGen.Evidence.Select(evidence => AnyDatagram.Bytes(evidence.Encode)),
+        WireGen.Join.Select(join => AnyDatagram.Bytes(join.Encode)),
+        WireGen.Welcome.Select(welcome => AnyDatagram.Bytes(welcome.Encode)),
+        WireGen.Refusal.Select(answer => AnyDatagram.Bytes(answer.Encode)),
+        WireGen.Leave.Select(leave => AnyDatagram.Bytes(leave.Encode)),
+        WireGen.Update.Select(update => AnyDatagram.Bytes(update.Encode)),
+    }.SelectMany(kind => Gen.Sample(kind, 30, each));
 
     private void DecodeAll(byte[][] all)
     {

@@ -1,4 +1,5 @@
 using System;
+using Xunit;
 
 namespace LagSim.Tests.Wire;
 
@@ -22,5 +23,22 @@ internal static class Mutation
         }
 
         return bytes;
+    }
+
+    /// <summary>Whether bytes are accepted; it asserts itself that what is accepted is as it must be.</summary>
+    internal delegate bool Decoder(ReadOnlySpan<byte> bytes);
+
+    /// <summary>Decodes mutations of valid bytes, every fourth cut short, and asserts that enough of them are accepted, and enough are not, to say something.</summary>
+    internal static void DecodeMany(byte[][] valid, int trials, int seed, Decoder decoder)
+    {
+        Random random = new(seed);
+        int accepted = 0;
+        for (int i = 0; i < trials; i++)
+        {
+            byte[] bytes = Of(valid[random.Next(valid.Length)], random);
+            accepted += decoder(random.Next(4) > 0 ? bytes : bytes.AsSpan(0, random.Next(bytes.Length))) ? 1 : 0;
+        }
+
+        Assert.True(accepted > trials / 10 && accepted < trials - (trials / 10), $"{accepted} of {trials} accepted: the mutations say little.");
     }
 }

@@ -85,7 +85,7 @@ public class RoundTripTests
             new JoinDatagram(0x0102030405060708, new Token128(Counting(1)), new Token128(Counting(0x41)), 0x2200000000000000).Encode);
 
         Assert.Equal(
-            "534C0507" + "0807060504030201" + "0102030405060708090A0B0C0D0E0F10" + "4142434445464748494A4B4C4D4E4F50" + "0000000000000022",
+            "534C0607" + "0807060504030201" + "0102030405060708090A0B0C0D0E0F10" + "4142434445464748494A4B4C4D4E4F50" + "0000000000000022",
             Convert.ToHexString(bytes));
 
         static byte[] Counting(int from) => Enumerable.Range(from, Token128.Bytes).Select(value => (byte)value).ToArray();
@@ -103,7 +103,7 @@ public class RoundTripTests
 
         const string None = "0000000000000080";
         Assert.Equal(
-            "534C0504" + "0100000000000000" + "02" + "03000000" + "0400000000000000" + None + None + None + None + "05000000" + "03"
+            "534C0604" + "0100000000000000" + "02" + "03000000" + "0400000000000000" + None + None + None + None + "05000000" + "03"
             + "0700000000000000" + "0800000000000000" + "06000000" + "01"
             + "01" + "0A" + "02" + "0A000000" + "0900000000000000" + "0B00000000000000"
             + "000000000000F03F" + "0000000000000000" + "0000000000000000",

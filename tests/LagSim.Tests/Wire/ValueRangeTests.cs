@@ -38,7 +38,7 @@ public class ValueRangeTests
     [InlineData(double.NegativeInfinity)]
     public void TryDecode_NumberNotFinite_IsRefusedInEveryField(double value)
     {
-        for (int field = 0; field < 6; field++)
+        for (int field = 0; field < 9; field++)
         {
             AssertBad(PositionAt + (8 * field), BitConverter.DoubleToInt64Bits(value));
         }
@@ -152,9 +152,9 @@ public class ValueRangeTests
         AssertHeader(WireRefusal.TooShort, 0x53, 0x4C, 3);
         AssertHeader(WireRefusal.NotLagSim, 0x4C, 0x53, 3, 1);
         AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, 1, 1);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 5, 0);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 5, 12);
-        AssertHeader(WireRefusal.None, 0x53, 0x4C, 5, 11);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 6, 0);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 6, 12);
+        AssertHeader(WireRefusal.None, 0x53, 0x4C, 6, 11);
     }
 
     [Fact]
@@ -234,7 +234,7 @@ public class ValueRangeTests
 
         removals.HasStateHash = spawns.HasStateHash = true;
         Assert.Equal(48, removals.Entries.Length);
-        Assert.Equal(9, spawns.Entries.Length);
+        Assert.Equal(7, spawns.Entries.Length);
         Assert.Equal(removals.EncodedLength, AnyDatagram.Bytes(removals.Encode).Length);
         Assert.Equal(spawns.EncodedLength, AnyDatagram.Bytes(spawns.Encode).Length);
         Assert.InRange(removals.EncodedLength, 1, WireFormat.MaxBytes);

@@ -59,9 +59,10 @@ internal static class WireGen
         from spec in Spec
         from position in Vector
         from velocity in Vector
+        from spin in Gen.OneOf(Gen.Constant(Vector3D.Zero), Vector)
         select kind switch
         {
-            EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity),
+            EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity, spin),
             EventKind.Remove => ExternalEvent.Remove(time, peer, sequence, body),
             EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity),
             EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),

@@ -294,6 +294,7 @@ public sealed class WirePageTests
                 "u64 body" => Bytes("u64", what.Body.Packed),
                 "position" => Bytes("vector", what.Position),
                 "offset" => Bytes("vector", what.Position),
+                "spin" => Bytes("vector", what.Spin),
                 "velocity" or "impulse" => Bytes("vector", what.Velocity),
                 _ => throw new KeyNotFoundException(field),
             });

@@ -2,7 +2,10 @@ using System;
 
 namespace LagSim.Harness.Accuracy.Peers;
 
-/// <summary>While it lasts, what native code prints to C's <c>stdout</c> is thrown away. What .NET prints is not: it does not go that way. On Linux with glibc and on macOS; elsewhere it does nothing.</summary>
+/// <summary>
+/// While it lasts, what native code prints to C's <c>stdout</c> is thrown away. What .NET prints is not: it does not go that way. On Linux with glibc and on
+/// macOS; elsewhere it does nothing.
+/// </summary>
 internal sealed unsafe class NativeSilence : IDisposable
 {
     private readonly NativeFunctions library = OperatingSystem.IsMacOS() ? new NativeFunctions("libSystem.dylib") : OperatingSystem.IsLinux() ? new NativeFunctions("libc.so.6") : new NativeFunctions();

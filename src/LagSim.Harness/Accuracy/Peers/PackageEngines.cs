@@ -12,7 +12,8 @@ internal static class PackageEngines
 #if WITH_PEERS
         [new JitterMethod(), new BepuMethod(), new Box2DMethod()];
 #else
-        [new NotBuilt("Jitter2", "jitter", "Jitter2.Double"), new NotBuilt("BepuPhysics", "bepu", "BepuPhysics"), new NotBuilt("Box2D.NET", "box2d", "Box2D.NET")];
+        [new NotBuilt("Jitter2", "jitter", "Jitter2.Double"), new NotBuilt("BepuPhysics", "bepu", "BepuPhysics"),
+            new NotBuilt("Box2D.NET", "box2d", "Box2D.NET")];
 
     /// <summary>An engine that this build does not have: a name, and what to do about it.</summary>
     private sealed class NotBuilt(string name, string engine, string package) : SteppedEngine

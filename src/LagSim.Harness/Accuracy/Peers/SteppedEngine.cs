@@ -6,7 +6,9 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Accuracy.Peers;
 
-/// <summary>A physics engine, or an integrator, that goes in steps of equal length, which are swept. A new one says who it is and how a <see cref="Run"/> of it steps.</summary>
+/// <summary>
+/// A physics engine, or an integrator, that goes in steps of equal length, which are swept. A new one says who it is and how a <see cref="Run"/> of it steps.
+/// </summary>
 internal abstract class SteppedEngine : IWorkMethod
 {
     public abstract string Name { get; }

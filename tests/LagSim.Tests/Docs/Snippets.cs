@@ -1,0 +1,185 @@
+using System;
+using System.Net;
+using System.Threading.Tasks;
+using LagSim.Events;
+using LagSim.Hosting;
+using LagSim.Net.Display;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Tests.Docs;
+
+/// <summary>The code of the front pages, each as it stands there: <see cref="SnippetTests"/> holds the pages to it. That it compiles is part of the test.</summary>
+internal sealed class Snippets(Scene scene, Action<Vector3D> show)
+{
+    internal void Bounce()
+    {
+        Scene scene = new SceneBuilder("bounce")
+            .AddPlane("floor", normal: Vector3D.Up, point: Vector3D.Zero)
+            .AddBody("ball", new BodySpec(radius: 0.5, mass: 1, restitution: 0.7), position: new Vector3D(0, 4, 0))
+            .Build();
+        BodyId ball = scene.BodyNamed("ball");
+
+        using SimulationHost host = new(scene, new StopwatchClock());
+        host.Start();
+
+        // each frame; until the thread has made its first picture there is nothing to read
+        if (host.Picture.TryRead(ball, host.Now, out BodyState state))
+        {
+            Draw(state.Position);
+        }
+
+        // a player kicks it: 6 N s upwards, now
+        host.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
+    }
+
+    internal void Contacts()
+    {
+        ContactNotices contacts = new(minClosingSpeed: 0.2); // m/s; what is slower is not told
+        using SimulationHost host = new(scene, new StopwatchClock(), contacts: contacts);
+
+        // each frame
+        while (contacts.TryRead(out ContactNotice contact))
+        {
+            switch (contact.Kind)
+            {
+                case ContactNoticeKind.Predicted:
+                    PlaySound(contact.Position, contact.ClosingSpeed, at: contact.Time);
+                    break;
+                case ContactNoticeKind.Retracted:
+                    StopSound(contact.Position);
+                    break;
+                case ContactNoticeKind.Confirmed:
+                    Score(contact.First, contact.Second); // the same twice where the ball met the floor: contact.Surface tells which surface, and is -1 between two bodies
+                    break;
+            }
+        }
+    }
+
+    internal async Task Share()
+    {
+        // where the world is
+        using PeerThread host = PeerThread.Host(scene, udpPort: 5000);
+
+        // up to eight others join, at any time; the scene comes from the host
+        using PeerThread peer = PeerThread.Join(new IPEndPoint(IPAddress.Parse("192.0.2.1"), 5000));
+        if (!peer.WaitUntilRunning(TimeSpan.FromSeconds(15)))
+        {
+            Console.Error.WriteLine(peer.Session.EndReason);
+            return;
+        }
+
+        BodyId ball = peer.Session.Scene!.BodyNamed("ball");
+
+        // each frame
+        if (peer.Latest() is Picture picture && picture.TryRead(ball, peer.Session.DisplayTime, out BodyState state))
+        {
+            Draw(state.Position);
+        }
+
+        // what this player does shows here at once, and everywhere else at its own time; what may not be done throws, and what concerns a body that is not there has no effect
+        await peer.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
+    }
+
+    internal static async Task Hold(PeerThread peer, BodyId ball, Vector3D hand, Vector3D handVelocity)
+    {
+        // the hand closes, 5 cm above the ball's centre
+        await peer.Do(PlayerAction.Grab(ball, new Vector3D(0, 0.05, 0)));
+        HandSender sender = new(ball);
+
+        // each frame
+        if (sender.TrySample(peer.Session.SharedTime.Now, hand, handVelocity, out PlayerAction knot))
+        {
+            _ = peer.Do(knot);
+        }
+
+        // the hand opens: a throw
+        await peer.Do(PlayerAction.Release(ball, handVelocity));
+    }
+
+    internal void Smooth(PeerThread peer, BodyId ball)
+    {
+        DisplayOffsets display = new(peer.Session.Scene!);
+
+        // each frame
+        if (peer.Latest() is Picture shown)
+        {
+            display.Update(shown, peer.Session.DisplayTime);
+        }
+
+        if (display.TryRead(ball, out DrawnBody drawn))
+        {
+            Draw(drawn.Position); // the world has it at drawn.State.Position; news moved it by drawn.Jump metres
+        }
+    }
+
+    internal void Predict(PeerThread peer, SimTime sampledAt, Vector3D position, Vector3D velocity)
+    {
+        AdaptivePredictor hand = new();
+
+        // when a sample comes
+        hand.Add(sampledAt, position, velocity);
+
+        // each frame
+        if (hand.TryPredict(peer.Session.SharedTime.Now, out Vector3D at))
+        {
+            DrawHand(at);
+        }
+    }
+
+    internal void BounceOfThePackage()
+    {
+        Scene scene = new SceneBuilder("bounce")
+            .AddPlane("floor", normal: Vector3D.Up, point: Vector3D.Zero)
+            .AddBody("ball", new BodySpec(radius: 0.5, mass: 1, restitution: 0.7), position: new Vector3D(0, 4, 0))
+            .Build();
+        BodyId ball = scene.BodyNamed("ball");
+
+        using SimulationHost host = new(scene, new StopwatchClock());
+        host.Start();
+
+        // each frame
+        if (host.Picture.TryRead(ball, host.Now, out BodyState state))
+        {
+            Draw(state.Position);
+        }
+
+        // a player kicks it: 6 N s upwards, now
+        host.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
+    }
+
+    internal async Task ShareOfThePackage()
+    {
+        // one machine; others reach it at UDP port 5000
+        using PeerThread host = PeerThread.Host(scene, udpPort: 5000);
+
+        // the others, at any time; the scene comes from the host
+        using PeerThread peer = PeerThread.Join(new IPEndPoint(IPAddress.Parse("192.0.2.1"), 5000));
+        if (!peer.WaitUntilRunning(TimeSpan.FromSeconds(10)))
+        {
+            Console.Error.WriteLine(peer.Session.EndReason);
+        }
+
+        BodyId ball = peer.Session.Scene!.BodyNamed("ball");
+
+        // each frame
+        if (peer.Latest() is Picture picture && picture.TryRead(ball, peer.Session.DisplayTime, out BodyState state))
+        {
+            Draw(state.Position);
+        }
+
+        // what this player does
+        await peer.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
+    }
+
+    private void Draw(Vector3D place) => show(place);
+
+    private void DrawHand(Vector3D place) => show(place);
+
+    private void PlaySound(Vector3D place, double speed, SimTime at) => show(place * (speed + at.ToSeconds()));
+
+    private void StopSound(Vector3D place) => show(place);
+
+    private void Score(BodyId first, BodyId second) => show(new Vector3D(first.Index, second.Index, 0));
+}
