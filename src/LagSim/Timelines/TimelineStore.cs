@@ -10,8 +10,9 @@ namespace LagSim.Timelines;
 /// <summary>Every body's timeline: its segments in the order of the keys that opened them, back to the edge of the window.</summary>
 /// <remarks>
 /// <para>Segments live in flat arrays, linked per body; nothing is overwritten, a segment is only appended, cut off at the end, or dropped
-/// behind the window. Allocates only when more segments are alive than ever before. A body's old segments are dropped when it opens a new one, and all bodies'
-/// before the arrays grow, which they do by a sixty-fourth once they are large: so a world takes little more than its window needs.</para>
+/// behind the window. Allocates only when more segments are alive than ever before. Old segments of all bodies are dropped together, in one pass through memory
+/// when there is no room left: to look for them one by one, each long out of the cache, cost a quarter of an impact in a dense fluid. The arrays grow if that
+/// frees less than an eighth, by a sixteenth once they are large: so a world takes at most a fifth more than its window needs.</para>
 /// <para>It keeps a running hash of all events: the sum (modulo 2^64) of one hash a segment, so that appending and cutting are O(1) and the
 /// order in which the news came leaves no trace.</para>
 /// </remarks>
@@ -22,12 +23,12 @@ internal sealed class TimelineStore
     /// <summary>Below this the arrays double, above they grow by one part in <see cref="Growth"/>.</summary>
     private const int Large = 1024;
 
-    private const int Growth = 64;
+    private const int Growth = 16;
 
     private const int FirstRoom = 32;
 
     /// <summary>If all that can be dropped is less than one part in so many, it would soon be looked for again.</summary>
-    private const int LittleRoom = 32;
+    private const int LittleRoom = 8;
 
     private readonly SimTime origin;
     private readonly EventHashSum hashes = new();
@@ -42,7 +43,7 @@ internal sealed class TimelineStore
     private int used;
     private int[] first = Array.Empty<int>();
     private int[] last = Array.Empty<int>();
-    private SimTime dropped = SimTime.MinValue; // the latest edge of the history that was heard of
+    private SimTime edge = SimTime.MinValue; // what lies before is dropped when room is needed
 
     /// <summary>
     /// No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to
@@ -173,6 +174,9 @@ internal sealed class TimelineStore
         return at;
     }
 
+    /// <summary>Instants before this are asked for no more; what only they need is dropped when room is needed.</summary>
+    internal void ForgetBefore(SimTime time) => edge = SimTime.Max(edge, time);
+
     /// <summary>The newest segments of these bodies were opened by one impact.</summary>
     internal void Join(Span<int> slots)
     {
@@ -186,7 +190,7 @@ internal sealed class TimelineStore
     /// <exception cref="TimelinesFullException">There are as many as may be.</exception>
     internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output, in Hold hold = default, in Spin spin = default)
     {
-        if (free == None && used == pieces.Length && used >= Large)
+        if (free == None && (used == pieces.Length || used == Most))
         {
             DropAll();
         }
@@ -250,7 +254,7 @@ internal sealed class TimelineStore
         ref Piece piece = ref pieces[at];
         piece.Segment = segment;
         piece.Key = key;
-        links[at] = new Link { Opened = key.Time, Serial = ++LastSerial, Previous = before, Next = None, Owner = slot, Together = at };
+        links[at] = new Link { Closed = SimTime.MaxValue, Serial = ++LastSerial, Previous = before, Next = None, Owner = slot, Together = at };
         if (before == None)
         {
             first[slot] = at;
@@ -258,6 +262,7 @@ internal sealed class TimelineStore
         else
         {
             links[before].Next = at;
+            links[before].Closed = key.Time;
         }
 
         last[slot] = at;
@@ -305,6 +310,7 @@ internal sealed class TimelineStore
         else
         {
             links[last[slot]].Next = None;
+            links[last[slot]].Closed = SimTime.MaxValue;
             flights?.Set(slot, pieces[last[slot]].Segment, pieces[last[slot]].Key.Time);
         }
 
@@ -336,17 +342,14 @@ internal sealed class TimelineStore
         mates[at] = at;
     }
 
-    /// <summary>Drops what is no longer needed for instants from <paramref name="edge"/> on; the last segment opened before the edge stays.</summary>
-    internal void DropBefore(int slot, SimTime edge)
+    /// <summary>Drops of one body what is no longer needed for instants from <paramref name="time"/> on; the last segment opened before it stays.</summary>
+    internal void DropBefore(int slot, SimTime time)
     {
-        dropped = SimTime.Max(dropped, edge);
         int at = first[slot];
-        while (at != None && links[at].Next != None && links[links[at].Next].Opened < edge)
+        while (at != None && links[at].Closed < time)
         {
             int next = links[at].Next;
-            links[next].Previous = None;
-            first[slot] = next;
-            Release(at);
+            Drop(at);
             at = next;
         }
     }
@@ -367,12 +370,12 @@ internal sealed class TimelineStore
     internal int At(int slot, SimTime time)
     {
         int at = last[slot];
-        while (at != None && links[at].Opened > time)
+        while (at != None && links[at].Previous != None && links[links[at].Previous].Closed > time)
         {
             at = links[at].Previous;
         }
 
-        return at;
+        return at == None || pieces[at].Key.Time > time ? None : at;
     }
 
     internal ulong HashOf(int segment, BodyId body)
@@ -407,12 +410,16 @@ internal sealed class TimelineStore
     /// <summary>Whether nothing counts in the segment's hash but what is known of every segment.</summary>
     private bool IsPlain(int segment) => spins.Length == 0 && pieces[segment].Segment.Law != MotionLaw.Held && pieces[segment].Key.Kind != EventKind.None;
 
-    /// <summary>Drops what lies behind the window of bodies that have not opened a segment since; and makes room for more if that was little, else it would soon be looked for again.</summary>
+    /// <summary>Drops what lies behind the window; and makes room for more if that was little, else it would soon be looked for again.</summary>
     private void DropAll()
     {
-        for (int slot = 0; slot < last.Length; slot++)
+        // From the end, so that what is freed is given out from the beginning: whoever opens segments goes through memory in one direction.
+        for (int at = used - 1; at >= 0; at--)
         {
-            DropBefore(slot, dropped);
+            if (links[at].Closed < edge)
+            {
+                Drop(at);
+            }
         }
 
         if (Alive > used - (used / LittleRoom) && used < Most)
@@ -421,9 +428,28 @@ internal sealed class TimelineStore
         }
     }
 
+    /// <summary>Takes a segment that has a successor out of its timeline; those before it, which are older, are dropped with it.</summary>
+    private void Drop(int at)
+    {
+        int previous = links[at].Previous;
+        int next = links[at].Next;
+        links[next].Previous = previous;
+        if (previous == None)
+        {
+            first[links[at].Owner] = next;
+        }
+        else
+        {
+            links[previous].Next = next;
+        }
+
+        Release(at);
+    }
+
     private void Release(int at)
     {
         links[at].Serial = 0;
+        links[at].Closed = SimTime.MaxValue; // nothing that could be dropped
         links[at].Next = free;
         free = at;
         Alive--;
@@ -460,7 +486,7 @@ internal sealed class TimelineStore
     /// <summary>A segment's place among the others.</summary>
     private struct Link
     {
-        internal SimTime Opened;
+        internal SimTime Closed; // when the next was opened; MaxValue if there is none
         internal long Serial;
         internal int Previous;
         internal int Next;
