@@ -104,12 +104,13 @@ internal sealed class PresentShells
         {
             for (int bucket = 0; bucket < cells.Count; bucket++)
             {
-                Look(cells.Of(bucket), 0, 0, place, reach, found);
+                LookAround(cells.Of(bucket), 0, 0, place, reach, found);
             }
 
             return;
         }
 
+        bool isInside = IsInside(place, (reach + widest) * (1 + 1e-9));
         for (long k = block.Z.From; k <= block.Z.To; k++)
         {
             for (long j = block.Y.From; j <= block.Y.To; j++)
@@ -117,17 +118,46 @@ internal sealed class PresentShells
                 for (long i = block.X.From; i <= block.X.To; i++)
                 {
                     ulong number = grid.Number(i, j, k);
-                    Look(cells.Of(Bucket(number)), number, ulong.MaxValue, place, reach, found);
+                    Span<Entry> entries = cells.Of(Bucket(number));
+                    if (isInside)
+                    {
+                        LookIn(entries, number, place, reach, found);
+                    }
+                    else
+                    {
+                        LookAround(entries, number, ulong.MaxValue, place, reach, found);
+                    }
                 }
             }
         }
     }
 
+    /// <summary>Whether a place in the box is so far from all its sides that whoever is no further than that from it is so without a way around.</summary>
+    private bool IsInside(in Vector3D place, double far) =>
+        !box.Exists || (place.X > far && place.X < sides.X - far && place.Y > far && place.Y < sides.Y - far && place.Z > far && place.Z < sides.Z - far);
+
     /// <summary>
-    /// The same among those of one list whose cell's number is a certain one where the mask has ones. Whether one is found is no branch, for nobody can foretell
-    /// it; and how many are is kept in a register.
+    /// The same among those of one list that are of a cell, by the straight way. Whether one is found is no branch, for nobody can foretell it; and how many are
+    /// is kept in a register.
     /// </summary>
-    private void Look(Span<Entry> entries, ulong cell, ulong mask, in Vector3D place, double reach, FoundSlots found)
+    private static void LookIn(Span<Entry> entries, ulong cell, in Vector3D place, double reach, FoundSlots found)
+    {
+        Span<int> into = found.Room(entries.Length + 1);
+        double x = place.X, y = place.Y, z = place.Z;
+        int count = 0;
+        foreach (ref Entry entry in entries)
+        {
+            into[count] = entry.Slot;
+            int isHere = entry.Cell == cell ? 1 : 0;
+            int isNear = entry.IsWithin(x, y, z, reach) ? 1 : 0;
+            count += isHere & isNear;
+        }
+
+        found.Took(count);
+    }
+
+    /// <summary>The same by the shortest way, of those whose cell's number is a certain one where the mask has ones.</summary>
+    private void LookAround(Span<Entry> entries, ulong cell, ulong mask, in Vector3D place, double reach, FoundSlots found)
     {
         Span<int> into = found.Room(entries.Length + 1);
         double x = place.X, y = place.Y, z = place.Z;
@@ -180,6 +210,13 @@ internal sealed class PresentShells
         internal int Slot { get; }
 
         internal ulong Cell { get; }
+
+        internal bool IsWithin(double fromX, double fromY, double fromZ, double reach)
+        {
+            double u = x - fromX, v = y - fromY, w = z - fromZ;
+            double both = reach + extent;
+            return !((u * u) + (v * v) + (w * w) > both * both);
+        }
 
         /// <summary>Whether it comes so near to a place in the box, by whichever way is the shortest; without a branch for that either.</summary>
         internal bool IsWithin(double fromX, double fromY, double fromZ, double reach, in Vector3D sides)
