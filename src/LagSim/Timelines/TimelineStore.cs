@@ -12,7 +12,7 @@ namespace LagSim.Timelines;
 /// <para>Segments live in flat arrays, linked per body; nothing is overwritten, a segment is only appended, cut off at the end, or dropped
 /// behind the window. Allocates only when more segments are alive than ever before. Old segments of all bodies are dropped together, in one pass through memory
 /// when there is no room left: to look for them one by one, each long out of the cache, cost a quarter of an impact in a dense fluid. The arrays grow if that
-/// frees less than an eighth, by a sixteenth once they are large: so a world takes at most a fifth more than its window needs.</para>
+/// frees less than one part in 32, by a sixty-fourth once they are large: so a world takes little more than its window needs.</para>
 /// <para>It keeps a running hash of all events: the sum (modulo 2^64) of one hash a segment, so that appending and cutting are O(1) and the
 /// order in which the news came leaves no trace.</para>
 /// </remarks>
@@ -23,12 +23,12 @@ internal sealed class TimelineStore
     /// <summary>Below this the arrays double, above they grow by one part in <see cref="Growth"/>.</summary>
     private const int Large = 1024;
 
-    private const int Growth = 16;
+    private const int Growth = 64;
 
     private const int FirstRoom = 32;
 
     /// <summary>If all that can be dropped is less than one part in so many, it would soon be looked for again.</summary>
-    private const int LittleRoom = 8;
+    private const int LittleRoom = 32;
 
     private readonly SimTime origin;
     private readonly EventHashSum hashes = new();
