@@ -76,7 +76,7 @@ public sealed partial class Simulation
         queue = new EventQueue(expected);
         log = new EventLog(expected);
         flights = new FreeFlights(scene.Gravity, NearGap, scene.Box, expected);
-        timelines = new TimelineStore(start, options.MaxSegments, flights, expected);
+        timelines = new TimelineStore(start, options.MaxSegments, flights, expected, history);
         witnesses = new WitnessLog(options.MaxSegments, expected);
         Observer = options.Observer;
         forces = new Forces(scene, start);

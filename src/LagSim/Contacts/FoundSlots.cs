@@ -61,6 +61,16 @@ internal sealed class FoundSlots
         Count += isFound ? 1 : 0;
     }
 
+    /// <summary>Room for so many more, of which as many are listed as <see cref="Took"/> is told then.</summary>
+    internal Span<int> Room(int more)
+    {
+        Reserve(more);
+        return found.AsSpan(Count);
+    }
+
+    /// <summary>So many were written to the room.</summary>
+    internal void Took(int more) => Count += more;
+
     /// <summary>Lists a slot unless it was found already.</summary>
     internal void Add(int slot)
     {

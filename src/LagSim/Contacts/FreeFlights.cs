@@ -27,6 +27,7 @@ internal sealed class FreeFlights
     private readonly Vector3D gravity;
     private readonly PeriodicBox box;
     private readonly double near;
+    private readonly Vector3D halfBox; // its sides by two; endless if there is none
     private readonly bool hasBox;
     private readonly bool falls;
     private Flight[] flights;
@@ -47,6 +48,7 @@ internal sealed class FreeFlights
         this.near = near;
         this.box = box;
         hasBox = box.Exists;
+        halfBox = hasBox ? box.Size * 0.5 : new Vector3D(double.PositiveInfinity, double.PositiveInfinity, double.PositiveInfinity);
         falls = gravity != Vector3D.Zero;
     }
 
@@ -224,48 +226,46 @@ internal sealed class FreeFlights
         double span = until.SecondsSince(from) + TickConversion.SecondsPerTick;
         double speed = Size(velocity);
         bool isOpened = a.From == from;
+        Vector3D half = halfBox;
         Span<Flight> all = flights;
         Span<Approach> into = approaches;
         for (int i = 0; i < others.Length; i++)
         {
             int other = others[i];
             ref Flight b = ref all[other];
-            if (b.From > from)
+            long ticks = unchecked(from.Ticks - b.From.Ticks);
+            if (b.From > from || ticks < 0)
             {
-                into[count++] = new Approach(other, 0);
+                into[count++] = new Approach(other, 0); // not in free flight yet, or for longer than a span can be
                 continue;
             }
 
-            // Scalars: what this loop does is most of what a prediction costs.
-            double time = from.SecondsSince(b.From);
+            // Scalars, and as few steps as can be: what this loop does is most of what a prediction costs.
+            double time = ticks * TickConversion.SecondsPerTick;
             double u = b.Velocity.X, v = b.Velocity.Y, w = b.Velocity.Z;
             double x = u * time, y = v * time, z = w * time;
             double reach = radius + b.Margin;
             if (falls)
             {
-                double half = 0.5 * time;
-                x = (u + (gravity.X * half)) * time;
-                y = (v + (gravity.Y * half)) * time;
-                z = (w + (gravity.Z * half)) * time;
+                double mean = 0.5 * time;
+                x = (u + (gravity.X * mean)) * time;
+                y = (v + (gravity.Y * mean)) * time;
+                z = (w + (gravity.Z * mean)) * time;
                 u += gravity.X * time;
                 v += gravity.Y * time;
                 w += gravity.Z * time;
                 reach += FallSlack(time);
             }
 
-            x = place.X - (b.Position.X + x);
-            y = place.Y - (b.Position.Y + y);
-            z = place.Z - (b.Position.Z + z);
-            if (hasBox)
-            {
-                x = PeriodicBox.Nearest(x, box.Size.X);
-                y = PeriodicBox.Nearest(y, box.Size.Y);
-                z = PeriodicBox.Nearest(z, box.Size.Z);
-            }
-
-            u = velocity.X - u;
-            v = velocity.Y - v;
-            w = velocity.Z - w;
+            x = b.Position.X + x - place.X;
+            y = b.Position.Y + y - place.Y;
+            z = b.Position.Z + z - place.Z;
+            x = Math.Abs(x) > half.X ? PeriodicBox.Nearest(x, box.Size.X) : x;
+            y = Math.Abs(y) > half.Y ? PeriodicBox.Nearest(y, box.Size.Y) : y;
+            z = Math.Abs(z) > half.Z ? PeriodicBox.Nearest(z, box.Size.Z) : z;
+            u -= velocity.X;
+            v -= velocity.Y;
+            w -= velocity.Z;
             double along = (x * u) + (y * v) + (z * w);
             double distance = Square(x, y, z);
             double square = Square(u, v, w);
@@ -283,10 +283,8 @@ internal sealed class FreeFlights
                 double nearest = -along / square;
                 double miss = Square(x + (u * nearest), y + (v * nearest), z + (w * nearest));
                 double seconds = nearest - Math.Sqrt(Math.Max(0, (limit + (FarSlack * distance)) - miss) / square);
-                if (!(seconds > span))
-                {
-                    into[count++] = new Approach(other, seconds);
-                }
+                into[count] = new Approach(other, seconds);
+                count += seconds > span ? 0 : 1; // no branch: nobody can foretell it, and it would wait for the root
             }
             else if (other != slot)
             {

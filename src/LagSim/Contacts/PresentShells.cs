@@ -17,6 +17,7 @@ internal sealed class PresentShells
 
     private readonly CellGrid grid;
     private readonly PeriodicBox box;
+    private readonly Vector3D sides; // of the box; endless without one, so that no image is nearer
     private readonly double widestInCells;
     private readonly List<Entry> wide = new();
     private ManyLists<Entry> cells; // by the cell's number, hashed
@@ -39,6 +40,7 @@ internal sealed class PresentShells
         cells = new ManyLists<Entry>(lists, Math.Max(lists, 2 * expected)); // of two in three lists, the smallest of which have room for four
         this.grid = grid;
         this.box = box;
+        sides = box.Exists ? box.Size : new Vector3D(double.PositiveInfinity, double.PositiveInfinity, double.PositiveInfinity);
         this.widestInCells = widestInCells;
     }
 
@@ -51,7 +53,7 @@ internal sealed class PresentShells
     /// <summary>A body is in a shell from now on.</summary>
     internal void Add(int slot, in Shell shell, ulong cell)
     {
-        Entry entry = new(slot, shell.Centre, shell.Extent, cell);
+        Entry entry = new(slot, box.Wrap(shell.Centre), shell.Extent, cell);
         if (cell == Wide)
         {
             wide.Add(entry);
@@ -99,12 +101,12 @@ internal sealed class PresentShells
     /// <summary>Finds whose shells come within a distance of another shell; all of them are new to <paramref name="found"/>.</summary>
     internal void Look(in Shell shell, double near, FoundSlots found)
     {
-        double x = shell.Centre.X, y = shell.Centre.Y, z = shell.Centre.Z;
+        Vector3D place = box.Wrap(shell.Centre);
         double reach = shell.Extent + near;
         found.Reserve(wide.Count + 1);
         foreach (Entry entry in wide)
         {
-            found.AddIf(entry.IsWithin(x, y, z, reach, box), entry.Slot);
+            found.AddIf(entry.IsWithin(place.X, place.Y, place.Z, reach, sides), entry.Slot);
         }
 
         CellBlock block = grid.Around(shell.Centre, reach + widest);
@@ -112,17 +114,13 @@ internal sealed class PresentShells
         {
             for (int bucket = 0; bucket < cells.Count; bucket++)
             {
-                Span<Entry> entries = cells.Of(bucket);
-                found.Reserve(entries.Length + 1);
-                foreach (ref Entry entry in entries)
-                {
-                    found.AddIf(entry.IsWithin(x, y, z, reach, box), entry.Slot);
-                }
+                LookAround(cells.Of(bucket), 0, 0, place, reach, found);
             }
 
             return;
         }
 
+        bool isInside = IsInside(place, (reach + widest) * (1 + 1e-9));
         for (long k = block.Z.From; k <= block.Z.To; k++)
         {
             for (long j = block.Y.From; j <= block.Y.To; j++)
@@ -131,14 +129,58 @@ internal sealed class PresentShells
                 {
                     ulong number = grid.Number(i, j, k);
                     Span<Entry> entries = cells.Of(Bucket(number));
-                    found.Reserve(entries.Length + 1);
-                    foreach (ref Entry entry in entries)
+                    if (isInside)
                     {
-                        found.AddIf(entry.Cell == number & entry.IsWithin(x, y, z, reach, box), entry.Slot);
+                        LookIn(entries, number, place, reach, found);
+                    }
+                    else
+                    {
+                        LookAround(entries, number, ulong.MaxValue, place, reach, found);
                     }
                 }
             }
         }
+    }
+
+    /// <summary>Whether a place in the box is so far from all its sides that whoever is no further than that from it is so without a way around.</summary>
+    private bool IsInside(in Vector3D place, double far) =>
+        !box.Exists || (place.X > far && place.X < sides.X - far && place.Y > far && place.Y < sides.Y - far && place.Z > far && place.Z < sides.Z - far);
+
+    /// <summary>
+    /// The same among those of one list that are of a cell, by the straight way. Whether one is found is no branch, for nobody can foretell it; and how many are
+    /// is kept in a register.
+    /// </summary>
+    private static void LookIn(Span<Entry> entries, ulong cell, in Vector3D place, double reach, FoundSlots found)
+    {
+        Span<int> into = found.Room(entries.Length + 1);
+        double x = place.X, y = place.Y, z = place.Z;
+        int count = 0;
+        foreach (ref Entry entry in entries)
+        {
+            into[count] = entry.Slot;
+            int isHere = entry.Cell == cell ? 1 : 0;
+            int isNear = entry.IsWithin(x, y, z, reach) ? 1 : 0;
+            count += isHere & isNear;
+        }
+
+        found.Took(count);
+    }
+
+    /// <summary>The same by the shortest way, of those whose cell's number is a certain one where the mask has ones.</summary>
+    private void LookAround(Span<Entry> entries, ulong cell, ulong mask, in Vector3D place, double reach, FoundSlots found)
+    {
+        Span<int> into = found.Room(entries.Length + 1);
+        double x = place.X, y = place.Y, z = place.Z;
+        int count = 0;
+        foreach (ref Entry entry in entries)
+        {
+            into[count] = entry.Slot;
+            int isHere = ((entry.Cell ^ cell) & mask) == 0 ? 1 : 0;
+            int isNear = entry.IsWithin(x, y, z, reach, sides) ? 1 : 0;
+            count += isHere & isNear;
+        }
+
+        found.Took(count);
     }
 
     private int Bucket(ulong number) => CellGrid.Bucket(number, cells.Count);
@@ -179,16 +221,20 @@ internal sealed class PresentShells
 
         internal ulong Cell { get; }
 
-        internal bool IsWithin(double fromX, double fromY, double fromZ, double reach, in PeriodicBox box)
+        internal bool IsWithin(double fromX, double fromY, double fromZ, double reach)
         {
             double u = x - fromX, v = y - fromY, w = z - fromZ;
-            if (box.Exists)
-            {
-                u = PeriodicBox.Nearest(u, box.Size.X);
-                v = PeriodicBox.Nearest(v, box.Size.Y);
-                w = PeriodicBox.Nearest(w, box.Size.Z);
-            }
+            double both = reach + extent;
+            return !((u * u) + (v * v) + (w * w) > both * both);
+        }
 
+        /// <summary>Whether it comes so near to a place in the box, by whichever way is the shortest; without a branch for that either.</summary>
+        internal bool IsWithin(double fromX, double fromY, double fromZ, double reach, in Vector3D sides)
+        {
+            double u = Math.Abs(x - fromX), v = Math.Abs(y - fromY), w = Math.Abs(z - fromZ);
+            u = Math.Min(u, sides.X - u);
+            v = Math.Min(v, sides.Y - v);
+            w = Math.Min(w, sides.Z - w);
             double both = reach + extent;
             return !((u * u) + (v * v) + (w * w) > both * both);
         }

@@ -10,8 +10,9 @@ namespace LagSim.Timelines;
 /// <summary>Every body's timeline: its segments in the order of the keys that opened them, back to the edge of the window.</summary>
 /// <remarks>
 /// <para>Segments live in flat arrays, linked per body; nothing is overwritten, a segment is only appended, cut off at the end, or dropped
-/// behind the window. Allocates only when more segments are alive than ever before. A body's old segments are dropped when it opens a new one, and all bodies'
-/// before the arrays grow, which they do by a sixty-fourth once they are large: so a world takes little more than its window needs.</para>
+/// behind the window. Allocates only when more segments are alive than ever before. Old segments of all bodies are dropped together, in one pass through memory
+/// when there is no room left: to look for them one by one, each long out of the cache, cost a quarter of an impact in a dense fluid. The arrays grow if that
+/// frees less than one part in 32, by a sixty-fourth once they are large: so a world takes little more than its window needs.</para>
 /// <para>It keeps a running hash of all events: the sum (modulo 2^64) of one hash a segment, so that appending and cutting are O(1) and the
 /// order in which the news came leaves no trace.</para>
 /// </remarks>
@@ -30,6 +31,7 @@ internal sealed class TimelineStore
     private const int LittleRoom = 32;
 
     private readonly SimTime origin;
+    private readonly SimDuration history;
     private readonly EventHashSum hashes = new();
     private readonly FreeFlights? flights; // is told of each body's newest segment
     private Piece[] pieces;
@@ -42,13 +44,15 @@ internal sealed class TimelineStore
     private int used;
     private int[] first;
     private int[] last;
-    private SimTime dropped = SimTime.MinValue; // the latest edge of the history that was heard of
+    private SimTime edge = SimTime.MinValue; // what lies before is dropped when room is needed
 
     /// <summary>
     /// No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to
-    /// <paramref name="flights"/>; with room for as many bodies as are expected at first, and for few of them for a second segment each.
+    /// <paramref name="flights"/>; with room for as many bodies as are expected at first, and for few of them for a second segment each. Of how long a history it will be helps to guess how much
+    /// room it will need.
     /// </summary>
-    internal TimelineStore(SimTime origin, int most = SimulationOptions.DefaultMaxSegments, FreeFlights? flights = null, int expected = 0)
+    internal TimelineStore(
+        SimTime origin, int most = SimulationOptions.DefaultMaxSegments, FreeFlights? flights = null, int expected = 0, SimDuration history = default)
     {
         int room = FirstRoom;
         while (room < 2 * expected && room < Large)
@@ -65,6 +69,7 @@ internal sealed class TimelineStore
         Array.Fill(last, None);
         this.origin = origin;
         this.flights = flights;
+        this.history = history;
         Most = most;
     }
 
@@ -177,6 +182,9 @@ internal sealed class TimelineStore
         return at;
     }
 
+    /// <summary>Instants before this are asked for no more; what only they need is dropped when room is needed.</summary>
+    internal void ForgetBefore(SimTime time) => edge = SimTime.Max(edge, time);
+
     /// <summary>The newest segments of these bodies were opened by one impact.</summary>
     internal void Join(Span<int> slots)
     {
@@ -190,9 +198,9 @@ internal sealed class TimelineStore
     /// <exception cref="TimelinesFullException">There are as many as may be.</exception>
     internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output, in Hold hold = default, in Spin spin = default)
     {
-        if (free == None && used == pieces.Length && used >= Large)
+        if (free == None && (used == pieces.Length || used == Most))
         {
-            DropAll();
+            DropAll(key.Time);
         }
 
         int at = free;
@@ -211,7 +219,7 @@ internal sealed class TimelineStore
             at = used++;
             if (at == pieces.Length)
             {
-                Grow();
+                Grow(key.Time);
             }
         }
 
@@ -254,7 +262,7 @@ internal sealed class TimelineStore
         ref Piece piece = ref pieces[at];
         piece.Segment = segment;
         piece.Key = key;
-        links[at] = new Link { Opened = key.Time, Serial = ++LastSerial, Previous = before, Next = None, Owner = slot, Together = at };
+        links[at] = new Link { Closed = SimTime.MaxValue, Serial = ++LastSerial, Previous = before, Next = None, Owner = slot, Together = at };
         if (before == None)
         {
             first[slot] = at;
@@ -262,6 +270,7 @@ internal sealed class TimelineStore
         else
         {
             links[before].Next = at;
+            links[before].Closed = key.Time;
         }
 
         last[slot] = at;
@@ -309,6 +318,7 @@ internal sealed class TimelineStore
         else
         {
             links[last[slot]].Next = None;
+            links[last[slot]].Closed = SimTime.MaxValue;
             flights?.Set(slot, pieces[last[slot]].Segment, pieces[last[slot]].Key.Time);
         }
 
@@ -340,17 +350,14 @@ internal sealed class TimelineStore
         mates[at] = at;
     }
 
-    /// <summary>Drops what is no longer needed for instants from <paramref name="edge"/> on; the last segment opened before the edge stays.</summary>
-    internal void DropBefore(int slot, SimTime edge)
+    /// <summary>Drops of one body what is no longer needed for instants from <paramref name="time"/> on; the last segment opened before it stays.</summary>
+    internal void DropBefore(int slot, SimTime time)
     {
-        dropped = SimTime.Max(dropped, edge);
         int at = first[slot];
-        while (at != None && links[at].Next != None && links[links[at].Next].Opened < edge)
+        while (at != None && links[at].Closed < time)
         {
             int next = links[at].Next;
-            links[next].Previous = None;
-            first[slot] = next;
-            Release(at);
+            Drop(at);
             at = next;
         }
     }
@@ -371,12 +378,12 @@ internal sealed class TimelineStore
     internal int At(int slot, SimTime time)
     {
         int at = last[slot];
-        while (at != None && links[at].Opened > time)
+        while (at != None && links[at].Previous != None && links[links[at].Previous].Closed > time)
         {
             at = links[at].Previous;
         }
 
-        return at;
+        return at == None || pieces[at].Key.Time > time ? None : at;
     }
 
     internal ulong HashOf(int segment, BodyId body)
@@ -411,31 +418,54 @@ internal sealed class TimelineStore
     /// <summary>Whether nothing counts in the segment's hash but what is known of every segment.</summary>
     private bool IsPlain(int segment) => spins.Length == 0 && pieces[segment].Segment.Law != MotionLaw.Held && pieces[segment].Key.Kind != EventKind.None;
 
-    /// <summary>Drops what lies behind the window of bodies that have not opened a segment since; and makes room for more if that was little, else it would soon be looked for again.</summary>
-    private void DropAll()
+    /// <summary>Drops what lies behind the window; and makes room for more if that was little, else it would soon be looked for again.</summary>
+    private void DropAll(SimTime now)
     {
-        for (int slot = 0; slot < last.Length; slot++)
+        // From the end, so that what is freed is given out from the beginning: whoever opens segments goes through memory in one direction.
+        for (int at = used - 1; at >= 0; at--)
         {
-            DropBefore(slot, dropped);
+            if (links[at].Closed < edge)
+            {
+                Drop(at);
+            }
         }
 
         if (Alive > used - (used / LittleRoom) && used < Most)
         {
-            Grow();
+            Grow(now);
         }
+    }
+
+    /// <summary>Takes a segment that has a successor out of its timeline; those before it, which are older, are dropped with it.</summary>
+    private void Drop(int at)
+    {
+        int previous = links[at].Previous;
+        int next = links[at].Next;
+        links[next].Previous = previous;
+        if (previous == None)
+        {
+            first[links[at].Owner] = next;
+        }
+        else
+        {
+            links[previous].Next = next;
+        }
+
+        Release(at);
     }
 
     private void Release(int at)
     {
         links[at].Serial = 0;
+        links[at].Closed = SimTime.MaxValue; // nothing that could be dropped
         links[at].Next = free;
         free = at;
         Alive--;
     }
 
-    private void Grow()
+    private void Grow(SimTime now)
     {
-        int size = pieces.Length < Large ? pieces.Length * 2 : pieces.Length + (pieces.Length / Growth);
+        int size = pieces.Length < Large ? pieces.Length * 2 : Math.Max(pieces.Length + (pieces.Length / Growth), Expected(now));
         Array.Resize(ref pieces, size);
         Array.Resize(ref links, size);
         if (dense.Length > 0)
@@ -454,6 +484,23 @@ internal sealed class TimelineStore
         }
     }
 
+    /// <summary>
+    /// For how many segments room will be needed, as far as can be told before a whole history has gone by: if as many are opened for the rest of it. No more than a quarter above what there is, for
+    /// what begins need not go on. To grow by little until then would be to copy everything some hundred times.
+    /// </summary>
+    private int Expected(SimTime now)
+    {
+        double passed = now.SecondsSince(origin);
+        double whole = history.ToSeconds();
+        if (!(passed > 0 && passed < whole))
+        {
+            return 0;
+        }
+
+        double opened = (used - first.Length) * (whole / passed);
+        return (int)Math.Min(first.Length + opened, pieces.Length * 1.25);
+    }
+
     /// <summary>A segment and the key that opened it.</summary>
     private struct Piece
     {
@@ -464,7 +511,7 @@ internal sealed class TimelineStore
     /// <summary>A segment's place among the others.</summary>
     private struct Link
     {
-        internal SimTime Opened;
+        internal SimTime Closed; // when the next was opened; MaxValue if there is none
         internal long Serial;
         internal int Previous;
         internal int Next;

@@ -96,7 +96,7 @@ public sealed class TimelineStoreTests
         for (int tick = 1; tick <= appends; tick++)
         {
             int slot = random.Next(bodies);
-            store.DropBefore(slot, SimTime.FromTicks(tick - window));
+            store.ForgetBefore(SimTime.FromTicks(tick - window));
             Append(store, slot, Key(tick, 0), (2 * tick) + 1);
             opened[slot].Add(tick);
         }
