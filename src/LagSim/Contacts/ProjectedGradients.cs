@@ -5,7 +5,7 @@ namespace LagSim.Contacts;
 
 /// <summary>Solves many contacts at once, as of a large heap, by conjugate gradients that are kept from pulling.</summary>
 /// <remarks>
-/// <para>The law is that of <see cref="ImpactSolver"/>: the impulses p >= 0 that make 1/2 p'Ap + p'(u - target) least, which is the change of energy where all targets are 0. The method is
+/// <para>What is solved is what <see cref="ActiveSet"/> solves: the impulses p >= 0 that make 1/2 p'Ap - p'demand least, which is the change of energy where nothing is to open after. The method is
 /// "modified proportioning with reduced gradient projections" (Dostál and Schöberl 2005, Comput. Optim. Appl. 30, 23-43): conjugate gradients among the contacts that push, a step along
 /// the gradient cut off at zero where one of them would pull, and one along what closes where that has come to outweigh the rest. What it makes least never grows, so where nothing is to part faster
 /// than at rest no energy is gained, whenever it ends.</para>
@@ -20,29 +20,35 @@ internal sealed class ProjectedGradients
     /// <summary>What lacks less than this part of the most that any contact lacked is met.</summary>
     private const double Met = 1e-12;
 
-    private double[] scales = new double[8]; // by contact: what its impulse is measured in
-    private double[] impulses = new double[8]; // in those
-    private double[] gradient = new double[8]; // how much faster than asked for each opens, likewise
-    private double[] direction = new double[8];
-    private double[] response = new double[8]; // of the gradient to a step along the direction
-    private Vector3D[] change = new Vector3D[4]; // by body: of its velocity
+    /// <summary>And what lacks more than this part of it at the end is not.</summary>
+    private const double NotMet = 1e-9;
 
-    /// <summary>Changes the velocities by the impulses of all contacts, and sets those. Masses and velocities by number of body; one in a hand has an infinite mass.</summary>
-    /// <param name="contacts">With normals and targets.</param>
-    /// <param name="masses">In kg.</param>
-    /// <param name="velocities">In m/s.</param>
+    private double[] scales = Array.Empty<double>(); // by contact: what its impulse is measured in
+    private double[] impulses = Array.Empty<double>(); // in those
+    private double[] gradient = Array.Empty<double>(); // how much faster than asked for each opens, likewise
+    private double[] direction = Array.Empty<double>();
+    private double[] response = Array.Empty<double>(); // of the gradient to a step along the direction
+
+    /// <summary>Solves; false if some demand cannot be met, or was not in so many steps. Leaves the impulses, and the change of every velocity.</summary>
+    /// <param name="contacts">With their normals.</param>
+    /// <param name="masses">By number of body, in kg; one in a hand has an infinite mass.</param>
+    /// <param name="demand">By contact: by how much faster it is to open, at least.</param>
+    /// <param name="impulse">By contact: is set.</param>
+    /// <param name="change">By body: is set.</param>
     /// <param name="again">Whether to begin with the contacts' impulses as they are, not with none.</param>
     /// <param name="steps">So many at most.</param>
-    internal void Solve(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, bool again = false, int steps = MostSteps)
+    internal bool TrySolve(
+        Span<ContactPoint> contacts, Span<double> masses, Span<double> demand, Span<double> impulse, Span<Vector3D> change, bool again, int steps = MostSteps)
     {
-        Grow(contacts.Length, velocities.Length);
-        double stride = Prepare(contacts, masses, velocities, again, out double lacking);
+        Grow(contacts.Length);
+        double stride = Prepare(contacts, masses, demand, change, again, out double lacking);
+        double most = 0;
         Begin(contacts);
         for (int step = 0; step < steps; step++)
         {
             double free = 0; // how far from met those are that push, each no further than until it pulls no more
             double bound = 0; // and those that do not, and close
-            double most = 0;
+            most = 0;
             for (int i = 0; i < contacts.Length; i++)
             {
                 double g = gradient[i];
@@ -63,7 +69,7 @@ internal sealed class ProjectedGradients
                 break;
             }
 
-            bool goesOn = bound <= free ? Follow(contacts, masses, velocities, stride) : Release(contacts, masses);
+            bool goesOn = bound <= free ? Follow(contacts, masses, demand, change, stride) : Release(contacts, masses, change);
             if (!goesOn)
             {
                 break;
@@ -72,27 +78,25 @@ internal sealed class ProjectedGradients
 
         for (int i = 0; i < contacts.Length; i++)
         {
-            contacts[i].Impulse = impulses[i] * scales[i];
+            impulse[i] = impulses[i] * scales[i];
         }
 
-        Respond(contacts, masses, impulses);
-        for (int b = 0; b < velocities.Length; b++)
-        {
-            velocities[b] += change[b];
-        }
+        Respond(contacts, masses, impulses, change);
+        return most <= NotMet * lacking;
     }
 
     /// <summary>Scales, first impulses and the gradient there. Returns a step along the gradient that is sure to lead down.</summary>
-    private double Prepare(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, bool again, out double lacking)
+    private double Prepare(Span<ContactPoint> contacts, Span<double> masses, Span<double> demand, Span<Vector3D> change, bool again, out double lacking)
     {
-        Array.Clear(direction, 0, contacts.Length);
-        Array.Clear(change, 0, velocities.Length);
+        change.Clear();
+        lacking = 0;
         for (int i = 0; i < contacts.Length; i++)
         {
             ref readonly ContactPoint c = ref contacts[i];
             double inverse = Inverse(masses[c.First]) + (c.Second == ContactPoint.Static ? 0 : Inverse(masses[c.Second]));
             scales[i] = inverse > 0 ? 1 / Math.Sqrt(inverse) : 0; // of two hands: nothing changes how they open
             impulses[i] = again && inverse > 0 ? c.Impulse / scales[i] : 0;
+            lacking = inverse > 0 ? Math.Max(lacking, Math.Abs(demand[i])) : lacking;
             change[c.First] += new Vector3D(scales[i], 0, 0);
             if (c.Second != ContactPoint.Static)
             {
@@ -109,20 +113,14 @@ internal sealed class ProjectedGradients
             norm = Math.Max(norm, row);
         }
 
-        Evaluate(contacts, masses, velocities);
-        lacking = 0;
-        for (int i = 0; i < contacts.Length; i++)
-        {
-            lacking = scales[i] > 0 ? Math.Max(lacking, Math.Abs(contacts[i].Target - ImpactSolver.Opening(contacts[i], velocities))) : lacking;
-        }
-
+        Evaluate(contacts, masses, demand, change);
         return 1.75 / norm;
     }
 
     /// <summary>A step along the direction, or as far along it as nobody pulls and then one along the gradient. False if nothing is to be had that way.</summary>
-    private bool Follow(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, double stride)
+    private bool Follow(Span<ContactPoint> contacts, Span<double> masses, Span<double> demand, Span<Vector3D> change, double stride)
     {
-        double curvature = Probe(contacts, masses);
+        double curvature = Probe(contacts, masses, change);
         if (!(curvature > 0))
         {
             return false;
@@ -164,13 +162,13 @@ internal sealed class ProjectedGradients
             impulses[i] = Math.Max(0, impulses[i] - (impulses[i] > 0 ? stride * gradient[i] : 0));
         }
 
-        Evaluate(contacts, masses, velocities);
+        Evaluate(contacts, masses, demand, change);
         Begin(contacts);
         return true;
     }
 
     /// <summary>Lets those push that do not and close.</summary>
-    private bool Release(Span<ContactPoint> contacts, Span<double> masses)
+    private bool Release(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> change)
     {
         double slope = 0;
         for (int i = 0; i < contacts.Length; i++)
@@ -179,7 +177,7 @@ internal sealed class ProjectedGradients
             slope += gradient[i] * direction[i];
         }
 
-        double curvature = Probe(contacts, masses);
+        double curvature = Probe(contacts, masses, change);
         if (!(curvature > 0))
         {
             return false;
@@ -205,9 +203,9 @@ internal sealed class ProjectedGradients
     }
 
     /// <summary>How the gradient responds to the direction; returns how much, along it.</summary>
-    private double Probe(Span<ContactPoint> contacts, Span<double> masses)
+    private double Probe(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> change)
     {
-        Respond(contacts, masses, direction);
+        Respond(contacts, masses, direction, change);
         double curvature = 0;
         for (int i = 0; i < contacts.Length; i++)
         {
@@ -219,20 +217,19 @@ internal sealed class ProjectedGradients
     }
 
     /// <summary>The gradient at the impulses as they are.</summary>
-    private void Evaluate(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities)
+    private void Evaluate(Span<ContactPoint> contacts, Span<double> masses, Span<double> demand, Span<Vector3D> change)
     {
-        Respond(contacts, masses, impulses);
+        Respond(contacts, masses, impulses, change);
         for (int i = 0; i < contacts.Length; i++)
         {
-            ref readonly ContactPoint c = ref contacts[i];
-            gradient[i] = scales[i] * (ImpactSolver.Opening(c, velocities) - c.Target + ImpactSolver.Opening(c, change));
+            gradient[i] = scales[i] * (ImpactSolver.Opening(contacts[i], change) - demand[i]);
         }
     }
 
     /// <summary>The changes of velocity that impulses make.</summary>
-    private void Respond(Span<ContactPoint> contacts, Span<double> masses, double[] pushes)
+    private void Respond(Span<ContactPoint> contacts, Span<double> masses, double[] pushes, Span<Vector3D> change)
     {
-        Array.Clear(change, 0, change.Length);
+        change.Clear();
         for (int i = 0; i < contacts.Length; i++)
         {
             ref readonly ContactPoint c = ref contacts[i];
@@ -248,7 +245,7 @@ internal sealed class ProjectedGradients
     // Of a body in a hand zero: nothing moves it.
     private static double Inverse(double mass) => double.IsPositiveInfinity(mass) ? 0 : 1 / mass;
 
-    private void Grow(int contacts, int bodies)
+    private void Grow(int contacts)
     {
         if (contacts > impulses.Length)
         {
@@ -258,11 +255,6 @@ internal sealed class ProjectedGradients
             gradient = new double[count];
             direction = new double[count];
             response = new double[count];
-        }
-
-        if (bodies > change.Length)
-        {
-            change = new Vector3D[Math.Max(bodies, 2 * change.Length)];
         }
     }
 }
