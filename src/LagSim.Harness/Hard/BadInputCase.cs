@@ -129,7 +129,7 @@ internal sealed class BadInputCase : IHardCase
             refused++;
             bool namesValue = refusal.Message.Contains(value.ToString("R", CultureInfo.InvariantCulture), StringComparison.Ordinal)
                 || (refusal is ArgumentOutOfRangeException { ActualValue: double actual } && actual.Equals(value))
-                || (Math.Abs(value) < 1e6 && refusal.Message.Contains(SimDuration.FromSeconds(value).ToString(), StringComparison.Ordinal)); // a step is rounded to ticks first
+                || (Math.Abs(value) < 1e6 && refusal.Message.Contains(SimDuration.FromSeconds(value).ToShortString(), StringComparison.Ordinal)); // a step is rounded to ticks first
             bool saysWhatIsAllowed = refusal.Message.Contains("must", StringComparison.Ordinal) || refusal.Message.Contains("allowed", StringComparison.Ordinal)
                 || refusal.Message.Contains("at most", StringComparison.Ordinal);
             return namesValue && saysWhatIsAllowed ? null : "an unclear refusal: " + refusal.Message;
