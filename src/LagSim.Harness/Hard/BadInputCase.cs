@@ -15,9 +15,6 @@ internal sealed class BadInputCase : IHardCase
 {
     private const double Apart = 10; // metres that the ball falls, at least
 
-    private static readonly double[] Few = [0, -1, 1, double.Epsilon, 1e-310, 1e-30, 1e-6, 0.5, 1e4, 1.1e30, double.MaxValue, double.NegativeInfinity,
-        double.NaN];
-
     private static readonly double[] Values =
     [
         0, -0.0, 1, -1, double.Epsilon, -double.Epsilon, 1e-310, 2.2250738585072014e-308, 1e-300, 1e-155, 1e-31, 1e-30, 1e-12, 1e-9, 1e-6, 1e-3, 0.5, 2, 1e3,
@@ -99,8 +96,7 @@ internal sealed class BadInputCase : IHardCase
     {
         int wrong = 0, refused = 0;
         string first = "";
-        double[] values = context.Sizes(Few, Values);
-        foreach (double value in values)
+        foreach (double value in Values)
         {
             string? fault = Fault(context, value, scene, place, ref refused);
             wrong += fault is null ? 0 : 1;
@@ -108,7 +104,7 @@ internal sealed class BadInputCase : IHardCase
         }
 
         return new HardRow(
-            Name, FormattableString.Invariant($"{what}, {values.Length} values"), wrong, "count", 0,
+            Name, FormattableString.Invariant($"{what}, {Values.Length} values"), wrong, "count", 0,
             "a sentence has the value in it, or it has not; a place is within 1e-8 of the textbook's, with tolerances of 1e-9, and a part of its size",
             "the value in the sentence; the place a second later")
         {
