@@ -33,7 +33,8 @@ public sealed partial class Simulation
         double resistance = Math.Min(spec.RollingResistance, mu) * pressing;
         Vector3D slip = velocity - (Vector3D.Cross(spin, n) * spec.Radius);
         slip -= n * Vector3D.Dot(n, slip);
-        bool slips = slip.Length > Stopped + (1e-12 * velocity.Length);
+        double tick = SimDuration.OneTick.ToSeconds() * (pull.Length + (3.5 * mu * pressing)); // what a tick changes of a speed: times are rounded to ticks
+        bool slips = slip.Length > Stopped + (1e-12 * velocity.Length) + tick;
         bool holds = 2.0 / 7 * pull.Length <= mu * pressing;
         if (slips || !holds)
         {
@@ -50,7 +51,7 @@ public sealed partial class Simulation
         }
 
         Vector3D pivot = n * Vector3D.Dot(n, spin); // what turns about the normal goes on turning
-        bool moves = velocity.Length > Stopped;
+        bool moves = velocity.Length > Stopped + tick;
         if (!moves && pull.Length <= resistance)
         {
             if (left > SimDuration.Zero)

@@ -215,13 +215,20 @@ public sealed partial class Simulation
         }
     }
 
+    /// <summary>Whether a plane that carries a body rubs on it, so that not gravity alone may press it against another.</summary>
+    private bool IsRubbed(int slot)
+    {
+        SupportSet supports = timelines.Segment(timelines.Last(slot)).Supports;
+        return supports.Count == 1 && FrictionOn(slot, supports[0]) > 0;
+    }
+
     /// <summary>
     /// Marks the contacts of the impact at hand that are pressed together: by the paths that they are on, as friction may have it; or by gravity and forces now that they touch, which the
     /// accelerations tell that are left if no contact may close, nor what carries the parties already give way.
     /// </summary>
     private void FindPressing()
     {
-        if (partyCount == 1 && contactCount == 1 && IsSupportable(contacts[0]))
+        if (partyCount == 1 && contactCount == 1 && IsSupportable(contacts[0]) && !IsRubbed(parties[0]))
         {
             return; // its bounces are followed down to the scene's resolution
         }

@@ -123,7 +123,9 @@ public sealed partial class Simulation
         }
 
         touching[touchingCount] = contact;
-        touching[touchingCount++].Pushes = IsPressed(contact);
+        touching[touchingCount].IsStruck = IsPressed(contact);
+        touching[touchingCount].Pushes = touching[touchingCount].IsStruck;
+        touchingCount++;
     }
 
     /// <summary>
@@ -158,7 +160,7 @@ public sealed partial class Simulation
         for (int i = 0; i < touchingCount && Friction(c) > 0 && !isOneOfSeveral; i++)
         {
             ref readonly ContactPoint other = ref touching[i];
-            isOneOfSeveral = (other.Pushes || !byPush) && other.First == c.First && other.Second == ContactPoint.Static && other.Surface != c.Surface;
+            isOneOfSeveral = (other.Pushes || c.IsStruck || !byPush) && other.First == c.First && other.Second == ContactPoint.Static && other.Surface != c.Surface;
         }
 
         return isOneOfSeveral;

@@ -63,7 +63,7 @@ public sealed partial class Simulation
     }
 
     private bool MayLast(in ContactPoint c, double opening) =>
-        opening <= 2 * LastingSpeed && (!IsSupportable(c) || Friction(c) > 0) && !AreInFreeFlight(c) && !Scene.Box.Exists && !IgnoresIslands;
+        opening <= 2 * LastingSpeed && (!IsSupportable(c) || Friction(c) > 0 || IsRubbed(parties[c.First])) && !AreInFreeFlight(c) && !Scene.Box.Exists && !IgnoresIslands;
 
     /// <summary>The lever of rolling resistance of a contact, in metres: the larger of its two bodies', each of which has no more resistance than friction.</summary>
     private double RollingLever(in ContactPoint c)

@@ -62,6 +62,10 @@ internal sealed class LastingContactSolver
             }
 
             SolveNormals(contacts, masses, velocities, again: false);
+            for (int i = 0; i < rubs.Length; i++)
+            {
+                rubs[i].Allowed = rubs[i].Friction * contacts[i].Impulse;
+            }
         }
         else
         {
@@ -152,7 +156,9 @@ internal sealed class LastingContactSolver
         PushAlong(c, more, velocities);
 
         Vector3D slip = ImpactFriction.Slip(c, radii, velocities, spins);
-        Vector3D across = Within(rub.Push - (slip * (Relaxation / (ImpactFriction.SlipPerImpulse * inverse))), rub.Friction * c.Impulse) - rub.Push;
+        // Gently: a ball that slips on a floor is pressed to a wall, which lifts it off the floor again, by mu² of what pressed it there. To follow that at once would be to go to and fro for ever.
+        rub.Allowed += ((rub.Friction * c.Impulse) - rub.Allowed) / (1 + (rub.Friction * rub.Friction));
+        Vector3D across = Within(rub.Push - (slip * (Relaxation / (ImpactFriction.SlipPerImpulse * inverse))), rub.Allowed) - rub.Push;
         rub.Push += across;
         PushAcross(c, across, velocities, spins);
         double most = Math.Max(Math.Abs(more), across.Length) * inverse;

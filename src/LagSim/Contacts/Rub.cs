@@ -11,6 +11,9 @@ internal struct Rub
     /// <summary>The lever of rolling resistance in metres: its coefficient times the radius of what rolls.</summary>
     internal double Lever;
 
+    /// <summary>How large the impulse of friction may be, in N s: what the normal impulse allows, followed gently.</summary>
+    internal double Allowed;
+
     /// <summary>The impulse of friction on the first of the two, in N s.</summary>
     internal Vector3D Push;
 

@@ -87,6 +87,58 @@ public sealed class FrictionTests
         Assert.Equal(!holds, Vector3D.Dot(up, Read(world, First, 3).Velocity) < 0);
     }
 
+    /// <summary>A ball that turns in place between a floor and a wall it is pressed to by that: the floor carries g / (1 + mu²) of it, and both brake.</summary>
+    [Theory]
+    [InlineData(0.3)]
+    [InlineData(1)]
+    [InlineData(3)]
+    public void Turning_BetweenFloorAndWall_IsBrakedByBoth(double mu)
+    {
+        Simulation world = BesideWall(new BodySpec(R, 1, 0, friction: mu), 100, V(0), V(0, 0, -20), Gravity);
+        double brake = 2.5 * mu * (1 + mu) / (1 + (mu * mu)) * Gravity / R;
+        world.AdvanceTo(At(0.1));
+        Near(-20 + (brake * 0.1), Read(world, First, 0.1).Spin.Z, 1e-5);
+        Near(V(0, R), Read(world, First, 0.1).Position, 1e-9);
+    }
+
+    /// <summary>Whatever friction and gravity, a ball that slips and turns on a floor, beside a wall too, comes through a second in some thousand events.</summary>
+    [Fact]
+    public void AnyFriction_OnAFloorOrBesideAWall_TakesFewEvents()
+    {
+        Random random = new(11);
+        double[] walls = [0, 0.1, 1, 100];
+        for (int n = 0; n < 600; n++)
+        {
+            BodySpec ball = new(R, 1, 0, friction: Math.Pow(10, 3.0 * random.NextDouble() - 1), rollingResistance: random.Next(2) * 0.01);
+            double wall = n % 2 == 0 ? double.NaN : walls[random.Next(4)], gravity = Math.Pow(10, 3 * random.NextDouble());
+            Simulation world = BesideWall(ball, wall, V(Any(1) * random.Next(2), 0, Any(1) * random.Next(2)), V(Any(5), Any(5), Any(5)), gravity);
+            Assert.True(IsThrough(world), $"{string.Join("\n", world.Timeline(First).TakeLast(8).Select(e=>$"{e.Key} {e.State.Motion} {e.State.Position} v {e.State.Velocity} w {e.State.Spin}"))} {n}: friction {ball.Friction} on the floor, {wall} at the wall, gravity {gravity} m/s²");
+        }
+
+        double Any(double size) => ((2 * random.NextDouble()) - 1) * size;
+    }
+
+    [Fact]
+    public void Control_WithoutIslands_IsStoppedByTheWallForEver()
+    {
+        Simulation world = BesideWall(new BodySpec(R, 1, 0, friction: 0.3), 100, V(0), V(0, 0, -20), Gravity, ignoresIslands: true);
+        Assert.False(IsThrough(world));
+    }
+
+    private static bool IsThrough(Simulation world)
+    {
+        long events = 5000;
+        return world.TryAdvanceTo(At(1), ref events);
+    }
+
+    /// <summary>A ball on a floor; and, unless its friction is no number, at a wall.</summary>
+    private static Simulation BesideWall(BodySpec ball, double wall, Vector3D velocity, Vector3D spin, double gravity, bool ignoresIslands = false)
+    {
+        SceneBuilder builder = new SceneBuilder("wall").WithGravity(V(0, -gravity)).AddPlane("floor", V(0, 1), 0.0, 0.5);
+        builder = double.IsNaN(wall) ? builder : builder.AddPlane("wall", V(-1), V(R), 1, wall);
+        return new Simulation(builder.AddBody("ball", ball, V(0, R + (ignoresIslands ? 1e-3 : 0)), velocity, spin: spin).Build(), KeepAll) { IgnoresIslands = ignoresIslands };
+    }
+
     /// <summary>Across a slope the slip turns: against a reference by small steps of its equation, u' = g_t - 7/2 mu g_n u / |u|.</summary>
     [Fact]
     public void Slipping_AcrossASlope_FollowsItsEquation()
