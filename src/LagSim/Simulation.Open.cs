@@ -71,7 +71,7 @@ public sealed partial class Simulation
         if (!piece.Acceleration.IsFinite || (!dense.IsFinite && tooLarge == 0 && tooStiff == 0))
         {
             throw new SimulationException(
-                $"In the step from {from.ToShortString()} the acceleration of body {bodies[slot].Id} became NaN or infinite; what the forces {spec.Forces} give must be finite.");
+                $"In the step from {from.ToShortString()} the acceleration of body {bodies[slot].Id} became NaN or infinite; what the forces {spec.Forces.NamesAmong(Scene.ForceArray)} give must be finite.");
         }
 
         if (tooStiff > 0)

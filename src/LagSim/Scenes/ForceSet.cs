@@ -68,6 +68,18 @@ public readonly struct ForceSet : IEquatable<ForceSet>
         return text.Append('}').ToString();
     }
 
+    /// <summary>The names of those of a scene's forces that are in the set, for a message.</summary>
+    internal string NamesAmong(Force[] forces)
+    {
+        StringBuilder text = new();
+        foreach (Force force in Among(forces))
+        {
+            text.Append(text.Length > 0 ? ", '" : "'").Append(force.Name).Append('\'');
+        }
+
+        return text.ToString();
+    }
+
     /// <summary>Those of a scene's forces that are in the set, in the scene's order.</summary>
     internal ActingForces Among(Force[] forces) => new(forces, Mask);
 

@@ -53,13 +53,13 @@ internal static class Limits
         if (!spec.Forces.IsEmpty && spec.Flight == MotionLaw.Ballistic)
         {
             throw new SceneException(
-                $"{Capital($"{whose}")} flies by Ballistic, which is exact for gravity alone, and names the forces {spec.Forces}; use Automatic, ClosedForm, DormandPrince54 or RungeKutta4.");
+                $"{Capital($"{whose}")} flies by Ballistic, which is exact for gravity alone, and names the forces {spec.Forces.NamesAmong(forces)}; use Automatic, ClosedForm, DormandPrince54 or RungeKutta4.");
         }
 
         if (spec.Flight == MotionLaw.ClosedForm && !FlightLaws.HasClosedForm(spec, gravity, forces))
         {
             throw new SceneException(
-                $"{Capital($"{whose}")} flies by ClosedForm and names the forces {spec.Forces}; a closed form there is for linear drag, springs, magnetic fields and Magnus forces together with gravity, and for one inverse-square pull without gravity. Use Automatic, DormandPrince54 or RungeKutta4.");
+                $"{Capital($"{whose}")} flies by ClosedForm and names the forces {spec.Forces.NamesAmong(forces)}; a closed form there is for linear drag, springs, magnetic fields and Magnus forces together with gravity, and for one inverse-square pull without gravity. Use Automatic, DormandPrince54 or RungeKutta4.");
         }
 
         CheckRate(spec, whose, gravity, forces);
