@@ -485,14 +485,14 @@ internal sealed class TimelineStore
     }
 
     /// <summary>
-    /// For how many segments room will be needed, as far as can be told before a whole history has gone by: if as many are opened for the rest of it. No more than a quarter above what there is, for
-    /// what begins need not go on. To grow by little until then would be to copy everything some hundred times.
+    /// For how many segments room will be needed, as far as can be told before a whole history has gone by: if as many are opened for the rest of it, from an
+    /// eighth of it on. No more than a quarter above what there is, for what begins need not go on. To grow by little until then would be to copy everything some hundred times.
     /// </summary>
     private int Expected(SimTime now)
     {
         double passed = now.SecondsSince(origin);
         double whole = history.ToSeconds();
-        if (!(passed > 0 && passed < whole))
+        if (!(passed > whole / 8 && passed < whole))
         {
             return 0;
         }

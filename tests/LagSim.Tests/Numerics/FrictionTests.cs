@@ -112,7 +112,7 @@ public sealed class FrictionTests
             BodySpec ball = new(R, 1, 0, friction: Math.Pow(10, 3.0 * random.NextDouble() - 1), rollingResistance: random.Next(2) * 0.01);
             double wall = n % 2 == 0 ? double.NaN : walls[random.Next(4)], gravity = Math.Pow(10, 3 * random.NextDouble());
             Simulation world = BesideWall(ball, wall, V(Any(1) * random.Next(2), 0, Any(1) * random.Next(2)), V(Any(5), Any(5), Any(5)), gravity);
-            Assert.True(IsThrough(world), $"{string.Join("\n", world.Timeline(First).TakeLast(8).Select(e=>$"{e.Key} {e.State.Motion} {e.State.Position} v {e.State.Velocity} w {e.State.Spin}"))} {n}: friction {ball.Friction} on the floor, {wall} at the wall, gravity {gravity} m/s²");
+            Assert.True(IsThrough(world), $"{n}: friction {ball.Friction} on the floor, {wall} at the wall, gravity {gravity} m/s²");
         }
 
         double Any(double size) => ((2 * random.NextDouble()) - 1) * size;
