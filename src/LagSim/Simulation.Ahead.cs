@@ -79,12 +79,12 @@ public sealed partial class Simulation
         GroupAllThatTouches();
         for (int least = 0; least < partyCount; least++)
         {
-            if (group[least] == least && needsSteps[least] && stepsAhead!.TryRent(clock.Time, out IslandStep step))
+            if (group[least] == least && needsSteps[least] && stepsAhead!.TryRent(clock.Time, out StepsAhead.Job job))
             {
-                FillStep(step, least, 0);
-                if (step.ContactCount >= LeastContactsAhead && !IsOwnForceAmong(least))
+                FillStep(job.Step, least, 0);
+                if (job.Step.ContactCount >= LeastContactsAhead && !IsOwnForceAmong(least))
                 {
-                    stepsAhead.Begin(step, due, LastingSpeed);
+                    stepsAhead.Begin(job, due, LastingSpeed);
                 }
             }
         }

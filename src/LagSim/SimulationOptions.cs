@@ -1,5 +1,6 @@
 using System;
 using System.Threading;
+using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
 
@@ -14,8 +15,6 @@ public sealed class SimulationOptions
 
     /// <summary>The most segments where nothing else is said: 8,388,608, some 2 GB.</summary>
     public const int DefaultMaxSegments = 1 << 23;
-
-    private const int MostThreads = 64;
 
     /// <summary>Above this an index of the paths costs less than to look at everybody.</summary>
     internal const int DefaultMostPairs = 64;
@@ -33,7 +32,7 @@ public sealed class SimulationOptions
     /// <param name="cancellation">Ends whatever the simulation is at, from any thread, between two instants, with an <see cref="OperationCanceledException"/>.</param>
     /// <param name="healing">How an event is brought in that lies before the simulated time. It has no influence on the result, to the bit.</param>
     /// <param name="threads">
-    /// How many threads at most may be at work for this simulation at once, the one that calls it included: from 1 to 64; default as many as there are processors, at most 8. The others are the
+    /// How many threads at most may be at work for this simulation at once, the one that calls it included: from 1 to <see cref="SceneBuilder.MaxThreads"/>; default as many as there are processors, at most 8. The others are the
     /// pool's, and take steps of islands ahead where there are several; what comes of it is the same, to the bit, on any number.
     /// </param>
     /// <exception cref="ArgumentOutOfRangeException">The threads are not from 1 to 64, the history or the most segments are not above zero, or the start more than 72 days from the origin.</exception>
@@ -56,9 +55,9 @@ public sealed class SimulationOptions
             throw new ArgumentOutOfRangeException(nameof(maxSegments), maxSegments, "At least one segment must be allowed.");
         }
 
-        if (threads is < 1 or > MostThreads)
+        if (threads is < 1 or > SceneBuilder.MaxThreads)
         {
-            throw new ArgumentOutOfRangeException(nameof(threads), threads, $"One thread is at work at least, and {MostThreads} at most.");
+            throw new ArgumentOutOfRangeException(nameof(threads), threads, $"One thread is at work at least, and {SceneBuilder.MaxThreads} at most.");
         }
 
         Start = start;

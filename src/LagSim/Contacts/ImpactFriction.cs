@@ -85,7 +85,7 @@ internal sealed class ImpactFriction
         Vector3D slip = Slip(c, radii, velocities, spins);
         double speed = slip.Length;
         bool isPair = c.Second != ContactPoint.Static;
-        double inverse = Inverse(masses[c.First]) + (isPair ? Inverse(masses[c.Second]) : 0);
+        double inverse = ImpactSolver.Inverse(masses[c.First]) + (isPair ? ImpactSolver.Inverse(masses[c.Second]) : 0);
         if (!(speed > 0) || !(inverse > 0))
         {
             return;
@@ -95,15 +95,12 @@ internal sealed class ImpactFriction
         double impulse = Math.Min(coefficient * c.Impulse, speed / (SlipPerImpulse * inverse)) / shared;
         Vector3D push = slip * (-impulse / speed);
         Vector3D turn = Vector3D.Cross(push, c.Normal) * TurnPerImpulse; // the lever -r n times the push, by 2/5 m r²
-        changes[c.First] += push * Inverse(masses[c.First]);
-        turns[c.First] += turn * (Inverse(masses[c.First]) / radii[c.First]);
+        changes[c.First] += push * ImpactSolver.Inverse(masses[c.First]);
+        turns[c.First] += turn * (ImpactSolver.Inverse(masses[c.First]) / radii[c.First]);
         if (isPair)
         {
-            changes[c.Second] -= push * Inverse(masses[c.Second]);
-            turns[c.Second] += turn * (Inverse(masses[c.Second]) / radii[c.Second]);
+            changes[c.Second] -= push * ImpactSolver.Inverse(masses[c.Second]);
+            turns[c.Second] += turn * (ImpactSolver.Inverse(masses[c.Second]) / radii[c.Second]);
         }
     }
-
-    // Of a body in a hand zero: nothing turns or moves it.
-    private static double Inverse(double mass) => double.IsPositiveInfinity(mass) ? 0 : 1 / mass;
 }

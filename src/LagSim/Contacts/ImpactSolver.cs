@@ -109,6 +109,9 @@ internal sealed class ImpactSolver
             contact.Normal,
             contact.Second == ContactPoint.Static ? velocities[contact.First] : velocities[contact.First] - velocities[contact.Second]);
 
+    /// <summary>How much an impulse changes a velocity: of a body in a hand nothing does.</summary>
+    internal static double Inverse(double mass) => IsHand(mass) ? 0 : 1 / mass;
+
     // By mass fractions instead of impulses: a few ulp at any mass ratio, and an elastic bounce off a plane is exactly a mirror.
     private static void Single(ref ContactPoint c, Span<double> masses, Span<Vector3D> velocities)
     {

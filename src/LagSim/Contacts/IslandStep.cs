@@ -174,12 +174,6 @@ internal sealed class IslandStep
         return t.Push * inverse > LeastPush * Length.ToSeconds() * Pull();
     }
 
-    /// <summary>The first body of a contact.</summary>
-    internal int First(int contact) => touches[contact].First;
-
-    /// <summary>The second, or <see cref="ContactPoint.Static"/>.</summary>
-    internal int Second(int contact) => touches[contact].Second;
-
     /// <summary>How fast a body gets in the step: at its middle or its end, on its surface or with its centre, whichever is most; in m/s.</summary>
     internal double Stir(int body)
     {

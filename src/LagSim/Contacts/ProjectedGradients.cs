@@ -93,7 +93,7 @@ internal sealed class ProjectedGradients
         for (int i = 0; i < contacts.Length; i++)
         {
             ref readonly ContactPoint c = ref contacts[i];
-            double inverse = Inverse(masses[c.First]) + (c.Second == ContactPoint.Static ? 0 : Inverse(masses[c.Second]));
+            double inverse = ImpactSolver.Inverse(masses[c.First]) + (c.Second == ContactPoint.Static ? 0 : ImpactSolver.Inverse(masses[c.Second]));
             scales[i] = inverse > 0 ? 1 / Math.Sqrt(inverse) : 0; // of two hands: nothing changes how they open
             impulses[i] = again && inverse > 0 ? c.Impulse / scales[i] : 0;
             lacking = inverse > 0 ? Math.Max(lacking, Math.Abs(demand[i])) : lacking;
@@ -108,8 +108,8 @@ internal sealed class ProjectedGradients
         for (int i = 0; i < contacts.Length; i++)
         {
             ref readonly ContactPoint c = ref contacts[i];
-            double row = scales[i] * ((change[c.First].X * Inverse(masses[c.First]))
-                + (c.Second == ContactPoint.Static ? 0 : change[c.Second].X * Inverse(masses[c.Second])));
+            double row = scales[i] * ((change[c.First].X * ImpactSolver.Inverse(masses[c.First]))
+                + (c.Second == ContactPoint.Static ? 0 : change[c.Second].X * ImpactSolver.Inverse(masses[c.Second])));
             norm = Math.Max(norm, row);
         }
 
@@ -234,16 +234,13 @@ internal sealed class ProjectedGradients
         {
             ref readonly ContactPoint c = ref contacts[i];
             Vector3D push = c.Normal * (scales[i] * pushes[i]);
-            change[c.First] += push * Inverse(masses[c.First]);
+            change[c.First] += push * ImpactSolver.Inverse(masses[c.First]);
             if (c.Second != ContactPoint.Static)
             {
-                change[c.Second] -= push * Inverse(masses[c.Second]);
+                change[c.Second] -= push * ImpactSolver.Inverse(masses[c.Second]);
             }
         }
     }
-
-    // Of a body in a hand zero: nothing moves it.
-    private static double Inverse(double mass) => double.IsPositiveInfinity(mass) ? 0 : 1 / mass;
 
     private void Grow(int contacts)
     {

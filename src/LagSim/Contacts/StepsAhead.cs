@@ -39,37 +39,30 @@ internal sealed class StepsAhead
     /// <summary>How many steps were used that had been taken ahead.</summary>
     internal long Used { get; private set; }
 
-    /// <summary>A step to be filled and begun, for which nothing else is kept any more; false if all are in use.</summary>
+    /// <summary>A place for a step to be filled and begun, of which nothing else is kept any more; false if all are in use.</summary>
     /// <param name="now">Steps that were due before are of no use.</param>
-    /// <param name="step">With nobody in it.</param>
-    internal bool TryRent(SimTime now, out IslandStep step)
+    /// <param name="job">Its step has nobody in it.</param>
+    internal bool TryRent(SimTime now, out Job job)
     {
         for (int i = 0; i < jobs.Length; i++)
         {
-            Job job = jobs[i];
+            job = jobs[i];
             if (job.State == Job.Idle || (job.Due < now && job.TryDrop()))
             {
                 job.Step.Clear();
-                step = job.Step;
                 return true;
             }
         }
 
-        step = null!;
+        job = null!;
         return false;
     }
 
-    /// <summary>Has a rented step taken.</summary>
-    internal void Begin(IslandStep step, SimTime due, double closing)
+    /// <summary>Has the step of a rented place taken.</summary>
+    internal void Begin(Job job, SimTime due, double closing)
     {
-        for (int i = 0; i < jobs.Length; i++)
-        {
-            if (ReferenceEquals(jobs[i].Step, step))
-            {
-                jobs[i].Begin(due, closing);
-                queue(Run, jobs[i]);
-            }
-        }
+        job.Begin(due, closing);
+        queue(Run, job);
     }
 
     /// <summary>Puts in place of a step that is due the same one as it was taken ahead; false if nobody has taken it.</summary>
@@ -89,7 +82,8 @@ internal sealed class StepsAhead
         return false;
     }
 
-    private sealed class Job
+    /// <summary>A place for a step that is, will be or was taken.</summary>
+    internal sealed class Job
     {
         internal const int Idle = 0;
         private const int Queued = 1;

@@ -49,13 +49,14 @@ public sealed class StepsAheadTests
     private static bool Uses(Scene scene, SimTime taken, SimTime due, double faster)
     {
         StepsAhead steps = new(1, () => new IslandStep(scene, new Forces(scene, At(0))), AtOnce);
-        Assert.True(steps.TryRent(At(0), out IslandStep rented));
-        Fill(rented, 0.1);
+        Assert.True(steps.TryRent(At(0), out StepsAhead.Job rented));
+        IslandStep there = rented.Step;
+        Fill(there, 0.1);
         steps.Begin(rented, taken, 0);
         IslandStep step = new(scene, new Forces(scene, At(0)));
         Fill(step, 0.1 + faster);
         bool uses = steps.TryUse(ref step, due);
-        Assert.Equal(uses, ReferenceEquals(step, rented));
+        Assert.Equal(uses, ReferenceEquals(step, there));
         return uses;
     }
 

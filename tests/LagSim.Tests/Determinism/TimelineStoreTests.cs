@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
+using LagSim.Harness.Scenes;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -30,6 +31,30 @@ public sealed class TimelineStoreTests
     public void Check_CutByTimeInsteadOfByKey_IsSeenToFail()
     {
         Assert.NotNull(FirstDisagreement(1, (in EventKey key) => EventKey.Before(key.Time)));
+    }
+
+    /// <summary>In a gas that goes on evenly room for a history is guessed early, and not far off: else everything is copied some hundred times. The control is a history of which too little has gone by to tell.</summary>
+    [Fact]
+    public void Room_OfAnEvenGas_GrowsInFewSteps()
+    {
+        (int steps, double room) = Growth(SimDuration.FromSeconds(1));
+        Assert.InRange(steps, 1, 60);
+        Assert.InRange(room, 1, 1.1);
+        Assert.True(Growth(SimDuration.FromSeconds(100)).Steps > 80);
+    }
+
+    private static (int Steps, double RoomForEach) Growth(SimDuration history)
+    {
+        Simulation world = new(BuiltInScenes.Gas(1000, 0.2), new SimulationOptions(default, history));
+        int steps = 0;
+        for (int ms = 1; ms < 1000; ms++)
+        {
+            int before = world.Timelines.Room;
+            world.AdvanceTo(SimTime.FromSeconds(ms * 1e-3));
+            steps += world.Timelines.Room > before ? 1 : 0;
+        }
+
+        return (steps, world.Timelines.Room / (double)world.Timelines.Alive);
     }
 
     [Fact]

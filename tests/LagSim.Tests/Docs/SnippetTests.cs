@@ -35,7 +35,6 @@ public sealed partial class SnippetTests
         Snippets snippets = new(Drop(3.5, 0.7), shown.Add);
         snippets.Bounce();
         snippets.Contacts();
-        snippets.BounceOfThePackage();
         Assert.All(shown, place => Assert.True(place.Y is > 3 and <= 4, $"{place}")); // nothing has fallen far yet
     }
 

@@ -128,27 +128,6 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         }
     }
 
-    internal void BounceOfThePackage()
-    {
-        Scene scene = new SceneBuilder("bounce")
-            .AddPlane("floor", normal: Vector3D.Up, point: Vector3D.Zero)
-            .AddBody("ball", new BodySpec(radius: 0.5, mass: 1, restitution: 0.7), position: new Vector3D(0, 4, 0))
-            .Build();
-        BodyId ball = scene.BodyNamed("ball");
-
-        using SimulationHost host = new(scene, new StopwatchClock());
-        host.Start();
-
-        // each frame
-        if (host.Picture.TryRead(ball, host.Now, out BodyState state))
-        {
-            Draw(state.Position);
-        }
-
-        // a player kicks it: 6 N s upwards, now
-        host.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
-    }
-
     internal async Task ShareOfThePackage()
     {
         // one machine; others reach it at UDP port 5000
