@@ -107,7 +107,7 @@ public sealed class FrictionTests
     {
         Random random = new(11);
         double[] walls = [0, 0.1, 1, 100];
-        for (int n = 0; n < 600; n++)
+        for (int n = 0; n < 3000; n++)
         {
             BodySpec ball = new(R, 1, 0, friction: Math.Pow(10, 3.0 * random.NextDouble() - 1), rollingResistance: random.Next(2) * 0.01);
             double wall = n % 2 == 0 ? double.NaN : walls[random.Next(4)], gravity = Math.Pow(10, 3 * random.NextDouble());
