@@ -10,7 +10,7 @@ namespace LagSim;
 /// <remarks>
 /// A solid sphere that slips with u = v - r w x n is slowed down by mu g_n against u and turned by 5/2 as much, so u' = g_t - 7/2 mu g_n u/|u|, with g_n and g_t what gravity has across
 /// and along the plane. Once u is zero it rolls, with 5/7 of g_t, if 2/7 of that is no more than friction can hold. Rolling resistance c takes 5/7 c g_n from that, against v, and
-/// holds at rest what gravity pulls by no more than c g_n.
+/// holds at rest what gravity pulls by no more than c g_n; from what turns about the normal it takes 5/2 c g_n / r, whether the sphere slips, rolls or stays where it is.
 /// </remarks>
 public sealed partial class Simulation
 {
@@ -34,23 +34,24 @@ public sealed partial class Simulation
         Vector3D slip = velocity - (Vector3D.Cross(spin, n) * spec.Radius);
         slip -= n * Vector3D.Dot(n, slip);
         double tick = SimDuration.OneTick.ToSeconds() * (pull.Length + (3.5 * mu * pressing)); // what a tick changes of a speed: times are rounded to ticks
+        Vector3D pivot = n * Vector3D.Dot(n, spin); // what turns about the normal
+        Vector3D slowing = Slowing(ref pivot, 2.5 * resistance / spec.Radius, Stopped / spec.Radius);
         bool slips = slip.Length > Stopped + (1e-12 * velocity.Length) + tick;
         bool holds = 2.0 / 7 * pull.Length <= mu * pressing;
         if (slips || !holds)
         {
             Vector3D along = slips ? slip / slip.Length : pull / pull.Length;
             Vector3D rate = pull - (along * (3.5 * mu * pressing));
-            SimTime end = EndOfTurning(key.Time, slip, along, pull, Vector3D.Dot(along, rate));
+            SimTime end = SimTime.Min(EndOfTurning(key.Time, slip, along, pull, Vector3D.Dot(along, rate)), EndOfPivoting(key.Time, pivot, slowing));
             along = Midway(slip, along, rate, key.Time, end);
             Vector3D held = along * (mu * pressing);
-            Vector3D turning = Vector3D.Cross(n, held) * (2.5 / spec.Radius);
+            Vector3D turning = (Vector3D.Cross(n, held) * (2.5 / spec.Radius)) - slowing;
             Append(
                 slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, end, position, velocity, (pull - held).WithoutNegativeZero(), supports, crowding), default,
                 spin: new Spin(spin, turning));
             return;
         }
 
-        Vector3D pivot = n * Vector3D.Dot(n, spin); // what turns about the normal goes on turning
         bool moves = velocity.Length > Stopped + tick;
         if (!moves && pull.Length <= resistance)
         {
@@ -62,20 +63,40 @@ public sealed partial class Simulation
                 return;
             }
 
-            Append(slot, key, MotionSegment.AtRest(key.Time, position, supports).WithCrowding(crowding), default, spin: new Spin(pivot));
+            SimTime still = EndOfPivoting(key.Time, pivot, slowing);
+            Append(
+                slot, key, slowing == Vector3D.Zero ? MotionSegment.AtRest(key.Time, position, supports).WithCrowding(crowding)
+                    : new MotionSegment(MotionLaw.Rolling, key.Time, still, position, Vector3D.Zero, Vector3D.Zero, supports, crowding), default, spin: new Spin(pivot, -slowing));
             return;
         }
 
         Vector3D start = moves ? velocity : Vector3D.Zero;
         Vector3D heading = moves ? velocity / velocity.Length : pull / pull.Length;
         Vector3D change = (pull - (heading * resistance)) * (5.0 / 7);
-        SimTime stop = EndOfTurning(key.Time, start, heading, pull, Vector3D.Dot(heading, change));
+        SimTime stop = SimTime.Min(EndOfTurning(key.Time, start, heading, pull, Vector3D.Dot(heading, change)), EndOfPivoting(key.Time, pivot, slowing));
         heading = Midway(start, heading, change, key.Time, stop);
         change = ((pull - (heading * resistance)) * (5.0 / 7)).WithoutNegativeZero();
         Append(
             slot, key, new MotionSegment(MotionLaw.Rolling, key.Time, stop, position, start, change, supports, crowding), default,
-            spin: new Spin((Vector3D.Cross(n, start) / spec.Radius) + pivot, Vector3D.Cross(n, change) / spec.Radius));
+            spin: new Spin((Vector3D.Cross(n, start) / spec.Radius) + pivot, (Vector3D.Cross(n, change) / spec.Radius) - slowing));
     }
+
+    /// <summary>What rolling resistance takes from what turns about the normal, in rad/s²; where it is slower than <paramref name="least"/>, or than a tick takes, it turns no more.</summary>
+    private static Vector3D Slowing(ref Vector3D pivot, double rate, double least)
+    {
+        if (!(rate > 0))
+        {
+            return Vector3D.Zero; // and goes on turning
+        }
+
+        double speed = pivot.Length;
+        bool turns = speed > least + (rate * SimDuration.OneTick.ToSeconds());
+        pivot = turns ? pivot : Vector3D.Zero;
+        return turns ? pivot * (rate / speed) : Vector3D.Zero;
+    }
+
+    private SimTime EndOfPivoting(SimTime from, in Vector3D pivot, in Vector3D slowing) =>
+        slowing == Vector3D.Zero ? SimTime.MaxValue : EndOfTurning(from, pivot, slowing, Vector3D.Zero, -slowing.Length);
 
     /// <summary>
     /// When something that slips or rolls with that velocity has stopped doing so, or has turned so far that a new piece is due; never, if neither comes.

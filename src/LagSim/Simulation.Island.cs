@@ -269,7 +269,8 @@ public sealed partial class Simulation
             isOpened[party] = true;
             if (rests)
             {
-                Append(slot, key, MotionSegment.AtRest(key.Time, PlaceOf(party, carry)), default, spin: new Spin(partySpins[party]));
+                bool turns = partySpins[party].Length * partyRadii[party] > Unsettled * island.Length.ToSeconds() * island.Pull() || !island.Rubs;
+                Append(slot, key, MotionSegment.AtRest(key.Time, PlaceOf(party, carry)), default, spin: turns ? new Spin(partySpins[party]) : default);
                 continue;
             }
 

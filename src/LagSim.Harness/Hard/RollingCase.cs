@@ -6,7 +6,7 @@ using static LagSim.Harness.Hard.HardWorlds;
 
 namespace LagSim.Harness.Hard;
 
-/// <summary>A solid sphere on a plane with friction: from slipping to rolling, from rolling to rest, down a slope, against the textbook's formulas.</summary>
+/// <summary>A solid sphere on a plane with friction: from slipping to rolling, from rolling to rest, turning on the spot, down a slope, against the textbook's formulas.</summary>
 /// <remarks>
 /// Slip, the velocity of the surface, loses 7/2 mu g a second and is gone after 2 v/(7 mu g), with 5/7 of the speed left. Down a slope it rolls with 5/7 g sin
 /// a if tan a is at most 7/2 mu, else
@@ -19,7 +19,7 @@ internal sealed class RollingCase : IHardCase
 
     public string Name => "rolling";
 
-    public string Title => "a sphere on a plane with friction: slipping to rolling, rolling to rest, rolling or slipping down a slope";
+    public string Title => "a sphere on a plane with friction: slipping to rolling, rolling or turning to rest, rolling or slipping down a slope";
 
     public IEnumerable<HardRow> Rows(HardContext context)
     {
@@ -34,6 +34,10 @@ internal sealed class RollingCase : IHardCase
         foreach (double resistance in context.Sizes([0.02], [1e-4, 0.02, 0.5]))
         {
             yield return Resisted(context, resistance, resistance);
+            foreach (HardRow row in Turning(context, resistance, resistance))
+            {
+                yield return row;
+            }
         }
 
         foreach (double nearness in context.Sizes([1e-6, -1e-6], [0.5, 1e-2, 1e-6, 1e-12, -1e-12, -1e-6, -1e-2, -0.5]))
@@ -53,6 +57,11 @@ internal sealed class RollingCase : IHardCase
         }
 
         yield return Resisted(context, 0.02, 0.02 * (1 + 1e-6)) with { Note = "a resistance that is a millionth too strong" };
+        foreach (HardRow row in Turning(context, 0.02, 0.02 * (1 + 1e-6)))
+        {
+            yield return row with { Note = "a resistance that is a millionth too strong" };
+        }
+
         foreach (HardRow row in Slope(context, -1e-2, 1e-2))
         {
             yield return row with { Note = "what rolls taken for what slips" };
@@ -100,6 +109,25 @@ internal sealed class RollingCase : IHardCase
             Name, FormattableString.Invariant($"rolls with resistance {resistance} to rest"), state.Motion == MotionLaw.Resting ? off : double.NaN,
             "position_m",
             (Rounding.Tick * Rounding.Tick * brake) + (16 * Rounding.Unit * way), "what is left of the way in a tick, and 16 roundings", "7 v^2/(10 c g)");
+    }
+
+    /// <summary>Turns about the normal, where it stands, until it rests.</summary>
+    private IEnumerable<HardRow> Turning(HardContext context, double resistance, double actual)
+    {
+        const double turning = 4;
+        double rate = 2.5 * resistance * Gravity / Radius, stops = turning / rate, middle = SimTime.FromSeconds(stops / 2).ToSeconds();
+        Simulation simulation = OnFloor(context, new BodySpec(Radius, 1, 0, friction: 1, rollingResistance: actual), default, V(0, turning), 2 * stops);
+        double rests = double.NaN;
+        foreach (Timelines.TimelineEntry entry in simulation.Timeline(First))
+        {
+            rests = entry.State.Motion == MotionLaw.Resting ? entry.Key.Time.ToSeconds() : rests;
+        }
+
+        string size = FormattableString.Invariant($"turns on the spot with resistance {resistance} to rest");
+        yield return new HardRow(
+            Name, size, Math.Abs(Read(simulation, 0, middle).Spin.Y - (turning - (rate * middle))), "spin_rad_per_s", 16 * Rounding.Unit * turning, "16 roundings", "w - 5 c g t/(2 r)");
+        yield return new HardRow(
+            Name, size, Math.Abs(rests - stops), "time_s", Rounding.Tick + (16 * Rounding.Unit * stops), "a tick, and 16 roundings", "2 w r/(5 c g)");
     }
 
     /// <summary>Let go on a slope of 3 in 4, with friction above or below what rolling needs.</summary>

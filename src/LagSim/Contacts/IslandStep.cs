@@ -338,7 +338,6 @@ internal sealed class IslandStep
                 points[count] = new ContactPoint(t.First, t.Second, t.Surface, default) { Normal = normal, Impulse = t.Push };
                 rubs[count] = rubs[i];
                 rubs[count].Push -= normal * Vector3D.Dot(normal, rubs[count].Push);
-                rubs[count].Turn -= normal * Vector3D.Dot(normal, rubs[count].Turn);
                 closed[count++] = i;
             }
         }

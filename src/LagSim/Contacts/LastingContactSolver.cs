@@ -6,7 +6,7 @@ namespace LagSim.Contacts;
 /// <summary>Solves contacts that last together with Coulomb friction and rolling resistance.</summary>
 /// <remarks>
 /// <para>The law along the normals is that of <see cref="ImpactSolver"/>; across it each contact gives what stops the slip, or as much as its normal impulse allows, and what stops the two from
-/// rolling on each other, or as much as that allows. All contacts are gone through in their order, again and again, each with all three at once (Moreau and Jean's non-smooth contact dynamics; Jean 1999,
+/// rolling, and from turning about the normal, on each other, or as much as that allows. All contacts are gone through in their order, again and again, each with all three at once (Moreau and Jean's non-smooth contact dynamics; Jean 1999,
 /// Comput. Methods Appl. Mech. Eng. 177, 235-257), with over-relaxation; then, with friction as it is, the normals are solved by themselves. So whatever friction has not settled by then,
 /// nothing is driven into anything. That is repeated if the normals change much by it, as where a light body carries a heavy one.</para>
 /// <para>Cost: without friction that of one <see cref="ImpactSolver"/>; else up to <see cref="MostTurns"/> times that and up to <see cref="Sweeps"/> sweeps each. Allocates only when there are more
@@ -165,10 +165,12 @@ internal sealed class LastingContactSolver
 
         if (rub.Lever > 0)
         {
-            Vector3D rolling = spins[c.First] - (isPair ? spins[c.Second] : Vector3D.Zero);
-            rolling -= c.Normal * Vector3D.Dot(c.Normal, rolling); // what turns about the normal does not roll
+            Vector3D turning = spins[c.First] - (isPair ? spins[c.Second] : Vector3D.Zero);
             double perTurn = bodies[c.First].PerTurn + (isPair ? bodies[c.Second].PerTurn : 0);
-            Vector3D turn = Within(rub.Turn - (rolling * (Relaxation / perTurn)), rub.Lever * c.Impulse) - rub.Turn;
+            Vector3D wanted = rub.Turn - (turning * (Relaxation / perTurn));
+            Vector3D pivot = c.Normal * Vector3D.Dot(c.Normal, wanted);
+            double allowed = rub.Lever * c.Impulse;
+            Vector3D turn = Within(wanted - pivot, allowed) + Within(pivot, allowed) - rub.Turn;
             rub.Turn += turn;
             TurnBy(c, turn, spins);
             most = Math.Max(most, turn.Length * perTurn * radii[c.First]);

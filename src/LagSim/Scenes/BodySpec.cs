@@ -26,7 +26,7 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
     /// <param name="friction">
     /// The coefficient of Coulomb friction, 0 (none, the default) to 100. Of two things that meet, the lesser counts. Bodies are solid spheres: their moment of inertia is 2/5 m r².
     /// </param>
-    /// <param name="rollingResistance">The coefficient of rolling resistance, 0 (rolls on, the default) to 1: the part of its weight that holds a rolling body back. Without friction nothing rolls.</param>
+    /// <param name="rollingResistance">The coefficient of rolling resistance, 0 (rolls on, the default) to 1: the part of its weight that holds a rolling body back, and as much of a moment holds back one that turns on the spot. At most as large as the friction: without that nothing rolls.</param>
     public BodySpec(
         double radius,
         double mass,

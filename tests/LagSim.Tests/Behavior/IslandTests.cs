@@ -41,7 +41,7 @@ public sealed class IslandTests
         }
     }
 
-    /// <summary>Along a groove whose sides lie aslant by an angle of cosine k, rolling resistance c takes c g k / (k² + 2/5) from a ball's speed.</summary>
+    /// <summary>Along a groove whose sides lie aslant, by an angle of sine s and cosine k, a ball both rolls and turns on each: resistance c takes c g (k + s) / (k² + 2/5) from its speed.</summary>
     [Theory]
     [InlineData(0.02)]
     [InlineData(0)]
@@ -53,11 +53,49 @@ public sealed class IslandTests
             new SceneBuilder("groove").AddPlane("left", V(sine, k), 0.0, friction: 1).AddPlane("right", V(-sine, k), 0.0, friction: 1)
                 .AddBody("ball", ball, V(0, R / k), V(0, 0, speed), spin: V(speed / (R * k))).Build(),
             KeepAll);
-        double brake = resistance * Gravity * k / ((k * k) + 0.4);
+        double brake = resistance * Gravity * (k + sine) / ((k * k) + 0.4);
         world.AdvanceTo(At(4));
         BodyState end = Read(world, First, 4);
         Assert.Equal(resistance > 0 ? MotionLaw.Resting : MotionLaw.Constrained, end.Motion);
         Near(resistance > 0 ? speed * speed / (2 * brake) : speed * 4, end.Position.Z, 1e-6);
+    }
+
+    /// <summary>What turns on the top of another is slowed down as that is set turning, by what both have; and once they turn as one, they go on.</summary>
+    [Fact]
+    public void RollingResistance_OfOneThatTurnsOnAnother_TurnsBoth()
+    {
+        const double c = 0.02, turning = 2;
+        BodySpec ball = new(R, 1, 0, friction: 0.5, rollingResistance: c);
+        Simulation world = new(
+            new SceneBuilder("two").AddStaticSphere("bed", V(0), 1, 0, friction: 0).AddBody("lower", ball, V(0, 1 + R)).AddBody("upper", ball, V(0, 1 + (3 * R)), spin: V(0, turning)).Build(),
+            KeepAll);
+        double rate = 2.5 * c * Gravity / R, equal = turning / (2 * rate);
+        world.AdvanceTo(At(3));
+        Near(turning - (rate * equal / 2), Read(world, Second, equal / 2).Spin.Y, 1e-6);
+        Near(rate * equal / 2, Read(world, First, equal / 2).Spin.Y, 1e-6);
+        Near(turning / 2, Read(world, Second, 2 * equal).Spin.Y, 1e-6);
+        Near(turning / 2, Read(world, First, 2 * equal).Spin.Y, 1e-6);
+    }
+
+    /// <summary>A heap whose balls roll and turn against a resistance comes to rest in full; without it there is something that turns for ever.</summary>
+    [Theory]
+    [InlineData(0.05, true)]
+    [InlineData(0, false)]
+    public void Heap_ComesToRest_IfSomethingResistsRolling(double resistance, bool rests)
+    {
+        SceneBuilder scene = new SceneBuilder("heap").AddPlane("floor", Vector3D.Up, 0.0).AddPlane("west", V(1), -1.1).AddPlane("east", V(-1), -1.1)
+            .AddPlane("back", V(0, 0, 1), -1.1).AddPlane("front", V(0, 0, -1), -1.1);
+        Random random = new(5);
+        for (int i = 0; i < 7; i++)
+        {
+            scene.AddBody($"ball {i}", new BodySpec(R, 1, 0.3, friction: 0.4, rollingResistance: resistance),
+                V((((i % 2) - 0.5) * 1.1) + (0.02 * random.NextDouble()), 0.6 + (i / 4 * 1.1), (((i / 2 % 2) - 0.5) * 1.1) + (0.02 * random.NextDouble())), spin: V(0, random.Next(-5, 6)));
+        }
+
+        Simulation world = new(scene.Build());
+        world.AdvanceTo(At(8));
+        Assert.Equal(rests, Bodies(world).All(body => Read(world, body, 8).Motion == MotionLaw.Resting && Read(world, body, 8).Spin == Vector3D.Zero));
+        Assert.Equal(!rests, Bodies(world).Any(body => Read(world, body, 8).Spin.Length > 0.1));
     }
 
     /// <summary>Beside the top of a dome a ball stays where the slope is no more than its rolling resistance.</summary>

@@ -71,6 +71,24 @@ public sealed class FrictionTests
         Assert.Equal(events, world.EventsProcessed);
     }
 
+    /// <summary>Rolling resistance c takes 5/2 c g / r from what turns about the normal, whether the ball stays, rolls or slips; without it that goes on for ever.</summary>
+    [Theory]
+    [InlineData(0, 0)]
+    [InlineData(0.3, 0)]
+    [InlineData(0.3, 1)]
+    public void RollingResistance_StopsWhatTurnsOnTheSpot(double v, double slips)
+    {
+        const double c = 0.02, turning = 3, rate = 2.5 * c * Gravity / R, stops = turning / rate;
+        Simulation world = OnFloor(new BodySpec(R, 1, 0, friction: 0.05, rollingResistance: c), V(v), V(0, turning, -v * (1 - slips) / R));
+        Near(turning - (rate * 0.1), Read(world, First, 0.1).Spin.Y, 1e-10);
+        Near(turning / 2, Read(world, First, stops / 2).Spin.Y, 1e-10);
+        BodyState end = Read(world, First, 20);
+        Assert.Equal((MotionLaw.Resting, Vector3D.Zero), (end.Motion, end.Spin));
+        Near(0, Read(world, First, stops + 1e-9).Spin.Y, 1e-8);
+        world = OnFloor(new BodySpec(R, 1, 0, friction: 0.05), V(v), V(0, turning, -v * (1 - slips) / R));
+        Assert.Equal(turning, Read(world, First, 20).Spin.Y);
+    }
+
     /// <summary>On a slope that rolling resistance can hold a ball stays where it stops; on a steeper one it turns and rolls down.</summary>
     [Theory]
     [InlineData(0.8, true)]
