@@ -16,19 +16,9 @@ namespace LagSim.Timelines;
 /// <para>It keeps a running hash of all events: the sum (modulo 2^64) of one hash a segment, so that appending and cutting are O(1) and the
 /// order in which the news came leaves no trace.</para>
 /// </remarks>
-internal sealed class TimelineStore
+internal sealed partial class TimelineStore
 {
     internal const int None = -1;
-
-    /// <summary>Below this the arrays double, above they grow by one part in <see cref="Growth"/>.</summary>
-    private const int Large = 1024;
-
-    private const int Growth = 64;
-
-    private const int FirstRoom = 4;
-
-    /// <summary>If all that can be dropped is less than one part in so many, it would soon be looked for again.</summary>
-    private const int LittleRoom = 32;
 
     private readonly SimTime origin;
     private readonly SimDuration history;
@@ -73,9 +63,6 @@ internal sealed class TimelineStore
         Most = most;
     }
 
-    /// <summary>The sum of the hashes of all segments ever opened and not cut off again, dropped ones included.</summary>
-    internal ulong EventHash => hashes.Value;
-
     /// <summary>The serial of the segment that was opened last.</summary>
     internal long LastSerial { get; private set; }
 
@@ -87,9 +74,6 @@ internal sealed class TimelineStore
 
     /// <summary>How many segments are kept now.</summary>
     internal int Alive { get; private set; }
-
-    /// <summary>For how many segments there is room without more memory.</summary>
-    internal int Room => pieces.Length;
 
     /// <summary>Makes room for a body's timeline.</summary>
     internal void AddSlot(int slot)
@@ -140,36 +124,6 @@ internal sealed class TimelineStore
     /// <summary>The slot of the body whose path the segment is part of.</summary>
     internal int Owner(int segment) => links[segment].Owner;
 
-    /// <summary>The next in the ring of segments that one impact opened; itself if it has no other.</summary>
-    internal int Together(int segment) => links[segment].Together;
-
-    /// <summary>The next in the ring of segments of one island; itself if it has no other.</summary>
-    internal int Mate(int segment) => segment < mates.Length ? mates[segment] : segment;
-
-    /// <summary>Makes one island of those of two segments.</summary>
-    internal void JoinIslands(int segment, int other)
-    {
-        if (mates.Length < pieces.Length)
-        {
-            int known = mates.Length;
-            Array.Resize(ref mates, pieces.Length);
-            for (int at = known; at < mates.Length; at++)
-            {
-                mates[at] = at;
-            }
-        }
-
-        for (int at = mates[segment]; at != segment; at = mates[at])
-        {
-            if (at == other)
-            {
-                return;
-            }
-        }
-
-        (mates[segment], mates[other]) = (mates[other], mates[segment]); // two rings become one
-    }
-
     /// <summary>The body's newest segment keyed before <paramref name="key"/>; <see cref="None"/> if none that is kept is.</summary>
     internal int Before(int slot, in EventKey key)
     {
@@ -180,18 +134,6 @@ internal sealed class TimelineStore
         }
 
         return at;
-    }
-
-    /// <summary>Instants before this are asked for no more; what only they need is dropped when room is needed.</summary>
-    internal void ForgetBefore(SimTime time) => edge = SimTime.Max(edge, time);
-
-    /// <summary>The newest segments of these bodies were opened by one impact.</summary>
-    internal void Join(Span<int> slots)
-    {
-        for (int i = 0; i < slots.Length; i++)
-        {
-            links[last[slots[i]]].Together = last[slots[i + 1 == slots.Length ? 0 : i + 1]];
-        }
     }
 
     /// <summary>Opens the body's next segment.</summary>
@@ -333,35 +275,6 @@ internal sealed class TimelineStore
         Release(at);
     }
 
-    private void LeaveIsland(int at)
-    {
-        if (Mate(at) == at)
-        {
-            return;
-        }
-
-        int before = at;
-        while (mates[before] != at)
-        {
-            before = mates[before];
-        }
-
-        mates[before] = mates[at];
-        mates[at] = at;
-    }
-
-    /// <summary>Drops of one body what is no longer needed for instants from <paramref name="time"/> on; the last segment opened before it stays.</summary>
-    internal void DropBefore(int slot, SimTime time)
-    {
-        int at = first[slot];
-        while (at != None && links[at].Closed < time)
-        {
-            int next = links[at].Next;
-            Drop(at);
-            at = next;
-        }
-    }
-
     /// <summary>Forgets the one segment that is left of a body.</summary>
     internal void Forget(int slot)
     {
@@ -370,9 +283,6 @@ internal sealed class TimelineStore
         last[slot] = None;
         flights?.Clear(slot);
     }
-
-    /// <summary>The hash from which this store goes on, which has what its segments would add in it already.</summary>
-    internal void ContinueFrom(ulong eventHash) => hashes.Value = eventHash;
 
     /// <summary>The segment that holds at <paramref name="time"/>, after all events of that tick; <see cref="None"/> before the first kept.</summary>
     internal int At(int slot, SimTime time)
@@ -384,121 +294,6 @@ internal sealed class TimelineStore
         }
 
         return at == None || pieces[at].Key.Time > time ? None : at;
-    }
-
-    internal ulong HashOf(int segment, BodyId body)
-    {
-        ref readonly EventKey key = ref pieces[segment].Key;
-        if (key.Kind == EventKind.None)
-        {
-            return 0; // a body not yet there: that one has heard of it is not an event
-        }
-
-        ref readonly MotionSegment motion = ref pieces[segment].Segment;
-        StableHash hash = EventHashSum.Of(key, motion, body, origin);
-        if (motion.Law == MotionLaw.Held)
-        {
-            hash.Add((ulong)holds[segment].Peer);
-            hash.Add(holds[segment].Offset);
-            hash.Add(holds[segment].Knot - origin);
-            hash.Add(motion.Acceleration);
-            hash.Add(dense[segment].Cubic);
-        }
-
-        Spin spin = SpinOf(segment);
-        if (!spin.IsNone)
-        {
-            hash.Add(spin.AtEpoch);
-            hash.Add(spin.Rate);
-        }
-
-        return hash.Value;
-    }
-
-    /// <summary>Whether nothing counts in the segment's hash but what is known of every segment.</summary>
-    private bool IsPlain(int segment) => spins.Length == 0 && pieces[segment].Segment.Law != MotionLaw.Held && pieces[segment].Key.Kind != EventKind.None;
-
-    /// <summary>Drops what lies behind the window; and makes room for more if that was little, else it would soon be looked for again.</summary>
-    private void DropAll(SimTime now)
-    {
-        // From the end, so that what is freed is given out from the beginning: whoever opens segments goes through memory in one direction.
-        for (int at = used - 1; at >= 0; at--)
-        {
-            if (links[at].Closed < edge)
-            {
-                Drop(at);
-            }
-        }
-
-        if (Alive > used - (used / LittleRoom) && used < Most)
-        {
-            Grow(now);
-        }
-    }
-
-    /// <summary>Takes a segment that has a successor out of its timeline; those before it, which are older, are dropped with it.</summary>
-    private void Drop(int at)
-    {
-        int previous = links[at].Previous;
-        int next = links[at].Next;
-        links[next].Previous = previous;
-        if (previous == None)
-        {
-            first[links[at].Owner] = next;
-        }
-        else
-        {
-            links[previous].Next = next;
-        }
-
-        Release(at);
-    }
-
-    private void Release(int at)
-    {
-        links[at].Serial = 0;
-        links[at].Closed = SimTime.MaxValue; // nothing that could be dropped
-        links[at].Next = free;
-        free = at;
-        Alive--;
-    }
-
-    private void Grow(SimTime now)
-    {
-        int size = pieces.Length < Large ? pieces.Length * 2 : Math.Max(pieces.Length + (pieces.Length / Growth), Expected(now));
-        Array.Resize(ref pieces, size);
-        Array.Resize(ref links, size);
-        if (dense.Length > 0)
-        {
-            Array.Resize(ref dense, size);
-        }
-
-        if (holds.Length > 0)
-        {
-            Array.Resize(ref holds, size);
-        }
-
-        if (spins.Length > 0)
-        {
-            Array.Resize(ref spins, size);
-        }
-    }
-
-    /// <summary>
-    /// For how many segments room will be needed, as far as can be told before a whole history has gone by: if as many are opened for the rest of it, from an
-    /// eighth of it on. No more than a quarter above what there is, for what begins need not go on. To grow by little until then would be to copy everything some hundred times.
-    /// </summary>
-    private int Expected(SimTime now)
-    {
-        double passed = now.SecondsSince(origin);
-        double whole = history.ToSeconds();
-        if (!(passed > whole / 8 && passed < whole))
-        {
-            return 0;
-        }
-
-        double opened = (used - first.Length) * (whole / passed);
-        return (int)Math.Min(first.Length + opened, pieces.Length * 1.25);
     }
 
     /// <summary>A segment and the key that opened it.</summary>
