@@ -222,7 +222,7 @@ internal static class CorpusWorlds
             ExternalEvent.Spawn(At(2), 1, 3, new BodySpec(0.3, 1, 0.7, forces: air | coil), V(3, 5, 1)), ExternalEvent.Spawn(At(2.1), 2, 1, new BodySpec(0.3, 1, 0.7, forces: coil), V(-3, 5, 1)));
     }
 
-    /// <summary>Friction and spin: slipping, rolling, rest on a floor and across a slope, grips and slips of impacts, a curve ball.</summary>
+    /// <summary>Friction and spin: slipping, rolling, turning, rest on a floor and across a slope, grips and slips of impacts, a curve ball.</summary>
     private static CorpusWorld Rough()
     {
         SceneBuilder builder = new SceneBuilder("rough").WithSmallestRadius(0.25).AddPlane("floor", Vector3D.Up, V(0), 0.7, 0.6).AddPlane("slope", V(0.6, 0.8), V(-6), 0.3)
@@ -232,7 +232,9 @@ internal static class CorpusWorlds
             .AddBody("across", new BodySpec(0.25, 1, 0.2, friction: 0.4, rollingResistance: 0.01), V(-4, 2.5, -1), V(0, 0, 2))
             .AddBody("strikes", new BodySpec(0.3, 0.5, 0.9, friction: 1), V(2.5, 3, 2), V(0.2, -1), spin: V(5, -3, 1))
             .AddBody("curves", new BodySpec(0.25, 1, 0.9, forces: air, friction: 0.2, tolerance: 1e-6), V(-3, 5, 3), V(3, 2, -2), spin: V(3, 8, -4))
-            .AddBody("smooth", new BodySpec(0.3, 1, 0.8), V(1, 2.5, 0), V(-1));
+            .AddBody("smooth", new BodySpec(0.3, 1, 0.8), V(1, 2.5, 0), V(-1))
+            .AddBody("turns", new BodySpec(0.25, 1, 0, friction: 0.5, rollingResistance: 0.05), V(-1, 0.25, -4), spin: V(0, 6))
+            .AddBody("turns on it", new BodySpec(0.25, 1, 0, friction: 0.5, rollingResistance: 0.05), V(-1, 0.75, -4), spin: V(0, -8));
         return World(
             "rough", builder.Build(), 5, ExternalEvent.Impulse(At(2.2), 1, 1, Second, V(1, 2, 0.5)), ExternalEvent.Teleport(At(3), 1, 2, Third, V(0, 4, 1), V(1)),
             ExternalEvent.Spawn(At(1.5), 2, 1, new BodySpec(0.3, 1, 0.6, friction: 0.7), V(0, 5, -1), V(1, 0, 2)));
