@@ -10,14 +10,12 @@ namespace LagSim.Cli.Output;
 /// <summary>Speed against error as tables for a person.</summary>
 internal static class AccuracyTables
 {
-    internal static IReadOnlyList<string> Headings { get; } = ["method", "setting", "error", "simulated s per CPU s", "CPU s", "events", "order"];
-
     internal static void Write(ToolConsole console, AccuracyReport report, string? folder)
     {
         console.Output.WriteLine($"lagsim {ToolVersion.Text}   accuracy   seed {report.Seed}");
         foreach (WorkScene scene in report.Scenes)
         {
-            Table table = DropTables.NewTable(Title(scene), [.. Headings]);
+            Table table = DropTables.NewTable(Markup.Escape(Title(scene)), Headings(scene));
             foreach (IReadOnlyList<string> row in Rows(report, scene))
             {
                 table.AddRow([.. row.Select(Markup.Escape)]);
@@ -37,9 +35,15 @@ internal static class AccuracyTables
         }
     }
 
-    internal static string Title(WorkScene scene) => $"{scene.Name}: {scene.ErrorKinds[0]} against {scene.Reference}";
+    /// <summary>What the errors are, and what they are held against.</summary>
+    internal static string Title(WorkScene scene) =>
+        $"{scene.Name}: the {string.Join(", the ", scene.ErrorKinds.Select(kind => WorkErrorKinds.Of(kind).Sentence))}; held against: {scene.Reference}";
 
-    /// <summary>A row a point; other kinds of error than the first follow in the same cell.</summary>
+    /// <summary>The columns of a scene's table; one for each kind of error.</summary>
+    internal static string[] Headings(WorkScene scene) =>
+        ["method", "setting", .. scene.ErrorKinds.Select(kind => WorkErrorKinds.Of(kind).Heading), "simulated s per CPU s", "CPU s", "events", "order"];
+
+    /// <summary>A row for each method and setting.</summary>
     internal static IEnumerable<IReadOnlyList<string>> Rows(AccuracyReport report, WorkScene scene)
     {
         foreach (IGrouping<(string Method, string Setting), WorkPoint> at in report.Work.Points.Where(p => p.Scene == scene.Name)
@@ -50,8 +54,7 @@ internal static class AccuracyTables
             bool isFirst = report.Work.Points.First(p => p.Scene == scene.Name && p.Method == point.Method) == point;
             yield return
             [
-                point.Method, point.Setting, string.Join("; ", at.Select(p => double.IsNaN(p.Error) ? "not finite" : NumberText.Short(p.Error))),
-                    NumberText.Short(point.Speed),
+                point.Method, point.Setting, .. at.Select(p => double.IsNaN(p.Error) ? "not finite" : NumberText.Short(p.Error)), NumberText.Short(point.Speed),
                 NumberText.Short(point.CpuSeconds), NumberText.Short(point.Events), isFirst && order is not null ? NumberText.Short(order.Slope) : "",
             ];
         }
@@ -59,11 +62,6 @@ internal static class AccuracyTables
 
     internal static IEnumerable<string> Footnotes(AccuracyReport report)
     {
-        foreach (WorkScene scene in report.Scenes.Where(scene => scene.ErrorKinds.Count > 1))
-        {
-            yield return $"errors of {scene.Name}: {string.Join("; ", scene.ErrorKinds)}.";
-        }
-
         yield return $"Speed is by {ThreadClock.Name}, the least of several runs after a warm-up, building the world included. A method without steps counts events, any other its steps.";
         yield return "order: slope of error against step, logarithmic, least squares over the finest four points above a hundred times rounding and below a tenth of the scene's size.";
         if (report.IsQuick)

@@ -31,6 +31,9 @@ internal sealed class ToolConsole
         }
     }
 
+    /// <summary>Whether lines may be as long as they like: nothing says how wide what reads the results is.</summary>
+    internal bool IsEndless => !IsTerminal && Rich.Profile.Width == WidthOfAFile;
+
     /// <summary>Asks for an end of what takes long.</summary>
     internal CancellationToken Stop { get; }
 
