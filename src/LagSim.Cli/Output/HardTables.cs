@@ -12,7 +12,7 @@ namespace LagSim.Cli.Output;
 /// <summary>The hard cases as a table for a person.</summary>
 internal static class HardTables
 {
-    internal static IReadOnlyList<string> Headings { get; } = ["case", "error", "bound", "", "of what"];
+    internal static IReadOnlyList<string> Headings { get; } = ["case", "error", "bound", "outcome", "of what"];
 
     internal static void Write(ToolConsole console, HardReport report, string? folder)
     {
@@ -42,7 +42,8 @@ internal static class HardTables
         : $"hard cases, {(report.Scale == HardScale.Full ? "full" : "small")} sizes";
 
     internal static string[] Cells(HardReport report, HardRow row) =>
-        [row.Case, Text(row.Error), Text(row.Bound), report.Outcome(row), $"{Kind(row.ErrorKind)}: {row.Size}"];
+        [row.Case, Text(row.Error), Text(row.Bound), report.Outcome(row),
+            $"{Kind(row.ErrorKind)}: {row.Size}{(report.AreControls ? $"; wrong: {row.Note}" : "")}"];
 
     internal static IEnumerable<string> Footnotes(HardReport report)
     {
