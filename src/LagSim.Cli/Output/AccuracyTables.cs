@@ -10,18 +10,15 @@ namespace LagSim.Cli.Output;
 /// <summary>Speed against error as tables for a person.</summary>
 internal static class AccuracyTables
 {
+    private const string Time = "CPU s";
+    private const int Roomy = 100; // columns
+
     internal static void Write(ToolConsole console, AccuracyReport report, string? folder)
     {
         console.Output.WriteLine($"lagsim {ToolVersion.Text}   accuracy   seed {report.Seed}");
         foreach (WorkScene scene in report.Scenes)
         {
-            Table table = DropTables.NewTable(Markup.Escape(Title(scene)), Headings(scene));
-            foreach (IReadOnlyList<string> row in Rows(report, scene))
-            {
-                table.AddRow([.. row.Select(Markup.Escape)]);
-            }
-
-            console.Write(table);
+            console.Write(AsTable(console, report, scene));
         }
 
         foreach (string line in Footnotes(report))
@@ -35,13 +32,31 @@ internal static class AccuracyTables
         }
     }
 
+    /// <summary>A table of which only the methods' names are broken into lines; in a window each stands once, and in a narrow one time stands only as speed.</summary>
+    private static Table AsTable(ToolConsole console, AccuracyReport report, WorkScene scene)
+    {
+        string[] headings = Headings(scene);
+        int[] columns = [.. Enumerable.Range(0, headings.Length).Where(n => !console.IsWindow || console.Rich.Profile.Width >= Roomy || headings[n] != Time)];
+        Table table = DropTables.NewTable(
+            Markup.Escape(Title(scene)), [.. columns.Select(n => headings[n].Replace(" per ", "\nper ", System.StringComparison.Ordinal))]);
+        table.Columns[0].NoWrap = false;
+        string named = "";
+        foreach (IReadOnlyList<string> row in Rows(report, scene))
+        {
+            table.AddRow([.. columns.Select(n => n == 0 && console.IsWindow && row[0] == named ? "" : Markup.Escape(row[n]))]);
+            named = row[0];
+        }
+
+        return table;
+    }
+
     /// <summary>What the errors are, and what they are held against.</summary>
     internal static string Title(WorkScene scene) =>
         $"{scene.Name}: the {string.Join(", the ", scene.ErrorKinds.Select(kind => WorkErrorKinds.Of(kind).Sentence))}; held against: {scene.Reference}";
 
     /// <summary>The columns of a scene's table; one for each kind of error.</summary>
     internal static string[] Headings(WorkScene scene) =>
-        ["method", "setting", .. scene.ErrorKinds.Select(kind => WorkErrorKinds.Of(kind).Heading), "simulated s per CPU s", "CPU s", "events", "order"];
+        ["method", "setting", .. scene.ErrorKinds.Select(kind => WorkErrorKinds.Of(kind).Heading), "simulated s per CPU s", Time, "events", "order"];
 
     /// <summary>A row for each method and setting.</summary>
     internal static IEnumerable<IReadOnlyList<string>> Rows(AccuracyReport report, WorkScene scene)

@@ -43,7 +43,7 @@ internal static class HardTables
 
     internal static string[] Cells(HardReport report, HardRow row) =>
         [row.Case, Text(row.Error), Text(row.Bound), report.Outcome(row),
-            $"{Kind(row.ErrorKind)}: {row.Size}{(report.AreControls ? $"; wrong: {row.Note}" : "")}"];
+            $"{Kind(row.ErrorKind)}: {row.Size}{(report.AreControls ? $"; the wrong method: {row.Note}" : "")}"];
 
     internal static IEnumerable<string> Footnotes(HardReport report)
     {
