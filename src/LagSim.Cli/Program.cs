@@ -1,6 +1,7 @@
 using System;
 using System.CommandLine;
 using System.CommandLine.Help;
+using System.CommandLine.Parsing;
 using System.IO;
 using System.Linq;
 using System.Text;
@@ -55,7 +56,7 @@ internal static class Program
         ParseResult parsed = root.Parse(arguments);
         if (parsed.Errors.Count > 0)
         {
-            foreach (System.CommandLine.Parsing.ParseError problem in parsed.Errors)
+            foreach (ParseError problem in parsed.Errors)
             {
                 error.WriteLine(Sentence.Printable(problem.Message));
             }
@@ -63,6 +64,14 @@ internal static class Program
             Command asked = parsed.CommandResult.Command;
             error.WriteLine(asked == root ? "Try 'lagsim --help'." : $"Try 'lagsim {asked.Name} --help'.");
             return Failure.Tell(output, parsed, string.Join(" ", parsed.Errors.Select(problem => problem.Message)), ExitCode.Usage);
+        }
+
+        if (MistakenOption(parsed) is string option)
+        {
+            string sentence = $"There is no option '{option}'; what is no option and begins so stands behind '--'.";
+            error.WriteLine(Sentence.Printable(sentence));
+            error.WriteLine($"Try 'lagsim {parsed.CommandResult.Command.Name} --help'.");
+            return Failure.Tell(output, parsed, sentence, ExitCode.Usage);
         }
 
         try
@@ -91,4 +100,9 @@ internal static class Program
             return Failure.Tell(output, parsed, Sentence.Of(failure), ExitCode.Input);
         }
     }
+
+    /// <summary>A word that was taken for an argument, and is an option's name with a slip in it; null for none.</summary>
+    private static string? MistakenOption(ParseResult parsed) => parsed.Tokens.Any(token => token.Type == TokenType.DoubleDash) ? null
+        : parsed.CommandResult.Children.OfType<ArgumentResult>().SelectMany(argument => argument.Tokens)
+            .Select(token => token.Value).FirstOrDefault(word => word.Length > 1 && word[0] == '-');
 }

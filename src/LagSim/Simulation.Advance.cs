@@ -207,7 +207,7 @@ public sealed partial class Simulation
         else if (segment.Acceleration != Vector3D.Zero)
         {
             throw new SimulationException(
-                $"At {key} body {bodies[slot].Id} reaches {Limits.Text(Limits.MaxSpeed(Scene.SmallestRadius))} m/s, a fifth of the smallest radius in a tick; it falls without end, and may not become faster.");
+                $"At {key.Time.ToShortString()} body {NameOf(slot)} reaches {Limits.Text(Limits.MaxSpeed(Scene.SmallestRadius))} m/s, a fifth of the smallest radius in a tick; it falls without end, and may not become faster.");
         }
         else
         {

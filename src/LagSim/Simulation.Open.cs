@@ -71,19 +71,19 @@ public sealed partial class Simulation
         if (!piece.Acceleration.IsFinite || (!dense.IsFinite && tooLarge == 0 && tooStiff == 0))
         {
             throw new SimulationException(
-                $"In the step from {from.ToShortString()} the acceleration of body {bodies[slot].Id} became NaN or infinite; what the forces {spec.Forces.NamesAmong(Scene.ForceArray)} give must be finite.");
+                $"In the step from {from.ToShortString()} the acceleration of body {NameOf(slot)} became NaN or infinite; what the forces {spec.Forces.NamesAmong(Scene.ForceArray)} give must be finite.");
         }
 
         if (tooStiff > 0)
         {
             throw new SimulationException(
-                $"From {from.ToShortString()} on the forces on body {bodies[slot].Id} act at a rate of {Limits.Text(tooStiff)} 1/s; {spec.Flight} with fixed steps follows at most {Limits.Text(MaxRate(spec.Flight))} 1/s, with the shortest step there is.");
+                $"From {from.ToShortString()} on the forces on body {NameOf(slot)} act at a rate of {Limits.Text(tooStiff)} 1/s; {spec.Flight} with fixed steps follows at most {Limits.Text(MaxRate(spec.Flight))} 1/s, with the shortest step there is.");
         }
 
         if (tooLarge > 0)
         {
             throw new SimulationException(
-                $"From {from.ToShortString()} on the forces on body {bodies[slot].Id} change so fast that a step of {StepSize.Shortest.ToShortString()} still has {Limits.Text(tooLarge)} times the error of the tolerance, {Limits.Text(spec.Tolerance)}; allow more, or keep it out of the singularity.");
+                $"From {from.ToShortString()} on the forces on body {NameOf(slot)} change so fast that a step of {StepSize.Shortest.ToShortString()} still has {Limits.Text(tooLarge)} times the error of the tolerance, {Limits.Text(spec.Tolerance)}; allow more, or keep it out of the singularity.");
         }
 
         return piece;
@@ -249,7 +249,7 @@ public sealed partial class Simulation
         if (!position.IsFinite || !(velocity.Length <= limit))
         {
             throw new SimulationException(
-                $"At {key} body {bodies[slot].Id} is at {position} m with {velocity} m/s; a position must stay finite, and a speed at most "
+                $"At {key.Time.ToShortString()} body {NameOf(slot)} is at {position} m with {velocity} m/s; a position must stay finite, and a speed at most "
                 + $"{Limits.Text(limit)} m/s, a fifth of the smallest radius in a tick.");
         }
     }

@@ -126,6 +126,13 @@ public sealed partial class Simulation
         }
     }
 
+    /// <summary>A body as messages name it: by its name in the scene, or by its identity if it was spawned.</summary>
+    private string NameOf(int slot)
+    {
+        BodyId id = bodies[slot].Id;
+        return id.Index < Scene.Bodies.Count && id.Equals(BodyId.OfScene(id.Index)) ? $"'{Scene.Bodies[id.Index].Name}'" : id.ToString();
+    }
+
     private int AddBody(BodyId id, BodySpec spec = default)
     {
         if (freeSlots.Count == 0 && slotCount == bodies.Length)

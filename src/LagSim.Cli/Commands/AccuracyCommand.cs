@@ -33,6 +33,7 @@ internal static class AccuracyCommand
                 : WorkScenes.TryGet(name, out WorkScene? found) ? [found]
                 : throw new UsageException($"SCENE is '{name}'; it must be {All} or one of {string.Join(", ", WorkScenes.All.Select(scene => scene.Name))}.");
             IWorkMethod[] methods = [.. WorkMethods.All.Where(method => peer == All || method.Engine == peer || !WorkMethods.Peers.Contains(method.Engine))];
+            ThrowIfNotThere(peer, scenes);
             bool isQuick = parsed.GetValue(quick);
             WorkOptions options = isQuick ? WorkOptions.Quick : new WorkOptions { LongestSeconds = parsed.GetValue(longest) };
             if (isQuick && parsed.GetResult(longest) is { Implicit: false })
@@ -43,6 +44,21 @@ internal static class AccuracyCommand
             return Run(console, scenes, methods, options, parsed.GetValue(common.Seed), parsed.GetValue(common.Out), parsed.GetValue(common.Json));
         });
         return command;
+    }
+
+    /// <summary>Who asks for one engine asks for nothing else: that it is missing, or suits none of the scenes, is an answer, but not a result.</summary>
+    private static void ThrowIfNotThere(string peer, IReadOnlyList<WorkScene> scenes)
+    {
+        IWorkMethod[] asked = [.. WorkMethods.All.Where(method => method.Engine == peer)];
+        if (asked.Length > 0 && asked.All(method => method.Missing is not null))
+        {
+            throw new InputException($"--peers is '{peer}', which is missing here: {asked[0].Missing}.");
+        }
+
+        if (asked.Length > 0 && asked.All(method => scenes.All(scene => method.Excludes(scene) is not null)))
+        {
+            throw new UsageException($"--peers is '{peer}', which is left out of {scenes[0].Name}: {asked[0].Excludes(scenes[0])}.");
+        }
     }
 
     private static int Run(

@@ -138,8 +138,8 @@ internal static class RunCommand
     private static Simulation Write(ToolConsole console, Request request, Action<SimDuration> progress)
     {
         Scene scene = request.Scene;
-        using ResultFile? eventOutput = ResultFile.Open(console, request.EventFile);
-        using ResultFile? sampleOutput = ResultFile.Open(console, request.SampleFile);
+        using ResultFile? eventOutput = ResultFile.Open(console, "--events", request.EventFile);
+        using ResultFile? sampleOutput = ResultFile.Open(console, "--samples", request.SampleFile);
         CsvFile? eventCsv = eventOutput is null ? null : new CsvFile(
             eventOutput.Writer, "time_s", "kind", "body", "other", "x_m", "y_m", "z_m", "vx_m_per_s", "vy_m_per_s", "vz_m_per_s");
         CsvFile? sampleCsv = sampleOutput is null ? null : new CsvFile(

@@ -64,6 +64,7 @@ internal static class ScenesCommand
             throw new UsageException($"The scene is called '{scene.Name}', which cannot be a file's name; give it another, or leave out --out.");
         }
 
+        OutputFolder.ThrowIfNotWritable(folder);
         Directory.CreateDirectory(folder);
         File.WriteAllText(Path.Combine(folder, $"{scene.Name}.json"), text);
     }

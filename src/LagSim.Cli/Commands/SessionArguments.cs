@@ -84,7 +84,7 @@ internal sealed class SessionArguments
 
         if (file is not null)
         {
-            ResultFile.ThrowIfNotWritable(file); // to be said before anybody has joined
+            ResultFile.ThrowIfNotWritable("--record", file); // to be said before anybody has joined
         }
 
         double silence = parsed.GetValue(timeout);

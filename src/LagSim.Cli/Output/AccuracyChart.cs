@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Harness.Accuracy;
 using LagSim.Harness.Charts;
+using LagSim.Harness.Reports;
 
 namespace LagSim.Cli.Output;
 
@@ -11,53 +12,83 @@ internal static class AccuracyChart
 {
     /// <summary>Error against CPU time, a curve a method; null where there is nothing to draw.</summary>
     internal static LineChart? OfWork(AccuracyReport report, WorkScene scene) => Of(
-        report, scene, isStep: false, $"{scene.Name}: speed against error", "CPU time for all of it (s); left and below is better", method => method);
+        scene, $"{scene.Name}: speed against error", "CPU time for all of it (s); left and below is better",
+        method => [.. PointsOf(report, scene, method)], point => point.CpuSeconds, isJoined: (_, _) => true, note: (_, _) => "");
 
     /// <summary>Error against step, a curve a method with its measured order; null where no method has steps.</summary>
+    /// <remarks>Points that may be rounding are not joined: there is no slope to see between them.</remarks>
     internal static LineChart? OfSteps(AccuracyReport report, WorkScene scene) => Of(
-        report, scene, isStep: true, $"{scene.Name}: error against step", "step (s)",
-        method => report.Work.Orders.FirstOrDefault(o => o.Scene == scene.Name && o.Method == method) is WorkOrder order
-            ? $"{method}, order {order.Slope:0.00}" : method);
+        scene, $"{scene.Name}: error against step", "step (s)",
+        method => [.. PointsOf(report, scene, method).Where(point => point.StepSeconds > 0)], point => point.StepSeconds,
+        isJoined: (a, b) => a.Error >= scene.Rounding && b.Error >= scene.Rounding,
+        note: (method, points) => report.Work.Orders.FirstOrDefault(o => o.Scene == scene.Name && o.Method == method) is WorkOrder order
+            ? $"order {order.Slope:0.00}"
+            : points.All(point => point.Error < scene.Rounding) ? "no order: rounding alone" : "no order: too few points");
 
-    /// <summary>An error's kind in words: <c>max_energy_relative</c> is largest energy (relative).</summary>
-    private static string Label(string kind)
-    {
-        string words = kind.Replace("max_", "largest ", StringComparison.Ordinal).Replace('_', ' ');
-        return words.EndsWith(" m", StringComparison.Ordinal) ? words[..^2] + " (m)"
-            : words.EndsWith(" relative", StringComparison.Ordinal) ? words[..^" relative".Length] + " error (relative)"
-            : words;
-    }
+    private static IEnumerable<WorkPoint> PointsOf(AccuracyReport report, WorkScene scene, string method) => report.Work.Points.Where(
+        point => point.Scene == scene.Name && point.Method == method && point.ErrorKind == scene.ErrorKinds[0] && double.IsFinite(point.Error));
 
-    private static LineChart? Of(AccuracyReport report, WorkScene scene, bool isStep, string title, string xLabel, Func<string, string> legend)
+    private static LineChart? Of(
+        WorkScene scene, string title, string xLabel, Func<string, WorkPoint[]> pointsOf, Func<WorkPoint, double> x,
+            Func<WorkPoint, WorkPoint, bool> isJoined, Func<string, WorkPoint[], string> note)
     {
-        IReadOnlyList<IWorkMethod> all = WorkMethods.All;
         List<ChartSeries> series = [];
-        int own = all.Count(method => method.Engine == all[0].Engine);
-        for (int slot = 0; slot < all.Count; slot++)
+        bool hasRounding = false;
+        for (int n = 0; n < WorkMethods.All.Count; n++)
         {
-            string name = all[slot].Name;
-            WorkPoint[] points =
-            [
-                .. report.Work.Points.Where(p => p.Scene == scene.Name && p.Method == name && p.ErrorKind == scene.ErrorKinds[0] && double.IsFinite(p.Error)
-                    && (!isStep || p.StepSeconds > 0)),
-            ];
+            string name = WorkMethods.All[n].Name;
+            WorkPoint[] points = pointsOf(name);
             if (points.Length > 0)
             {
-                double[] x = [.. points.Select(p => isStep ? p.StepSeconds : p.CpuSeconds)], y = [.. points.Select(p => p.Error)];
-                // LagSim's curves are drawn through and all others dashed: the colours are fewer than the methods, and curves of one method by two hands coincide.
-                series.Add(new ChartSeries(legend(name), x, y, slot < own ? SeriesStyle.Line : SeriesStyle.Dashed, slot) { HasDots = true });
+                AccuracyStyle style = AccuracyStyle.Of(n);
+                series.Add(Series(name, style, points, x, isJoined, note(name, points)));
+                hasRounding |= points.Any(point => point.Error < scene.Rounding);
             }
         }
 
+        WorkErrorWords words = WorkErrorKinds.Of(scene.ErrorKinds[0]);
         return series.Count == 0
             ? null
             : new LineChart(
                 title,
-                $"{scene.Title}. {scene.ErrorKinds[0]} against {scene.Reference}. {WorkFindings.Caution}",
-                [new ChartPanel(scene.Title, Label(scene.ErrorKinds[0]), series) { Scale = ChartScale.Log10, PlotHeight = 380 }])
+                $"{scene.Title}. The {words.Sentence}; held against: {scene.Reference}. {WorkFindings.Caution}",
+                [
+                    new ChartPanel(scene.Title, words.Axis, series)
+                    {
+                        Scale = ChartScale.Log10,
+                        PlotHeight = 400,
+                        HasLegendAtRight = true,
+                        Band = hasRounding ? new ShadedBand(scene.Rounding, $"may be rounding: below {NumberText.Short(scene.Rounding)}") : null,
+                    },
+                ])
             {
                 XLabel = xLabel,
                 XScale = ChartScale.Log10,
             };
+    }
+
+    /// <summary>A curve through the points, with a break between two that are not joined.</summary>
+    private static ChartSeries Series(
+        string name, AccuracyStyle style, WorkPoint[] points, Func<WorkPoint, double> x, Func<WorkPoint, WorkPoint, bool> isJoined, string note)
+    {
+        List<double> xs = [], ys = [];
+        for (int n = 0; n < points.Length; n++)
+        {
+            if (n > 0 && !isJoined(points[n - 1], points[n]))
+            {
+                xs.Add(x(points[n]));
+                ys.Add(double.NaN);
+            }
+
+            xs.Add(x(points[n]));
+            ys.Add(points[n].Error);
+        }
+
+        return new ChartSeries(name, [.. xs], [.. ys], style.IsOwn ? SeriesStyle.Line : SeriesStyle.Dashed, style.Colour)
+        {
+            Shape = style.Shape,
+            IsEmphasised = style.IsOwn,
+            Note = note,
+        };
     }
 }

@@ -29,7 +29,7 @@ internal static class AccuracyFiles
             page.AddHeading($"{scene.Name}: {scene.Title}");
             Chart(AccuracyChart.OfWork(report, scene), $"accuracy-{scene.Name}-work.svg");
             Chart(AccuracyChart.OfSteps(report, scene), $"accuracy-{scene.Name}-steps.svg");
-            page.AddTable(new ReportTable(AccuracyTables.Title(scene), AccuracyTables.Headings, [.. AccuracyTables.Rows(report, scene)]));
+            page.AddTable(new ReportTable(AccuracyTables.Title(scene), AccuracyTables.Headings(scene), [.. AccuracyTables.Rows(report, scene)]));
         }
 
         page.AddHeading("What this says, and what is left out");

@@ -10,20 +10,15 @@ namespace LagSim.Cli.Output;
 /// <summary>Speed against error as tables for a person.</summary>
 internal static class AccuracyTables
 {
-    internal static IReadOnlyList<string> Headings { get; } = ["method", "setting", "error", "simulated s per CPU s", "CPU s", "events", "order"];
+    private const string Time = "CPU s";
+    private const int Roomy = 100; // columns
 
     internal static void Write(ToolConsole console, AccuracyReport report, string? folder)
     {
         console.Output.WriteLine($"lagsim {ToolVersion.Text}   accuracy   seed {report.Seed}");
         foreach (WorkScene scene in report.Scenes)
         {
-            Table table = DropTables.NewTable(Title(scene), [.. Headings]);
-            foreach (IReadOnlyList<string> row in Rows(report, scene))
-            {
-                table.AddRow([.. row.Select(Markup.Escape)]);
-            }
-
-            console.Write(table);
+            console.Write(AsTable(console, report, scene));
         }
 
         foreach (string line in Footnotes(report))
@@ -37,9 +32,33 @@ internal static class AccuracyTables
         }
     }
 
-    internal static string Title(WorkScene scene) => $"{scene.Name}: {scene.ErrorKinds[0]} against {scene.Reference}";
+    /// <summary>A table of which only the methods' names are broken into lines; in a window each stands once, and in a narrow one time stands only as speed.</summary>
+    private static Table AsTable(ToolConsole console, AccuracyReport report, WorkScene scene)
+    {
+        string[] headings = Headings(scene);
+        int[] columns = [.. Enumerable.Range(0, headings.Length).Where(n => !console.IsWindow || console.Rich.Profile.Width >= Roomy || headings[n] != Time)];
+        Table table = DropTables.NewTable(
+            Markup.Escape(Title(scene)), [.. columns.Select(n => headings[n].Replace(" per ", "\nper ", System.StringComparison.Ordinal))]);
+        table.Columns[0].NoWrap = false;
+        string named = "";
+        foreach (IReadOnlyList<string> row in Rows(report, scene))
+        {
+            table.AddRow([.. columns.Select(n => n == 0 && console.IsWindow && row[0] == named ? "" : Markup.Escape(row[n]))]);
+            named = row[0];
+        }
 
-    /// <summary>A row a point; other kinds of error than the first follow in the same cell.</summary>
+        return table;
+    }
+
+    /// <summary>What the errors are, and what they are held against.</summary>
+    internal static string Title(WorkScene scene) =>
+        $"{scene.Name}: the {string.Join(", the ", scene.ErrorKinds.Select(kind => WorkErrorKinds.Of(kind).Sentence))}; held against: {scene.Reference}";
+
+    /// <summary>The columns of a scene's table; one for each kind of error.</summary>
+    internal static string[] Headings(WorkScene scene) =>
+        ["method", "setting", .. scene.ErrorKinds.Select(kind => WorkErrorKinds.Of(kind).Heading), "simulated s per CPU s", Time, "events", "order"];
+
+    /// <summary>A row for each method and setting.</summary>
     internal static IEnumerable<IReadOnlyList<string>> Rows(AccuracyReport report, WorkScene scene)
     {
         foreach (IGrouping<(string Method, string Setting), WorkPoint> at in report.Work.Points.Where(p => p.Scene == scene.Name)
@@ -50,8 +69,7 @@ internal static class AccuracyTables
             bool isFirst = report.Work.Points.First(p => p.Scene == scene.Name && p.Method == point.Method) == point;
             yield return
             [
-                point.Method, point.Setting, string.Join("; ", at.Select(p => double.IsNaN(p.Error) ? "not finite" : NumberText.Short(p.Error))),
-                    NumberText.Short(point.Speed),
+                point.Method, point.Setting, .. at.Select(p => double.IsNaN(p.Error) ? "not finite" : NumberText.Short(p.Error)), NumberText.Short(point.Speed),
                 NumberText.Short(point.CpuSeconds), NumberText.Short(point.Events), isFirst && order is not null ? NumberText.Short(order.Slope) : "",
             ];
         }
@@ -59,11 +77,6 @@ internal static class AccuracyTables
 
     internal static IEnumerable<string> Footnotes(AccuracyReport report)
     {
-        foreach (WorkScene scene in report.Scenes.Where(scene => scene.ErrorKinds.Count > 1))
-        {
-            yield return $"errors of {scene.Name}: {string.Join("; ", scene.ErrorKinds)}.";
-        }
-
         yield return $"Speed is by {ThreadClock.Name}, the least of several runs after a warm-up, building the world included. A method without steps counts events, any other its steps.";
         yield return "order: slope of error against step, logarithmic, least squares over the finest four points above a hundred times rounding and below a tenth of the scene's size.";
         if (report.IsQuick)

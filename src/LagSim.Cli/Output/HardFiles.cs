@@ -32,7 +32,7 @@ internal static class HardFiles
         {
             HardCases.TryGet(rows.Key, out IHardCase? found);
             page.AddHeading($"{rows.Key}: {found!.Title}");
-            page.AddTable(new ReportTable("", [.. HardTables.Headings.Skip(1)], [.. rows.Select(IReadOnlyList<string> (row) => HardTables.Cells(row)[1..])]));
+            page.AddTable(new ReportTable("", [.. HardTables.Headings.Skip(1)], [.. rows.Select(IReadOnlyList<string> (row) => HardTables.Cells(report, row)[1..])]));
             page.AddTable(new ReportTable(
                 "", ["of what", "bound", "reference"],
                     [.. rows.DistinctBy(row => (row.ErrorKind, row.Argument))

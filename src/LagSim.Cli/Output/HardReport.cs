@@ -15,6 +15,7 @@ internal sealed record HardReport(IReadOnlyList<HardRow> Rows, HardScale Scale, 
     /// <summary>How many rows came out as they should: passed, or for a wrong method failed.</summary>
     internal int AsItShouldBe => Rows.Count(row => row.Passed != AreControls);
 
-    /// <summary>The word for a row's outcome.</summary>
-    internal static string Outcome(HardRow row) => row.Passed ? "passed" : row.IsModelled ? "FAILED" : "NOT MODELLED";
+    /// <summary>The word for a row's outcome; a wrong method is caught where it fails.</summary>
+    internal string Outcome(HardRow row) => AreControls ? (row.Passed ? "NOT CAUGHT" : "caught")
+        : row.Passed ? "passed" : row.IsModelled ? "FAILED" : "NOT MODELLED";
 }

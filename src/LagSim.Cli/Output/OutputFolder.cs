@@ -25,7 +25,7 @@ internal static class OutputFolder
         }
         catch (Exception failure) when (failure is IOException or UnauthorizedAccessException)
         {
-            throw new IOException($"--out is '{folder}'; it must be a folder that can be made and written to. {failure.Message}", failure);
+            throw WriteFailure.Of("--out", folder, "a folder that can be made and written to", failure);
         }
         finally
         {

@@ -8,6 +8,8 @@ internal sealed class ResultFile : IDisposable
 {
     internal const string StandardOutput = "-";
 
+    private const string Must = "a file that can be written";
+
     private readonly bool owned;
 
     private ResultFile(TextWriter writer, bool owned)
@@ -19,19 +21,36 @@ internal sealed class ResultFile : IDisposable
     internal TextWriter Writer { get; }
 
     /// <summary>Opens what the option names; null for none.</summary>
-    internal static ResultFile? Open(ToolConsole console, string? name) =>
-        name is null ? null
-        : name == StandardOutput ? new ResultFile(console.Output, owned: false)
-        : new ResultFile(new StreamWriter(name), owned: true);
+    /// <exception cref="IOException">It cannot be written; the message names the option, the file and the cause.</exception>
+    internal static ResultFile? Open(ToolConsole console, string option, string? name)
+    {
+        if (name is null or StandardOutput)
+        {
+            return name is null ? null : new ResultFile(console.Output, owned: false);
+        }
+
+        try
+        {
+            return new ResultFile(new StreamWriter(name), owned: true);
+        }
+        catch (Exception failure) when (WriteFailure.Is(failure))
+        {
+            throw WriteFailure.Of(option, name, Must, failure);
+        }
+    }
 
     /// <summary>Tries out whether a file can be written, and leaves everything as it was.</summary>
-    /// <exception cref="IOException">It cannot.</exception>
-    /// <exception cref="UnauthorizedAccessException">The same, for lack of permission.</exception>
-    internal static void ThrowIfNotWritable(string name)
+    /// <exception cref="IOException">It cannot; the message names the option, the file and the cause.</exception>
+    internal static void ThrowIfNotWritable(string option, string name)
     {
         bool isThere = File.Exists(name);
-        using (new FileStream(name, FileMode.OpenOrCreate, FileAccess.Write, FileShare.ReadWrite))
+        try
         {
+            using FileStream probe = new(name, FileMode.OpenOrCreate, FileAccess.Write, FileShare.ReadWrite);
+        }
+        catch (Exception failure) when (WriteFailure.Is(failure))
+        {
+            throw WriteFailure.Of(option, name, Must, failure);
         }
 
         if (!isThere)

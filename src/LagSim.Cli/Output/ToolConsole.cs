@@ -31,6 +31,12 @@ internal sealed class ToolConsole
         }
     }
 
+    /// <summary>Whether lines may be as long as they like: nothing says how wide what reads the results is.</summary>
+    internal bool IsEndless => !IsTerminal && Rich.Profile.Width == WidthOfAFile;
+
+    /// <summary>Whether somebody's window is as wide as usual at least, and yet has an edge.</summary>
+    internal bool IsWindow => !IsEndless && Rich.Profile.Width >= UsualWidth;
+
     /// <summary>Asks for an end of what takes long.</summary>
     internal CancellationToken Stop { get; }
 

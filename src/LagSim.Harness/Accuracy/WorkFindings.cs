@@ -80,7 +80,7 @@ public static class WorkFindings
         {
             WorkPoint point = duel.Peer;
             yield return double.IsPositiveInfinity(duel.Cost)
-                ? $"{scene}: NOT in front of {peer} at {point.Setting}: no setting of LagSim is as exact as {NumberText.Short(point.Error)} {point.ErrorKind}."
+                ? $"{scene}: NOT in front of {peer} at {point.Setting}: no setting of LagSim is as exact as {NumberText.Short(point.Error)} {WorkErrorKinds.Of(point.ErrorKind).Unit}."
                 : $"{scene}: NOT in front of {peer} at {point.Setting} (error {NumberText.Short(point.Error)}): {duel.Method} takes {NumberText.Short(1 / duel.Factor)} times as long for that error or less.";
         }
 

@@ -28,7 +28,7 @@ public sealed record WorkOrder(string Scene, string Method, double Slope, int Po
     {
         WorkPoint[] part =
         [
-            .. points.Where(p => p.StepSeconds > 0 && p.Error >= 100 * scene.Floor && p.Error <= 0.1 * scene.Ceiling).OrderBy(p => p.StepSeconds).Take(Most),
+            .. points.Where(p => p.StepSeconds > 0 && p.Error >= scene.Rounding && p.Error <= 0.1 * scene.Ceiling).OrderBy(p => p.StepSeconds).Take(Most),
         ];
         return part.Length < Fewest
             ? null

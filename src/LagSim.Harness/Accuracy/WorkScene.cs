@@ -30,6 +30,9 @@ public abstract partial class WorkScene
     /// <summary>An error of this size is rounding: no order is read from what is below a hundred times it.</summary>
     public abstract double Floor { get; }
 
+    /// <summary>What is below may be rounding: no order is read from it.</summary>
+    public double Rounding => 100 * Floor;
+
     /// <summary>An error of this size is no result: no order is read from what is above a tenth of it.</summary>
     public abstract double Ceiling { get; }
 

@@ -51,6 +51,12 @@ public sealed class ChartPanel
     /// <summary>Horizontal lines to compare with.</summary>
     public IReadOnlyList<ReferenceLine> ReferenceLines { get; init; } = [];
 
+    /// <summary>A shaded part at the bottom; null for none.</summary>
+    public ShadedBand? Band { get; init; }
+
+    /// <summary>Whether the legend stands right of the plot, an entry below the other, and not above it; there is no room for reference lines' labels then.</summary>
+    public bool HasLegendAtRight { get; init; }
+
     /// <summary>Values that the y axis reaches besides its own, so that several panels can have one scale.</summary>
     public IReadOnlyList<double> Reaches { get; init; } = [];
 
@@ -65,6 +71,11 @@ public sealed class ChartPanel
             throw new ArgumentException(FormattableString.Invariant($"Panel '{Title}': a plot height of {PlotHeight} is not within 80 to 2000."));
         }
 
+        if (HasLegendAtRight && ReferenceLines.Count > 0)
+        {
+            throw new ArgumentException($"Panel '{Title}': the legend and the labels of reference lines cannot both stand right of the plot.");
+        }
+
         if (LogFloor is { } floor && !(double.IsFinite(floor) && floor > 0.0))
         {
             throw new ArgumentException(FormattableString.Invariant($"Panel '{Title}': a log floor of {floor} is not above zero."));
@@ -73,7 +84,7 @@ public sealed class ChartPanel
         if (Scale == ChartScale.Log10)
         {
             foreach ((string name, double value) in Series.SelectMany(s => s.Y.Select(y => (s.Name, y)))
-                         .Concat(ReferenceLines.Select(r => (r.Label, r.Y))).Concat(Reaches.Select(y => ("reaches", y))))
+                         .Concat(ReferenceLines.Select(r => (r.Label, r.Y))).Concat(Band is null ? [] : [(Band.Label, Band.UpTo)]).Concat(Reaches.Select(y => ("reaches", y))))
             {
                 if (value < 0.0)
                 {

@@ -59,8 +59,14 @@ public sealed class ChartSeries
     /// <summary>How the series is drawn.</summary>
     public SeriesStyle Style { get; }
 
-    /// <summary>Whether each point has a dot besides the line, for a series of few points.</summary>
-    public bool HasDots { get; init; }
+    /// <summary>What marks each point besides the line, for a series of few points; null for nothing.</summary>
+    public PointShape? Shape { get; init; }
+
+    /// <summary>Whether it is the one to look at first: drawn stronger.</summary>
+    public bool IsEmphasised { get; init; }
+
+    /// <summary>What the legend says besides the name; may be empty.</summary>
+    public string Note { get; init; } = "";
 
     /// <summary>The palette slot, or null for the series' place in its panel.</summary>
     public int? Colour { get; }

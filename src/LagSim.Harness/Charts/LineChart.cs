@@ -20,6 +20,9 @@ public sealed class LineChart
     /// <summary>How many curves have colours of their own; beyond, colours come again.</summary>
     public static int Colours => ChartTheme.Colours;
 
+    /// <summary>Pixels that marked points keep from the frame.</summary>
+    private const double PointInset = 10.0;
+
     private const double HeadHeight = 34.0;
     private const double PanelGap = 26.0;
     private const double FootHeight = 54.0;
@@ -95,7 +98,7 @@ public sealed class LineChart
     {
         List<Axis> yAxes = Panels.Select(FitY).ToList();
         double widest = yAxes.SelectMany(axis => axis.Ticks).Max(tick => SvgElements.TextWidth(tick.Label ?? ""));
-        double left = 30.0 + widest, right = Math.Max(18.0, Panels.Max(PanelLayout.ReferenceWidth) + 6.0);
+        double left = 30.0 + widest, right = Math.Max(18.0, Panels.Max(PanelLayout.WidthAtRight) + 6.0);
         Axis x = FitX(Width - left - right);
         right = Math.Max(right, x.Ticks.Max(tick => tick.Pixel + (SvgElements.TextWidth(tick.Label ?? "") / 2.0)) - x.Length + 6.0); // the last label is centred on its line
         x = FitX(Width - left - right);
@@ -133,7 +136,8 @@ public sealed class LineChart
         range.Include(panel.Series.SelectMany(series => series.Y));
         range.Include(panel.ReferenceLines.Select(line => line.Y));
         range.Include(panel.Reaches);
-        return Axis.Fit(panel.Scale, range, panel.PlotHeight, pixelsPerTick: 34.0, roundOut: true, panel.LogFloor);
+        range.Include(panel.Band?.UpTo ?? double.NaN);
+        return Axis.Fit(panel.Scale, range, panel.PlotHeight, pixelsPerTick: 34.0, roundOut: true, panel.LogFloor, Inset([panel]));
     }
 
     private Axis FitX(double length)
@@ -141,6 +145,9 @@ public sealed class LineChart
         ValueRange range = new();
         range.Include(Panels.SelectMany(panel => panel.Series).SelectMany(series => series.X));
         range.Include(Panels.SelectMany(panel => panel.Markers).Select(marker => marker.X));
-        return Axis.Fit(XScale, range, length, pixelsPerTick: 80.0, roundOut: false);
+        return Axis.Fit(XScale, range, length, pixelsPerTick: 80.0, roundOut: false, inset: Inset(Panels));
     }
+
+    private static double Inset(IEnumerable<ChartPanel> panels) =>
+        panels.SelectMany(panel => panel.Series).Any(series => series.Shape is not null || series.Style == SeriesStyle.Points) ? PointInset : 0.0;
 }

@@ -11,8 +11,8 @@ internal sealed class LinearAxis : Axis
     private readonly double _high;
     private readonly List<AxisTick> _ticks = [];
 
-    public LinearAxis(ValueRange range, double length, double pixelsPerTick, bool roundOut)
-        : base(length)
+    public LinearAxis(ValueRange range, double length, double pixelsPerTick, bool roundOut, double inset)
+        : base(length, inset)
     {
         (_low, _high) = range.IsEmpty ? (0.0, 1.0) : (range.Min, range.Max);
         if (roundOut && _low > 0.0 && _low < 0.5 * _high)
@@ -45,7 +45,7 @@ internal sealed class LinearAxis : Axis
 
     public override IReadOnlyList<AxisTick> Ticks => _ticks;
 
-    public override double Map(double value) => (value - _low) / (_high - _low) * Length;
+    public override double Map(double value) => Inset + ((value - _low) / (_high - _low) * (Length - (2 * Inset)));
 
     private static double NiceStep(double least)
     {

@@ -5,36 +5,48 @@ using System.Linq;
 
 namespace LagSim.Harness.Charts;
 
-/// <summary>A log10 axis of whole decades. What is below the lowest decade lies on a line of its own at the bottom, labelled <c>0</c>.</summary>
+/// <summary>
+/// A log10 axis, of whole decades or as long as its values need. What is below its lowest value lies on a line of its own at the bottom, labelled <c>0</c>.
+/// </summary>
 internal sealed class LogAxis : Axis
 {
     /// <summary>More decades than a double has digits say nothing about the larger values.</summary>
     private const int MostDecades = 18;
 
-    private const double ZeroLine = 8.0; // above the frame, so that a curve of zeros does not hide in it
+    private const double ZeroLine = 9.0; // above the frame, so that a curve of zeros does not hide in it
     private const double ZeroBand = 26.0; // from the frame to the lowest decade
-    private readonly int _low;
-    private readonly int _high;
+    private readonly double _low; // logarithms
+    private readonly double _high;
     private readonly double _bottom;
     private readonly List<AxisTick> _ticks = [];
 
-    public LogAxis(ValueRange range, double length, double pixelsPerTick, double? floor)
-        : base(length)
+    public LogAxis(ValueRange range, double length, double pixelsPerTick, bool roundOut, double? floor, double inset)
+        : base(length, inset)
     {
         bool anyPositive = range.MinPositive <= range.Max;
         double low = floor ?? (anyPositive ? range.MinPositive : 1e-3);
         double high = Math.Max(anyPositive ? range.Max : 1.0, low);
-        _high = (int)Math.Ceiling(Math.Log10(high) - 1e-9);
-        _low = Math.Max((int)Math.Floor(Math.Log10(low) + 1e-9), _high - MostDecades);
-        _high = Math.Max(_high, _low + 1);
+        if (roundOut)
+        {
+            _high = Math.Ceiling(Math.Log10(high) - 1e-9);
+            _low = Math.Max(Math.Floor(Math.Log10(low) + 1e-9), _high - MostDecades);
+            _high = Math.Max(_high, _low + 1);
+        }
+        else
+        {
+            _high = Math.Log10(high);
+            _low = Math.Max(Math.Log10(low), _high - MostDecades);
+            double missing = Math.Max(0, 1 - (_high - _low)); // a decade has labels at 1, 2 or 5 at least twice
+            (_low, _high) = (_low - (0.5 * missing), _high + (0.5 * missing));
+        }
 
         bool positiveBelow = anyPositive && range.MinPositive < Lowest;
         bool below = positiveBelow || (!range.IsEmpty && range.Min <= 0.0);
-        _bottom = below ? ZeroBand : 0.0;
+        _bottom = below ? Math.Max(ZeroBand, inset) : inset;
         if (below)
         {
             // Values that only look like zero at this scale are not called zero.
-            _ticks.Add(new AxisTick(ZeroLine, positiveBelow ? "<" + Label(_low, 1) : "0"));
+            _ticks.Add(new AxisTick(ZeroLine, positiveBelow ? "<" + Label((int)Math.Ceiling(_low - 1e-9), 1) : "0"));
         }
 
         AddDecades(pixelsPerTick);
@@ -46,25 +58,30 @@ internal sealed class LogAxis : Axis
 
     public override double Map(double value) => value < Lowest
         ? ZeroLine
-        : _bottom + ((Length - _bottom) * Math.Max(0.0, Math.Log10(value) - _low) / (_high - _low));
+        : _bottom + (Span * Math.Max(0.0, Math.Log10(value) - _low) / (_high - _low));
+
+    private double Span => Length - Inset - _bottom;
 
     private void AddDecades(double pixelsPerTick)
     {
-        double decade = (Length - _bottom) / (_high - _low);
+        double decade = Span / (_high - _low);
         int every = new[] { 1, 2, 3, 5, 10, 20, 50, 100 }.FirstOrDefault(n => n * decade >= 0.7 * pixelsPerTick, 200);
-        for (int exponent = _low; exponent <= _high; exponent++)
+        for (int exponent = (int)Math.Floor(_low); exponent <= _high + 1e-9; exponent++)
         {
-            _ticks.Add(new AxisTick(Map(Math.Pow(10.0, exponent)), exponent % every == 0 ? Label(exponent, 1) : null));
-            if (exponent == _high || decade < 1.4 * pixelsPerTick)
+            AddTick(exponent, 1, exponent % every == 0);
+            for (int digit = 2; digit <= 9 && decade >= 1.4 * pixelsPerTick; digit++)
             {
-                continue;
+                AddTick(exponent, digit, digit is 2 or 5 && decade >= 3.4 * pixelsPerTick);
             }
+        }
+    }
 
-            for (int digit = 2; digit <= 9; digit++)
-            {
-                bool labelled = digit is 2 or 5 && decade >= 3.4 * pixelsPerTick;
-                _ticks.Add(new AxisTick(Map(digit * Math.Pow(10.0, exponent)), labelled ? Label(exponent, digit) : null));
-            }
+    private void AddTick(int exponent, int digit, bool isLabelled)
+    {
+        double value = digit * Math.Pow(10.0, exponent), log = Math.Log10(value);
+        if (log >= _low - 1e-9 && log <= _high + 1e-9)
+        {
+            _ticks.Add(new AxisTick(Map(value), isLabelled ? Label(exponent, digit) : null));
         }
     }
 

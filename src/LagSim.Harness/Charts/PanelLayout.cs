@@ -7,15 +7,11 @@ namespace LagSim.Harness.Charts;
 /// <summary>Where the texts of a panel go, so that none covers data or another text. Places are pixels from the panel's plot corner.</summary>
 internal sealed class PanelLayout
 {
-    internal const double RowHeight = 18.0;
-    internal const double SwatchWidth = 30.0;
     private const double MarkerRowHeight = 15.0;
     private const int MostMarkerRows = 4;
     private const int ReferenceColumns = 24;
-    private readonly List<LegendEntry> _legend = [];
     private readonly List<MarkerLabel> _markerLabels = [];
     private readonly List<ReferenceLabel> _referenceLabels = [];
-    private int _legendRows = 1;
     private int _markerRows;
 
     public PanelLayout(ChartPanel panel, Axis x, Axis y)
@@ -23,12 +19,10 @@ internal sealed class PanelLayout
         Panel = panel;
         X = x;
         Y = y;
-        PlaceLegend();
+        Legend = panel.HasLegendAtRight ? PanelLegend.AtRight(panel, x.Length) : PanelLegend.Above(panel, x.Length);
         PlaceMarkerLabels();
         PlaceReferenceLabels();
     }
-
-    internal readonly record struct LegendEntry(double X, int Row, string Text, ChartSeries? Series, ChartMarker? Marker, int Slot);
 
     internal readonly record struct MarkerLabel(double X, double Y, string Text, bool ToTheLeft);
 
@@ -40,7 +34,7 @@ internal sealed class PanelLayout
 
     public Axis Y { get; }
 
-    public IReadOnlyList<LegendEntry> Legend => _legend;
+    public PanelLegend Legend { get; }
 
     public IReadOnlyList<MarkerLabel> MarkerLabels => _markerLabels;
 
@@ -50,32 +44,12 @@ internal sealed class PanelLayout
     public double MarkerStrip => _markerRows * MarkerRowHeight;
 
     /// <summary>All that is above the plot: title, legend, marker labels.</summary>
-    public double HeaderHeight => (_legendRows * RowHeight) + MarkerStrip + 8.0;
+    public double HeaderHeight => (Legend.Rows * PanelLegend.RowHeight) + MarkerStrip + 8.0;
 
-    /// <summary>Space right of the plot that these labels need.</summary>
-    public static double ReferenceWidth(ChartPanel panel) => panel.ReferenceLines.Count == 0
-        ? 0.0
-        : 8.0 + panel.ReferenceLines.SelectMany(line => Wrap(line.Label)).Max(SvgElements.TextWidth);
-
-    private void PlaceLegend()
-    {
-        double at = (SvgElements.TextWidth(Panel.Title) * 1.12) + 22.0; // the title is larger and bold
-        IEnumerable<(string Text, ChartSeries? Series, ChartMarker? Marker, int Slot)> entries = Panel.Series
-            .Select((series, i) => (series.Name, (ChartSeries?)series, (ChartMarker?)null, series.Colour ?? i))
-            .Concat(Panel.Markers.Where(m => m.Kind == MarkerKind.Tick).DistinctBy(m => (m.Label, m.Colour))
-                .Select(m => (m.Label, (ChartSeries?)null, (ChartMarker?)m, m.Colour ?? 0)));
-        foreach ((string text, ChartSeries? series, ChartMarker? marker, int slot) in entries)
-        {
-            double width = SwatchWidth + SvgElements.TextWidth(text);
-            if (at > 0.0 && at + width > X.Length)
-            {
-                (at, _legendRows) = (0.0, _legendRows + 1);
-            }
-
-            _legend.Add(new LegendEntry(at, _legendRows - 1, text, series, marker, slot));
-            at += width + 14.0;
-        }
-    }
+    /// <summary>Space right of the plot that a legend there or the labels of reference lines need.</summary>
+    public static double WidthAtRight(ChartPanel panel) => panel.HasLegendAtRight ? PanelLegend.WidthAtRight(panel)
+        : panel.ReferenceLines.Count == 0 ? 0.0
+        : 8.0 + panel.ReferenceLines.SelectMany(line => SvgElements.Wrap(line.Label, ReferenceColumns)).Max(SvgElements.TextWidth);
 
     private void PlaceMarkerLabels()
     {
@@ -113,7 +87,7 @@ internal sealed class PanelLayout
     private void PlaceReferenceLabels()
     {
         _referenceLabels.AddRange(Panel.ReferenceLines.OrderByDescending(line => line.Y)
-            .Select(line => new ReferenceLabel(Y.Length - Y.Map(line.Y), Wrap(line.Label))));
+            .Select(line => new ReferenceLabel(Y.Length - Y.Map(line.Y), SvgElements.Wrap(line.Label, ReferenceColumns))));
 
         // Labels of neighbouring lines push each other apart until all can be read.
         for (int pass = 0; pass < 50; pass++)
@@ -129,23 +103,5 @@ internal sealed class PanelLayout
                 }
             }
         }
-    }
-
-    private static string[] Wrap(string text)
-    {
-        List<string> lines = [];
-        foreach (string word in text.Split(' ', StringSplitOptions.RemoveEmptyEntries))
-        {
-            if (lines.Count > 0 && lines[^1].Length + 1 + word.Length <= ReferenceColumns)
-            {
-                lines[^1] += " " + word;
-            }
-            else
-            {
-                lines.Add(word);
-            }
-        }
-
-        return lines.Count == 0 ? [text] : lines.ToArray();
     }
 }

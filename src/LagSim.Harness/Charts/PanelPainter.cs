@@ -16,14 +16,24 @@ internal static class PanelPainter
         PaintGrid(svg, layout, left, last, xLabel);
         PaintReferences(svg, layout);
         PaintMarkers(svg, layout);
+        int dashed = 0;
         for (int i = 0; i < layout.Panel.Series.Count; i++)
         {
             ChartSeries series = layout.Panel.Series[i];
+            int slot = series.Colour ?? i;
             List<(double X, double Y)> points = Decimation.Thin(series.X, series.Y);
-            svg.Path(SvgElements.Curve(points, layout.X, layout.Y, series.Style), CurveClass(series.Style, series.Colour ?? i));
-            if (series.HasDots)
+            // Of two dashed curves that coincide, the dashes of one lie in the gaps of the other.
+            string gaps = series.Style == SeriesStyle.Dashed && dashed++ % 2 > 0 ? " gaps" : "";
+            string curve = SvgElements.Curve(points, layout.X, layout.Y, series.Style, hasLonePoints: series.Shape is null);
+            if (curve.Length > 0)
             {
-                svg.Path(SvgElements.Curve(points, layout.X, layout.Y, SeriesStyle.Points), CurveClass(SeriesStyle.Points, series.Colour ?? i));
+                svg.Path(curve, CurveClass(series, slot) + gaps);
+            }
+
+            if (series.Shape is PointShape shape)
+            {
+                svg.Path(string.Concat(points.Where(p => !double.IsNaN(p.Y))
+                    .Select(p => SvgElements.Mark(layout.X.Map(p.X), layout.Y.Length - layout.Y.Map(p.Y), shape))), ShapeClass(shape, slot));
             }
         }
     }
@@ -32,24 +42,31 @@ internal static class PanelPainter
     {
         double top = 13.0 - layout.HeaderHeight;
         svg.Text(0, top, layout.Panel.Title, "h2");
-        foreach (PanelLayout.LegendEntry entry in layout.Legend)
+        foreach (PanelLegend.Entry entry in layout.Legend.Entries)
         {
-            double y = top + (entry.Row * PanelLayout.RowHeight);
+            double y = entry.Y + (layout.Panel.HasLegendAtRight ? 0 : top);
             if (entry.Series is { } series)
             {
                 string sample = series.Style == SeriesStyle.Points ? "m4 0h0m8 0h0m8 0h0" : "h24";
-                svg.Path($"M{SvgElements.Pixels(entry.X)} {SvgElements.Pixels(y - 4)}{sample}", CurveClass(series.Style, entry.Slot));
-                if (series.HasDots)
+                svg.Path($"M{SvgElements.Pixels(entry.X)} {SvgElements.Pixels(y - 4)}{sample}", CurveClass(series, entry.Slot));
+                if (series.Shape is PointShape shape)
                 {
-                    svg.Path($"M{SvgElements.Pixels(entry.X + 12)} {SvgElements.Pixels(y - 4)}h0", CurveClass(SeriesStyle.Points, entry.Slot));
+                    svg.Path(SvgElements.Mark(entry.X + 12, y - 4, shape), ShapeClass(shape, entry.Slot));
                 }
+            }
+            else if (entry.Marker is { } marker)
+            {
+                svg.Path($"M{SvgElements.Pixels(entry.X + 18)} {SvgElements.Pixels(y - 8)}{Triangle}", TriangleClass(marker));
             }
             else
             {
-                svg.Path($"M{SvgElements.Pixels(entry.X + 18)} {SvgElements.Pixels(y - 8)}{Triangle}", TriangleClass(entry.Marker!));
+                svg.Path($"M{SvgElements.Pixels(entry.X)} {SvgElements.Pixels(y - 9)}h24v11h-24z", "band");
             }
 
-            svg.Text(entry.X + PanelLayout.SwatchWidth, y, entry.Text, "label");
+            for (int i = 0; i < entry.Lines.Count; i++)
+            {
+                svg.Text(entry.X + PanelLegend.SwatchWidth, y + (i * PanelLegend.LineHeight), entry.Lines[i], "label");
+            }
         }
     }
 
@@ -57,6 +74,12 @@ internal static class PanelPainter
     {
         double width = layout.X.Length, height = layout.Y.Length;
         double below = layout.Panel.Markers.Any(m => m.Kind == MarkerKind.Tick) ? 6.0 : 0.0; // room for the triangles
+        if (layout.Panel.Band is { } band)
+        {
+            double tall = layout.Y.Map(band.UpTo);
+            svg.Path($"M0 {SvgElements.Pixels(height - tall)}h{SvgElements.Pixels(width)}v{SvgElements.Pixels(tall)}h{SvgElements.Pixels(-width)}z", "band", band.Label);
+        }
+
         foreach (AxisTick tick in layout.Y.Ticks)
         {
             svg.HorizontalLine(0, height - tick.Pixel, width, tick.Label is null ? "minor" : "grid");
@@ -128,10 +151,13 @@ internal static class PanelPainter
     private static string TriangleClass(ChartMarker marker) =>
         marker.Colour is { } slot ? "impact " + ChartTheme.ColourClass(slot) : "impact";
 
-    private static string CurveClass(SeriesStyle style, int slot) => "line " + ChartTheme.ColourClass(slot) + style switch
+    private static string CurveClass(ChartSeries series, int slot) => "line " + ChartTheme.ColourClass(slot) + series.Style switch
     {
         SeriesStyle.Dashed => " dashed",
         SeriesStyle.Points => " dots",
         _ => "",
-    };
+    } + (series.IsEmphasised ? " strong" : "");
+
+    private static string ShapeClass(PointShape shape, int slot) =>
+        "point " + ChartTheme.ColourClass(slot) + (SvgElements.IsSolid(shape) ? " solid" : "");
 }

@@ -72,7 +72,7 @@ internal sealed class DomeCase : IHardCase
     {
         double leaves = Math.Acos(2.0 / 3 * Math.Cos(start));
         double rate = Math.Sqrt(2.0 / 3 * Gravity * Math.Cos(start) / Reach); // rad/s there
-        string size = FormattableString.Invariant($"from {start} rad");
+        string size = FormattableString.Invariant($"let go {start} rad from the top");
         yield return new HardRow(
             Name, size, Math.Abs(angle - leaves), "angle_rad", 2 * Step * rate,
             "the way of two steps of 1/512 s: it leaves at the end of one in which the dome has pushed last",

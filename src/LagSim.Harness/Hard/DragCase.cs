@@ -101,7 +101,7 @@ internal abstract class DragCase : IHardCase
             : flight.ErrorOf(pieces, depth) * (1 + FallSeconds);
         return new HardRow(
             Name, FormattableString.Invariant($"falls {FallSeconds} s, {flight.Text}"), Math.Abs(y + depth), "position_m", bound,
-            isStepped ? StepArguments.Fall + "; 40 roundings a step" : HardFlight.Argument + "; that of the speed for 4 s, undamped", FallReference);
+            isStepped ? StepArguments.Fall + "; 40 roundings a step" : flight.Argument + "; that of the speed for 4 s, undamped", FallReference);
     }
 
     private HardRow BounceRow(HardContext context, HardFlight flight, double factor)
@@ -133,7 +133,7 @@ internal abstract class DragCase : IHardCase
 
         return new HardRow(
             Name, FormattableString.Invariant($"{seen.Count} bounces, {flight.Text}"), seen.Count >= 4 ? worst : double.NaN, "time_s", bound,
-            (isStepped ? StepArguments.Bounces : HardFlight.Argument) + ", passed on through the contacts by their saltation, over the speed; and a "
+            (isStepped ? StepArguments.Bounces : flight.Argument) + ", passed on through the contacts by their saltation, over the speed; and a "
                 + "tick", BounceReference);
     }
 

@@ -30,7 +30,7 @@ internal sealed class EventOrderCase : IHardCase
         {
             double done = 2 + n;
             World[] worlds = Together(context, scene, seconds, Threads[n], part => context.Report((done + part) / whole));
-            yield return Row(FormattableString.Invariant($"{Threads[n]} threads, as many"), pairs, worlds);
+            yield return Row(FormattableString.Invariant($"the same on {Threads[n]} threads at a time"), pairs, worlds);
         }
     }
 
@@ -41,7 +41,7 @@ internal sealed class EventOrderCase : IHardCase
         const string note = "one ball a unit in the last place further on";
         World nudged = Run(context, Nudged(scene), 10, 0, _ => { });
         yield return Row(FormattableString.Invariant($"80 balls, {pairs.Count:N0} events"), pairs, nudged) with { Note = note };
-        yield return Row("2 threads, as many", pairs, Together(context, Nudged(scene), 10, 2, _ => { })) with { Note = note };
+        yield return Row("the same on 2 threads at a time", pairs, Together(context, Nudged(scene), 10, 2, _ => { })) with { Note = note };
     }
 
     private static Scene Nudged(Scene scene)

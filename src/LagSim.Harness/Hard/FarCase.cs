@@ -51,7 +51,7 @@ internal sealed class FarCase : IHardCase
         double worst = Worst(seen.Select((t, n) => Math.Abs(t - (((2 * n) + 1) * FirstImpact))));
         double n = seen.Length;
         return new HardRow(
-            Name, FormattableString.Invariant($"{n} bounces at {offset} m"), n > 100 ? worst : double.NaN, "time_s",
+            Name, FormattableString.Invariant($"{n} bounces at {offset:N0} m"), n > 100 ? worst : double.NaN, "time_s",
             Rounding.Tick + (n * n * ((place / speed) + (Rounding.PerContact * Rounding.Unit * FirstImpact))),
             "4 roundings of the place a contact change the speed by g/v of them, and that every later hop: n^2 (place/v + 8 u t1), and a tick",
                 "t_n = (2n - 1) t1");
@@ -64,7 +64,7 @@ internal sealed class FarCase : IHardCase
         double late = near.Zip(far).Take(same).Select(pair => Math.Abs(pair.First.Time.ToSeconds() - pair.Second.Time.ToSeconds())).DefaultIfEmpty(0).Max();
         double closest = near.Zip(near.Skip(1), (a, b) => b.Time.ToSeconds() - a.Time.ToSeconds()).Min();
         return new HardRow(
-            Name, FormattableString.Invariant($"5 balls, {Compared} impacts at {offset} m"), near.Length == Compared ? Compared - same : double.NaN,
+            Name, FormattableString.Invariant($"5 balls, {Compared} impacts at {offset:N0} m"), near.Length == Compared ? Compared - same : double.NaN,
                 "events_out_of_order", 0,
             "an order is right or wrong; it is decided as long as the loss of time is less than what two impacts are apart", "the same scene at the origin")
         {

@@ -74,7 +74,7 @@ internal sealed class GrazeCase : IHardCase
         }
 
         return new HardRow(
-            Name, FormattableString.Invariant($"{what}, {law}, off by 0 and 1e-2 to {finest} m, {asked} tries"), wrong.Count, "wrong", 0,
+            Name, FormattableString.Invariant($"{what}, {law}, off by 0 and 1e-2 to {finest:0e0} m, {asked} tries"), wrong.Count, "wrong", 0,
             "each is further off than 16 roundings (of every step, with Runge-Kutta) of a place of 5 m, so none may be wrong; exactly touching is no contact",
                 "the sign of how far it is off")
         {

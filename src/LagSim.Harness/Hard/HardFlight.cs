@@ -14,15 +14,17 @@ internal readonly record struct HardFlight(MotionLaw Law, double Step, double To
     internal const int RoundingsAPiece = 40;
 
     /// <summary>Whence <see cref="ErrorOf"/> is.</summary>
-    internal const string Argument = "the tolerance, of Dormand and Prince's method for each step, of a closed form once; 40 roundings a piece";
+    internal string Argument => (Law == MotionLaw.ClosedForm ? "the tolerance once" : "the tolerance for each step") + "; 40 roundings a piece";
 
     /// <summary>What it is in a table.</summary>
     internal string Text => Law switch
     {
         MotionLaw.RungeKutta4 => FormattableString.Invariant($"step 1/{1 / Step:0} s"),
-        MotionLaw.ClosedForm => FormattableString.Invariant($"closed form, tolerance {Tolerance}"),
-        _ => FormattableString.Invariant($"Dormand-Prince, tolerance {Tolerance}"),
+        MotionLaw.ClosedForm => FormattableString.Invariant($"closed form, tolerance {ShortTolerance}"),
+        _ => FormattableString.Invariant($"Dormand-Prince, tolerance {ShortTolerance}"),
     };
+
+    private string ShortTolerance => Tolerance.ToString(Tolerance > 0 ? "0.#e0" : "0", System.Globalization.CultureInfo.InvariantCulture);
 
     /// <summary>Fixed steps of the classical Runge-Kutta method.</summary>
     internal static HardFlight Steps(double seconds) => new(MotionLaw.RungeKutta4, seconds, 0);

@@ -149,7 +149,7 @@ internal sealed class KeplerCase : IHardCase
 
         return new HardRow(
             Name, FormattableString.Invariant($"e {orbit.E}, {flight.Text}"), error, "position_at_the_worst_of_16_instants", bound,
-            HardFlight.Argument + ", four times their rms; passed on by the change of energy, 3 a/mu (mu/r^2 dx + v dv) t |v|, and 10/(1 - e) for all "
+            flight.Argument + ", four times their rms; passed on by the change of energy, 3 a/mu (mu/r^2 dx + v dv) t |v|, and 10/(1 - e) for all "
                 + "that comes round with the orbit; 8 roundings of the reference's anomaly",
             "Kepler's equation, at 16 instants of the orbit")
         {

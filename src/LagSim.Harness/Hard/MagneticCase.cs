@@ -49,7 +49,7 @@ internal sealed class MagneticCase : IHardCase
         {
             (Vector3D x, Vector3D v) end = ClassicalRungeKutta.Run(
                 ClassicalRungeKutta.Midpoint, ClassicalRungeKutta.Of(Across(false, omega, out _), V(0, -gravity)), default, Start, Step, 1000);
-            foreach (HardRow row in RowsOf(steps, "", omega, 1000 * Step, gravity, 1000, end.x, end.v))
+            foreach (HardRow row in RowsOf(steps, "field, ", omega, 1000 * Step, gravity, 1000, end.x, end.v))
             {
                 yield return row with { Note = "the midpoint method" };
             }
@@ -60,7 +60,7 @@ internal sealed class MagneticCase : IHardCase
         {
             (Vector3D x, Vector3D v) end = ClassicalRungeKutta.Run(
                 ClassicalRungeKutta.Step, ClassicalRungeKutta.Of(Across(false, omega, out _)), default, Start, Step, 640);
-            foreach (HardRow row in RowsOf(flight, "", omega, 10, 0, 640, end.x, end.v))
+            foreach (HardRow row in RowsOf(flight, "field, ", omega, 10, 0, 640, end.x, end.v))
             {
                 yield return row with { Note = "the classical method in its place" };
             }
@@ -121,9 +121,9 @@ internal sealed class MagneticCase : IHardCase
         // What a piece leaves of the velocity goes round with it, and moves the place by no more than over omega; the textbook's angle has roundings of its
         // own.
         double fast = flight.ErrorOf(pieces, Start.Length + (2 * drift.Length)), far = flight.ErrorOf(pieces, place.Length + (2 * radius));
-        yield return new HardRow(Name, size, speed, "speed_relative", fast / across, HardFlight.Argument + ", none of it magnified", works);
+        yield return new HardRow(Name, size, speed, "speed_relative", fast / across, flight.Argument + ", none of it magnified", works);
         yield return new HardRow(
             Name, size, off, "position_m", far + (2 * fast / omega) + (4 * Rounding.Unit * angle * radius),
-            HardFlight.Argument + "; that of the speed over omega; 4 roundings of the angle, which is the reference's", curve);
+            flight.Argument + "; that of the speed over omega; 4 roundings of the angle, which is the reference's", curve);
     }
 }

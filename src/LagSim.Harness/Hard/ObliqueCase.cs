@@ -102,7 +102,7 @@ internal sealed class ObliqueCase : IHardCase
             "8 roundings a grip of the turning, which is taken from the speed and is 7/3 of what is left at most, twice", "5/7 v (3/7)^(n-1)");
     }
 
-    /// <summary>Pairs of random spheres that meet aslant and turning, and a floor: how much energy they gain at the most.</summary>
+    /// <summary>Four random spheres that meet aslant and turning, and a floor: how much energy they gain at the most.</summary>
     private HardRow Energy(HardContext context, int scenes, double e, double sign)
     {
         double worst = double.NegativeInfinity;

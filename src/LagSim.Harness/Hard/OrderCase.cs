@@ -42,7 +42,7 @@ internal sealed class OrderCase : IHardCase
         yield return Row("smooth, position", step => Textbook(ClassicalRungeKutta.ThesisStep, step),
             smooth) with
         { Note = "the thesis's update of the position" };
-        yield return Fifth(context, "through contacts, position", Floor, End, MotionLaw.RungeKutta4) with
+        yield return Fifth(context, "through contacts, position, Dormand-Prince", Floor, End, MotionLaw.RungeKutta4) with
         {
             Note = "the classical method in place of Dormand and Prince's",
         };

@@ -141,7 +141,7 @@ internal sealed class RollingCase : IHardCase
         BodyState state = Read(context.Run(scene, seconds), 0, seconds);
         double a = nearness >= 0 ? 5.0 / 7 * Gravity * sine : Gravity * (sine - (mu * cosine));
         double turning = nearness >= 0 ? a / Radius : 2.5 * mu * Gravity * cosine / Radius;
-        string size = FormattableString.Invariant($"slope of 3 in 4, friction {nearness:+0.############;-0.############} of what rolling needs");
+        string size = FormattableString.Invariant($"slope of 3 in 4, friction {1 + nearness:0.############} times what rolling needs");
         string law = nearness >= 0 ? "5/7 g sin a" : "g (sin a - mu cos a)";
         double way = a * seconds * seconds / 2;
         yield return new HardRow(

@@ -188,7 +188,7 @@ internal sealed class ScalesCase : IHardCase
             {
                 if (!state.Position.IsFinite || !state.Velocity.IsFinite || !state.Spin.IsFinite)
                 {
-                    throw new InvalidOperationException($"body {body} is at {state.Position} with {state.Velocity}, turning {state.Spin}.");
+                    throw new InvalidOperationException($"body {n} is at {state.Position} with {state.Velocity}, turning {state.Spin}.");
                 }
             }
         }

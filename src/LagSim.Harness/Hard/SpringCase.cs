@@ -72,10 +72,10 @@ internal sealed class SpringCase : IHardCase
         double roundings = flight.ErrorOf((int)simulation.EventsProcessed, 2 + (2 * amplitude)) - each;
         double response = flight.Law == MotionLaw.ClosedForm ? 16 * Rounding.Unit * (gamma + omega) * seconds * amplitude : 0;
         return new HardRow(
-            Name, FormattableString.Invariant($"{omega:N0} rad/s, damping {ratio:N1} of the critical, {seconds} s, {flight.Text}"), worst, "position_m",
+            Name, FormattableString.Invariant($"{omega:N0} rad/s, damping {ratio:#,0.#} times the critical, {seconds} s, {flight.Text}"), worst, "position_m",
             (each * (1 + (1 / omega))) + roundings + response + (4 * Rounding.Unit * omega * seconds * amplitude),
-            HardFlight.Argument + "; in closed form the response's 8 units in the last place for each radian (LinearResponse); 4 roundings of the "
-                + "reference's angle; no error grows in the norm of the energy",
+            flight.Argument + (flight.Law == MotionLaw.ClosedForm ? "; the response's 8 units in the last place for each radian (LinearResponse)" : "")
+                + "; 4 roundings of the reference's angle; no error grows in the norm of the energy",
             "exponentials, sine and cosine")
         {
             Note = FormattableString.Invariant($"{simulation.EventsProcessed} pieces"),

@@ -8,6 +8,8 @@ namespace LagSim.Harness.Scenes;
 /// <content>Forces, and which of them act on a body.</content>
 internal ref partial struct SceneJsonReader
 {
+    private const int MostListed = 10;
+
     private static readonly JsonKeys ForceKeys = new(
         ["name", "kind"],
         ["coefficient_kg_per_s", "coefficient_kg_per_m", "medium_m_per_s", "anchor_m", "stiffness_n_per_m", "damping_kg_per_s", "field_t", "charge_c", "coefficient_kg", "centre_m", "strength_m_per_s2", "power"]);
@@ -91,7 +93,7 @@ internal ref partial struct SceneJsonReader
             }
 
             names.Add(name);
-            namedForces.Add((name, cursor.Fail($"no force of the scene is named {JsonFault.Quote(name)}")));
+            namedForces.Add((name, cursor.Fail("named here")));
         }
 
         return names;
@@ -112,11 +114,13 @@ internal ref partial struct SceneJsonReader
 
     private readonly void CheckForceNames()
     {
-        foreach ((string name, SceneFileException unknown) in namedForces)
+        foreach ((string name, SceneFileException where) in namedForces)
         {
             if (!forceNames.Contains(name))
             {
-                throw unknown;
+                string there = forceNames.Count == 0 ? "it has none"
+                    : $"it has {string.Join(", ", forceNames.Take(MostListed).Select(JsonFault.Quote))}{(forceNames.Count > MostListed ? $" and {forceNames.Count - MostListed} more" : "")}";
+                throw new SceneFileException(where.File, where.Path, where.Line, $"no force of the scene is named {JsonFault.Quote(name)}; {there}");
             }
         }
     }

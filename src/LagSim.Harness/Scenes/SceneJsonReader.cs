@@ -21,7 +21,7 @@ internal ref partial struct SceneJsonReader
     private readonly bool locate;
     private readonly List<Action<SceneBuilder>> parts = new(); // what to build, once the name is known
     private readonly List<string> forceNames = new();
-    private readonly List<(string Name, SceneFileException IfUnknown)> namedForces = new(); // a body may stand before the forces that it names
+    private readonly List<(string Name, SceneFileException Where)> namedForces = new(); // a body may stand before the forces that it names
     private JsonCursor cursor;
 
     /// <param name="json">The document, known to be UTF-8.</param>

@@ -91,9 +91,19 @@ internal static class Limits
     {
         string whose = $"force '{force.Name}'";
         double least = force.Kind is ForceKind.Magnetic or ForceKind.Central or ForceKind.Magnus ? -MaxStrength : 0;
-        InRange(force.Strength, least, MaxStrength, whose, "strength", "(in the units of its kind)");
+        (string strength, string unit, string vector, string vectorUnit) = force.Kind switch
+        {
+            ForceKind.LinearDrag => ("coefficient", "kg/s", "medium's velocity", "m/s"),
+            ForceKind.QuadraticDrag => ("coefficient", "kg/m", "medium's velocity", "m/s"),
+            ForceKind.Spring => ("stiffness", "N/m", "anchor", "m"),
+            ForceKind.Magnetic => ("charge", "C", "field", "T"),
+            ForceKind.Magnus => ("coefficient", "kg", "vector", ""),
+            ForceKind.Central => ("strength", "m/s^2 at 1 m", "centre", "m"),
+            _ => ("strength", "", "vector", ""), // a program's own force has neither
+        };
+        InRange(force.Strength, least, MaxStrength, whose, strength, unit);
         InRange(force.Damping, 0, MaxStrength, whose, "damping", "kg/s");
-        Components(force.Vector, MaxCoordinate, whose, "vector", "(in the units of its kind)");
+        Components(force.Vector, MaxCoordinate, whose, vector, vectorUnit);
         if (force.Power is < -MaxPower or > MaxPower)
         {
             throw new SceneException($"The power of {whose} is {force.Power}; it must lie between {-MaxPower} and {MaxPower}.");

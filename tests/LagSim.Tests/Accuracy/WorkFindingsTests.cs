@@ -40,7 +40,7 @@ public sealed class WorkFindingsTests
     public void Sentences_OfAPeerThatIsMoreExactThanAnySetting_SaySo()
     {
         string sentence = Assert.Single(WorkFindings.Sentences([Own(1e-6, 1), Peer(1e-7, 1000)]));
-        Assert.Equal("scene: NOT in front of peer at 1/10 s: no setting of LagSim is as exact as 1e-7 kind.", sentence);
+        Assert.Equal("scene: NOT in front of peer at 1/10 s: no setting of LagSim is as exact as 1e-7 m.", sentence);
     }
 
     [Fact]
@@ -75,7 +75,7 @@ public sealed class WorkFindingsTests
         Assert.Null(WorkOrder.Of(spring, few.Take(4)));
     }
 
-    private static WorkPoint Own(double error, double cpu) => new("scene", "LagSim law", "1/1 s", 1, error, "kind", cpu, 3, 1, 1);
+    private static WorkPoint Own(double error, double cpu) => new("scene", "LagSim law", "1/1 s", 1, error, "max_position_error_m", cpu, 3, 1, 1);
 
-    private static WorkPoint Peer(double error, double cpu) => new("scene", "peer", "1/10 s", 0.1, error, "kind", cpu, 3, 1, 1);
+    private static WorkPoint Peer(double error, double cpu) => new("scene", "peer", "1/10 s", 0.1, error, "max_position_error_m", cpu, 3, 1, 1);
 }

@@ -34,8 +34,8 @@ public sealed class RefusedValuesTests
             ["'x'", "'steel'", "10000000", "1000000"]),
         ["tolerance"] = (b => b.AddBody("x", new BodySpec(0.5, 1, 1, tolerance: -1e-9), V(0, 9)), ["tolerance", "'x'", "-1E-09"]),
         ["nan tolerance"] = (b => b.AddBody("x", new BodySpec(0.5, 1, 1, tolerance: double.NaN), V(0, 9)), ["tolerance", "'x'", "NaN"]),
-        ["negative drag"] = (b => b.AddForce(Force.LinearDrag("oil", -1)), ["strength", "'oil'", "-1"]),
-        ["nan field"] = (b => b.AddForce(Force.Magnetic("coil", V(double.NaN), 1)), ["vector", "'coil'", "NaN"]),
+        ["negative drag"] = (b => b.AddForce(Force.LinearDrag("oil", -1)), ["coefficient", "'oil'", "-1"]),
+        ["nan field"] = (b => b.AddForce(Force.Magnetic("coil", V(double.NaN), 1)), ["field", "'coil'", "NaN"]),
         ["power"] = (b => b.AddForce(Force.Central("sun", V(0), 1, -5)), ["power", "'sun'", "-5", "4"]),
         ["negative damping"] = (b => b.AddForce(Force.Spring("rubber", V(0), 1, -2)), ["damping", "'rubber'", "-2"]),
         ["33 forces"] = (b => Enumerable.Range(0, 33).Aggregate(b, (all, n) => all.AddForce(Force.LinearDrag($"force {n}", 1))), ["33", "32"]),
@@ -125,7 +125,7 @@ public sealed class RefusedValuesTests
             .AddBody("x", Ball(flight: MotionLaw.RungeKutta4, force: 1), V(0)).Build();
         Simulation simulation = new(scene, KeepAll);
         SimulationException failure = Assert.Throws<SimulationException>(() => simulation.AdvanceTo(At(1)));
-        Assert.Contains("0.0.0", failure.Message, StringComparison.Ordinal);
+        Assert.Contains("body 'x'", failure.Message, StringComparison.Ordinal);
         Assert.Contains("NaN", failure.Message, StringComparison.Ordinal);
         Assert.Same(failure, Assert.Throws<InvalidOperationException>(() => simulation.AdvanceTo(At(1))).InnerException);
         Assert.Throws<InvalidOperationException>(() => simulation.StateHash(At(0.1)));

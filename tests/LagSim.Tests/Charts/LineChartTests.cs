@@ -45,17 +45,29 @@ public sealed class LineChartTests
         Assert.All(labels, t => Assert.InRange(left + (double)t.Attribute("x")! + (6.9 / 2 * t.Value.Length), 0, width - 5));
     }
 
-    [Fact]
-    public void ToSvg_SeriesWithDots_HasOneForEachPointAndOneInTheLegend()
+    [Theory]
+    [InlineData(PointShape.Disc, true)]
+    [InlineData(PointShape.OpenSquare, false)]
+    public void ToSvg_SeriesWithAShape_HasOneForEachPointAndOneInTheLegend(PointShape shape, bool isSolid)
     {
-        static int Dots(bool hasDots)
-        {
-            XElement svg = XElement.Parse(new LineChart("t", "", [new ChartPanel("p", "m", [new ChartSeries("s", [1, 2, 3], [1, 2, 1]) { HasDots = hasDots }])]).ToSvg());
-            return svg.Descendants(Svg + "path").Where(p => ((string)p.Attribute("class")!).EndsWith(" dots", StringComparison.Ordinal)).Sum(p => Regex.Count((string)p.Attribute("d")!, "h0"));
-        }
+        XElement[] marks = Marks(shape);
+        Assert.Equal(4, marks.Sum(p => Regex.Count((string)p.Attribute("d")!, "M")));
+        Assert.All(marks, p => Assert.Equal(isSolid, ((string)p.Attribute("class")!).EndsWith(" solid", StringComparison.Ordinal)));
+        Assert.Empty(Marks(null));
 
-        Assert.Equal(4, Dots(hasDots: true));
-        Assert.Equal(0, Dots(hasDots: false));
+        static XElement[] Marks(PointShape? shape) => [.. XElement.Parse(
+            new LineChart("t", "", [new ChartPanel("p", "m", [new ChartSeries("s", [1, 2, 3], [1, 2, 1]) { Shape = shape }])]).ToSvg())
+            .Descendants(Svg + "path").Where(p => ((string)p.Attribute("class")!).StartsWith("point ", StringComparison.Ordinal))];
+    }
+
+    [Fact]
+    public void ToSvg_DashedCurvesThatCoincide_FillEachOthersGaps()
+    {
+        ChartSeries[] series = [.. Enumerable.Range(0, 3).Select(n => new ChartSeries($"s{n}", [0, 1], [0, 1], SeriesStyle.Dashed))];
+        string[] classes = [.. XElement.Parse(Chart(series).ToSvg()).Descendants(Svg + "path")
+            .Where(p => ((string)p.Attribute("class")!).Contains("dashed", StringComparison.Ordinal) && !((string)p.Attribute("d")!).EndsWith("h24", StringComparison.Ordinal))
+            .Select(p => (string)p.Attribute("class")!)];
+        Assert.Equal([false, true, false], classes.Select(c => c.EndsWith(" gaps", StringComparison.Ordinal)));
     }
 
     [Fact]
@@ -191,6 +203,9 @@ public sealed class LineChartTests
         Assert.Throws<ArgumentException>(() => new LineChart("t", "", []));
         Assert.Throws<ArgumentException>(() => new LineChart("t", "", [new ChartPanel("p", "m", [series]) { Scale = ChartScale.Log10 }]));
         Assert.Throws<ArgumentException>(() => new LineChart("t", "", [new ChartPanel("p", "m", [series]) { PlotHeight = double.NaN }]));
+        Assert.Throws<ArgumentException>(() => new LineChart(
+            "t", "", [new ChartPanel("p", "m", [series]) { HasLegendAtRight = true, ReferenceLines = [new ReferenceLine(1, "r")] }]));
+        Assert.Throws<ArgumentOutOfRangeException>(() => new ShadedBand(double.NaN, "b"));
     }
 
     private static CultureInfo GermanNumbers()

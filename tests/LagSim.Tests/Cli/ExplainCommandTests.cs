@@ -32,6 +32,20 @@ public sealed class ExplainCommandTests
     }
 
     [Fact]
+    public void Explain_Rates_AreReadAsAPersonWritesThemAndExactInJson()
+    {
+        using TemporaryFolder folder = new();
+        string scene = folder["air.json"];
+        File.WriteAllText(scene, """
+            {"format": "lagsim-scene-1", "name": "air", "forces": [{"name": "air", "kind": "linear_drag", "coefficient_kg_per_s": 0.1}],
+             "bodies": [{"name": "b", "radius_m": 0.5, "mass_kg": 1, "restitution": 1, "position_m": [0, 0, 0], "forces": ["air"], "motion": "rk4", "step_s": 0.0558035714}]}
+            """);
+        Assert.Matches("rk4 +17.92 +89.6 ", Run("explain", scene).Output);
+        using JsonDocument json = JsonDocument.Parse(Run("explain", scene, "--json").Output);
+        Assert.InRange(json.RootElement.GetProperty("bodies")[0].GetProperty("force_evaluations_per_s").GetDouble(), 89.60000001, 89.6000001);
+    }
+
+    [Fact]
     public void Explain_NoScene_IsAnError() => Assert.Equal(3, Run("explain", "nowhere.json").Code);
 
     private static (int Code, string Output, string Error) Run(params string[] arguments)

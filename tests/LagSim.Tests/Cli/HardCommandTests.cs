@@ -50,6 +50,46 @@ public sealed class HardCommandTests
     }
 
     [Fact]
+    public void Controls_SayPlainlyThatFailingIsRightAndNameWhichDidNot()
+    {
+        HardRow caught = new("case", "size", 2, "position_m", 1, "why", "what") { Note = "a wrong step" }, missed = caught with { Error = 0.5 };
+        Assert.Contains("All 2 checks of wrong methods failed, as they must", Written(new([caught, caught], HardScale.Small, true, 1, 0.5)), StringComparison.Ordinal);
+        string bad = Written(new([caught, missed], HardScale.Small, true, 1, 0.5));
+        Assert.Contains("1 of 2 checks of wrong methods failed, as all of them must; NOT caught: 1, named below", bad, StringComparison.Ordinal);
+        Assert.Contains("NOT CAUGHT: case, size (a wrong step): 0.5 is within 1, position (m)", bad, StringComparison.Ordinal);
+        Assert.DoesNotContain("within their bound", bad, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Rows_OfAllCases_AreALineEachWhereNoTerminalIs()
+    {
+        HardRow row = new("drag-quadratic", new string('x', 300) + " [y]", 1.234e-12, "position_at_the_worst_of_16_instants", 1.5e-11, "why", "what");
+        string[] lines = Written(new([row, row with { Case = "rest", ErrorKind = "speed_m_per_s" }], HardScale.Small, false, 1, 0.5)).Split('\n');
+        Assert.StartsWith("case            ", lines[2], StringComparison.Ordinal);
+        Assert.StartsWith("drag-quadratic  1.234e-12  1.5e-11  passed   position at the worst of 16 instants: xxx", lines[3], StringComparison.Ordinal);
+        Assert.StartsWith("rest            1.234e-12  1.5e-11  passed   speed (m/s): xxx", lines[4], StringComparison.Ordinal);
+        Assert.EndsWith("x [y]", lines[4].TrimEnd(), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Rows_OnATerminalOf80Columns_BreakTheLastTextAlone()
+    {
+        HardRow row = new("drag-quadratic", "so many words that no line of eighty columns has room for all of them", 1.234e-12, "time_s", 1.5e-11, "why", "what");
+        string[] lines = Written(new([row], HardScale.Small, false, 1, 0.5), width: 80).Split('\n');
+        Assert.All(lines.TakeWhile(line => !line.Contains("rows within", StringComparison.Ordinal)), line => Assert.True(line.TrimEnd().Length <= 80, line));
+        Assert.Contains(lines, line => line.Contains("drag-quadratic  1.234e-12  1.5e-11  passed ", StringComparison.Ordinal));
+    }
+
+    private static string Written(HardReport report, int? width = null)
+    {
+        using StringWriter output = new(), error = new();
+        ToolConsole console = new(output, error, default);
+        console.Rich.Profile.Width = width ?? console.Rich.Profile.Width;
+        HardTables.Write(console, report, null);
+        return output.ToString();
+    }
+
+    [Fact]
     public void Files_AreATableAndAPageWithTheArguments()
     {
         using TemporaryFolder folder = new();

@@ -2,6 +2,8 @@ using System;
 using System.IO;
 using System.Linq;
 using LagSim.Cli.Output;
+using LagSim.Harness.Accuracy;
+using LagSim.Harness.Reports;
 using Spectre.Console;
 using Xunit;
 
@@ -31,6 +33,27 @@ public sealed class NarrowTerminalTests
         string[] lines = Written(width, columns);
         Assert.DoesNotContain(lines, line => line.Contains(Long, StringComparison.Ordinal) && line.Contains("1.23e-15", StringComparison.Ordinal));
         Assert.Contains(lines, line => line.Split("1.23e-15").Length == columns + 1);
+    }
+
+    [Theory]
+    [InlineData("gas", "LagSim RungeKutta4")]
+    [InlineData("kepler", "LagSim DormandPrince54, fixed steps")]
+    public void Accuracy_InAWindowOf80Columns_HasAllNumbersOfARowOnALine(string scene, string method)
+    {
+        Assert.True(WorkScenes.TryGet(scene, out WorkScene? found));
+        WorkPoint[] points = [.. new[] { "1/10000 s", "no step" }.SelectMany(setting => found.ErrorKinds.Select((kind, n) => new WorkPoint(
+            scene, method, setting, 1e-4, ErrorOf(kind, n), kind, 2.3456e-5, 1, 1.2345, 1_234_567)))];
+        using StringWriter output = new(), error = new();
+        ToolConsole console = new(output, error, TestContext.Current.CancellationToken);
+        console.Rich.Profile.Width = 80;
+        AccuracyTables.Write(console, new AccuracyReport([found], new WorkReport(points, [], []), false, 1), null);
+        string[] lines = [.. output.ToString().Split('\n').TakeWhile(line => !line.StartsWith("Speed is", StringComparison.Ordinal))];
+        Assert.All(lines, line => Assert.True(line.TrimEnd().Length <= 80, line));
+        string[] numbers = [.. found.ErrorKinds.Select((kind, n) => NumberText.Short(ErrorOf(kind, n))), NumberText.Short(1.2345 / 2.3456e-5)];
+        Assert.Equal(2, lines.Count(line => numbers.All(number => line.Contains($" {number} ", StringComparison.Ordinal))));
+        Assert.Single(lines, line => line.Contains("LagSim", StringComparison.Ordinal)); // named once
+
+        static double ErrorOf(string kind, int n) => kind.Contains("pairs", StringComparison.Ordinal) ? 123 : (n + 1.23456) * 1e-15;
     }
 
     private static string[] Written(int width, int columns)

@@ -178,6 +178,33 @@ public sealed class RunCommandTests
         Assert.Equal("run pair ...", tool.Error.Trim());
     }
 
+    [Theory]
+    [InlineData("--events")]
+    [InlineData("--samples")]
+    public void File_ThatCannotBeWritten_IsNamedWithTheOptionAndTheCause(string option)
+    {
+        using TemporaryFolder folder = new();
+        string file = folder["missing/deep/a.csv"], kept = folder["kept"];
+        Tool.Refuses(3, ["run", "pair", option, file], $"{option} is '{file}'; it must be a file that can be written. There is no folder '{folder["missing"]}'.");
+        File.WriteAllText(kept, "");
+        Tool.Refuses(3, ["run", "pair", option, kept + "/a.csv"], $"{option} is '{kept}/a.csv'; it must be a file that can be written. '{kept}' is a file, not a folder.");
+        Assert.Equal([kept], Directory.GetFileSystemEntries(folder.Path));
+        if (OperatingSystem.IsLinux())
+        {
+            Tool.Refuses(3, ["run", "pair", option, "/proc/zz"], $"{option} is '/proc/zz'; it must be a file that can be written. The file system at '/proc' lets nothing be made there.");
+            Tool.Refuses(3, ["run", "pair", "--out", "/proc/zz"], "--out is '/proc/zz'; it must be a folder that can be made and written to. The file system at '/proc' lets nothing be made there.");
+        }
+    }
+
+    [Fact]
+    public void Failure_OfASimulation_NamesTheBodyAsTheSceneDoes()
+    {
+        using TemporaryFolder folder = new();
+        string scene = folder["fall.json"];
+        File.WriteAllText(scene, """{"format": "lagsim-scene-1", "name": "fall", "bodies": [{"name": "the stone", "radius_m": 1e-9, "mass_kg": 1, "restitution": 1, "position_m": [0, 0, 0]}]}""");
+        Tool.Refuses(3, ["run", scene, "--until-s", "60"], "body 'the stone' reaches 219", "it falls without end");
+    }
+
     private static double Number(string field) => double.Parse(field, NumberStyles.Float, CultureInfo.InvariantCulture);
 
     private static string[][] Csv(string text, string columns)

@@ -87,7 +87,7 @@ public sealed class StoppingTests
         OutputFolder.ThrowIfNotWritable(folder.Path);
         OutputFolder.ThrowIfNotWritable(folder["new/one/"]);
         IOException failure = Assert.Throws<IOException>(() => OutputFolder.ThrowIfNotWritable(folder["kept/below"]));
-        Assert.StartsWith($"--out is '{folder["kept/below"]}'; it must be a folder that can be made and written to. ", failure.Message, StringComparison.Ordinal);
+        Assert.StartsWith($"--out is '{folder["kept/below"]}'; it must be a folder that can be made and written to. '{folder["kept"]}' is a file, not a folder.", failure.Message, StringComparison.Ordinal);
         Assert.Equal([folder["kept"]], Directory.GetFileSystemEntries(folder.Path));
     }
 

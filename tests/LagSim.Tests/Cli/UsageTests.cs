@@ -229,9 +229,19 @@ public sealed class UsageTests
         File.WriteAllText(folder["file"], "");
         Tool tool = Tool.Run([.. line.Split(' '), Path.Combine(folder["file"], "below")]);
         Assert.True(tool.ExitCode == Input, $"exit code {tool.ExitCode}: {tool.Error}");
-        Assert.Contains("below", tool.Error, StringComparison.Ordinal);
+        Assert.Contains($"{line.Split(' ')[^1]} is '{Path.Combine(folder["file"], "below")}'; it must be ", tool.Error, StringComparison.Ordinal);
+        Assert.Contains("is a file, not a folder.", tool.Error, StringComparison.Ordinal);
         Assert.Equal("", tool.Output);
     }
+
+    [Theory]
+    [InlineData("accuracy --quik", "--quik")]
+    [InlineData("hard drop --control", "--control")]
+    [InlineData("explain -json", "-json")]
+    public void Option_ThatThereIsNone_IsNotTakenForAnArgument(string line, string option) => Tool.Refuses(2, line.Split(' '), $"'{option}'", "--help'.");
+
+    [Fact]
+    public void Argument_BehindTwoDashes_MayLookLikeAnOption() => Tool.Refuses(3, ["explain", "--", "--no.json"], "--no.json: this is neither a built-in scene");
 
     [Fact]
     public void Out_ThatCannotBeWritten_IsToldBeforeTheRun()

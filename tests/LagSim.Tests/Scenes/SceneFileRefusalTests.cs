@@ -1,3 +1,4 @@
+using System.Linq;
 using Xunit;
 
 namespace LagSim.Tests.Scenes;
@@ -55,7 +56,13 @@ public sealed class SceneFileRefusalTests
     [InlineData(
         "\"forces\": [{\"name\": \"f\", \"kind\": \"central\", \"centre_m\": [0, 0, 1], \"strength_m_per_s2\": 1, \"power\": 0.5}]", "forces[0].power",
         "the power is 0.5; it must be a whole number between -4 and 4")]
-    [InlineData("\"forces\": [{\"name\": \"f\", \"kind\": \"linear_drag\", \"coefficient_kg_per_s\": -2}]", "forces[0]", "The strength of force 'f' is -2")]
+    [InlineData("\"forces\": [{\"name\": \"f\", \"kind\": \"linear_drag\", \"coefficient_kg_per_s\": -2}]", "forces[0]", "The coefficient of force 'f' is -2; it must lie between 0 and 1E+30 kg/s")]
+    [InlineData("\"forces\": [{\"name\": \"f\", \"kind\": \"quadratic_drag\", \"coefficient_kg_per_m\": -2}]", "forces[0]", "coefficient of force 'f' is -2; it must lie between 0 and 1E+30 kg/m")]
+    [InlineData("\"forces\": [{\"name\": \"f\", \"kind\": \"spring\", \"anchor_m\": [0, 2e12, 0], \"stiffness_n_per_m\": 1}]", "forces[0]", "The anchor of force 'f' is (0, 2000000000000, 0); every component must be finite and within +-1000000000000 m.")]
+    [InlineData("\"forces\": [{\"name\": \"f\", \"kind\": \"spring\", \"anchor_m\": [0, 0, 0], \"stiffness_n_per_m\": 2e30}]", "forces[0]", "The stiffness of force 'f' is 2E+30; it must lie between 0 and 1E+30 N/m")]
+    [InlineData("\"forces\": [{\"name\": \"f\", \"kind\": \"magnetic\", \"field_t\": [0, 0, 1], \"charge_c\": 2e30}]", "forces[0]", "The charge of force 'f' is 2E+30; it must lie between -1E+30 and 1E+30 C")]
+    [InlineData("\"forces\": [{\"name\": \"f\", \"kind\": \"magnus\", \"coefficient_kg\": 2e30}]", "forces[0]", "The coefficient of force 'f' is 2E+30; it must lie between -1E+30 and 1E+30 kg.")]
+    [InlineData("\"forces\": [{\"name\": \"f\", \"kind\": \"central\", \"centre_m\": [0, 0, 0], \"strength_m_per_s2\": 2e30}]", "forces[0]", "The strength of force 'f' is 2E+30; it must lie between -1E+30 and 1E+30 m/s^2 at 1 m.")]
     [InlineData("\"static_spheres\": [{\"name\": \"a\"}]", "static_spheres[0].centre_m", "missing")]
     [InlineData(
         "\"static_spheres\": [{\"name\": \"a\", \"centre_m\": [0, 2e12, 0], \"radius_m\": 1}]", "static_spheres[0]", "position of static sphere 'a'")]
@@ -98,7 +105,7 @@ public sealed class SceneFileRefusalTests
     [InlineData("0.8", "0.8, \"players\": [0, 0.5]", "bodies[0].players[1]", "the peer 0.5 cannot be granted a right")]
     [InlineData("0.8", "0.8, \"players\": [3, 3]", "bodies[0].players[1]", "the peer 3 stands here twice")]
     [InlineData("0.8", "0.8, \"players\": 3", "bodies[0].players", "it is 3; it must be an array of the numbers of peers")]
-    [InlineData("0.8", "0.8, \"forces\": [\"air\"]", "bodies[0].forces[0]", "no force of the scene is named \"air\"")]
+    [InlineData("0.8", "0.8, \"forces\": [\"air\"]", "bodies[0].forces[0]", "no force of the scene is named \"air\"; it has none")]
     [InlineData("0.8", "0.8, \"forces\": [\"air\", \"air\"]", "bodies[0].forces[1]", "the force \"air\" stands here twice")]
     [InlineData("0.8", "0.8, \"friction\": 101", "bodies[0]", "The friction of body 'ball' is 101; it must lie between 0 and 100")]
     [InlineData("0.8", "0.8, \"rolling_resistance\": 2", "bodies[0]", "The rolling resistance of body 'ball' is 2")]
@@ -138,6 +145,19 @@ public sealed class SceneFileRefusalTests
     [Fact]
     public void Parse_BodyInsideAPlane_NamesBoth() =>
         SceneText.Refuses(SceneText.Valid.Replace("10", "0.25"), "", "Body 'ball' starts 0.25 m deep inside plane 'floor'");
+
+    [Theory]
+    [InlineData(2, "it has \"f0\", \"f1\"")]
+    [InlineData(13, "it has \"f0\", \"f1\", \"f2\", \"f3\", \"f4\", \"f5\", \"f6\", \"f7\", \"f8\", \"f9\" and 3 more")]
+    public void Parse_BodyThatNamesNoForceOfTheScene_SaysWhichThereAre(int count, string there)
+    {
+        string forces = string.Join(", ", Enumerable.Range(0, count).Select(n => $$"""{"name": "f{{n}}", "kind": "magnus", "coefficient_kg": 1}"""));
+        SceneText.Refuses(
+            SceneText.With($$"""
+                "bodies": [{"name": "b", "radius_m": 1, "mass_kg": 1, "restitution": 1, "position_m": [0, 0, 0], "forces": ["g"]}], "forces": [{{forces}}]
+                """),
+            "bodies[0].forces[0]", "no force of the scene is named \"g\"; " + there);
+    }
 
     [Fact]
     public void Parse_SpeedTooHighForTheSmallestRadius_NamesTheBody() =>

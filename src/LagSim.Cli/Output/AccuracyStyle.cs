@@ -1,0 +1,24 @@
+using LagSim.Harness.Accuracy;
+using LagSim.Harness.Charts;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>How a method is drawn, the same in every chart: a colour and a shape of its own. LagSim's are cool and filled, all others warm or grey and open.</summary>
+/// <param name="Colour">The palette slot.</param>
+/// <param name="Shape">What marks its points.</param>
+/// <param name="IsOwn">Whether it is LagSim's, and so drawn through and strong.</param>
+internal sealed record AccuracyStyle(int Colour, PointShape Shape, bool IsOwn)
+{
+    // In the order of the methods: Ballistic, ClosedForm, RungeKutta4, DormandPrince54, the same with fixed steps; MathNet, ODE, Chipmunk, Jitter2, BepuPhysics, Box2D.
+    private static readonly int[] Colours = [7, 0, 2, 8, 5, 6, 1, 3, 4, 9, 10];
+
+    private static readonly PointShape[] Shapes =
+    [
+        PointShape.Disc, PointShape.Diamond, PointShape.Square, PointShape.Triangle, PointShape.TriangleDown, PointShape.Plus, PointShape.OpenSquare,
+        PointShape.Cross, PointShape.OpenTriangle, PointShape.OpenDiamond, PointShape.Circle,
+    ];
+
+    /// <summary>The style of the method with that place among <see cref="WorkMethods.All"/>.</summary>
+    internal static AccuracyStyle Of(int method) => new(
+        Colours[method], Shapes[method], WorkMethods.All[method].Engine == WorkMethods.All[0].Engine);
+}

@@ -1,0 +1,38 @@
+using System;
+using System.IO;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>Why a file or folder cannot be written, in words for who named it.</summary>
+internal static class WriteFailure
+{
+    /// <summary>Whether a failure is one of writing.</summary>
+    internal static bool Is(Exception failure) => failure is IOException or UnauthorizedAccessException or NotSupportedException or ArgumentException;
+
+    /// <summary>A sentence that names the option, what it is, what it must be, and why it is not.</summary>
+    internal static IOException Of(string option, string name, string must, Exception failure) =>
+        new($"{option} is '{name}'; it must be {must}. {Cause(name, failure)}", failure);
+
+    private static string Cause(string name, Exception failure)
+    {
+        string? above = Path.GetDirectoryName(Path.TrimEndingDirectorySeparator(Path.GetFullPath(name)));
+        string? missing = null;
+        while (above is not null && !Directory.Exists(above))
+        {
+            if (File.Exists(above))
+            {
+                return $"'{above}' is a file, not a folder.";
+            }
+
+            (missing, above) = (above, Path.GetDirectoryName(above));
+        }
+
+        return failure switch
+        {
+            UnauthorizedAccessException => $"Permission to write in '{above}' is denied.",
+            DirectoryNotFoundException when missing is not null => $"There is no folder '{missing}'.",
+            FileNotFoundException or DirectoryNotFoundException => $"The file system at '{above}' lets nothing be made there.",
+            _ => failure.Message,
+        };
+    }
+}
