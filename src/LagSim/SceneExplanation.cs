@@ -1,5 +1,7 @@
+using System;
 using System.Collections.Generic;
 using System.Globalization;
+using System.Text;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -10,6 +12,8 @@ namespace LagSim;
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class SceneExplanation
 {
+    private const int MostBodiesInText = 10;
+
     private SceneExplanation(IReadOnlyList<BodyExplanation> bodies, IReadOnlyList<FeatureExplanation> features)
     {
         Bodies = bodies;
@@ -21,6 +25,28 @@ public sealed class SceneExplanation
 
     /// <summary>What can be modelled, always the same in the same order.</summary>
     public IReadOnlyList<FeatureExplanation> Features { get; }
+
+    /// <summary>A line for each of the first ten bodies, how many more there are, and a line for each thing that can be modelled; lines end with LF everywhere.</summary>
+    public override string ToString()
+    {
+        StringBuilder text = new();
+        for (int i = 0; i < Bodies.Count && i < MostBodiesInText; i++)
+        {
+            text.Append(Bodies[i].ToString()).Append('\n');
+        }
+
+        if (Bodies.Count > MostBodiesInText)
+        {
+            text.Append("and ").Append(Count(Bodies.Count - MostBodiesInText, "more body", "more bodies")).Append('\n');
+        }
+
+        for (int i = 0; i < Features.Count; i++)
+        {
+            text.Append(Features[i].ToString()).Append(i + 1 < Features.Count ? "\n" : "");
+        }
+
+        return text.ToString();
+    }
 
     internal static SceneExplanation Of(Scene scene)
     {
@@ -48,7 +74,7 @@ public sealed class SceneExplanation
             MotionLaw.ClosedForm => 1,
             _ => 0,
         };
-        return new BodyExplanation(body.Name, spec.Flight, Why(scene, spec), perSecond, perSecond * evaluations);
+        return new BodyExplanation(body.Name, spec.Flight, Why(scene, spec) + Full(perSecond), perSecond, perSecond * evaluations);
     }
 
     private static string Why(Scene scene, in BodySpec spec)
@@ -66,6 +92,13 @@ public sealed class SceneExplanation
             ? cheapest == MotionLaw.DormandPrince54 && spec.Tolerance == 0 ? $"{Names(scene, spec)}: without a closed form here; with a tolerance of 0 the scene asks for fixed steps." : exact
             : $"The scene asks for {spec.Flight}. {cheapest} would be cheaper: {char.ToLowerInvariant(exact[0])}{exact.Substring(1)}";
     }
+
+    /// <summary>What is to be said of a path that by itself has more pieces than timelines hold unless told otherwise.</summary>
+    private static string Full(double perSecond) =>
+        perSecond * SimulationOptions.DefaultHistory.ToSeconds() <= SimulationOptions.DefaultMaxSegments
+            ? ""
+            : FormattableString.Invariant(
+                $" So many pieces that the timelines are full before the history of {SimulationOptions.DefaultHistory.ToShortString()} is, at {SimulationOptions.DefaultMaxSegments}, unless they become longer: keep a shorter history, allow more, or make the forces weaker.");
 
     private static string Names(Scene scene, in BodySpec spec)
     {

@@ -74,6 +74,11 @@ public sealed partial class Simulation
                 Process(slot, clock);
             }
         }
+        catch (TimelinesFullException full)
+        {
+            fault = new TimelinesFullException($"{full.Message}{WhoseSegments()}", full);
+            throw fault;
+        }
         catch (SimulationException failure)
         {
             fault = failure;

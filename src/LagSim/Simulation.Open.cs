@@ -68,29 +68,13 @@ public sealed partial class Simulation
             MotionLaw.ClosedForm => new KeplerFlight(Scene, spec).Piece(from, x, v, out dense, out tooLarge),
             _ => DormandPrince54.Step(forces, spec, from, x, v, spin, StepToTry(slot), out dense, out tooLarge, out tooStiff),
         };
-        if (!piece.Acceleration.IsFinite || (!dense.IsFinite && tooLarge == 0 && tooStiff == 0))
+        if (!piece.Acceleration.IsFinite || !dense.IsFinite || tooStiff > 0 || tooLarge > 0)
         {
-            throw new SimulationException(
-                $"In the step from {from.ToShortString()} the acceleration of body {bodies[slot].Id} became NaN or infinite; what the forces {spec.Forces.NamesAmong(Scene.ForceArray)} give must be finite.");
-        }
-
-        if (tooStiff > 0)
-        {
-            throw new SimulationException(
-                $"From {from.ToShortString()} on the forces on body {bodies[slot].Id} act at a rate of {Limits.Text(tooStiff)} 1/s; {spec.Flight} with fixed steps follows at most {Limits.Text(MaxRate(spec.Flight))} 1/s, with the shortest step there is.");
-        }
-
-        if (tooLarge > 0)
-        {
-            throw new SimulationException(
-                $"From {from.ToShortString()} on the forces on body {bodies[slot].Id} change so fast that a step of {StepSize.Shortest.ToShortString()} still has {Limits.Text(tooLarge)} times the error of the tolerance, {Limits.Text(spec.Tolerance)}; allow more, or keep it out of the singularity.");
+            throw TooMuch(slot, from, x, v, spin, tooStiff, tooLarge, piece.Acceleration.IsFinite);
         }
 
         return piece;
     }
-
-    private static double MaxRate(MotionLaw law) =>
-        (law == MotionLaw.RungeKutta4 ? RungeKutta4.MaxRateTimesStep : DormandPrince54.MaxRateTimesStep) / Limits.MinStep.ToSeconds();
 
     /// <summary>What the step before proposes, if there was one; else nothing.</summary>
     private SimDuration StepToTry(int slot)

@@ -44,6 +44,7 @@ internal static class DormandPrince54
         rate = 0;
         bool isFixed = spec.Tolerance == 0;
         SimDuration step = isFixed ? spec.Step : tried == SimDuration.Zero ? FirstTried : tried;
+        double known = isFixed ? forces.FixedStepRateAt(spec, x0, v0, spin) : 0;
         Vector3D a1 = forces.At(spec, epoch, 0, x0, v0, spin);
         while (true)
         {
@@ -74,7 +75,7 @@ internal static class DormandPrince54
             if (isFixed)
             {
                 error = 0;
-                rate = Math.Max(forces.RateAt(spec, x0, v0, spin), forces.RateAt(spec, x0 + dx, v7, spin)); // a step may lead to where forces are stiffer
+                rate = Math.Max(known, forces.FixedStepRateAt(spec, x0 + dx, v7, spin)); // a step may lead to where forces are stiffer
                 if (forces.HasSupplied(spec))
                 {
                     Vector3D x7 = x0 + dx;

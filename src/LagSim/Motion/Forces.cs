@@ -1,3 +1,4 @@
+using System;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -34,6 +35,18 @@ internal readonly struct Forces
         foreach (Force force in spec.Forces.Among(scene.ForceArray))
         {
             sum += force.RateAt(spec.Mass, position, velocity, spin);
+        }
+
+        return sum;
+    }
+
+    /// <summary>The same, and how fast the forces change because the body moves: what steps without an estimate of their error have to follow.</summary>
+    internal double FixedStepRateAt(in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D spin)
+    {
+        double sum = 0;
+        foreach (Force force in spec.Forces.Among(scene.ForceArray))
+        {
+            sum += Math.Max(force.RateAt(spec.Mass, position, velocity, spin), force.PassingRateAt(position, velocity));
         }
 
         return sum;

@@ -30,7 +30,7 @@ internal static class RungeKutta4
         in Forces forces, in BodySpec spec, SimTime epoch, in Vector3D x0, in Vector3D v0, in Vector3D spin, out DenseOutput dense, out double rate)
     {
         SimDuration step = spec.Step;
-        double known = spec.Forces.IsEmpty ? 0 : forces.RateAt(spec, x0, v0, spin);
+        double known = spec.Forces.IsEmpty ? 0 : forces.FixedStepRateAt(spec, x0, v0, spin);
         bool estimates = !spec.Forces.IsEmpty && forces.HasSupplied(spec);
         while (known * step.ToSeconds() > MaxRateTimesStep && step.Ticks >= 2 * Limits.MinStep.Ticks)
         {
@@ -52,7 +52,7 @@ internal static class RungeKutta4
             Vector3D a1 = forces.At(spec, epoch, h, x0 + dx, v0 + dv, spin);
             dense = DenseOutput.Between(h, dx, dv, v0, a0, a1);
 
-            rate = spec.Forces.IsEmpty ? 0 : Math.Max(known, forces.RateAt(spec, x0 + dx, v0 + dv, spin)); // a step may lead to where forces are stiffer
+            rate = spec.Forces.IsEmpty ? 0 : Math.Max(known, forces.FixedStepRateAt(spec, x0 + dx, v0 + dv, spin)); // a step may lead to where forces are stiffer
             if (estimates)
             {
                 Vector3D x2 = x0 + (v0 * (0.5 * h));

@@ -119,6 +119,19 @@ internal static class Limits
         }
     }
 
+    /// <summary>A body is not at the very centre of a pull that grows without bound towards it: there is no direction in which it would be drawn.</summary>
+    internal static void CheckCentres<T>(in Vector3D position, in BodySpec spec, T whose, Force[] forces)
+    {
+        foreach (Force force in spec.Forces.Among(forces))
+        {
+            if (force.Kind == ForceKind.Central && force.Power < 0 && position == force.Vector)
+            {
+                throw new SceneException(
+                    $"The position of {whose} is {position} m, the centre of force '{force.Name}', whose power is {force.Power}; at the centre of a pull with a power below 0 a body may not be.");
+            }
+        }
+    }
+
     /// <summary>The highest speed that a scene or a player may give a body: a tenth of the smallest radius in a tick.</summary>
     internal static double MaxGivenSpeed(double smallestRadius) => 0.1 * smallestRadius * SimDuration.TicksPerSecond;
 
@@ -131,13 +144,15 @@ internal static class Limits
     /// </summary>
     internal static double MaxReboundSpeed(double smallestRadius) => 1.5 * MaxGivenSpeed(smallestRadius);
 
-    /// <summary>A box holds at least what its smallest bodies ask for.</summary>
+    /// <summary>A box holds at least the smallest body that the scene promises.</summary>
     internal static void CheckBox<T>(in PeriodicBox box, double smallestRadius, T whose)
     {
-        if (!(box.LeastSide > 0) || box.LeastSide < 2 * PeriodicBox.LeastSides * smallestRadius)
+        Components(box.Size, MaxCoordinate, whose, "periodic box", "m");
+        double least = 2 * PeriodicBox.LeastSides * smallestRadius;
+        if (!(box.LeastSide > 0) || box.LeastSide < least)
         {
             throw new SceneException(
-                $"The periodic box of {whose} is {box.Size} m; every side must be above zero, and at least {PeriodicBox.LeastSides} times the diameter of any body in it.");
+                $"The periodic box of {whose} is {box.Size} m; every side must be above zero, and at least {PeriodicBox.LeastSides} times the diameter of any body in it, with the smallest {Text(least)} m.");
         }
     }
 
@@ -149,7 +164,13 @@ internal static class Limits
             throw new SceneException($"The motion law of {whose} is {spec.Flight}; in a periodic box a body flies by Ballistic.");
         }
 
-        CheckBox(box, spec.Radius, whose);
+        double least = 2 * PeriodicBox.LeastSides * spec.Radius;
+        if (box.LeastSide < least)
+        {
+            throw new SceneException(
+                $"The periodic box is {box.Size} m, and the radius of {whose} is {Text(spec.Radius)} m; every side must be at least {PeriodicBox.LeastSides} times its diameter, {Text(least)} m.");
+        }
+
         CheckPlaceInBox(position, box, whose);
     }
 

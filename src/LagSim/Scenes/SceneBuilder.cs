@@ -163,6 +163,7 @@ public sealed class SceneBuilder
             {
                 ref readonly SceneBody body = ref bodyArray[i];
                 Limits.CheckPosition(body.Position, Whose(body));
+                Limits.CheckCentres(body.Position, body.Spec, Whose(body), forceArray);
                 Limits.CheckVelocity(body.Velocity, smallest, Whose(body));
                 Limits.CheckSpin(body.Spin, body.Spec, smallest, Whose(body), forceArray);
             }
@@ -258,14 +259,13 @@ public sealed class SceneBuilder
             return;
         }
 
-        Limits.CheckPosition(box.Size, $"scene '{name}' (its periodic box)");
+        Limits.CheckBox(box, smallestSpawn ?? 0, $"scene '{name}'");
         if (gravity != Vector3D.Zero || planes.Count + spheres.Count + forces.Count > 0)
         {
             throw new SceneException(
                 $"Scene '{name}' has a periodic box, gravity {gravity} m/s^2, {planes.Count} planes, {spheres.Count} static spheres and {forces.Count} other forces; a periodic box goes with none of those.");
         }
 
-        Limits.CheckBox(box, smallestSpawn ?? 0, $"scene '{name}'");
         foreach (SceneBody body in bodies)
         {
             Limits.CheckInBox(body.Spec, body.Position, box, Whose(body));
