@@ -164,7 +164,7 @@ public sealed class SceneExplanation
         }
 
         string why = rough > 0 ? $"{Count(rough, "body", "bodies")} of {scene.BodyArray.Length} with friction: impacts turn them, on planes they slip, roll and rest."
-            : turning > 0 ? $"{Count(turning, "body", "bodies")} of {scene.BodyArray.Length} turn, evenly and for ever, since none has friction."
+            : turning > 0 ? $"{Count(turning, "body", "bodies")} of {scene.BodyArray.Length} turning from the start, evenly and for ever, since none has friction."
             : "No body has friction or turns at the start, so nothing turns but what is spawned so.";
         return new FeatureExplanation("spin and friction", rough + turning > 0, why);
     }

@@ -15,7 +15,10 @@ public enum MotionLaw : byte
     /// <summary>Motion along one or two static planes, in closed form: without friction, or slipping on one against it. Entered from flight, never a scene's choice.</summary>
     Sliding = 3,
 
-    /// <summary>At rest on static planes, or in an island of bodies at rest; costs nothing until something touches it. Never a scene's choice.</summary>
+    /// <summary>
+    /// At rest on static planes, or in an island of bodies at rest: the centre stays where it is, and that costs nothing until something touches the body. Never a scene's choice.
+    /// It may turn all the while, evenly: about the plane's normal, which no friction resists here, and without friction about anything (<see cref="BodyState.Spin"/>).
+    /// </summary>
     Resting = 4,
 
     /// <summary>In a hand, whose path it has, a cubic or parabola from knot to knot; nothing it meets changes that. Entered by a grab, never a scene's choice.</summary>
