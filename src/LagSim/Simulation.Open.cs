@@ -18,7 +18,8 @@ public sealed partial class Simulation
     /// Opens the body's next segment from a state that holds <paramref name="carry"/> seconds before the key's tick (under a tick, either
     /// way): at rest on or sliding along those of the touched planes that carry it, else in free flight.
     /// </summary>
-    private void Open(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, int crowding, in Vector3D spin)
+    private void Open(
+        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, int crowding, in Vector3D spin)
     {
         if (touchedPlanes.Length > 0 && TryOpenSupported(slot, key, position, velocity, carry, touchedPlanes, crowding, spin))
         {
@@ -144,7 +145,8 @@ public sealed partial class Simulation
         else
         {
             SimTime end = rests ? key.Time + left : EndOfRange(key.Time, tangential, acceleration);
-            Append(slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, end, start, tangential, acceleration, supports, crowding), default, spin: new Spin(spin));
+            MotionSegment slide = new(MotionLaw.Sliding, key.Time, end, start, tangential, acceleration, supports, crowding);
+            Append(slot, key, slide, default, spin: new Spin(spin));
         }
 
         return true;

@@ -105,7 +105,9 @@ public sealed partial class Simulation
         return slot < 0 ? default : bodies[slot].Spec;
     }
 
-    /// <summary>Forgets what lies before <paramref name="time"/>: nothing there can be read or changed any more. Earlier than now is kept, later is not forgotten.</summary>
+    /// <summary>
+    /// Forgets what lies before <paramref name="time"/>: nothing there can be read or changed any more. Earlier than now is kept, later is not forgotten.
+    /// </summary>
     public void DropHistoryBefore(SimTime time)
     {
         HistoryEdge = SimTime.Max(HistoryEdge, SimTime.Min(time, SimulatedTo));
@@ -145,7 +147,8 @@ public sealed partial class Simulation
         if (time < HistoryEdge || time > Horizon)
         {
             throw new ArgumentOutOfRangeException(
-                nameof(time), time.ToShortString(), $"Readable is from {HistoryEdge.ToShortString()}, the edge of the history, to {Horizon.ToShortString()}, where the next event is due.");
+                nameof(time), time.ToShortString(), $"Readable is from {HistoryEdge.ToShortString()}, the edge of the history, to {Horizon.ToShortString()},"
+                    + " where the next event is due.");
         }
     }
 }

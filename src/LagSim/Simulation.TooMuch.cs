@@ -27,14 +27,16 @@ public sealed partial class Simulation
         {
             if (force.Kind == ForceKind.Central && force.Power < 0 && x == force.Vector)
             {
-                return new SimulationException($"{where} have no value: it is at the centre of '{force.Name}', whose power is {force.Power}; start it, or put it, elsewhere.");
+                return new SimulationException(
+                    $"{where} have no value: it is at the centre of '{force.Name}', whose power is {force.Power}; start it, or put it, elsewhere.");
             }
         }
 
         if (!isFinite || (tooStiff == 0 && tooLarge == 0))
         {
             return new SimulationException(
-                $"{where} give an acceleration that is NaN or infinite, there or within the step: {spec.Forces.NamesAmong(Scene.ForceArray)}. What they give must be finite.");
+                $"In the step from {from.ToShortString()}, at {x} m and {v} m/s, the acceleration of {Whose(slot)} became NaN or infinite; what the forces"
+                + $" {spec.Forces.NamesAmong(Scene.ForceArray)} give must be finite.");
         }
 
         string rates = RatesOn(slot, x, v, spin);
@@ -42,13 +44,17 @@ public sealed partial class Simulation
         {
             double most = (spec.Flight == MotionLaw.RungeKutta4 ? RungeKutta4.MaxRateTimesStep : DormandPrince54.MaxRateTimesStep) / Limits.MinStep.ToSeconds();
             double here = forces.FixedStepRateAt(spec, x, v, spin);
-            string what = here > most ? $"act at a rate of {Limits.Text(here)} 1/s" : $"lead in a step to where they act at a rate of {Limits.Text(tooStiff)} 1/s";
+            string what = here > most ? $"act at a rate of {Limits.Text(here)} 1/s" : $"lead in a step to where they act at a rate of"
+                + $" {Limits.Text(tooStiff)} 1/s";
             return new SimulationException(
-                $"{where} {what}: there {rates}. {spec.Flight} with fixed steps follows at most {Limits.Text(most)} 1/s, by the shortest step there is. Make them weaker, or use Automatic.");
+                $"{where} {what}: there {rates}. {spec.Flight} with fixed steps follows at most {Limits.Text(most)} 1/s, by the shortest step there is. Make"
+                + " them weaker, or use Automatic.");
         }
 
         return new SimulationException(
-            $"{where} change so fast that a step of {StepSize.Shortest.ToShortString()}, the shortest there is, still has {Limits.Text(tooLarge)} times the error of the tolerance, {Limits.Text(spec.Tolerance)}: there {rates}. Allow a larger error, make them weaker, or keep it away from where they have no bound.");
+            $"{where} change so fast that a step of {StepSize.Shortest.ToShortString()}, the shortest there is, still has {Limits.Text(tooLarge)} times the"
+            + $" error of the tolerance, {Limits.Text(spec.Tolerance)}: there {rates}. Allow a larger error, make them weaker, or keep it out of the"
+            + " singularity, if there is one.");
     }
 
     /// <summary>A body in words: the name that a scene gives it, and its identity.</summary>
@@ -72,7 +78,9 @@ public sealed partial class Simulation
         return text.ToString();
     }
 
-    /// <summary>Whose path most segments of full timelines are, how short they are, and how long they would have to be; a sentence that follows another.</summary>
+    /// <summary>
+    /// Whose path most segments of full timelines are, how short they are, and how long they would have to be; a sentence that follows another.
+    /// </summary>
     private string WhoseSegments()
     {
         int most = 0;
@@ -98,7 +106,8 @@ public sealed partial class Simulation
         double least = history.ToSeconds() / timelines.Most;
         ref readonly MotionSegment path = ref timelines.Segment(last);
         string rates = RatesOn(whose, path.Position, path.Velocity, timelines.SpinOf(last).AtEpoch);
-        return $" Most are of {Whose(whose)}: {most}, of {Limits.Text(mean)} s in the mean; the history that is kept, {history.ToShortString()}, has room for pieces of {Limits.Text(least)} s."
+        return $" Most are of {Whose(whose)}: {most}, of {Limits.Text(mean)} s in the mean; the history that is kept, {history.ToShortString()}, has room for"
+            + $" pieces of {Limits.Text(least)} s."
             + (rates.Length > 0 ? $" On it {rates}." : "");
     }
 }

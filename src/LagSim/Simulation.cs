@@ -42,7 +42,8 @@ public sealed partial class Simulation
     /// <exception cref="ArgumentNullException">There is no scene.</exception>
     /// <exception cref="OperationCanceledException">The options' token asked for an end.</exception>
     public Simulation(Scene scene, SimulationOptions? options = null)
-        : this(scene ?? throw new ArgumentNullException(nameof(scene)), options ??= new SimulationOptions(), options.Start, options.Start, scene.BodyArray.Length)
+        : this(scene ?? throw new ArgumentNullException(nameof(scene)), options ??= new SimulationOptions(), options.Start, options.Start,
+              scene.BodyArray.Length)
     {
         for (int i = 0; i < scene.BodyArray.Length; i++)
         {

@@ -59,7 +59,9 @@ public sealed class SimulationHost : IDisposable
     /// <summary>How far, at most.</summary>
     public SimDuration MaxLateness => world.MaxLateness;
 
-    /// <summary>Whether there is more to simulate than could be done by now, so that <see cref="Picture"/> ends before <see cref="Now"/> or soon after.</summary>
+    /// <summary>
+    /// Whether there is more to simulate than could be done by now, so that <see cref="Picture"/> ends before <see cref="Now"/> or soon after.
+    /// </summary>
     public bool IsBehind => world.IsBehind;
 
     /// <summary>How many steps the thread has done; a world at rest does none.</summary>
@@ -94,7 +96,9 @@ public sealed class SimulationHost : IDisposable
         return external;
     }
 
-    /// <summary>Stops the thread, in the middle of its work if it is at some, and waits for it. The last picture stays readable; nothing more can be done to the world.</summary>
+    /// <summary>
+    /// Stops the thread, in the middle of its work if it is at some, and waits for it. The last picture stays readable; nothing more can be done to the world.
+    /// </summary>
     public void Dispose()
     {
         disposed = true;

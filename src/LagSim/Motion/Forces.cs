@@ -28,7 +28,9 @@ internal readonly struct Forces
         return sum;
     }
 
-    /// <summary>How fast, in 1/s, a deviation changes at a state, as far as it is known: no less than the largest of the forces' own rates, no more than their sum.</summary>
+    /// <summary>
+    /// How fast, in 1/s, a deviation changes at a state, as far as it is known: no less than the largest of the forces' own rates, no more than their sum.
+    /// </summary>
     internal double RateAt(in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         double sum = 0;

@@ -17,16 +17,24 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
     /// <param name="mass">Kilograms, 1e-30 to 1e30.</param>
     /// <param name="restitution">0 (stays) to 1 (elastic). Of two things that meet, the lesser counts.</param>
     /// <param name="flight">The law of free flight; by default <see cref="MotionLaw.Automatic"/>, the cheapest that is exact for the forces.</param>
-    /// <param name="step">The step of an integrating law, 1 microsecond to 1 s; zero means <see cref="DefaultStep"/>. Ignored by closed forms and under error control.</param>
+    /// <param name="step">
+    /// The step of an integrating law, 1 microsecond to 1 s; zero means <see cref="DefaultStep"/>. Ignored by closed forms and under error control.
+    /// </param>
     /// <param name="forces">Those of the scene's forces that act on it besides gravity.</param>
     /// <param name="tolerance">
-    /// 0 to 1. Of <see cref="MotionLaw.DormandPrince54"/> the estimated error that a step may have, in metres for the position and in m/s for the velocity; 0 means fixed steps.
-    /// Of <see cref="MotionLaw.ClosedForm"/> how far in metres the path may be off within a piece, at whose ends it is exact; 0 means to rounding. Ignored by the others.
+    /// 0 to 1. Of <see cref="MotionLaw.DormandPrince54"/> the estimated error that a step may have, in metres for the position and in m/s for the velocity; 0
+    /// means fixed steps.
+    /// Of <see cref="MotionLaw.ClosedForm"/> how far in metres the path may be off within a piece, at whose ends it is exact; 0 means to rounding. Ignored by
+    /// the others.
     /// </param>
     /// <param name="friction">
-    /// The coefficient of Coulomb friction, 0 (none, the default) to 100. Of two things that meet, the lesser counts. Bodies are solid spheres: their moment of inertia is 2/5 m r².
+    /// The coefficient of Coulomb friction, 0 (none, the default) to 100. Of two things that meet, the lesser counts. Bodies are solid spheres: their moment of
+    /// inertia is 2/5 m r².
     /// </param>
-    /// <param name="rollingResistance">The coefficient of rolling resistance, 0 (rolls on, the default) to 1: the part of its weight that holds a rolling body back. Without friction nothing rolls.</param>
+    /// <param name="rollingResistance">
+    /// The coefficient of rolling resistance, 0 (rolls on, the default) to 1: the part of its weight that holds a rolling body back. Without friction nothing
+    /// rolls.
+    /// </param>
     public BodySpec(
         double radius,
         double mass,

@@ -42,7 +42,9 @@ public sealed class SceneBuilder
     }
 
     /// <summary>Sets the length in metres, 1e-15 to 1e-3, below which bounces on a plane are not followed hop by hop; default 1e-9.</summary>
-    /// <remarks>On anything but a plane alone a bounce is the last that rises less than a thousand times this; and within that distance what lasts is in contact.</remarks>
+    /// <remarks>
+    /// On anything but a plane alone a bounce is the last that rises less than a thousand times this; and within that distance what lasts is in contact.
+    /// </remarks>
     public SceneBuilder WithResolution(double metres)
     {
         resolution = metres;
@@ -56,8 +58,11 @@ public sealed class SceneBuilder
         return this;
     }
 
-    /// <summary>On how many threads <see cref="Build"/> checks a large scene at most, 1 to <see cref="MaxThreads"/>; default as many as there are processors.</summary>
-    /// <remarks>It has no influence on the scene, to the bit, nor on which error is told. Less than 16,384 bodies are checked on the caller's thread alone, and so is everything
+    /// <summary>
+    /// On how many threads <see cref="Build"/> checks a large scene at most, 1 to <see cref="MaxThreads"/>; default as many as there are processors.
+    /// </summary>
+    /// <remarks>It has no influence on the scene, to the bit, nor on which error is told. Less than 16,384 bodies are checked on the caller's thread alone, and
+    /// so is everything
     /// where there is one processor.</remarks>
     public SceneBuilder WithThreads(int most)
     {
@@ -96,7 +101,9 @@ public sealed class SceneBuilder
     /// <param name="position">Where its centre starts, in metres.</param>
     /// <param name="velocity">In m/s; default none.</param>
     /// <param name="players">Which peers may do something to it, in a session; default everyone.</param>
-    /// <param name="spin">How it turns, in rad/s about the vector; default not at all. It matters where something has friction, or under a Magnus force.</param>
+    /// <param name="spin">
+    /// How it turns, in rad/s about the vector; default not at all. It matters where something has friction, or under a Magnus force.
+    /// </param>
     public SceneBuilder AddBody(
         string bodyName, BodySpec spec, Vector3D position, Vector3D velocity = default, PeerSet players = default, Vector3D spin = default)
     {
@@ -111,7 +118,9 @@ public sealed class SceneBuilder
         return this;
     }
 
-    /// <summary>Puts everything in a box from the origin to <paramref name="size"/> whose opposite sides meet: what leaves it on one side comes in on the other.</summary>
+    /// <summary>
+    /// Puts everything in a box from the origin to <paramref name="size"/> whose opposite sides meet: what leaves it on one side comes in on the other.
+    /// </summary>
     /// <remarks>
     /// It goes with free flight alone: no gravity, planes, static spheres or other forces, and bodies that fly by Ballistic. Each side is at least
     /// five times the largest diameter; bodies start, and are spawned or put, inside. Their paths are opened anew after an eighth of the least side, so
@@ -139,7 +148,9 @@ public sealed class SceneBuilder
         return this;
     }
 
-    /// <summary>Checks everything and makes the scene. Cost: O(n log n) in the bodies, on several threads if they are many (<see cref="WithThreads"/>).</summary>
+    /// <summary>
+    /// Checks everything and makes the scene. Cost: O(n log n) in the bodies, on several threads if they are many (<see cref="WithThreads"/>).
+    /// </summary>
     /// <exception cref="SceneException">Something is not valid; the sentence names the value and what is allowed.</exception>
     public Scene Build()
     {
@@ -263,7 +274,8 @@ public sealed class SceneBuilder
         if (gravity != Vector3D.Zero || planes.Count + spheres.Count + forces.Count > 0)
         {
             throw new SceneException(
-                $"Scene '{name}' has a periodic box, gravity {gravity} m/s^2, {planes.Count} planes, {spheres.Count} static spheres and {forces.Count} other forces; a periodic box goes with none of those.");
+                $"Scene '{name}' has a periodic box, gravity {gravity} m/s^2, {planes.Count} planes, {spheres.Count} static spheres and {forces.Count} other"
+                + " forces; a periodic box goes with none of those.");
         }
 
         foreach (SceneBody body in bodies)

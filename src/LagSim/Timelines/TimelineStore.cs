@@ -48,7 +48,8 @@ internal sealed class TimelineStore
 
     /// <summary>
     /// No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to
-    /// <paramref name="flights"/>; with room for as many bodies as are expected at first, and for few of them for a second segment each. Of how long a history it will be helps to guess how much
+    /// <paramref name="flights"/>; with room for as many bodies as are expected at first, and for few of them for a second segment each. Of how long a history
+    /// it will be helps to guess how much
     /// room it will need.
     /// </summary>
     internal TimelineStore(
@@ -196,7 +197,8 @@ internal sealed class TimelineStore
 
     /// <summary>Opens the body's next segment.</summary>
     /// <exception cref="TimelinesFullException">There are as many as may be.</exception>
-    internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output, in Hold hold = default, in Spin spin = default)
+    internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output, in Hold hold = default,
+        in Spin spin = default)
     {
         if (free == None && (used == pieces.Length || used == Most))
         {
@@ -213,7 +215,8 @@ internal sealed class TimelineStore
             if (used == Most)
             {
                 throw new TimelinesFullException(
-                    $"At {key.Time.ToShortString()} the timelines hold {Most} segments, the most that the options allow: allow more, keep a shorter history, or look for what makes so many events.");
+                    $"At {key.Time.ToShortString()} the timelines hold {Most} segments, the most that the options allow: allow more, keep a shorter history,"
+                    + " or look for what makes so many events.");
             }
 
             at = used++;
@@ -486,7 +489,8 @@ internal sealed class TimelineStore
 
     /// <summary>
     /// For how many segments room will be needed, as far as can be told before a whole history has gone by: if as many are opened for the rest of it, from an
-    /// eighth of it on. No more than a quarter above what there is, for what begins need not go on. To grow by little until then would be to copy everything some hundred times.
+    /// eighth of it on. No more than a quarter above what there is, for what begins need not go on. To grow by little until then would be to copy everything
+    /// some hundred times.
     /// </summary>
     private int Expected(SimTime now)
     {
