@@ -13,7 +13,8 @@ public sealed partial class Simulation
     /// <summary>Where a body is at any instant from <see cref="HistoryEdge"/> to <see cref="Horizon"/>, after all events of that tick.</summary>
     /// <returns>False, and a state that is <see cref="MotionLaw.Absent"/>, if the body is unknown or not there at that time.</returns>
     /// <remarks>Opens no segment and changes nothing. Cost: the number of the body's segments after that time.</remarks>
-    /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="HistoryEdge"/> or after <see cref="Horizon"/>: advance first.</exception>
+    /// <exception cref="InvalidOperationException">The simulation ended by an exception.</exception>
     public bool TryRead(BodyId body, SimTime time, out BodyState state)
     {
         CheckReadable(time);

@@ -27,7 +27,7 @@ public sealed class SimulationOptions
     /// </param>
     /// <param name="maxSegments">
     /// How many pieces of path all timelines together may hold, at least one; default <see cref="DefaultMaxSegments"/>. Each takes some 250
-    /// bytes. A simulation that would need more ends with a <see cref="SimulationException"/>.
+    /// bytes. A simulation that would need more ends with a <see cref="TimelinesFullException"/>, which tells whose path they are.
     /// </param>
     /// <param name="cancellation">
     /// Ends whatever the simulation is at, from any thread, between two instants, with an <see cref="OperationCanceledException"/>.
@@ -79,7 +79,9 @@ public sealed class SimulationOptions
     /// <summary>How far behind the simulated time timelines are kept.</summary>
     public SimDuration History { get; }
 
-    /// <summary>How many pieces of path all timelines together may hold.</summary>
+    /// <summary>
+    /// How many pieces of path all timelines together may hold, each of some 250 bytes; more end with a <see cref="TimelinesFullException"/>.
+    /// </summary>
     public int MaxSegments { get; }
 
     /// <summary>How an event is brought in that lies before the simulated time.</summary>

@@ -69,19 +69,21 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
     /// <summary>The law of free flight; <see cref="MotionLaw.Automatic"/> only with forces, until a scene or a simulation has chosen.</summary>
     public MotionLaw Flight { get; }
 
-    /// <summary>The integrator's step.</summary>
+    /// <summary>
+    /// The step of <see cref="MotionLaw.RungeKutta4"/>, and of <see cref="MotionLaw.DormandPrince54"/> with a tolerance of 0; others do not use it.
+    /// </summary>
     public SimDuration Step { get; }
 
     /// <summary>The forces that act on it besides gravity.</summary>
     public ForceSet Forces { get; }
 
-    /// <summary>What an error may be, in metres and m/s.</summary>
+    /// <summary>What an error may be, in metres and m/s; 0 for fixed steps or, of a closed form, for rounding. See the constructor.</summary>
     public double Tolerance { get; }
 
-    /// <summary>The coefficient of Coulomb friction.</summary>
+    /// <summary>The coefficient of Coulomb friction, without a unit; of two things that meet, the lesser counts.</summary>
     public double Friction { get; }
 
-    /// <summary>The coefficient of rolling resistance.</summary>
+    /// <summary>The coefficient of rolling resistance, without a unit: the body's own, but no more than the friction where it touches.</summary>
     public double RollingResistance { get; }
 
     /// <summary>The same body on another law of flight.</summary>

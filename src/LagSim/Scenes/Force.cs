@@ -42,20 +42,20 @@ public sealed class Force
     /// <summary>Stokes drag, F = -c (v - w): slow motion in what is viscous.</summary>
     /// <param name="name">1 to 64 characters.</param>
     /// <param name="coefficient">c in kg/s, 0 to 1e30; of a sphere in a fluid of viscosity eta it is 6 pi eta r.</param>
-    /// <param name="medium">w, the medium's velocity in m/s; default none.</param>
+    /// <param name="medium">w, the medium's velocity (wind) in m/s, each component within 1e12; default none.</param>
     public static Force LinearDrag(string name, double coefficient, Vector3D medium = default) =>
         new(ForceKind.LinearDrag, name) { Strength = coefficient, Vector = medium.WithoutNegativeZero() };
 
     /// <summary>Newton drag, F = -k |v - w| (v - w): balls in air.</summary>
     /// <param name="name">1 to 64 characters.</param>
     /// <param name="coefficient">k in kg/m, 0 to 1e30; of a sphere 0.5 rho C pi r², with C about 0.47.</param>
-    /// <param name="medium">w, the medium's velocity in m/s; default none.</param>
+    /// <param name="medium">w, the medium's velocity (wind) in m/s, each component within 1e12; default none.</param>
     public static Force QuadraticDrag(string name, double coefficient, Vector3D medium = default) =>
         new(ForceKind.QuadraticDrag, name) { Strength = coefficient, Vector = medium.WithoutNegativeZero() };
 
     /// <summary>A spring to a point, F = -k (x - a) - c v.</summary>
     /// <param name="name">1 to 64 characters.</param>
-    /// <param name="anchor">a, in m.</param>
+    /// <param name="anchor">a, where the spring has length zero, in m; each component within 1e12.</param>
     /// <param name="stiffness">k in N/m, 0 to 1e30.</param>
     /// <param name="damping">c in kg/s, 0 to 1e30; default none.</param>
     public static Force Spring(string name, Vector3D anchor, double stiffness, double damping = 0) =>
@@ -63,7 +63,7 @@ public sealed class Force
 
     /// <summary>What a uniform magnetic field does to a charge, F = q v x B: it turns the velocity and leaves the speed.</summary>
     /// <param name="name">1 to 64 characters.</param>
-    /// <param name="field">B in T.</param>
+    /// <param name="field">B in T, each component within 1e12.</param>
     /// <param name="charge">q in C, within 1e30.</param>
     public static Force Magnetic(string name, Vector3D field, double charge) =>
         new(ForceKind.Magnetic, name) { Strength = charge, Vector = field.WithoutNegativeZero() };
@@ -72,7 +72,7 @@ public sealed class Force
     /// A pull towards a centre that gives every mass the same acceleration, s |r|^p, and none at the centre itself: gravity of a fixed body with p = -2.
     /// </summary>
     /// <param name="name">1 to 64 characters.</param>
-    /// <param name="centre">In m.</param>
+    /// <param name="centre">In m, each component within 1e12. With a power below 0 no body may start at it, and none gets through it.</param>
     /// <param name="strength">
     /// s, within 1e30: the acceleration at 1 m in m/s²; below zero it pushes. With p = -2 it is the gravitational parameter in m³/s².
     /// </param>
@@ -87,7 +87,12 @@ public sealed class Force
     /// </param>
     public static Force Magnus(string name, double coefficient) => new(ForceKind.Magnus, name) { Strength = coefficient };
 
-    /// <summary>An acceleration in C#, which travels by name and author's version: a peer that does not have it is refused.</summary>
+    /// <summary>
+    /// An acceleration in C#, a program's own. It travels by name and author's version, never as code: a joiner that does not have it among
+    /// <c>SessionOptions.Accelerations</c> does not get in. A body under it never comes to rest, and its steps are <see cref="MotionLaw.DormandPrince54"/>'s or
+    /// fixed.
+    /// </summary>
+    /// <exception cref="ArgumentNullException">There is none.</exception>
     public static Force Supplied(IAcceleration acceleration) =>
         new(ForceKind.Supplied, (acceleration ?? throw new ArgumentNullException(nameof(acceleration))).Name) { Acceleration = acceleration };
 

@@ -31,10 +31,14 @@ public sealed class SceneBuilder
     private double? smallestSpawn;
     private int? threads;
 
-    /// <summary>Starts a scene of that name with default gravity and nothing in it.</summary>
+    /// <summary>Starts a scene of that name with default gravity and nothing in it. The name is for people, no part of <see cref="Scene.Hash"/>.</summary>
+    /// <exception cref="ArgumentNullException">There is no name.</exception>
     public SceneBuilder(string name) => this.name = name ?? throw new ArgumentNullException(nameof(name));
 
-    /// <summary>Sets the uniform acceleration of free bodies, in m/s^2; y points up.</summary>
+    /// <summary>
+    /// Sets the uniform acceleration of free bodies, in m/s^2, each component within 1e6; default <see cref="DefaultGravity"/>, <see cref="Vector3D.Zero"/> for
+    /// none. y points up.
+    /// </summary>
     public SceneBuilder WithGravity(Vector3D acceleration)
     {
         gravity = acceleration;
@@ -51,7 +55,11 @@ public sealed class SceneBuilder
         return this;
     }
 
-    /// <summary>Promises that no body smaller than this, in metres, is spawned. Default: the smallest body of the scene.</summary>
+    /// <summary>
+    /// Promises that no body smaller than this, in metres, 1e-9 to 1e9, is spawned; what is smaller is refused. Default: the smallest body of the scene. With
+    /// the bodies' radii it
+    /// bounds the speed that may be given: a tenth of the smallest radius in a tick, 1.1e11 m/s times that radius in metres.
+    /// </summary>
     public SceneBuilder WithSmallestRadius(double metres)
     {
         smallestSpawn = metres;
@@ -70,7 +78,13 @@ public sealed class SceneBuilder
         return this;
     }
 
-    /// <summary>Adds a plane through a point; bodies live on the side the normal, of any length, points to.</summary>
+    /// <summary>Adds a plane through a point. It is infinite and never moves; bodies live on one side of it.</summary>
+    /// <param name="planeName">1 to 64 characters, and no other part's.</param>
+    /// <param name="normal">Points to the side where bodies are; of any length between 1e-150 and 1e150.</param>
+    /// <param name="point">Any point of the plane, in metres.</param>
+    /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the body.</param>
+    /// <param name="friction">0 to 100. Of two things that meet, the lesser counts, so the default, 100, leaves it to the body.</param>
+    /// <exception cref="SceneException">The point is not finite, or the normal has no length.</exception>
     public SceneBuilder AddPlane(string planeName, Vector3D normal, Vector3D point, double restitution = 1, double friction = Limits.MaxFriction)
     {
         if (!point.IsFinite)
@@ -81,14 +95,25 @@ public sealed class SceneBuilder
         return AddPlane(planeName, normal, Vector3D.Dot(Unit(planeName, normal), point), restitution, friction);
     }
 
-    /// <summary>Adds the plane of the points p with n . p = <paramref name="offset"/> (metres), n the normal at unit length, towards the bodies.</summary>
+    /// <summary>Adds the plane of the points p with n . p = <paramref name="offset"/>, n the normal at unit length, towards the bodies.</summary>
+    /// <param name="planeName">1 to 64 characters, and no other part's.</param>
+    /// <param name="normal">Points to the side where bodies are; of any length between 1e-150 and 1e150.</param>
+    /// <param name="offset">The signed distance of the plane from the origin along the normal, in metres, within 1e12.</param>
+    /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the body.</param>
+    /// <param name="friction">0 to 100. Of two things that meet, the lesser counts, so the default, 100, leaves it to the body.</param>
+    /// <exception cref="SceneException">The normal is not finite, or has no length.</exception>
     public SceneBuilder AddPlane(string planeName, Vector3D normal, double offset, double restitution = 1, double friction = Limits.MaxFriction)
     {
         planes.Add(new StaticPlane(planeName, Unit(planeName, normal), offset + 0.0, restitution, friction));
         return this;
     }
 
-    /// <summary>Adds a sphere that never moves.</summary>
+    /// <summary>Adds a sphere that never moves; bodies live outside of it.</summary>
+    /// <param name="sphereName">1 to 64 characters, and no other part's.</param>
+    /// <param name="centre">In metres, each component within 1e12.</param>
+    /// <param name="radius">In metres, 1e-9 to 1e9.</param>
+    /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the body.</param>
+    /// <param name="friction">0 to 100. Of two things that meet, the lesser counts, so the default, 100, leaves it to the body.</param>
     public SceneBuilder AddStaticSphere(string sphereName, Vector3D centre, double radius, double restitution = 1, double friction = Limits.MaxFriction)
     {
         spheres.Add(new StaticSphere(sphereName, centre.WithoutNegativeZero(), radius, restitution, friction));
@@ -98,8 +123,8 @@ public sealed class SceneBuilder
     /// <summary>Adds a body; the n-th added, counted from 0, has the identity (0, 0, n).</summary>
     /// <param name="bodyName">1 to 64 characters, and no other part's.</param>
     /// <param name="spec">Size, mass, material and flight.</param>
-    /// <param name="position">Where its centre starts, in metres.</param>
-    /// <param name="velocity">In m/s; default none.</param>
+    /// <param name="position">Where its centre starts, in metres, each component within 1e12. Bodies start apart or touching, not inside of anything.</param>
+    /// <param name="velocity">In m/s; default none. At most a tenth of the smallest radius in a tick, 1.1e11 m/s times that radius in metres.</param>
     /// <param name="players">Which peers may do something to it, in a session; default everyone.</param>
     /// <param name="spin">
     /// How it turns, in rad/s about the vector; default not at all. It matters where something has friction, or under a Magnus force.
@@ -141,7 +166,11 @@ public sealed class SceneBuilder
         return AddForce(force);
     }
 
-    /// <summary>Adds a force; the n-th added, counted from 0, is <see cref="ForceSet.Of"/> n.</summary>
+    /// <summary>
+    /// Adds a force; the n-th added, counted from 0, is <see cref="ForceSet.Of"/> n. It acts on the bodies whose <see cref="BodySpec.Forces"/> have it, at most
+    /// <see cref="ForceSet.Most"/> there are.
+    /// </summary>
+    /// <exception cref="ArgumentNullException">There is no force.</exception>
     public SceneBuilder AddForce(Force force)
     {
         forces.Add(force ?? throw new ArgumentNullException(nameof(force)));
