@@ -262,7 +262,8 @@ public sealed partial class LiteNetLibPort : IDatagramPort
             int port = manager.LocalPort;
             manager.Stop();
             SocketException? failure = WhyNot(new IPEndPoint(IPAddress.IPv6Any, port));
-            throw new IOException($"UDP port {new IPEndPoint(IPAddress.IPv6Any, port)} cannot be opened for IPv6{(failure is null ? "" : $": {failure.Message}")}.", failure);
+            throw new IOException(
+                $"UDP port {new IPEndPoint(IPAddress.IPv6Any, port)} cannot be opened for IPv6{(failure is null ? "" : $": {failure.Message}")}.", failure);
         }
     }
 

@@ -1,3 +1,4 @@
+using System.Globalization;
 using LagSim.Scenes;
 
 namespace LagSim;
@@ -24,9 +25,22 @@ public sealed class BodyExplanation
     /// <summary>Why that law, in a sentence.</summary>
     public string Why { get; }
 
-    /// <summary>How many pieces its path has in a simulated second where it starts, besides those that impacts open; 0: one piece from impact to impact.</summary>
+    /// <summary>
+    /// How many pieces its path has in a simulated second where it starts, besides those that impacts open; 0: one piece from impact to impact.
+    /// </summary>
     public double SegmentsPerSecond { get; }
 
     /// <summary>How often its forces are evaluated in a simulated second where it starts.</summary>
     public double EvaluationsPerSecond { get; }
+
+    /// <summary>
+    /// One line: the body, its law, what that costs if it comes in pieces, and why; <c>ball: Ballistic. Only uniform gravity acts on it: a parabola is
+    /// exact.</c>
+    /// </summary>
+    public override string ToString() =>
+        SegmentsPerSecond == 0
+            ? $"{Body}: {Motion}. {Why}"
+            : string.Format(
+                CultureInfo.InvariantCulture, "{0}: {1}, {2:G3} pieces/s, {3:G3} force"
+                    + " calls/s. {4}", Body, Motion, SegmentsPerSecond, EvaluationsPerSecond, Why);
 }

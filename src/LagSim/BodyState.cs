@@ -17,10 +17,14 @@ public readonly struct BodyState
     /// <summary>The centre, in metres.</summary>
     public Vector3D Position { get; }
 
-    /// <summary>Metres per second.</summary>
+    /// <summary>The velocity of the centre, in metres per second.</summary>
     public Vector3D Velocity { get; }
 
-    /// <summary>How it turns, in radians per second about the vector; zero of what has no friction and was not given any.</summary>
+    /// <summary>
+    /// How it turns, in radians per second about the vector; zero of what has no friction and was not given any. What rests may turn too: nothing resists
+    /// turning about the
+    /// normal of what it lies on, and without friction nothing resists turning at all.
+    /// </summary>
     public Vector3D Spin { get; }
 
     /// <summary>The law it moves by; <see cref="MotionLaw.Absent"/> if it is not there.</summary>

@@ -19,4 +19,7 @@ public sealed class FeatureExplanation
 
     /// <summary>Why, in a sentence.</summary>
     public string Why { get; }
+
+    /// <summary>One line: <c>integrator: no. Every path has a closed form.</c></summary>
+    public override string ToString() => $"{Name}: {(IsModelled ? "yes" : "no")}. {Why}";
 }

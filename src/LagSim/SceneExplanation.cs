@@ -1,5 +1,6 @@
 using System.Collections.Generic;
 using System.Globalization;
+using System.Text;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -10,6 +11,8 @@ namespace LagSim;
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class SceneExplanation
 {
+    private const int MostBodiesInText = 10;
+
     private SceneExplanation(IReadOnlyList<BodyExplanation> bodies, IReadOnlyList<FeatureExplanation> features)
     {
         Bodies = bodies;
@@ -21,6 +24,30 @@ public sealed class SceneExplanation
 
     /// <summary>What can be modelled, always the same in the same order.</summary>
     public IReadOnlyList<FeatureExplanation> Features { get; }
+
+    /// <summary>
+    /// A line for each of the first ten bodies, how many more there are, and a line for each thing that can be modelled; lines end with LF everywhere.
+    /// </summary>
+    public override string ToString()
+    {
+        StringBuilder text = new();
+        for (int i = 0; i < Bodies.Count && i < MostBodiesInText; i++)
+        {
+            text.Append(Bodies[i].ToString()).Append('\n');
+        }
+
+        if (Bodies.Count > MostBodiesInText)
+        {
+            text.Append("and ").Append(Count(Bodies.Count - MostBodiesInText, "more body", "more bodies")).Append('\n');
+        }
+
+        for (int i = 0; i < Features.Count; i++)
+        {
+            text.Append(Features[i].ToString()).Append(i + 1 < Features.Count ? "\n" : "");
+        }
+
+        return text.ToString();
+    }
 
     internal static SceneExplanation Of(Scene scene)
     {
@@ -48,7 +75,7 @@ public sealed class SceneExplanation
             MotionLaw.ClosedForm => 1,
             _ => 0,
         };
-        return new BodyExplanation(body.Name, spec.Flight, Why(scene, spec), perSecond, perSecond * evaluations);
+        return new BodyExplanation(body.Name, spec.Flight, Why(scene, spec) + Full(perSecond), perSecond, perSecond * evaluations);
     }
 
     private static string Why(Scene scene, in BodySpec spec)
@@ -57,15 +84,27 @@ public sealed class SceneExplanation
         MotionLaw cheapest = FlightLaws.Chosen(free, scene.Gravity, scene.ForceArray);
         string exact = cheapest switch
         {
-            MotionLaw.Ballistic => scene.Gravity == Vector3D.Zero ? "No force acts on it: a straight line is exact." : "Only uniform gravity acts on it: a parabola is exact.",
-            MotionLaw.ClosedForm when FlightLaws.AreLinear(spec, scene.ForceArray) => $"{Names(scene, spec)}: linear in position and velocity, so there is a closed form.",
+            MotionLaw.Ballistic => scene.Gravity == Vector3D.Zero
+                ? "No force acts on it: a straight line is exact."
+                : "Only uniform gravity acts on it: a parabola is exact.",
+            MotionLaw.ClosedForm when FlightLaws.AreLinear(spec, scene.ForceArray) =>
+                $"{Names(scene, spec)}: linear in position and velocity, so there is a closed form.",
             MotionLaw.ClosedForm => $"{Names(scene, spec)}: one inverse-square pull alone, so there is a closed form, Kepler's.",
             _ => $"{Names(scene, spec)}: together without a closed form here, so steps whose error is kept within {Text(spec.Tolerance)} m.",
         };
         return spec.Flight == cheapest
-            ? cheapest == MotionLaw.DormandPrince54 && spec.Tolerance == 0 ? $"{Names(scene, spec)}: without a closed form here; with a tolerance of 0 the scene asks for fixed steps." : exact
+            ? cheapest == MotionLaw.DormandPrince54 && spec.Tolerance == 0
+                ? $"{Names(scene, spec)}: without a closed form here; with a tolerance of 0 the scene asks for fixed steps."
+                : exact
             : $"The scene asks for {spec.Flight}. {cheapest} would be cheaper: {char.ToLowerInvariant(exact[0])}{exact.Substring(1)}";
     }
+
+    /// <summary>What is to be said of a path that by itself has more pieces than timelines hold unless told otherwise.</summary>
+    private static string Full(double perSecond) =>
+        perSecond * SimulationOptions.DefaultHistory.ToSeconds() <= SimulationOptions.DefaultMaxSegments
+            ? ""
+            : $" So many pieces that the timelines are full before the history of {SimulationOptions.DefaultHistory.ToShortString()} is, at"
+                + $" {Text(SimulationOptions.DefaultMaxSegments)}, unless they become longer: keep a shorter history, allow more, or make the forces weaker.";
 
     private static string Names(Scene scene, in BodySpec spec)
     {
@@ -105,18 +144,29 @@ public sealed class SceneExplanation
         return new[]
         {
             new FeatureExplanation(
-                "forces besides gravity", used != 0, used != 0 ? $"{Count(scene.ForceArray.Length - idle.Count, "force")} on bodies that name them." + Idle(idle) : "No body names one." + Idle(idle)),
-            new FeatureExplanation("integrator", inPieces > 0, inPieces > 0 ? $"{Count(inPieces, "body", "bodies")} of {bodies} in steps." : $"Every path has a closed form{(closed > 0 ? $", {closed} of {bodies} in pieces of degree five" : "")}."),
+                "forces besides gravity", used != 0,
+                (used != 0 ? $"{Count(scene.ForceArray.Length - idle.Count, "force")} on bodies that name them." : "No body names one.") + Idle(idle)),
+            new FeatureExplanation(
+                "integrator", inPieces > 0,
+                inPieces > 0
+                    ? $"{Count(inPieces, "body", "bodies")} of {bodies} in steps."
+                    : $"Every path has a closed form{(closed > 0 ? $", {closed} of {bodies} in pieces of degree five" : "")}."),
             SpinAndFriction(scene),
             new FeatureExplanation(
-                "rest on planes", canLast, canLast ? "Planes under gravity: bounces below the resolution end in sliding or rest, which cost nothing." : "There is no plane, or no gravity to press on it."),
+                "rest on planes", canLast,
+                canLast
+                    ? "Planes under gravity: bounces below the resolution end in sliding or rest, which cost nothing."
+                    : "There is no plane, or no gravity to press on it."),
             new FeatureExplanation(
                 "static geometry", scene.PlaneArray.Length + scene.SphereArray.Length > 0,
                 $"{Count(scene.PlaneArray.Length, "plane")}, {Count(scene.SphereArray.Length, "static sphere")}: each is asked for every piece of path."),
             new FeatureExplanation(
                 "contacts of bodies", bodies > 1 || scene.Spawners != PeerSet.Nobody,
-                hasIndex ? $"{bodies} bodies: an index of swept paths names those that come near." : $"{Count(bodies, "body", "bodies")}: up to {SimulationOptions.DefaultMostPairs} every pair is looked at, without an index."),
-            new FeatureExplanation("periodic box", scene.Box.Exists, scene.Box.Exists ? "A flight is opened anew after an eighth of the least side." : "The scene has none."),
+                hasIndex
+                    ? $"{bodies} bodies: an index of swept paths names those that come near."
+                    : $"{Count(bodies, "body", "bodies")}: up to {SimulationOptions.DefaultMostPairs} every pair is looked at, without an index."),
+            new FeatureExplanation(
+                "periodic box", scene.Box.Exists, scene.Box.Exists ? "A flight is opened anew after an eighth of the least side." : "The scene has none."),
         };
     }
 
@@ -130,15 +180,18 @@ public sealed class SceneExplanation
             turning += body.Spin != Vector3D.Zero ? 1 : 0;
         }
 
-        string why = rough > 0 ? $"{Count(rough, "body", "bodies")} of {scene.BodyArray.Length} with friction: impacts turn them, on planes they slip, roll and rest."
-            : turning > 0 ? $"{Count(turning, "body", "bodies")} of {scene.BodyArray.Length} turn, evenly and for ever, since none has friction."
+        string why = rough > 0
+            ? $"{Count(rough, "body", "bodies")} of {scene.BodyArray.Length} with friction: impacts turn them, on planes they slip, roll and rest."
+            : turning > 0
+            ? $"{Count(turning, "body", "bodies")} of {scene.BodyArray.Length} turning from the start, evenly and for ever, since none has friction."
             : "No body has friction or turns at the start, so nothing turns but what is spawned so.";
         return new FeatureExplanation("spin and friction", rough + turning > 0, why);
     }
 
     private static string Idle(List<string> idle) => idle.Count == 0 ? "" : $" On no body of the scene: {string.Join(", ", idle)}.";
 
-    private static string Count(int count, string one, string? many = null) => $"{count.ToString(CultureInfo.InvariantCulture)} {(count == 1 ? one : many ?? one + "s")}";
+    private static string Count(int count, string one, string? many = null) =>
+        $"{count.ToString(CultureInfo.InvariantCulture)} {(count == 1 ? one : many ?? one + "s")}";
 
     private static string Text(double value) => value.ToString("R", CultureInfo.InvariantCulture);
 }

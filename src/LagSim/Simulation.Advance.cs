@@ -23,7 +23,9 @@ public sealed partial class Simulation
         TryAdvanceTo(time, ref events);
     }
 
-    /// <summary>Lets everything happen up to and including <paramref name="time"/>, or as much of it as so many events are, and stops between two instants.</summary>
+    /// <summary>
+    /// Lets everything happen up to and including <paramref name="time"/>, or as much of it as so many events are, and stops between two instants.
+    /// </summary>
     /// <param name="time">Up to when.</param>
     /// <param name="events">
     /// How many events may happen; what is left of them. The events of one instant all happen, so it may end below zero; at or below zero nothing happens.
@@ -40,7 +42,8 @@ public sealed partial class Simulation
         if (time < SimulatedTo)
         {
             throw new ArgumentOutOfRangeException(
-                nameof(time), time.ToShortString(), $"The world is simulated to {SimulatedTo.ToShortString()} already; it advances, and an event that lies before rolls it back.");
+                nameof(time), time.ToShortString(), $"The world is simulated to {SimulatedTo.ToShortString()} already; it advances, and an event that lies"
+                    + " before rolls it back.");
         }
 
         SimTime reached = SimulatedTo;
@@ -73,6 +76,11 @@ public sealed partial class Simulation
                 clock = least;
                 Process(slot, clock);
             }
+        }
+        catch (TimelinesFullException full)
+        {
+            fault = new TimelinesFullException($"{full.Message}{WhoseSegments()}", full);
+            throw fault;
         }
         catch (SimulationException failure)
         {
@@ -207,7 +215,8 @@ public sealed partial class Simulation
         else if (segment.Acceleration != Vector3D.Zero)
         {
             throw new SimulationException(
-                $"At {key.Time.ToShortString()} body {NameOf(slot)} reaches {Limits.Text(Limits.MaxSpeed(Scene.SmallestRadius))} m/s, a fifth of the smallest radius in a tick; it falls without end, and may not become faster.");
+                $"At {key.Time.ToShortString()} {Whose(slot)} reaches {Limits.Text(Limits.MaxSpeed(Scene.SmallestRadius))} m/s, a fifth of the smallest radius in a tick;"
+                + " it falls without end, and may not become faster.");
         }
         else
         {
@@ -228,7 +237,9 @@ public sealed partial class Simulation
         NoteCrowding(segment.Crowding, key.Time);
     }
 
-    /// <summary>The round of something at <paramref name="time"/> on the body's newest segment: what a tick's own event causes at it comes a round later.</summary>
+    /// <summary>
+    /// The round of something at <paramref name="time"/> on the body's newest segment: what a tick's own event causes at it comes a round later.
+    /// </summary>
     private uint RoundAt(SimTime time, int slot) => RoundAfter(timelines.Last(slot), time);
 
     private uint RoundAfter(int segment, SimTime time)

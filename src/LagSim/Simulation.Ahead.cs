@@ -34,7 +34,9 @@ public sealed partial class Simulation
         opened[openedCount++] = slot;
     }
 
-    /// <summary>After an event: has the next steps of the islands that it opened taken, by their paths as they are now, if this thread has others to be busy with.</summary>
+    /// <summary>
+    /// After an event: has the next steps of the islands that it opened taken, by their paths as they are now, if this thread has others to be busy with.
+    /// </summary>
     private void TakeStepsAhead()
     {
         int count = openedCount;
@@ -60,7 +62,8 @@ public sealed partial class Simulation
         }
 
         int piece = timelines.Last(lastOpened);
-        return piece != TimelineStore.None && timelines.Segment(piece).Law == MotionLaw.Constrained && timelines.Key(piece) != timelines.Key(timelines.Last(slot));
+        return piece != TimelineStore.None && timelines.Segment(piece).Law == MotionLaw.Constrained
+            && timelines.Key(piece) != timelines.Key(timelines.Last(slot));
     }
 
     private void TakeStepAhead(int slot)

@@ -7,7 +7,8 @@ using LagSim.Time;
 namespace LagSim;
 
 /// <content>
-/// The impact of two bodies in free flight with nobody near, or of one with a surface: what nearly all impacts of a gas are, and of a ball that bounces; nothing
+/// The impact of two bodies in free flight with nobody near, or of one with a surface: what nearly all impacts of a gas are, and of a ball that bounces;
+/// nothing
 /// has to be gathered for it.
 /// </content>
 public sealed partial class Simulation
@@ -65,7 +66,8 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// What the general way makes of such an impact, to the bit, by the same rules. False, and nothing is done, if the two part so slowly that lasting contact may come of it: then who else is in touch counts.
+    /// What the general way makes of such an impact, to the bit, by the same rules. False, and nothing is done, if the two part so slowly that lasting contact
+    /// may come of it: then who else is in touch counts.
     /// </summary>
     private bool TryHandleAlone(int slot, in EventKey key)
     {

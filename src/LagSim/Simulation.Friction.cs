@@ -8,9 +8,12 @@ namespace LagSim;
 
 /// <content>Friction on a plane: slipping, rolling, rest.</content>
 /// <remarks>
-/// A solid sphere that slips with u = v - r w x n is slowed down by mu g_n against u and turned by 5/2 as much, so u' = g_t - 7/2 mu g_n u/|u|, with g_n and g_t what gravity has across
-/// and along the plane. Once u is zero it rolls, with 5/7 of g_t, if 2/7 of that is no more than friction can hold. Rolling resistance c takes 5/7 c g_n from that, against v, and
-/// holds at rest what gravity pulls by no more than c g_n; from what turns about the normal it takes 5/2 c g_n / r, whether the sphere slips, rolls or stays where it is.
+/// A solid sphere that slips with u = v - r w x n is slowed down by mu g_n against u and turned by 5/2 as much, so u' = g_t - 7/2 mu g_n u/|u|, with g_n and
+/// g_t what gravity has across
+/// and along the plane. Once u is zero it rolls, with 5/7 of g_t, if 2/7 of that is no more than friction can hold. Rolling resistance c takes 5/7 c g_n from
+/// that, against v, and
+/// holds at rest what gravity pulls by no more than c g_n; from what turns about the normal it takes 5/2 c g_n / r, whether the sphere slips, rolls or stays
+/// where it is.
 /// </remarks>
 public sealed partial class Simulation
 {
@@ -24,7 +27,8 @@ public sealed partial class Simulation
 
     /// <summary>Opens slipping, rolling or rest on the one plane that carries a body.</summary>
     private void OpenRubbing(
-        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D spin, SupportSet supports, in Vector3D pull, int crowding, SimDuration left)
+        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D spin, SupportSet supports, in Vector3D pull, int crowding,
+        SimDuration left)
     {
         ref readonly BodySpec spec = ref bodies[slot].Spec;
         Vector3D n = Scene.PlaneArray[supports[0]].Normal;
@@ -47,8 +51,8 @@ public sealed partial class Simulation
             Vector3D held = along * (mu * pressing);
             Vector3D turning = (Vector3D.Cross(n, held) * (2.5 / spec.Radius)) - slowing;
             Append(
-                slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, end, position, velocity, (pull - held).WithoutNegativeZero(), supports, crowding), default,
-                spin: new Spin(spin, turning));
+                slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, end, position, velocity, (pull - held).WithoutNegativeZero(), supports, crowding),
+                default, spin: new Spin(spin, turning));
             return;
         }
 
@@ -59,7 +63,8 @@ public sealed partial class Simulation
             {
                 // Until the bounces that are left out would have been over.
                 Append(
-                    slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, key.Time + left, position, Vector3D.Zero, Vector3D.Zero, supports, crowding), default, spin: new Spin(pivot));
+                    slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, key.Time + left, position, Vector3D.Zero, Vector3D.Zero, supports, crowding),
+                    default, spin: new Spin(pivot));
                 return;
             }
 

@@ -75,8 +75,10 @@ public sealed partial class Simulation
                 if (!now && RoundAfter(then, key.Time) <= key.Round && timelines.Segment(then).IsPresent)
                 {
                     // What was struck in this very round already is not struck in it again.
-                    now = key.Round >= CollapseRound && !IsHeld(then) && !IsHeld(timelines.Last(party)) && IsTouching(party, other, then, key.Time, out contact);
-                    lasts = !now && isOfIsland && Lasts(party, timelines.Last(party), other, then) && Gap(party, timelines.Last(party), other, then, key.Time) <= NearGap;
+                    now = key.Round >= CollapseRound && !IsHeld(then) && !IsHeld(timelines.Last(party))
+                        && IsTouching(party, other, then, key.Time, out contact);
+                    lasts = !now && isOfIsland && Lasts(party, timelines.Last(party), other, then)
+                        && Gap(party, timelines.Last(party), other, then, key.Time) <= NearGap;
                     isNear = !now && !lasts && IsNearBody(party, count, other, then, key.Time);
                 }
 

@@ -48,11 +48,14 @@ public sealed partial class Simulation
     internal HealingFault Fault { get; set; }
 
     /// <summary>
-    /// The cones of so many news at a time, each in a place of its own, may take up an eighth of all bodies each; more share that half, where a cone is about as dear as a full rollback.
+    /// The cones of so many news at a time, each in a place of its own, may take up an eighth of all bodies each; more share that half, where a cone is about
+    /// as dear as a full rollback.
     /// </summary>
     private const int MostNewsApart = 4;
 
-    /// <summary>With so few bodies or less a heal never takes all back that it has not touched; an eighth of all for each of the news is the limit with more.</summary>
+    /// <summary>
+    /// With so few bodies or less a heal never takes all back that it has not touched; an eighth of all for each of the news is the limit with more.
+    /// </summary>
     internal int FewHealed { get; set; } = 32;
 
     private bool Has(HealingFault wrong) => (Fault & wrong) != 0;
@@ -63,7 +66,9 @@ public sealed partial class Simulation
     /// <summary>The heal at hand, for the index, if anybody may be ahead of the event at hand; else 0.</summary>
     private long HealAtHand => MayBeAhead(clock) && oldSerial >= 0 ? Rollbacks : 0;
 
-    /// <summary>Raised on the thread that advances, once per heal, when the world is again where it was. Handlers must not throw, and not change the world.</summary>
+    /// <summary>
+    /// Raised on the thread that advances, once per heal, when the world is again where it was. Handlers must not throw, and not change the world.
+    /// </summary>
     public event Action<HealReport>? Healed;
 
     /// <summary>Up to when what bodies do is known of some, and so would have to be rewritten.</summary>
@@ -224,7 +229,8 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// A heal whose cone has grown to so many bodies that it will grow to nearly all takes all back to the event at hand: to simulate everybody again costs less than to ask at every step
+    /// A heal whose cone has grown to so many bodies that it will grow to nearly all takes all back to the event at hand: to simulate everybody again costs
+    /// less than to ask at every step
     /// who is ahead, and what he did there.
     /// </summary>
     private bool HasTakenBackAll()
@@ -303,7 +309,8 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// Whether the impact that a body was looked at for has not been taken back since. What was taken back is not put back: all who took part were looked at too, and a heal that cuts such a
+    /// Whether the impact that a body was looked at for has not been taken back since. What was taken back is not put back: all who took part were looked at
+    /// too, and a heal that cuts such a
     /// look goes on to the end.
     /// </summary>
     private bool StillHappens(int witness, long mostSerial = long.MaxValue)

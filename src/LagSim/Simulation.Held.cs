@@ -17,7 +17,9 @@ public sealed partial class Simulation
     /// <summary>How long a body is left alone into which a hand creeps: 5 ms.</summary>
     private static readonly SimDuration PressedWait = SimDuration.FromMilliseconds(5);
 
-    /// <summary>Half as many of the scene's resolutions deep a hand may creep into a body before that is looked at again: 5 nm, at 1 micrometre a second in 5 ms.</summary>
+    /// <summary>
+    /// Half as many of the scene's resolutions deep a hand may creep into a body before that is looked at again: 5 nm, at 1 micrometre a second in 5 ms.
+    /// </summary>
     private const double PressedDepth = 10;
 
     /// <summary>So many of the scene's resolutions deep in a body a hand goes through it: 100 nm, some twenty times what creeping leaves.</summary>
@@ -45,7 +47,8 @@ public sealed partial class Simulation
     private bool IsHeld(int segment) => timelines.Segment(segment).Law == MotionLaw.Held;
 
     /// <summary>
-    /// Whether a hand is so deep in a body that it must have been pressed into it, or was put there. It goes through then: until a piece of either's path begins
+    /// Whether a hand is so deep in a body that it must have been pressed into it, or was put there. It goes through then: until a piece of either's path
+    /// begins
     /// with the hand outside, it neither pushes the body nor takes part in what else that meets. Else a body in a corner, which meets something a million
     /// times a second, would be pressed anew each time, for all the rounds of a tick.
     /// </summary>
@@ -84,7 +87,10 @@ public sealed partial class Simulation
         }
     }
 
-    /// <summary>Converges on what a knot foretells; where the body is there already, as far as the scene resolves, it just follows: so keeps who only says that he holds it still.</summary>
+    /// <summary>
+    /// Converges on what a knot foretells; where the body is there already, as far as the scene resolves, it just follows: so keeps who only says that he holds
+    /// it still.
+    /// </summary>
     private void Converge(
         int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D target, in Vector3D targetVelocity, in Hold hold)
     {
@@ -140,7 +146,8 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// Where a body is let go that a hand holds inside static geometry: outside of it, at the surface, one after the other in the scene's order. What is between
+    /// Where a body is let go that a hand holds inside static geometry: outside of it, at the surface, one after the other in the scene's order. What is
+    /// between
     /// surfaces too close for it stays inside.
     /// </summary>
     private Vector3D PutOut(int slot, in Vector3D position)

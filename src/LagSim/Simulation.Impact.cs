@@ -12,7 +12,8 @@ namespace LagSim;
 public sealed partial class Simulation
 {
     /// <summary>
-    /// How high, in units of the scene's resolution, a rebound must rise not to be the last of a contact that is pressed together and that no plane alone carries: 1 micrometre by default.
+    /// How high, in units of the scene's resolution, a rebound must rise not to be the last of a contact that is pressed together and that no plane alone
+    /// carries: 1 micrometre by default.
     /// Lasting contact with a hand goes on by hops of that height, some thousand a second.
     /// </summary>
     private const double HopHeight = 1000;
@@ -151,7 +152,8 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// What an impact would make faster than <see cref="Limits.MaxReboundSpeed"/> leaves it at that speed, in its direction: a rule of the world, the same bits on
+    /// What an impact would make faster than <see cref="Limits.MaxReboundSpeed"/> leaves it at that speed, in its direction: a rule of the world, the same bits
+    /// on
     /// every peer. What is not finite stays as it is, and ends the simulation.
     /// </summary>
     private void LimitSpeeds()
@@ -206,7 +208,8 @@ public sealed partial class Simulation
             ref ContactPoint c = ref contacts[i];
             c.Target = round >= CollapseRound ? 0
                 : c.IsStruck ? Math.Max(c.Restored, LeastTarget(c))
-                : Math.Min(Math.Max(0, ImpactSolver.Opening(c, partyVelocities)), HopSpeed(Pressing(c))); // nothing may drive the two together; of itself it asks for no more than it has
+                // nothing may drive the two together; of itself it asks for no more than it has
+                : Math.Min(Math.Max(0, ImpactSolver.Opening(c, partyVelocities)), HopSpeed(Pressing(c)));
             if (mayLast && c.Pushes && c.IsStruck && c.Restored < HopSpeed(Pressing(c)))
             {
                 c.Restored = 0; // what is left of bouncing rises less than a hop: the contact lasts from here on
@@ -223,7 +226,8 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// Marks the contacts of the impact at hand that are pressed together: by the paths that they are on, as friction may have it; or by gravity and forces now that they touch, which the
+    /// Marks the contacts of the impact at hand that are pressed together: by the paths that they are on, as friction may have it; or by gravity and forces now
+    /// that they touch, which the
     /// accelerations tell that are left if no contact may close, nor what carries the parties already give way.
     /// </summary>
     private void FindPressing()
@@ -277,7 +281,10 @@ public sealed partial class Simulation
         ? SurfaceNormal(c.Surface, partyPositions[c.First])
         : Direction(Scene.Box.Nearest(partyPositions[c.First] - partyPositions[c.Second]));
 
-    /// <summary>The least speed in m/s at which the two of a struck contact part: none on a plane that may carry, that of a hop where a hand presses, else what parts them at all.</summary>
+    /// <summary>
+    /// The least speed in m/s at which the two of a struck contact part: none on a plane that may carry, that of a hop where a hand presses, else what parts
+    /// them at all.
+    /// </summary>
     private double LeastTarget(in ContactPoint c)
     {
         if (IsSupportable(c) && Vector3D.Dot(c.Normal, Scene.Gravity) < 0)

@@ -17,7 +17,9 @@ public sealed partial class Simulation
         PredictParties();
     }
 
-    /// <summary>Something has opened a new piece for one of an island, which is now the newest of that slot: the others, who are the parties at hand, go on without it.</summary>
+    /// <summary>
+    /// Something has opened a new piece for one of an island, which is now the newest of that slot: the others, who are the parties at hand, go on without it.
+    /// </summary>
     private void ReleaseMates(int slot, in EventKey key)
     {
         OpenMates(key, mayRest: false);

@@ -44,7 +44,8 @@ public sealed partial class Simulation
                 BodyId first = bodies[parties[c.First]].Id;
                 BodyId second = c.Second == ContactPoint.Static ? first : bodies[parties[c.Second]].Id;
                 Vector3D position = partyPositions[c.First] - (c.Normal * bodies[parties[c.First]].Spec.Radius);
-                observer.OnContact(canonical, new ImpactContact(first, second, c.Second == ContactPoint.Static ? c.Surface : ImpactContact.NoSurface, position, closing));
+                int surface = c.Second == ContactPoint.Static ? c.Surface : ImpactContact.NoSurface;
+                observer.OnContact(canonical, new ImpactContact(first, second, surface, position, closing));
             }
         }
     }

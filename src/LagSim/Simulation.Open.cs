@@ -18,7 +18,8 @@ public sealed partial class Simulation
     /// Opens the body's next segment from a state that holds <paramref name="carry"/> seconds before the key's tick (under a tick, either
     /// way): at rest on or sliding along those of the touched planes that carry it, else in free flight.
     /// </summary>
-    private void Open(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, int crowding, in Vector3D spin)
+    private void Open(
+        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, int crowding, in Vector3D spin)
     {
         if (touchedPlanes.Length > 0 && TryOpenSupported(slot, key, position, velocity, carry, touchedPlanes, crowding, spin))
         {
@@ -68,29 +69,13 @@ public sealed partial class Simulation
             MotionLaw.ClosedForm => new KeplerFlight(Scene, spec).Piece(from, x, v, out dense, out tooLarge),
             _ => DormandPrince54.Step(forces, spec, from, x, v, spin, StepToTry(slot), out dense, out tooLarge, out tooStiff),
         };
-        if (!piece.Acceleration.IsFinite || (!dense.IsFinite && tooLarge == 0 && tooStiff == 0))
+        if (!piece.Acceleration.IsFinite || !dense.IsFinite || tooStiff > 0 || tooLarge > 0)
         {
-            throw new SimulationException(
-                $"In the step from {from.ToShortString()} the acceleration of body {NameOf(slot)} became NaN or infinite; what the forces {spec.Forces.NamesAmong(Scene.ForceArray)} give must be finite.");
-        }
-
-        if (tooStiff > 0)
-        {
-            throw new SimulationException(
-                $"From {from.ToShortString()} on the forces on body {NameOf(slot)} act at a rate of {Limits.Text(tooStiff)} 1/s; {spec.Flight} with fixed steps follows at most {Limits.Text(MaxRate(spec.Flight))} 1/s, with the shortest step there is.");
-        }
-
-        if (tooLarge > 0)
-        {
-            throw new SimulationException(
-                $"From {from.ToShortString()} on the forces on body {NameOf(slot)} change so fast that a step of {StepSize.Shortest.ToShortString()} still has {Limits.Text(tooLarge)} times the error of the tolerance, {Limits.Text(spec.Tolerance)}; allow more, or keep it out of the singularity.");
+            throw TooMuch(slot, from, x, v, spin, tooStiff, tooLarge, piece.Acceleration.IsFinite);
         }
 
         return piece;
     }
-
-    private static double MaxRate(MotionLaw law) =>
-        (law == MotionLaw.RungeKutta4 ? RungeKutta4.MaxRateTimesStep : DormandPrince54.MaxRateTimesStep) / Limits.MinStep.ToSeconds();
 
     /// <summary>What the step before proposes, if there was one; else nothing.</summary>
     private SimDuration StepToTry(int slot)
@@ -160,7 +145,8 @@ public sealed partial class Simulation
         else
         {
             SimTime end = rests ? key.Time + left : EndOfRange(key.Time, tangential, acceleration);
-            Append(slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, end, start, tangential, acceleration, supports, crowding), default, spin: new Spin(spin));
+            MotionSegment slide = new(MotionLaw.Sliding, key.Time, end, start, tangential, acceleration, supports, crowding);
+            Append(slot, key, slide, default, spin: new Spin(spin));
         }
 
         return true;
@@ -249,7 +235,7 @@ public sealed partial class Simulation
         if (!position.IsFinite || !(velocity.Length <= limit))
         {
             throw new SimulationException(
-                $"At {key.Time.ToShortString()} body {NameOf(slot)} is at {position} m with {velocity} m/s; a position must stay finite, and a speed at most "
+                $"At {key.Time.ToShortString()} {Whose(slot)} is at {position} m with {velocity} m/s; a position must stay finite, and a speed at most "
                 + $"{Limits.Text(limit)} m/s, a fifth of the smallest radius in a tick.");
         }
     }

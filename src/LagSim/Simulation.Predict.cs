@@ -20,7 +20,9 @@ public sealed partial class Simulation
 
     private const double CollapseSpeed = 1e-6;
 
-    /// <summary>What an impact of squeezed bodies leaves of closing below this, in m/s, is its rounding: to solve it again in the same tick leaves as much.</summary>
+    /// <summary>
+    /// What an impact of squeezed bodies leaves of closing below this, in m/s, is its rounding: to solve it again in the same tick leaves as much.
+    /// </summary>
     private const double RoundingSpeed = 1e-12;
 
     private static readonly SimDuration CollapseWait = SimDuration.FromTicks(1L << 20);
@@ -271,7 +273,8 @@ public sealed partial class Simulation
             Vector3D normal = Direction(Scene.Box.Nearest(PositionAt(lastA, contact) - PositionAt(lastB, contact)));
             Vector3D velocity = VelocityAt(lastA, contact) - VelocityAt(lastB, contact);
             double pressing = -Vector3D.Dot(normal, AccelerationAt(lastA, contact) - AccelerationAt(lastB, contact)) - FallingAway(normal, velocity, reach);
-            from = LookAgain(opened, round, -Vector3D.Dot(normal, velocity), pressing, until, isPushed, Math.Max(segmentA.Crowding, segmentB.Crowding) >= SqueezedAfter);
+            bool isSqueezed = Math.Max(segmentA.Crowding, segmentB.Crowding) >= SqueezedAfter;
+            from = LookAgain(opened, round, -Vector3D.Dot(normal, velocity), pressing, until, isPushed, isSqueezed);
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -282,7 +285,8 @@ public sealed partial class Simulation
     }
 
     /// <summary>The image of a path in a periodic box that is nearest to a point when the path is at <paramref name="at"/>.</summary>
-    private MotionSegment NearestImage(in MotionSegment path, in Vector3D point, in Vector3D at) => path.At(path.Position + (Scene.Box.Nearest(at - point) - (at - point)));
+    private MotionSegment NearestImage(in MotionSegment path, in Vector3D point, in Vector3D at) =>
+        path.At(path.Position + (Scene.Box.Nearest(at - point) - (at - point)));
 
     /// <summary>
     /// From when on a contact that closes from the opening of its segments on is to be looked for again: so slow, as rounding leaves it, that it

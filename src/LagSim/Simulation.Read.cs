@@ -13,7 +13,8 @@ public sealed partial class Simulation
     /// <summary>Where a body is at any instant from <see cref="HistoryEdge"/> to <see cref="Horizon"/>, after all events of that tick.</summary>
     /// <returns>False, and a state that is <see cref="MotionLaw.Absent"/>, if the body is unknown or not there at that time.</returns>
     /// <remarks>Opens no segment and changes nothing. Cost: the number of the body's segments after that time.</remarks>
-    /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="HistoryEdge"/> or after <see cref="Horizon"/>: advance first.</exception>
+    /// <exception cref="InvalidOperationException">The simulation ended by an exception.</exception>
     public bool TryRead(BodyId body, SimTime time, out BodyState state)
     {
         CheckReadable(time);
@@ -105,7 +106,9 @@ public sealed partial class Simulation
         return slot < 0 ? default : bodies[slot].Spec;
     }
 
-    /// <summary>Forgets what lies before <paramref name="time"/>: nothing there can be read or changed any more. Earlier than now is kept, later is not forgotten.</summary>
+    /// <summary>
+    /// Forgets what lies before <paramref name="time"/>: nothing there can be read or changed any more. Earlier than now is kept, later is not forgotten.
+    /// </summary>
     public void DropHistoryBefore(SimTime time)
     {
         HistoryEdge = SimTime.Max(HistoryEdge, SimTime.Min(time, SimulatedTo));
@@ -145,7 +148,8 @@ public sealed partial class Simulation
         if (time < HistoryEdge || time > Horizon)
         {
             throw new ArgumentOutOfRangeException(
-                nameof(time), time.ToShortString(), $"Readable is from {HistoryEdge.ToShortString()}, the edge of the history, to {Horizon.ToShortString()}, where the next event is due.");
+                nameof(time), time.ToShortString(), $"Readable is from {HistoryEdge.ToShortString()}, the edge of the history, to {Horizon.ToShortString()},"
+                    + " where the next event is due.");
         }
     }
 }

@@ -41,14 +41,17 @@ public sealed partial class Simulation
     }
 
     /// <summary>The world after everything before <paramref name="time"/>. Changes nothing. Cost: the segments of all bodies since then.</summary>
-    /// <exception cref="ArgumentOutOfRangeException">The time is outside <see cref="HistoryEdge"/> to <see cref="SimulatedTo"/>, or not after the start.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">
+    /// The time is outside <see cref="HistoryEdge"/> to <see cref="SimulatedTo"/>, or not after the start.
+    /// </exception>
     public WorldSnapshot Snapshot(SimTime time)
     {
         ThrowIfFaulted();
         if (time < HistoryEdge || time > SimulatedTo || time <= Start)
         {
             throw new ArgumentOutOfRangeException(
-                nameof(time), time.ToShortString(), $"A snapshot can be taken from {SimTime.Max(HistoryEdge, Start + SimDuration.OneTick).ToShortString()} to {SimulatedTo.ToShortString()}, up to where the world is simulated.");
+                nameof(time), time.ToShortString(), $"A snapshot can be taken from {SimTime.Max(HistoryEdge, Start + SimDuration.OneTick).ToShortString()} to"
+                    + $" {SimulatedTo.ToShortString()}, up to where the world is simulated.");
         }
 
         SimTime last = time - SimDuration.OneTick;
@@ -58,7 +61,8 @@ public sealed partial class Simulation
             int at = timelines.At(slot, last);
             if (at != TimelineStore.None && timelines.Segment(at).IsPresent)
             {
-                there.Add(new BodySnapshot(bodies[slot].Id, bodies[slot].Spec, timelines.Key(at), timelines.Segment(at), timelines.Dense(at), timelines.HoldOf(at), timelines.SpinOf(at)));
+                there.Add(new BodySnapshot(
+                    bodies[slot].Id, bodies[slot].Spec, timelines.Key(at), timelines.Segment(at), timelines.Dense(at), timelines.HoldOf(at), timelines.SpinOf(at)));
             }
         }
 

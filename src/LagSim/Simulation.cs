@@ -38,11 +38,17 @@ public sealed partial class Simulation
     private int slotCount;
     private Exception? fault;
 
-    /// <summary>A world at the start of its scene.</summary>
+    /// <summary>A world at the start of its scene, with all that happens at that instant. Cost: the bodies, and which of them can meet.</summary>
+    /// <param name="scene">What is simulated.</param>
+    /// <param name="options">How; null for the defaults.</param>
     /// <exception cref="ArgumentNullException">There is no scene.</exception>
+    /// <exception cref="SimulationException">
+    /// The scene's forces are too much for the first step of a body, or what happens at the first instant for the timelines.
+    /// </exception>
     /// <exception cref="OperationCanceledException">The options' token asked for an end.</exception>
     public Simulation(Scene scene, SimulationOptions? options = null)
-        : this(scene ?? throw new ArgumentNullException(nameof(scene)), options ??= new SimulationOptions(), options.Start, options.Start, scene.BodyArray.Length)
+        : this(scene ?? throw new ArgumentNullException(nameof(scene)), options ??= new SimulationOptions(), options.Start, options.Start,
+              scene.BodyArray.Length)
     {
         for (int i = 0; i < scene.BodyArray.Length; i++)
         {
@@ -114,6 +120,7 @@ public sealed partial class Simulation
     public long SegmentsCut { get; private set; }
 
     /// <summary>The identity of the n-th body in canonical order, 0 &lt;= n &lt; <see cref="BodyCount"/>. Later spawns may shift n.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">There is no n-th.</exception>
     public BodyId BodyAt(int n) => bodies[order[n]].Id;
 
     private void PredictAll()
@@ -124,13 +131,6 @@ public sealed partial class Simulation
             cancellation.ThrowIfCancellationRequested();
             Predict(slot);
         }
-    }
-
-    /// <summary>A body as messages name it: by its name in the scene, or by its identity if it was spawned.</summary>
-    private string NameOf(int slot)
-    {
-        BodyId id = bodies[slot].Id;
-        return id.Index < Scene.Bodies.Count && id.Equals(BodyId.OfScene(id.Index)) ? $"'{Scene.Bodies[id.Index].Name}'" : id.ToString();
     }
 
     private int AddBody(BodyId id, BodySpec spec = default)

@@ -27,18 +27,23 @@ public sealed class SimulationOptions
     /// </param>
     /// <param name="maxSegments">
     /// How many pieces of path all timelines together may hold, at least one; default <see cref="DefaultMaxSegments"/>. Each takes some 250
-    /// bytes. A simulation that would need more ends with a <see cref="SimulationException"/>.
+    /// bytes. A simulation that would need more ends with a <see cref="TimelinesFullException"/>, which tells whose path they are.
     /// </param>
-    /// <param name="cancellation">Ends whatever the simulation is at, from any thread, between two instants, with an <see cref="OperationCanceledException"/>.</param>
+    /// <param name="cancellation">
+    /// Ends whatever the simulation is at, from any thread, between two instants, with an <see cref="OperationCanceledException"/>.
+    /// </param>
     /// <param name="healing">How an event is brought in that lies before the simulated time. It has no influence on the result, to the bit.</param>
     /// <param name="threads">
-    /// How many threads at most may be at work for this simulation at once, the one that calls it included: from 1 to <see cref="SceneBuilder.MaxThreads"/>; default as many as there are processors, at most 8. The others are the
+    /// How many threads at most may be at work for this simulation at once, the one that calls it included: from 1 to <see cref="SceneBuilder.MaxThreads"/>;
+    /// default as many as there are processors, at most 8. The others are the
     /// pool's, and take steps of islands ahead where there are several; what comes of it is the same, to the bit, on any number.
     /// </param>
-    /// <exception cref="ArgumentOutOfRangeException">The threads are not from 1 to 64, the history or the most segments are not above zero, or the start more than 72 days from the origin.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">
+    /// The threads are not from 1 to 64, the history or the most segments are not above zero, or the start more than 72 days from the origin.
+    /// </exception>
     public SimulationOptions(
-        SimTime start = default, SimDuration? history = null, int maxSegments = DefaultMaxSegments, CancellationToken cancellation = default, HealingMode healing = HealingMode.CausalCone,
-        int? threads = null)
+        SimTime start = default, SimDuration? history = null, int maxSegments = DefaultMaxSegments, CancellationToken cancellation = default,
+        HealingMode healing = HealingMode.CausalCone, int? threads = null)
     {
         if (history is SimDuration given && given <= SimDuration.Zero)
         {
@@ -74,7 +79,9 @@ public sealed class SimulationOptions
     /// <summary>How far behind the simulated time timelines are kept.</summary>
     public SimDuration History { get; }
 
-    /// <summary>How many pieces of path all timelines together may hold.</summary>
+    /// <summary>
+    /// How many pieces of path all timelines together may hold, each of some 250 bytes; more end with a <see cref="TimelinesFullException"/>.
+    /// </summary>
     public int MaxSegments { get; }
 
     /// <summary>How an event is brought in that lies before the simulated time.</summary>
@@ -99,5 +106,6 @@ public sealed class SimulationOptions
     internal IImpactObserver? Observer { get; private set; }
 
     /// <summary>The same with an observer.</summary>
-    internal SimulationOptions WithObserver(IImpactObserver? observer) => new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = observer, MostPairs = MostPairs, OtherThread = OtherThread };
+    internal SimulationOptions WithObserver(IImpactObserver? observer) =>
+        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = observer, MostPairs = MostPairs, OtherThread = OtherThread };
 }

@@ -45,13 +45,14 @@ public static class SceneFile
                 file, "", JsonFault.LineOf(json, at), $"byte {at + utf8.Length - json.Length + 1} is not UTF-8; a scene file is UTF-8 text");
         }
 
+        SceneJsonReader reader = new(json, file, locate: null);
         try
         {
-            return new SceneJsonReader(json, file, locate: false).Read();
+            return reader.Read();
         }
         catch (SceneException whole)
         {
-            Locate(json, file);
+            Locate(json, file, reader.SceneName);
             throw new SceneFileException(file, "", 0, whole.Message, whole);
         }
     }
@@ -125,11 +126,11 @@ public static class SceneFile
         }
     }
 
-    private static void Locate(ReadOnlySpan<byte> json, string file)
+    private static void Locate(ReadOnlySpan<byte> json, string file, string scene)
     {
         try
         {
-            new SceneJsonReader(json, file, locate: true).Read();
+            new SceneJsonReader(json, file, locate: scene).Read();
         }
         catch (SceneException)
         {

@@ -18,7 +18,7 @@ internal ref partial struct SceneJsonReader
     private static readonly JsonKeys BodyKeys =
         new(["name", "radius_m", "mass_kg", "restitution", "position_m"], ["velocity_m_per_s", "motion", "step_s", "forces", "tolerance", "friction", "rolling_resistance", "spin_rad_per_s", "players"]);
 
-    private readonly bool locate;
+    private readonly string? locate;
     private readonly List<Action<SceneBuilder>> parts = new(); // what to build, once the name is known
     private readonly List<string> forceNames = new();
     private readonly List<(string Name, SceneFileException Where)> namedForces = new(); // a body may stand before the forces that it names
@@ -27,14 +27,17 @@ internal ref partial struct SceneJsonReader
     /// <param name="json">The document, known to be UTF-8.</param>
     /// <param name="file">What errors call it.</param>
     /// <param name="locate">
-    /// Builds every part by itself too, so that what is wrong with one is reported at its place. The limits stand in the builder alone, and
+    /// The scene's name, or null. With it builds every part by itself too, so that what is wrong with one is reported at its place. The limits stand in the builder alone, and
     /// it names a part but cannot know where in the file that is; so a document that does not build is read once more like this.
     /// </param>
-    internal SceneJsonReader(ReadOnlySpan<byte> json, string file, bool locate)
+    internal SceneJsonReader(ReadOnlySpan<byte> json, string file, string? locate)
     {
         cursor = new JsonCursor(json, file);
         this.locate = locate;
     }
+
+    /// <summary>What the document calls the scene, as far as it was read.</summary>
+    internal string SceneName { get; private set; } = "";
 
     /// <summary>The scene that the document says.</summary>
     /// <exception cref="SceneFileException">It says none; the message names the place.</exception>
@@ -43,7 +46,6 @@ internal ref partial struct SceneJsonReader
     {
         cursor.Read();
         cursor.EnterObject();
-        string name = "";
         uint seen = 0;
         while (cursor.NextKey(SceneKeys, ref seen) is string key)
         {
@@ -53,7 +55,7 @@ internal ref partial struct SceneJsonReader
                     CheckFormat();
                     break;
                 case "name":
-                    name = Name();
+                    SceneName = Name();
                     break;
                 case "gravity_m_per_s2":
                     Vector3D gravity = cursor.Vector();
@@ -88,7 +90,7 @@ internal ref partial struct SceneJsonReader
 
         cursor.Read(); // nothing may follow
         CheckForceNames();
-        SceneBuilder builder = new(name);
+        SceneBuilder builder = new(SceneName);
         parts.ForEach(add => add(builder));
         return builder.Build();
     }
@@ -119,12 +121,12 @@ internal ref partial struct SceneJsonReader
     private void Add(Action<SceneBuilder> part)
     {
         parts.Add(part);
-        if (!locate)
+        if (locate is null)
         {
             return;
         }
 
-        SceneBuilder alone = new SceneBuilder("scene").WithGravity(Vector3D.Zero); // with which anything goes that is right in itself
+        SceneBuilder alone = new SceneBuilder(locate).WithGravity(Vector3D.Zero); // with which anything goes that is right in itself
         try
         {
             part(alone);

@@ -8,7 +8,9 @@ namespace LagSim.Net.Carriers;
 /// <summary>What can be sent to, and from where: the rules for who takes an address from a user.</summary>
 public static class UdpDestination
 {
-    /// <summary>Whether it is the address of one machine, and a port from 1 on; what listens at "all addresses" can be reached at each of them, but not at that.</summary>
+    /// <summary>
+    /// Whether it is the address of one machine, and a port from 1 on; what listens at "all addresses" can be reached at each of them, but not at that.
+    /// </summary>
     /// <param name="endpoint">The address and port.</param>
     /// <param name="purpose">What for, as a verb; part of the sentence.</param>
     /// <param name="error">If not, a sentence that names it and says what is allowed.</param>

@@ -3,7 +3,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Clocks;
 
-/// <summary>How far another peer's clock is ahead of one's own, at any own time: an offset at one instant, the drift since, and how wrong both may be.</summary>
+/// <summary>
+/// How far another peer's clock is ahead of one's own, at any own time: an offset at one instant, the drift since, and how wrong both may be.
+/// </summary>
 /// <remarks>Immutable, safe on any thread. Read with integers only. <c>default</c> says that the two clocks are the same.</remarks>
 public readonly struct ClockEstimate
 {

@@ -11,7 +11,8 @@ namespace LagSim.Net.Clocks;
 /// t3. So every exchange limits the offset from above at t0 and from below at t3, and every two limit the drift (Duda and others,
 /// "Estimating global time in distributed systems", 1987). <see cref="ClockEstimate.ErrorBound"/> is what all of them together leave: at most
 /// half the best round trip, plus what the drift may be wrong by since. It holds for every path, symmetric or not, as long as the drift is
-/// within <see cref="ClockEstimate.MaxDrift"/> and changes by no more than <see cref="Wander"/> over two windows, and readings are good to 1 microsecond.</para>
+/// within <see cref="ClockEstimate.MaxDrift"/> and changes by no more than <see cref="Wander"/> over two windows, and readings are good to 1
+/// microsecond.</para>
 /// <para><b>Drift.</b> A weighted least-squares line through the middles of the kept exchanges. The weight falls with what a round trip has in excess of
 /// the shortest, as chrony's does: whatever makes an offset wrong shows there, so an outlier is known before the line is drawn. No drift, give or
 /// take 100 parts per million, counts as one more measurement: few or noisy exchanges move the drift little.</para>
@@ -142,7 +143,10 @@ public sealed class ClockSync
         return false;
     }
 
-    /// <summary>Keeps the exchange if it is the best of its second, and estimates anew. False if it contradicts what is kept: the estimate is the old one, and what is kept is of no use.</summary>
+    /// <summary>
+    /// Keeps the exchange if it is the best of its second, and estimates anew. False if it contradicts what is kept: the estimate is the old one, and what is
+    /// kept is of no use.
+    /// </summary>
     private bool TryTake(ClockExchange exchange)
     {
         Forget(exchange.Back - Window);

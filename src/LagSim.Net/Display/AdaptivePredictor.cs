@@ -5,10 +5,14 @@ using LagSim.Time;
 
 namespace LagSim.Net.Display;
 
-/// <summary>Where a remote hand is now, told from samples that are as old as the link is slow: several predictors, weighted by how each has done lately over that very span.</summary>
+/// <summary>
+/// Where a remote hand is now, told from samples that are as old as the link is slow: several predictors, weighted by how each has done lately over that very
+/// span.
+/// </summary>
 /// <remarks>
 /// <para>For display only: what it says depends on when the samples came, so it differs from peer to peer and must never enter a simulation.</para>
-/// <para>Mixed are: hold (the hand stays), velocity that decays with a time constant of 20, 40, 80, 160 or 320 ms, constant velocity, and least squares over the
+/// <para>Mixed are: hold (the hand stays), velocity that decays with a time constant of 20, 40, 80, 160 or 320 ms, constant velocity, and least squares over
+/// the
 /// last 200 ms that learn as they go. Each new sample shows what each would have said of it from the samples as old as now; that error, squared and forgotten
 /// within a second or two, gives the weights. So there is nothing to set: a calm hand is followed, a shaken one is not.</para>
 /// <para>What to expect: on generated hand motion the rms error stays within 1.15 of that of the best of them in hindsight. Nothing can promise an error below

@@ -9,14 +9,17 @@ namespace LagSim.Net.Display;
 /// Hides from the eye that late news has moved a body: the world is always where it is, and what is drawn is off by what news has changed, less and less so.
 /// </summary>
 /// <remarks>
-/// <para>Call <see cref="Update"/> once a frame with the newest picture and the frame's time, then <see cref="TryRead"/> for each body to draw. For display only:
+/// <para>Call <see cref="Update"/> once a frame with the newest picture and the frame's time, then <see cref="TryRead"/> for each body to draw. For display
+/// only:
 /// what is drawn differs from peer to peer and must never enter a simulation.</para>
 /// <para>A correction is the difference between where the body was shown at the time of the frame before and where the new picture has it at that same time.
 /// So motion is none, however fast, nor is what a player does now; only a rewritten past is. It is added to the body's offset, and the offset decays
 /// exponentially, small ones faster (<see cref="DisplayOptions"/>), in the same curve whatever the frame rate.</para>
-/// <para>An offset is given up at once where it would have the body drawn inside a plane, a static sphere or another body as that is drawn; where it is too large to be
+/// <para>An offset is given up at once where it would have the body drawn inside a plane, a static sphere or another body as that is drawn; where it is too
+/// large to be
 /// smoothed; where the body is put elsewhere; and as far as a bounce hides it.</para>
-/// <para>For one world: who joins another makes another. A frame costs two readings of the picture a body, and for each body with an offset one look at every other. Memory
+/// <para>For one world: who joins another makes another. A frame costs two readings of the picture a body, and for each body with an offset one look at every
+/// other. Memory
 /// grows with the bodies of the picture; otherwise nothing is allocated. Not thread-safe: for the thread that reads pictures.</para>
 /// </remarks>
 public sealed class DisplayOffsets
@@ -259,7 +262,9 @@ public sealed class DisplayOffsets
             ref readonly Entry partner = ref entries[other];
             double touching = entry.Radius + partner.Radius;
             if (other != n && partner.IsThere
-                && IsDeeper(scene.Box.Nearest(drawn - partner.State.Position - partner.Offset).Length - touching, scene.Box.Nearest(entry.State.Position - partner.State.Position).Length - touching))
+                && IsDeeper(
+                    scene.Box.Nearest(drawn - partner.State.Position - partner.Offset).Length - touching,
+                    scene.Box.Nearest(entry.State.Position - partner.State.Position).Length - touching))
             {
                 return true;
             }

@@ -10,7 +10,9 @@ public sealed class DisplayOptions
     /// <summary>Options, each with its default.</summary>
     /// <param name="fastest">The time constant by which the smallest corrections decay, 1 ms to 10 s; default 80 ms.</param>
     /// <param name="slowest">That of the largest, from <paramref name="fastest"/> to 10 s; default 300 ms.</param>
-    /// <param name="smallCorrection">Up to what size corrections count as smallest: above 0 m; default 0.05 m. In between the time constant grows in proportion.</param>
+    /// <param name="smallCorrection">
+    /// Up to what size corrections count as smallest: above 0 m; default 0.05 m. In between the time constant grows in proportion.
+    /// </param>
     /// <param name="largeCorrection">From what size on they count as largest: above <paramref name="smallCorrection"/>; default 1 m.</param>
     /// <param name="maxSpeed">How fast an offset shrinks at most, in m/s, above 0; default 10 m/s.</param>
     /// <param name="snapDistance">What is off by more than that, in metres, is not smoothed but shown at once: at least 0; default 5 m.</param>
@@ -34,7 +36,8 @@ public sealed class DisplayOptions
         Fastest = Span(fastest ?? SimDuration.FromMilliseconds(80), SimDuration.FromMilliseconds(1), longest, nameof(fastest));
         Slowest = Span(slowest ?? SimDuration.FromMilliseconds(300), Fastest, longest, nameof(slowest));
         SmallCorrection = Number(smallCorrection, smallCorrection > 0, nameof(smallCorrection), "above 0 m");
-        LargeCorrection = Number(largeCorrection, largeCorrection > smallCorrection, nameof(largeCorrection), $"above {nameof(smallCorrection)}, {smallCorrection} m");
+        LargeCorrection = Number(largeCorrection, largeCorrection > smallCorrection, nameof(largeCorrection), $"above {nameof(smallCorrection)},"
+            + $" {smallCorrection} m");
         MaxSpeed = Number(maxSpeed, maxSpeed > 0, nameof(maxSpeed), "above 0 m/s");
         SnapDistance = Number(snapDistance, snapDistance >= 0, nameof(snapDistance), "at least 0 m");
         Hiding = Span(hiding ?? SimDuration.FromMilliseconds(50), SimDuration.Zero, SimDuration.FromSeconds(1), nameof(hiding));

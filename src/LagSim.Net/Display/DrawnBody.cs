@@ -24,12 +24,16 @@ public readonly struct DrawnBody
     /// <summary>Where to draw its centre, in metres.</summary>
     public Vector3D Position => State.Position + Offset;
 
-    /// <summary>By how many metres news has moved what was shown in the frame before: the size of the correction that the eye would see without an offset.</summary>
+    /// <summary>
+    /// By how many metres news has moved what was shown in the frame before: the size of the correction that the eye would see without an offset.
+    /// </summary>
     public double Jump { get; }
 
     /// <summary>By how many metres the offset has shrunk with time.</summary>
     public double Decay { get; }
 
-    /// <summary>How many metres of offset were given up at once: drawn inside something, hidden in a bounce, too large to be smoothed, or the body put elsewhere.</summary>
+    /// <summary>
+    /// How many metres of offset were given up at once: drawn inside something, hidden in a bounce, too large to be smoothed, or the body put elsewhere.
+    /// </summary>
     public double Dropped { get; }
 }

@@ -2,7 +2,10 @@ using System;
 
 namespace LagSim.Net.Display;
 
-/// <summary>How an offset shrinks with time: as exp(-t / tau), but never faster than the largest speed. In closed form, so that frames of any length give the same curve.</summary>
+/// <summary>
+/// How an offset shrinks with time: as exp(-t / tau), but never faster than the largest speed. In closed form, so that frames of any length give the same
+/// curve.
+/// </summary>
 internal static class OffsetDecay
 {
     private const double Nothing = 1e-6; // m: below that no offset is left

@@ -26,7 +26,8 @@ public sealed class JoinedState
         if (snapshot is not null && !SnapshotFormat.IsInRange(snapshot))
         {
             throw new ArgumentException(
-                $"The snapshot is of {snapshot.Time.ToShortString()} in a world that began at {snapshot.Start.ToShortString()}; it must come after that, and both lie within 48 days of the origin.",
+                $"The snapshot is of {snapshot.Time.ToShortString()} in a world that began at {snapshot.Start.ToShortString()}; it must come after that, and"
+                + " both lie within 48 days of the origin.",
                 nameof(snapshot));
         }
 

@@ -79,7 +79,8 @@ public sealed class RecordingComparison
         {
             return new RecordingComparison(
                 ComparisonOutcome.StartDiffers, 0, 0,
-                $"The starts differ: the first session started at {a.Start.ToShortString()}, the second at {b.Start.ToShortString()}." + Remarks(first, second));
+                $"The starts differ: the first session started at {a.Start.ToShortString()}, the second at"
+                + $" {b.Start.ToShortString()}." + Remarks(first, second));
         }
 
         int entries = SameEntries(first, second, out LogEntry? firstEntry, out LogEntry? secondEntry);
@@ -102,7 +103,8 @@ public sealed class RecordingComparison
         }
 
         // The same events say nothing of what a peer made of them: without a state that was compared there is no agreement.
-        string log = entries == 0 ? "no log entry and no committed time in common" : $"the same in {Words.Count(entries, "common log entry")}, and no committed time in common";
+        string log = entries == 0 ? "no log entry and no committed time in common" : $"the same in {Words.Count(entries, "common log entry")}, and no"
+            + " committed time in common";
         return states == 0
             ? new RecordingComparison(
                 ComparisonOutcome.NothingInCommon, entries, 0,
@@ -128,7 +130,8 @@ public sealed class RecordingComparison
         return new RecordingComparison(
             ComparisonOutcome.StateDiffers, entries, states,
             $"{log}, and the committed state at {Words.SinceStart(mine.Time, first.Header!.Start)} differs: {mine} in the first; {theirs} in the second."
-                + FirstBody(firstReplay, secondReplay) + $" The first {Verdict(firstReplay, first)} The second {Verdict(secondReplay, second)}" + Remarks(first, second))
+                + FirstBody(firstReplay, secondReplay) + $" The first {Verdict(firstReplay, first)} The second"
+                    + $" {Verdict(secondReplay, second)}" + Remarks(first, second))
         {
             FirstState = mine,
             SecondState = theirs,
@@ -198,7 +201,9 @@ public sealed class RecordingComparison
         return same;
     }
 
-    /// <summary>The first body in which the worlds differ, if both recordings are what their replays are; hashes, which are all that a recording has, name none.</summary>
+    /// <summary>
+    /// The first body in which the worlds differ, if both recordings are what their replays are; hashes, which are all that a recording has, name none.
+    /// </summary>
     private static string FirstBody(RecordingReplay first, RecordingReplay second)
     {
         if (first.Outcome != ReplayOutcome.Agrees || second.Outcome != ReplayOutcome.Agrees)
@@ -214,7 +219,8 @@ public sealed class RecordingComparison
             bool isInFirst = a.TryRead(body, time, out BodyState mine), isInSecond = b.TryRead(body, time, out BodyState theirs);
             if (isInFirst != isInSecond || !mine.IsSameBits(theirs))
             {
-                return $" The first body that differs is {Words.Named(a.Scene, body)}: {State(isInFirst, mine)} in the first, {State(isInSecond, theirs)} in the second.";
+                return $" The first body that differs is {Words.Named(a.Scene, body)}: {State(isInFirst, mine)} in the first, {State(isInSecond, theirs)} in"
+                    + " the second.";
             }
         }
 

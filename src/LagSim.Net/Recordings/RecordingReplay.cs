@@ -117,7 +117,8 @@ public sealed class RecordingReplay
         return last is CommittedState end
             ? new RecordingReplay(
                 ReplayOutcome.Agrees, applied, agreed, end, end,
-                $"The replay agrees: {Words.Count(agreed, "committed state")} up to {Words.SinceStart(end.Time, recording.Header!.Start)}, with {Words.Count(applied, "accepted event")}; {end}.")
+                $"The replay agrees: {Words.Count(agreed, "committed state")} up to {Words.SinceStart(end.Time, recording.Header!.Start)}, with"
+                + $" {Words.Count(applied, "accepted event")}; {end}.")
             {
                 World = simulation,
             }
@@ -126,7 +127,8 @@ public sealed class RecordingReplay
     }
 
     /// <summary>
-    /// Which bodies the difference can be of. Hashes do not tell, but up to the last state that agrees all was the same, so it came about in what has happened since.
+    /// Which bodies the difference can be of. Hashes do not tell, but up to the last state that agrees all was the same, so it came about in what has happened
+    /// since.
     /// </summary>
     private static string WhoseDoing(Simulation replayed, Recording recording, in CommittedState expected, in CommittedState actual, SimTime? agreed)
     {
@@ -146,7 +148,8 @@ public sealed class RecordingReplay
 
         string since = agreed is SimTime time ? $"{Words.SinceStart(time, start)}, the last that agrees" : "the start";
         return (expected.StateHash == actual.StateHash ? " The states are the same; what happened on the way there is not." : "")
-            + $" A recording holds hashes, which name no body. Since {since}, the replay has events of {count} of {Words.Count(replayed.BodyCount, "body")}{named}.";
+            + $" A recording holds hashes, which name no body. Since {since}, the replay has events of {count} of"
+            + $" {Words.Count(replayed.BodyCount, "body")}{named}.";
     }
 
     private static Simulation Begin(Recording recording, CancellationToken cancellation)

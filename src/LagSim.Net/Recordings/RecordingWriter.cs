@@ -43,7 +43,8 @@ public sealed class RecordingWriter : IDisposable
         this.leaveOpen = leaveOpen;
         if (joined?.Snapshot is WorldSnapshot snapshot && snapshot.Start != start)
         {
-            throw new ArgumentException($"The joined state is of a world that began at {snapshot.Start.ToShortString()}; this one began at {start.ToShortString()}.", nameof(joined));
+            throw new ArgumentException(
+                $"The joined state is of a world that began at {snapshot.Start.ToShortString()}; this one began at {start.ToShortString()}.", nameof(joined));
         }
 
         byte[] sceneBytes = SceneFormat.Encode(scene);

@@ -53,7 +53,9 @@ public sealed class SessionRecorder : IDisposable
         session.StateCommitted += OnCommitted;
     }
 
-    /// <summary>Raised once, on the session's thread, when nothing more can be recorded; with the same sentence as <see cref="Failure"/>. Handlers must not throw.</summary>
+    /// <summary>
+    /// Raised once, on the session's thread, when nothing more can be recorded; with the same sentence as <see cref="Failure"/>. Handlers must not throw.
+    /// </summary>
     public event Action<string>? Failed;
 
     /// <summary>Why nothing more is recorded, as a sentence; null while all is well. From any thread.</summary>
@@ -131,7 +133,8 @@ public sealed class SessionRecorder : IDisposable
         {
             write();
         }
-        catch (Exception cause) when (cause is IOException or UnauthorizedAccessException or ArgumentException or InvalidOperationException or NotSupportedException)
+        catch (Exception cause) when (cause is IOException or UnauthorizedAccessException or ArgumentException or InvalidOperationException
+            or NotSupportedException)
         {
             Fail(cause.Message);
         }

@@ -4,7 +4,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>The first committed state of a joiner that is not the host's: since when, and which event of a player makes the difference, in both versions.</summary>
+/// <summary>
+/// The first committed state of a joiner that is not the host's: since when, and which event of a player makes the difference, in both versions.
+/// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class Divergence
 {
@@ -33,7 +35,9 @@ public sealed class Divergence
         HasOwnEffect = hasOwnEffect;
     }
 
-    /// <summary>The newest committed time at which the states were the same; before any, the tick before this peer's world begins. What differs came after it.</summary>
+    /// <summary>
+    /// The newest committed time at which the states were the same; before any, the tick before this peer's world begins. What differs came after it.
+    /// </summary>
     public SimTime After { get; }
 
     /// <summary>The committed time at which they are not.</summary>
@@ -45,19 +49,25 @@ public sealed class Divergence
     /// <summary>The same as the host told it.</summary>
     public ulong HostHash { get; }
 
-    /// <summary>The accepted events stamped between the two times that have had their effect in this peer's world, by stamp; of a session with very many the newest.</summary>
+    /// <summary>
+    /// The accepted events stamped between the two times that have had their effect in this peer's world, by stamp; of a session with very many the newest.
+    /// </summary>
     public IReadOnlyList<LogEntry> Events { get; }
 
     /// <summary>What has been found out.</summary>
     public DivergenceFinding Finding { get; }
 
-    /// <summary>With <see cref="DivergenceFinding.EventDiffers"/> the first event that differs as the host has it; null if the host has no such event.</summary>
+    /// <summary>
+    /// With <see cref="DivergenceFinding.EventDiffers"/> the first event that differs as the host has it; null if the host has no such event.
+    /// </summary>
     public LogEntry? HostVersion { get; }
 
     /// <summary>The same as it stands here, whatever the verdict that came here; null if this peer has never heard of it.</summary>
     public LogEntry? OwnVersion { get; }
 
-    /// <summary>Whether <see cref="OwnVersion"/> has had its effect in this peer's world. One that was accepted and has not came too late for the history here.</summary>
+    /// <summary>
+    /// Whether <see cref="OwnVersion"/> has had its effect in this peer's world. One that was accepted and has not came too late for the history here.
+    /// </summary>
     public bool HasOwnEffect { get; }
 
     /// <summary>All of it in sentences, with times since the start of the session.</summary>
@@ -65,11 +75,13 @@ public sealed class Divergence
     {
         string since = After < start ? "from its beginning" : $"after T {Seconds(After)} s";
         string head = FormattableString.Invariant(
-            $"The committed state at T {Seconds(At)} s differs from the host's. Its hash is {OwnHash:x16} here and {HostHash:x16} there. It began to differ {since}; in between {Count()} of players took effect here. ");
+            $"The committed state at T {Seconds(At)} s differs from the host's. Its hash is {OwnHash:x16} here and {HostHash:x16} there. ")
+            + $"It began to differ {since}; in between {Count()} of players took effect here. ";
         return head + Finding switch
         {
             DivergenceFinding.EventDiffers => $"The first that differs: at the host {Text(HostVersion, true)}; here {Text(OwnVersion, HasOwnEffect)}.",
-            DivergenceFinding.EventsAgree => "The host has the same ones: its world made something else of them, or the hash that it told is not its world's. A replay of a recording of each tells which of the two departs from its own events.",
+            DivergenceFinding.EventsAgree => "The host has the same ones: its world made something else of them, or the hash that it told is not its world's."
+                + " A replay of a recording of each tells which of the two departs from its own events.",
             DivergenceFinding.Forgotten => "Not all of them are still kept, so which one differs cannot be told.",
             DivergenceFinding.Unanswered => "The host did not tell its own.",
             DivergenceFinding.NotPromised => "With this strategy worlds need not agree.",

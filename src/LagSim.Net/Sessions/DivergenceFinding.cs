@@ -9,7 +9,9 @@ public enum DivergenceFinding
     /// <summary>An event of a player differs; <see cref="Divergence.HostVersion"/> and <see cref="Divergence.OwnVersion"/> are its two versions.</summary>
     EventDiffers = 1,
 
-    /// <summary>All events of players are the same on both: one of the two worlds made something else of them, or the hash that the host told is not its world's.</summary>
+    /// <summary>
+    /// All events of players are the same on both: one of the two worlds made something else of them, or the hash that the host told is not its world's.
+    /// </summary>
     EventsAgree = 2,
 
     /// <summary>The host or this peer no longer has all events of that time.</summary>

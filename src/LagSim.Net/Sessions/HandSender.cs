@@ -6,7 +6,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>Says when the others must hear of a hand that holds a body: when what they foretell of it from the last knot is off by more than a set distance.</summary>
+/// <summary>
+/// Says when the others must hear of a hand that holds a body: when what they foretell of it from the last knot is off by more than a set distance.
+/// </summary>
 /// <remarks>
 /// <para>It replays <see cref="HandPath"/>, by which every peer extrapolates, so bandwidth follows surprise. The same samples give the same knots. For one
 /// hand from one grab to its release, on one thread. What is done is stamped when it is done, so a knot is to be done at once.</para>
@@ -34,7 +36,9 @@ public sealed class HandSender
     /// <summary>How many knots were due so far.</summary>
     public long Knots { get; private set; }
 
-    /// <summary>The greatest distance in metres by which a sample was off from what the others foretold, those included that a knot was due for; of the first none.</summary>
+    /// <summary>
+    /// The greatest distance in metres by which a sample was off from what the others foretold, those included that a knot was due for; of the first none.
+    /// </summary>
     public double GreatestError { get; private set; }
 
     /// <summary>Takes where the hand is, and says whether the others must hear of it.</summary>
@@ -48,7 +52,8 @@ public sealed class HandSender
     {
         if (hasSent && time < sent)
         {
-            throw new ArgumentOutOfRangeException(nameof(time), time.ToShortString(), $"A knot of {sent.ToShortString()} was sent already; samples come in the order of their times.");
+            throw new ArgumentOutOfRangeException(nameof(time), time.ToShortString(), $"A knot of {sent.ToShortString()} was sent already; samples come in the"
+                + " order of their times.");
         }
 
         SimDuration since = hasSent ? time - sent : SimDuration.MaxValue;

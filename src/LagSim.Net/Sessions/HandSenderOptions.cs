@@ -14,7 +14,8 @@ public sealed class HandSenderOptions
     public SimDuration Shortest { get; set; } = SimDuration.FromMilliseconds(50);
 
     /// <summary>
-    /// The longest time without a knot, however still the hand keeps: up to half of <see cref="HandPath.Lasts"/>, after which the hold would end by itself, so that
+    /// The longest time without a knot, however still the hand keeps: up to half of <see cref="HandPath.Lasts"/>, after which the hold would end by itself, so
+    /// that
     /// one may be late; default 400 ms.
     /// </summary>
     public SimDuration Longest { get; set; } = SimDuration.FromMilliseconds(400);
@@ -29,12 +30,14 @@ public sealed class HandSenderOptions
         SimDuration most = HandPath.Lasts / 2;
         if (Longest < SimDuration.FromMilliseconds(1) || Longest > most)
         {
-            throw new ArgumentOutOfRangeException(nameof(Longest), Longest.ToShortString(), $"The longest time without a knot lies between 1 ms and {most.ToShortString()}.");
+            throw new ArgumentOutOfRangeException(nameof(Longest), Longest.ToShortString(), $"The longest time without a knot lies between 1 ms and"
+                + $" {most.ToShortString()}.");
         }
 
         if (Shortest < SimDuration.FromMilliseconds(1) || Shortest > Longest)
         {
-            throw new ArgumentOutOfRangeException(nameof(Shortest), Shortest.ToShortString(), $"The least time between two knots lies between 1 ms and the longest, {Longest.ToShortString()}.");
+            throw new ArgumentOutOfRangeException(nameof(Shortest), Shortest.ToShortString(), $"The least time between two knots lies between 1 ms and the"
+                + $" longest, {Longest.ToShortString()}.");
         }
 
         return new HandSenderOptions { Distance = Distance, Shortest = Shortest, Longest = Longest };

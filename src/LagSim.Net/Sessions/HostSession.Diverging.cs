@@ -9,7 +9,9 @@ namespace LagSim.Net.Sessions;
 /// <content>A joiner whose committed state is another asks for the events of the time in which that came about.</content>
 public sealed partial class HostSession
 {
-    /// <summary>Raised on the session's thread for each joiner, once, that says its committed state at that time is not this host's. Handlers must not throw.</summary>
+    /// <summary>
+    /// Raised on the session's thread for each joiner, once, that says its committed state at that time is not this host's. Handlers must not throw.
+    /// </summary>
     public event Action<byte, SimTime>? JoinerDiverged;
 
     private void OnDoubt(in DoubtDatagram doubt, PeerAddress from)

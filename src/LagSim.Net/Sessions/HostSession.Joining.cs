@@ -142,7 +142,9 @@ public sealed partial class HostSession
     private bool HasJoinedTooOften(PeerAddress from) =>
         recentJoins.Count >= MaxRecentJoins || recentJoins.Count(join => join.From.IsSameMachine(from)) >= MaxRecentJoinsOfOne;
 
-    /// <summary>The number that a player's key gives, or for the connect key the least that is free, 0 if there is none; false if it is no key of ours.</summary>
+    /// <summary>
+    /// The number that a player's key gives, or for the connect key the least that is free, 0 if there is none; false if it is no key of ours.
+    /// </summary>
     private bool TryNumber(in JoinDatagram join, PeerAddress from, out byte number)
     {
         foreach (KeyValuePair<byte, string> player in Options.PlayerKeys)

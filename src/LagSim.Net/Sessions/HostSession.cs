@@ -359,7 +359,8 @@ public sealed partial class HostSession : Session
         // The watermark is a promise about what comes after this update's last entry: the one at which the next entry was added, or as there is none, now's.
         uint last = update.FirstIndex + (uint)update.Held.Length - 1;
         update.Watermark = World is null ? SimTime.MinValue : last < log.Count ? log.WatermarkAfter(last) : Watermark;
-        bool isUrgent = joiner.Acknowledged < Math.Min(lastUrgent, logView.Last) || joiner.Outgoing.HasLost || (World is not null && joiner.IsReady && !joiner.HasBegun);
+        bool isUrgent = joiner.Acknowledged < Math.Min(lastUrgent, logView.Last) || joiner.Outgoing.HasLost
+            || (World is not null && joiner.IsReady && !joiner.HasBegun);
         SimDuration wait = WaitAfterUpdate(isUrgent, joiner.Acknowledged < logView.Last, joiner.Link, now, Overdue);
         Send(joiner.Link.Seal(hasMore ? now : now + wait), joiner.Link);
         return hasMore;

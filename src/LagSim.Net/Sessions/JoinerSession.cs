@@ -142,7 +142,8 @@ public sealed partial class JoinerSession : Session
                 // To bend it back at 5 % takes twenty times as long, and until then all that is done here would be refused.
                 Farewell();
                 End(SessionEnd.Failed, FormattableString.Invariant(
-                    $"This machine's clock and the host's are {off.ToSeconds():0.###} s further apart than before: one of them jumped, or the machine slept. Join again."));
+                    $"This machine's clock and the host's are {off.ToSeconds():0.###} s further apart than before: one of them jumped, or the machine slept.")
+                    + " Join again.");
                 return;
             }
         }
@@ -277,7 +278,8 @@ public sealed partial class JoinerSession : Session
             {
                 Farewell();
                 End(SessionEnd.Failed, FormattableString.Invariant(
-                    $"The host at {host} says that the session began {(SharedTime.Now - start).ToSeconds():0} s ago and sent no state of it: that is more than history and time-out allow."));
+                    $"The host at {host} says that the session began {(SharedTime.Now - start).ToSeconds():0} s ago and sent no state of it: that is more than")
+                    + " history and time-out allow.");
             }
             else if (start != SimTime.MinValue)
             {
@@ -304,7 +306,8 @@ public sealed partial class JoinerSession : Session
     /// asked to be let in, and the time-out for clocks and copies; before that nothing is simulated, however long it would take.
     /// </summary>
     private SimTime EarliestStart() =>
-        SharedTime.Now - (Clock.Now - began) - (History < LatencyCompensationWindow.MaxHistory ? History : LatencyCompensationWindow.MaxHistory) - Options.Timeout;
+        SharedTime.Now - (Clock.Now - began) - Options.Timeout
+        - (History < LatencyCompensationWindow.MaxHistory ? History : LatencyCompensationWindow.MaxHistory);
 
     private void TakeEntries(UpdateDatagram update, SimTime now)
     {
@@ -386,7 +389,9 @@ public sealed partial class JoinerSession : Session
         update.Ready = IsReady;
         update.Start = World?.Simulation.Start ?? SimTime.MinValue;
         bool hasMore = outgoing.Fill(update, unjudged, now, TimesOf(to));
-        SimDuration wait = !IsReady ? Pace : WaitAfterUpdate(outgoing.Acknowledged < lastUrgent || outgoing.HasLost, outgoing.Acknowledged < LastSequence, to, now, Options.KeepAlive);
+        SimDuration wait = !IsReady
+            ? Pace
+            : WaitAfterUpdate(outgoing.Acknowledged < lastUrgent || outgoing.HasLost, outgoing.Acknowledged < LastSequence, to, now, Options.KeepAlive);
         Send(to.Seal(hasMore ? now : now + wait), to);
         return hasMore;
     }

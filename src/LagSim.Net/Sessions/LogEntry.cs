@@ -42,7 +42,8 @@ public readonly struct LogEntry : IEquatable<LogEntry>
         string values = Event.Kind switch
         {
             EventKind.Spawn => FormattableString.Invariant(
-                $": radius {spec.Radius:R} m, mass {spec.Mass:R} kg, restitution {spec.Restitution:R}, {spec.Flight} with a step of {spec.Step.ToShortString()},")
+                $": radius {spec.Radius:R} m, mass {spec.Mass:R} kg, restitution {spec.Restitution:R}, {spec.Flight}")
+                + $" with a step of {spec.Step.ToShortString()},"
                 + FormattableString.Invariant($" a tolerance of {spec.Tolerance:R}, forces {spec.Forces}, friction {spec.Friction:R} and rolling resistance {spec.RollingResistance:R},")
                 + $" at {Event.Position} m with {Event.Velocity} m/s and {Event.Spin} rad/s",
             EventKind.Teleport => $": to {Event.Position} m with {Event.Velocity} m/s",

@@ -48,7 +48,8 @@ public sealed class PeerThread : IDisposable
     {
         if (udpPort is < 0 or > IPEndPoint.MaxPort)
         {
-            throw new ArgumentOutOfRangeException(nameof(udpPort), udpPort, $"A UDP port is a number from 1 to {IPEndPoint.MaxPort}, or 0 for any that is free.");
+            throw new ArgumentOutOfRangeException(nameof(udpPort), udpPort, $"A UDP port is a number from 1 to {IPEndPoint.MaxPort}, or 0 for any that"
+                + " is free.");
         }
 
         UdpPort port = new(new IPEndPoint(bind ?? IPAddress.Any, udpPort));
@@ -70,10 +71,13 @@ public sealed class PeerThread : IDisposable
 
         PeerAddress address = PeerAddress.From(host);
         UdpPort port = new(UdpDestination.Facing(address.ToEndPoint().Address));
-        return Begin(port, () => new JoinerSession(scene, port, new StopwatchClock(), options ?? new SessionOptions(), address, Session.DrawNumber()), "LagSim joiner");
+        return Begin(
+            port, () => new JoinerSession(scene, port, new StopwatchClock(), options ?? new SessionOptions(), address, Session.DrawNumber()), "LagSim joiner");
     }
 
-    /// <summary>Where this peer's port is reached, from this machine only if it listens at every address there is: then others use one of the machine's own.</summary>
+    /// <summary>
+    /// Where this peer's port is reached, from this machine only if it listens at every address there is: then others use one of the machine's own.
+    /// </summary>
     public PeerAddress LocalAddress => port.LocalAddress;
 
     /// <summary>The session. While the thread runs, read of it only what it says may be read from any thread.</summary>
@@ -109,7 +113,9 @@ public sealed class PeerThread : IDisposable
     /// <summary>Starts the thread; once.</summary>
     public void Start() => thread.Start();
 
-    /// <summary>The newest picture of the world, for the one thread that draws; null before there is a world. A frame reads it at <see cref="Session.DisplayTime"/>.</summary>
+    /// <summary>
+    /// The newest picture of the world, for the one thread that draws; null before there is a world. A frame reads it at <see cref="Session.DisplayTime"/>.
+    /// </summary>
     /// <exception cref="InvalidOperationException">The thread ended by an exception, the inner one.</exception>
     public Picture? Latest()
     {

@@ -31,7 +31,8 @@ internal sealed class PlayerLimits
                 return Verdict.Accepted;
             }
 
-            sentence = $"Peer {player} has spawned {options.MaxSpawned} bodies that are still there, and no player may have more at a time; some have to be removed first.";
+            sentence = $"Peer {player} has spawned {options.MaxSpawned} bodies that are still there, and no player may have more at a time; some have to be"
+                + " removed first.";
             return Verdict.NoRight;
         }
 
@@ -44,7 +45,8 @@ internal sealed class PlayerLimits
         }
 
         sentence = FormattableString.Invariant(
-            $"The {external.Kind} gives {(turns ? "the surface of body" : "body")} {external.Body} a speed of {speed:R} m/s; in this session a player may give {options.MaxGivenSpeed:R} m/s at most.");
+            $"The {external.Kind} gives {(turns ? "the surface of body" : "body")} {external.Body} a speed of {speed:R} m/s; ")
+            + FormattableString.Invariant($" in this session a player may give {options.MaxGivenSpeed:R} m/s at most.");
         return Verdict.Invalid;
     }
 
@@ -78,7 +80,8 @@ internal sealed class PlayerLimits
     private static double SurfaceSpeed(in ExternalEvent spawn) => spawn.Spin.Length * spawn.Spec.Radius;
 
     /// <summary>
-    /// How fast the event leaves its body, and how fast that was; an impulse, and the way a hand has to make up for, are judged by the world as it is known now.
+    /// How fast the event leaves its body, and how fast that was; an impulse, and the way a hand has to make up for, are judged by the world as it is known
+    /// now.
     /// </summary>
     private double SpeedAfter(in ExternalEvent external, Simulation world, out double before)
     {

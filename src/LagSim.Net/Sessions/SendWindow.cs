@@ -12,7 +12,8 @@ namespace LagSim.Net.Sessions;
 /// datagram is filled up with entries that were sent before.</para>
 /// <para>At most <see cref="MaxEntries"/> are under way. Where nothing is acknowledged though all was sent twice, the wait doubles, and only the oldest
 /// go on at the resend interval: who lets itself be sent to and answers nothing costs little.</para>
-/// <para>Knots are made up for by later ones, so they travel twice, and then wait; once one <see cref="HasLost"/> its time, they too travel in every datagram.</para>
+/// <para>Knots are made up for by later ones, so they travel twice, and then wait; once one <see cref="HasLost"/> its time, they too travel in every
+/// datagram.</para>
 /// </remarks>
 internal sealed class SendWindow
 {
@@ -114,7 +115,8 @@ internal sealed class SendWindow
     }
 
     /// <summary>
-    /// The first entry that goes out in any case, of those that are not acknowledged, up to the last. Where they are knots alone it is the newest that was sent before; where there is anything else, it
+    /// The first entry that goes out in any case, of those that are not acknowledged, up to the last. Where they are knots alone it is the newest that was sent
+    /// before; where there is anything else, it
     /// is the first, since what comes after one that is lost can be taken only with it.
     /// </summary>
     private uint FirstNeeded(IEntrySource source, uint last)

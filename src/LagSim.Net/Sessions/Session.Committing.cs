@@ -11,7 +11,9 @@ public abstract partial class Session
     private SimTime settled = SimTime.MinValue; // the watermark that was last committed to
     private CommitSchedule? schedule;
 
-    /// <summary>Raised on the session's thread for every committed state, in order; see <see cref="SessionOptions.CommitInterval"/>. Handlers must not throw.</summary>
+    /// <summary>
+    /// Raised on the session's thread for every committed state, in order; see <see cref="SessionOptions.CommitInterval"/>. Handlers must not throw.
+    /// </summary>
     /// <remarks>A world that is behind commits later; where it had to forget an instant before that could be committed, none is raised for it.</remarks>
     public event Action<CommittedState>? StateCommitted;
 

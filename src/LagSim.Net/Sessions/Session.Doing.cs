@@ -10,7 +10,8 @@ namespace LagSim.Net.Sessions;
 public abstract partial class Session
 {
     /// <summary>
-    /// Does something to the shared world, now, or later by what <see cref="SessionOptions.Window"/> has of local lag for it: seen here then, by the others too or as soon as they hear of it.
+    /// Does something to the shared world, now, or later by what <see cref="SessionOptions.Window"/> has of local lag for it: seen here then, by the others too
+    /// or as soon as they hear of it.
     /// </summary>
     /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
     /// <exception cref="InvalidOperationException">
@@ -48,7 +49,9 @@ public abstract partial class Session
         {
             if (World.Submit(external) == SubmitResult.TooOld)
             {
-                throw new InvalidOperationException($"Nothing can be done yet: the shared time is {external.Time.ToShortString()}, and what lies before {World.Simulation.HistoryEdge.ToShortString()} is committed.");
+                throw new InvalidOperationException(
+                    $"Nothing can be done yet: the shared time is {external.Time.ToShortString()}, and what lies before"
+                    + $" {World.Simulation.HistoryEdge.ToShortString()} is committed.");
             }
         }
         catch (SimulationException failure)

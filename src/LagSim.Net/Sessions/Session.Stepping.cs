@@ -15,7 +15,9 @@ public abstract partial class Session
     private readonly byte[] buffer = new byte[IDatagramPort.MaxDatagramBytes];
     private readonly UpdateDatagram received = new();
 
-    /// <summary>Does what is due: takes in datagrams, sends, brings the world ahead, by a bounded number of events; see <see cref="LiveWorld.IsBehind"/>.</summary>
+    /// <summary>
+    /// Does what is due: takes in datagrams, sends, brings the world ahead, by a bounded number of events; see <see cref="LiveWorld.IsBehind"/>.
+    /// </summary>
     /// <returns>How long until something is due again, unless a datagram or an action comes first.</returns>
     /// <remarks>A world that cannot be simulated any further ends the session, with the reason; whatever others send, it does not throw.</remarks>
     public SimDuration Step()

@@ -61,14 +61,17 @@ public abstract partial class Session
         strategy = LateEventStrategies.Create(options.Strategy, options.DisplayDelay);
         if (options.SyncTest && !(strategy.RewritesPast && strategy.Mode == HealingMode.CausalCone))
         {
-            throw new ArgumentException($"The strategy is '{options.Strategy}', which does not heal; a sync test is for one that does: healing or interpolation.", nameof(options));
+            throw new ArgumentException(
+                $"The strategy is '{options.Strategy}', which does not heal; a sync test is for one that does: healing or interpolation.", nameof(options));
         }
 
         contacts = options.Contacts;
         SharedTime = new SharedClock(clock);
     }
 
-    /// <summary>Raised on the session's thread, once, when there is a <see cref="World"/> and nothing has happened in it yet. Handlers must not throw.</summary>
+    /// <summary>
+    /// Raised on the session's thread, once, when there is a <see cref="World"/> and nothing has happened in it yet. Handlers must not throw.
+    /// </summary>
     public event Action? Begun;
 
     /// <summary>Raised on the thread that ended the session, once; <see cref="EndReason"/> tells why. Handlers must not throw.</summary>
@@ -87,11 +90,15 @@ public abstract partial class Session
     /// <summary>The session's time; readable once <see cref="SharedClock.IsSet"/>, from any thread.</summary>
     public SharedClock SharedTime { get; }
 
-    /// <summary>How far behind the shared time this peer shows the world: <see cref="SessionOptions.DisplayDelay"/> with <c>interpolation</c>, else zero. From any thread.</summary>
+    /// <summary>
+    /// How far behind the shared time this peer shows the world: <see cref="SessionOptions.DisplayDelay"/> with <c>interpolation</c>, else zero. From any
+    /// thread.
+    /// </summary>
     public SimDuration DisplayDelay => strategy.DisplayDelay;
 
     /// <summary>
-    /// What a frame that is drawn now reads of a picture: shared time less <see cref="DisplayDelay"/>. In the first moments, when that lies before the world this peer
+    /// What a frame that is drawn now reads of a picture: shared time less <see cref="DisplayDelay"/>. In the first moments, when that lies before the world
+    /// this peer
     /// has, the earliest instant of it, so that the world stands still until it can be shown on its way. From any thread, once there is a <see cref="World"/>.
     /// </summary>
     public SimTime DisplayTime
@@ -131,7 +138,9 @@ public abstract partial class Session
     /// </summary>
     public uint LogStart { get; private protected set; }
 
-    /// <summary>What went over each link so far; of a host in the order in which its joiners came. On the session's thread; see <see cref="PeerThread.Ask"/>.</summary>
+    /// <summary>
+    /// What went over each link so far; of a host in the order in which its joiners came. On the session's thread; see <see cref="PeerThread.Ask"/>.
+    /// </summary>
     public abstract IReadOnlyList<LinkTraffic> Links { get; }
 
     /// <summary>How many lines of the host's log this peer has, those included that were in the state it began from. On the session's thread.</summary>
@@ -169,7 +178,9 @@ public abstract partial class Session
         return BinaryPrimitives.ReadUInt64LittleEndian(bytes);
     }
 
-    /// <summary>Has a step that is simulating end soon, by an <see cref="OperationCanceledException"/>; from any thread. The world stands still from then on.</summary>
+    /// <summary>
+    /// Has a step that is simulating end soon, by an <see cref="OperationCanceledException"/>; from any thread. The world stands still from then on.
+    /// </summary>
     internal void Interrupt() => interruption.Cancel();
 
     /// <summary>Says goodbye and ends the session. The world stays readable.</summary>
@@ -246,12 +257,16 @@ public abstract partial class Session
     /// </summary>
     private protected bool IsOverdue(SimDuration silence) => silence > Overdue;
 
-    /// <summary>How long a silence is overdue. A host waits as long before it writes of itself: a joiner's keep-alives, which it answers, do for both.</summary>
+    /// <summary>
+    /// How long a silence is overdue. A host waits as long before it writes of itself: a joiner's keep-alives, which it answers, do for both.
+    /// </summary>
     private protected SimDuration Overdue => Options.KeepAlive + (Options.KeepAlive / 4);
 
     private protected ResendTimes TimesOf(UpdateLink link) => new(link.Patience + Options.ResendInterval, MostAckDelay, Options.ResendInterval);
 
-    /// <summary>Whether the next of its kind carries what this one would have, if it is lost: it waits for its acknowledgement, and need not be sent again and again.</summary>
+    /// <summary>
+    /// Whether the next of its kind carries what this one would have, if it is lost: it waits for its acknowledgement, and need not be sent again and again.
+    /// </summary>
     internal static bool IsMadeUpFor(in ExternalEvent external) => external.Kind == EventKind.HoldKnot;
 
     /// <summary>How long to wait before the next update, and how long where nothing is the matter.</summary>
@@ -305,6 +320,7 @@ public abstract partial class Session
         bool isFull = failure is TimelinesFullException;
         End(
             isFull ? SessionEnd.TimelinesFull : SessionEnd.Failed,
-            isFull ? $"This peer has no more room for what may still change, and left; it can join again. {failure.Message}" : $"The world cannot be simulated any further. {failure.Message}");
+            isFull ? $"This peer has no more room for what may still change, and left; it can join again. {failure.Message}" : $"The world cannot be simulated"
+                + $" any further. {failure.Message}");
     }
 }

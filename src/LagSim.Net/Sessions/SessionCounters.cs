@@ -4,7 +4,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>What a session counted. That of <see cref="Session.Counters"/> goes on counting: read it on the session's thread, or once that has stopped.</summary>
+/// <summary>
+/// What a session counted. That of <see cref="Session.Counters"/> goes on counting: read it on the session's thread, or once that has stopped.
+/// </summary>
 /// <remarks>A <see cref="Copy"/> never changes and is safe on any thread.</remarks>
 public sealed class SessionCounters
 {
@@ -87,7 +89,9 @@ public sealed class SessionCounters
     /// <summary>By how much the events of other peers came after their own time; negative for those that came before.</summary>
     public IReadOnlyList<SimDuration> Lateness => new ArraySegment<SimDuration>(lateness, 0, latenessCount);
 
-    /// <summary>What was counted up to now, which stays as it is. Taken on the session's thread, it may be read on any: see <see cref="PeerThread.Ask"/>.</summary>
+    /// <summary>
+    /// What was counted up to now, which stays as it is. Taken on the session's thread, it may be read on any: see <see cref="PeerThread.Ask"/>.
+    /// </summary>
     /// <remarks>Cheap, however much was counted.</remarks>
     public SessionCounters Copy() => new(this);
 

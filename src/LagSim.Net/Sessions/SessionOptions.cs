@@ -47,8 +47,10 @@ public sealed class SessionOptions
     public int MaxEventsPerSecond { get; set; } = 500;
 
     /// <summary>
-    /// The highest speed in m/s that an event of a player may give, above 0, up to <see cref="double.PositiveInfinity"/> for no limit beyond the world's own; default
-    /// 1,000. It holds for the velocity of a spawn, a teleport, a set velocity, a knot or a release, for the surface of a spawn that turns, for the way that a knot has a held body make up for, and for what
+    /// The highest speed in m/s that an event of a player may give, above 0, up to <see cref="double.PositiveInfinity"/> for no limit beyond the world's own;
+    /// default
+    /// 1,000. It holds for the velocity of a spawn, a teleport, a set velocity, a knot or a release, for the surface of a spawn that turns, for the way that a
+    /// knot has a held body make up for, and for what
     /// an impulse leaves, unless that is slower than what was there. A host
     /// refuses more as <see cref="Verdict.Invalid"/>, by its own option; a joiner's own <see cref="Session.Do"/> goes by the joiner's.
     /// </summary>
@@ -56,7 +58,8 @@ public sealed class SessionOptions
     public double MaxGivenSpeed { get; set; } = 1_000;
 
     /// <summary>
-    /// How many bodies that one player spawned may be there at a time, 0 to 1,000,000; default 64. Those of the former holders of a joiner's number count. A host
+    /// How many bodies that one player spawned may be there at a time, 0 to 1,000,000; default 64. Those of the former holders of a joiner's number count. A
+    /// host
     /// refuses more as <see cref="Verdict.NoRight"/>, by its own option; a joiner's own <see cref="Session.Do"/> goes by the joiner's.
     /// </summary>
     public int MaxSpawned { get; set; } = 64;
@@ -65,13 +68,15 @@ public sealed class SessionOptions
     public SimDuration CommitInterval { get; set; } = SimDuration.FromSeconds(1);
 
     /// <summary>
-    /// How late an event may be and still be accepted, how far ahead the world is simulated, and how much later than it is done what this peer does is to happen. The history is the
+    /// How late an event may be and still be accepted, how far ahead the world is simulated, and how much later than it is done what this peer does is to
+    /// happen. The history is the
     /// host's, whatever a joiner says.
     /// </summary>
     public LatencyCompensationWindow Window { get; set; } = new();
 
     /// <summary>
-    /// How many segments all timelines of this peer may hold together, from 1; default <see cref="SimulationOptions.DefaultMaxSegments"/>. A peer that needs more says so and leaves
+    /// How many segments all timelines of this peer may hold together, from 1; default <see cref="SimulationOptions.DefaultMaxSegments"/>. A peer that needs
+    /// more says so and leaves
     /// (<see cref="SessionEnd.TimelinesFull"/>), and can join again: it then gets the world as it is committed.
     /// </summary>
     public int MaxSegments { get; set; } = SimulationOptions.DefaultMaxSegments;
@@ -105,7 +110,8 @@ public sealed class SessionOptions
     }
 
     /// <summary>
-    /// What is told of contacts, for a sound or a score; null, the default: nobody. Of one session alone. Contacts are confirmed once the watermark has passed, later by
+    /// What is told of contacts, for a sound or a score; null, the default: nobody. Of one session alone. Contacts are confirmed once the watermark has passed,
+    /// later by
     /// <see cref="ExtraHistory"/>.
     /// </summary>
     public ContactNotices? Contacts { get; set; }
@@ -114,13 +120,16 @@ public sealed class SessionOptions
     public string Strategy { get; set; } = LateEventStrategies.Default;
 
     /// <summary>
-    /// Whether every late event is healed and also fully rolled back in a second world, and every bit of the two compared; default false. The first difference ends the session with a
-    /// sentence that names it in both versions. To test a scene of one's own: it costs more than twice as much. With a strategy that heals alone: <c>healing</c> or <c>interpolation</c>.
+    /// Whether every late event is healed and also fully rolled back in a second world, and every bit of the two compared; default false. The first difference
+    /// ends the session with a
+    /// sentence that names it in both versions. To test a scene of one's own: it costs more than twice as much. With a strategy that heals alone:
+    /// <c>healing</c> or <c>interpolation</c>.
     /// </summary>
     public bool SyncTest { get; set; }
 
     /// <summary>
-    /// How far behind shared time <c>interpolation</c> shows the world, 0 to 5 s; default 100 ms. No other strategy looks at it. News that comes within that time is seen
+    /// How far behind shared time <c>interpolation</c> shows the world, 0 to 5 s; default 100 ms. No other strategy looks at it. News that comes within that
+    /// time is seen
     /// without a jump, and what this peer does itself is seen that much later. A frame reads at <see cref="Session.DisplayTime"/>. Each peer may have another.
     /// </summary>
     public SimDuration DisplayDelay { get; set; } = Interpolation.DefaultDelay;
@@ -151,7 +160,8 @@ public sealed class SessionOptions
         Range(CommitInterval, 0.1, 60, nameof(CommitInterval));
         if (ConnectKey is null || PlayerKeys is null)
         {
-            throw new ArgumentException("The connect key and the players' keys may be empty, but not null.", ConnectKey is null ? nameof(ConnectKey) : nameof(PlayerKeys));
+            throw new ArgumentException(
+                "The connect key and the players' keys may be empty, but not null.", ConnectKey is null ? nameof(ConnectKey) : nameof(PlayerKeys));
         }
 
         if (ConnectKey.Length > MaxKeyLength)
@@ -164,7 +174,8 @@ public sealed class SessionOptions
             if (player.Key is 0 or > MaxJoiners || string.IsNullOrEmpty(player.Value) || player.Value.Length > MaxKeyLength)
             {
                 throw new ArgumentOutOfRangeException(
-                    nameof(PlayerKeys), $"{player.Value?.Length ?? 0} characters for player {player.Key}", $"Players 1 to {MaxJoiners} can have keys, each of 1 to {MaxKeyLength} characters.");
+                    nameof(PlayerKeys), $"{player.Value?.Length ?? 0} characters for player {player.Key}", $"Players 1 to {MaxJoiners} can have keys, each of"
+                        + $" 1 to {MaxKeyLength} characters.");
             }
         }
 

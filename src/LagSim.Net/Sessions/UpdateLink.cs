@@ -59,7 +59,10 @@ internal sealed class UpdateLink
     /// <summary>The longer of two silences: for how long nothing came, and for how long the other said, when it last wrote, that nothing came there.</summary>
     internal SimDuration Silence(SimTime now) => now - Heard > unheard ? now - Heard : unheard;
 
-    /// <summary>After how long an answer can be taken for lost: the mean round trip and four times its mean deviation, as TCP has it. Zero before it <see cref="IsMeasured"/>.</summary>
+    /// <summary>
+    /// After how long an answer can be taken for lost: the mean round trip and four times its mean deviation, as TCP has it. Zero before it
+    /// <see cref="IsMeasured"/>.
+    /// </summary>
     internal SimDuration Patience => meanRoundTrip + (meanDeviation * 4);
 
     /// <summary>Whether a round trip has been measured yet.</summary>

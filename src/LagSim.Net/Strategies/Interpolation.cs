@@ -6,7 +6,8 @@ using LagSim.Time;
 namespace LagSim.Net.Strategies;
 
 /// <summary>
-/// Draw the past: the world heals as with <see cref="Healing"/>, right bit for bit, but what is shown lies <see cref="DisplayDelay"/> behind shared time, so that
+/// Draw the past: the world heals as with <see cref="Healing"/>, right bit for bit, but what is shown lies <see cref="DisplayDelay"/> behind shared time, so
+/// that
 /// most news has come before it is drawn, and nothing jumps.
 /// </summary>
 /// <remarks>
@@ -28,7 +29,8 @@ public sealed class Interpolation : ILateEventStrategy
         DisplayDelay = delay ?? DefaultDelay;
         if (DisplayDelay < SimDuration.Zero || DisplayDelay > MaxDelay)
         {
-            throw new ArgumentOutOfRangeException(nameof(delay), DisplayDelay.ToShortString(), $"The world is shown 0 s to {MaxDelay.ToShortString()} behind shared time.");
+            throw new ArgumentOutOfRangeException(nameof(delay), DisplayDelay.ToShortString(), $"The world is shown 0 s to {MaxDelay.ToShortString()} behind"
+                + " shared time.");
         }
     }
 

@@ -15,7 +15,9 @@ public static class LateEventStrategies
 
     /// <summary>A new instance of the strategy of that name.</summary>
     /// <param name="name">One of <see cref="Names"/>.</param>
-    /// <param name="displayDelay">How far behind shared time <c>interpolation</c> shows the world, 0 to 5 s; default 100 ms. The others show the present.</param>
+    /// <param name="displayDelay">
+    /// How far behind shared time <c>interpolation</c> shows the world, 0 to 5 s; default 100 ms. The others show the present.
+    /// </param>
     /// <exception cref="ArgumentException">There is none of that name, and the message lists what there is; or the delay is out of its range.</exception>
     public static ILateEventStrategy Create(string name, SimDuration? displayDelay = null) => name switch
     {

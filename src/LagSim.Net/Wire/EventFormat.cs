@@ -157,6 +157,7 @@ public static class EventFormat
         reader.Require(step != 0); // which the constructor would take for "the default": one meaning, one form
         ForceSet forces = ForceSet.FromMask(reader.ReadUInt32());
         reader.Require(flight != MotionLaw.Automatic || !forces.IsEmpty); // which is Ballistic
-        return new BodySpec(radius, mass, restitution, flight, SimDuration.FromTicks(step), forces, reader.ReadDouble(), reader.ReadDouble(), reader.ReadDouble());
+        return new BodySpec(
+            radius, mass, restitution, flight, SimDuration.FromTicks(step), forces, reader.ReadDouble(), reader.ReadDouble(), reader.ReadDouble());
     }
 }

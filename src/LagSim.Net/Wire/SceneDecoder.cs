@@ -119,7 +119,8 @@ internal ref struct SceneDecoder
             _ => Known(name, version) is IAcceleration known ? Force.Supplied(known) : null,
         };
         bool isPlain = force is null
-            || (force.Strength == strength && force.Damping == damping && force.Vector == vector && force.Power == power && (version == 0 || kind == ForceKind.Supplied));
+            || (force.Strength == strength && force.Damping == damping && force.Vector == vector && force.Power == power
+                && (version == 0 || kind == ForceKind.Supplied));
         if (!isPlain)
         {
             Refuse($"Force '{name}' of the scene, {kind}, has values that this kind does not use; on the wire they are 0.");
@@ -277,7 +278,9 @@ internal ref struct SceneDecoder
 
     private readonly string Sentence()
     {
-        string what = number == 0 ? $"the scene's {part}{(part is "head" or "periodic box" ? "" : " count")}" : FormattableString.Invariant($"{part} {number} of the scene");
+        string what = number == 0
+            ? $"the scene's {part}{(part is "head" or "periodic box" ? "" : " count")}"
+            : FormattableString.Invariant($"{part} {number} of the scene");
         return reader.Refusal switch
         {
             WireRefusal.TooLong => $"The scene takes {length} bytes; at most {SceneFormat.MaxBytes} are allowed.",

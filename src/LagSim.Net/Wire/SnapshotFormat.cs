@@ -197,7 +197,8 @@ public static class SnapshotFormat
         Vector3D spinRate = turns == 1 ? ReadExactly(ref reader) : default;
         reader.Require(turns == 0 || spin != Vector3D.Zero || spinRate != Vector3D.Zero); // one form
         return new BodySnapshot(
-            id, spec, opened, law, epoch, end, position, velocity, acceleration, planes.Slice(0, supports), crowding, cubic, quartic, quintic, hold, nextStep, spin, spinRate);
+            id, spec, opened, law, epoch, end, position, velocity, acceleration, planes.Slice(0, supports), crowding, cubic, quartic, quintic, hold, nextStep,
+            spin, spinRate);
     }
 
     /// <summary>Whether a path of that law, in flight or an island, has more than a parabola's coefficients.</summary>

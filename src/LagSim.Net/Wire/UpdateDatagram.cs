@@ -112,7 +112,8 @@ public sealed partial class UpdateDatagram
     {
         if (sequence == 0 || verdict > Verdict.Invalid)
         {
-            throw new ArgumentException($"Verdict {(byte)verdict} on event {sequence} cannot travel: events count from 1, verdicts go to {(byte)Verdict.Invalid}.", nameof(sequence));
+            throw new ArgumentException(
+                $"Verdict {(byte)verdict} on event {sequence} cannot travel: events count from 1, verdicts go to {(byte)Verdict.Invalid}.", nameof(sequence));
         }
 
         return TryAdd(new UpdateEntry(verdict, sequence));

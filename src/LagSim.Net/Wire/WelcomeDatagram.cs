@@ -57,7 +57,8 @@ public readonly struct WelcomeDatagram
         if (!IsWellFormed)
         {
             throw new InvalidOperationException(
-                $"No welcome: peer {Peer} must be 1 to 255, history {History.ToShortString()} above zero and below 48 days, a copy of {CopyLength} bytes 1 to {WorldCopy.MaxBytes}.");
+                $"No welcome: peer {Peer} must be 1 to 255, history {History.ToShortString()} above zero and below 48 days, a copy of {CopyLength} bytes 1 to"
+                + $" {WorldCopy.MaxBytes}.");
         }
 
         WireWriter writer = new(destination);

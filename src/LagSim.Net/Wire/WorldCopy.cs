@@ -85,7 +85,8 @@ public sealed class WorldCopy
 
         if (snapshot is not null && !SnapshotFormat.IsInRange(snapshot))
         {
-            error = $"The copy of the world's state is of {snapshot.Time.ToShortString()} in a world that began at {snapshot.Start.ToShortString()}; the first must come after the second, and both travel only within 48 days of the origin.";
+            error = $"The copy of the world's state is of {snapshot.Time.ToShortString()} in a world that began at {snapshot.Start.ToShortString()}; the first"
+                + " must come after the second, and both travel only within 48 days of the origin.";
             return false;
         }
 

@@ -37,7 +37,10 @@ public readonly struct EventKey : IEquatable<EventKey>, IComparable<EventKey>
     /// <summary>The body it happens to; of an impact the least identity among its parties.</summary>
     public BodyId Body { get; }
 
-    /// <summary>Of an impact the partner of <see cref="Body"/> with the least identity, <see cref="Body"/> itself where it hit only static geometry; else <see cref="Body"/>.</summary>
+    /// <summary>
+    /// Of an impact the partner of <see cref="Body"/> with the least identity, <see cref="Body"/> itself where it hit only static geometry; else
+    /// <see cref="Body"/>.
+    /// </summary>
     public BodyId Other { get; }
 
     /// <summary>The peer an external event came from; 0 for what the model made.</summary>

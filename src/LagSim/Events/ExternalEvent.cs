@@ -42,7 +42,8 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     public BodyId Body { get; }
 
     /// <summary>
-    /// Metres; of a spawn or teleport where the body's centre is put, of a knot where the hand's point is, of a grab that point less the body's centre; else zero.
+    /// Metres; of a spawn or teleport where the body's centre is put, of a knot where the hand's point is, of a grab that point less the body's centre; else
+    /// zero.
     /// </summary>
     public Vector3D Position { get; }
 
@@ -80,13 +81,16 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
         new(EventKind.Impulse, time, peer, sequence, body, default, impulse, default);
 
     /// <summary>
-    /// The peer's hand takes the body, by a point that lies <paramref name="offset"/> from its centre, in metres. Until the first knot the hand is taken to be at
+    /// The peer's hand takes the body, by a point that lies <paramref name="offset"/> from its centre, in metres. Until the first knot the hand is taken to be
+    /// at
     /// rest where the body was. What is held already, or faster than may be given, it does not get. What is held does not turn, nor when it is let go.
     /// </summary>
     public static ExternalEvent Grab(SimTime time, byte peer, uint sequence, BodyId body, Vector3D offset = default) =>
         new(EventKind.Grab, time, peer, sequence, body, offset, default, default);
 
-    /// <summary>The peer's hand, if it holds the body, is at a position (metres) with a velocity (m/s) now; see <see cref="Motion.HandPath"/> for what follows.</summary>
+    /// <summary>
+    /// The peer's hand, if it holds the body, is at a position (metres) with a velocity (m/s) now; see <see cref="Motion.HandPath"/> for what follows.
+    /// </summary>
     public static ExternalEvent HoldKnot(SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity) =>
         new(EventKind.HoldKnot, time, peer, sequence, body, position, velocity, default);
 

@@ -2,7 +2,9 @@ using LagSim.Scenes;
 
 namespace LagSim.Events;
 
-/// <summary>The door: what an external event must satisfy before it may enter the world. Static geometry never moves, so this never depends on when it is asked.</summary>
+/// <summary>
+/// The door: what an external event must satisfy before it may enter the world. Static geometry never moves, so this never depends on when it is asked.
+/// </summary>
 public static class ExternalEventCheck
 {
     /// <summary>Throws if the event may not enter a world of this scene.</summary>

@@ -28,7 +28,8 @@ public readonly struct PlayerAction
     public EventKind Kind { get; }
 
     /// <summary>
-    /// A new body appears, at metres, with metres per second, and turning by radians per second about <paramref name="spin"/> (default: not). Its identity comes with the stamp.
+    /// A new body appears, at metres, with metres per second, and turning by radians per second about <paramref name="spin"/> (default: not). Its identity
+    /// comes with the stamp.
     /// </summary>
     public static PlayerAction Spawn(BodySpec spec, Vector3D position, Vector3D velocity = default, Vector3D spin = default) =>
         new(EventKind.Spawn, default, position, velocity, spec, spin);

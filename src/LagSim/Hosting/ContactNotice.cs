@@ -8,7 +8,10 @@ using LagSim.Timelines;
 namespace LagSim.Hosting;
 
 /// <summary>Two things that meet: a body and another, or a body and a surface of the scene; what a game needs for a sound or a score.</summary>
-/// <remarks>Immutable, safe on any thread. What it tells of the contact has the same bits on every peer; <see cref="Number"/> and which come as predicted are a peer's own.</remarks>
+/// <remarks>
+/// Immutable, safe on any thread. What it tells of the contact has the same bits on every peer; <see cref="Number"/> and which come as predicted are a peer's
+/// own.
+/// </remarks>
 public readonly struct ContactNotice : IEquatable<ContactNotice>
 {
     internal ContactNotice(ContactNoticeKind kind, long number, in EventKey key, in ImpactContact contact)
@@ -49,7 +52,8 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>
     public BodyId Second { get; }
 
     /// <summary>
-    /// What of the scene it met: below the number of <see cref="Scene.Planes"/> the plane of that index, from there on the static sphere of what is left; -1 where two
+    /// What of the scene it met: below the number of <see cref="Scene.Planes"/> the plane of that index, from there on the static sphere of what is left; -1
+    /// where two
     /// bodies met.
     /// </summary>
     public int Surface { get; }
@@ -73,7 +77,8 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>
         return Surface < 0 ? ""
             : sphere < 0 ? scene.Planes[Surface].Name
             : sphere < scene.StaticSpheres.Count ? scene.StaticSpheres[sphere].Name
-            : throw new ArgumentException($"The contact is with surface {Surface}; this scene has {scene.Planes.Count + scene.StaticSpheres.Count}.", nameof(scene));
+            : throw new ArgumentException($"The contact is with surface {Surface}; this scene has"
+                + $" {scene.Planes.Count + scene.StaticSpheres.Count}.", nameof(scene));
     }
 
     /// <summary>Whether it is of the same contact, to the bit, whatever it says of it.</summary>
@@ -97,7 +102,8 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>
 
     /// <summary>Kind, bodies, time, place and speed, for logs.</summary>
     public override string ToString() => string.Format(
-        CultureInfo.InvariantCulture, "{0} {1}/{2} at {3}, {4} m, {5} m/s", Kind, First, Surface < 0 ? Second.ToString() : $"surface {Surface}", Time, Position, ClosingSpeed);
+        CultureInfo.InvariantCulture, "{0} {1}/{2} at {3}, {4}"
+            + " m, {5} m/s", Kind, First, Surface < 0 ? Second.ToString() : $"surface {Surface}", Time, Position, ClosingSpeed);
 
     /// <summary>The order of contacts: by impact, then by bodies and surface.</summary>
     internal static int Compare(in ContactNotice a, in ContactNotice b)

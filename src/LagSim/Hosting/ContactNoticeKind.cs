@@ -6,7 +6,9 @@ public enum ContactNoticeKind
     /// <summary>None: of <c>default</c> alone.</summary>
     None = 0,
 
-    /// <summary>By what is known now it happens, a look-ahead from now at most, or has just turned out to have happened. Late news may still take it back.</summary>
+    /// <summary>
+    /// By what is known now it happens, a look-ahead from now at most, or has just turned out to have happened. Late news may still take it back.
+    /// </summary>
     Predicted = 1,
 
     /// <summary>It happened, and no news can change that any more. Each contact once, in the order of their keys, the same on every peer.</summary>

@@ -10,7 +10,8 @@ namespace LagSim.Hosting;
 /// <summary>A simulation kept ahead of a clock: it is advanced to now plus the look-ahead, and its picture published.</summary>
 /// <remarks>
 /// For the simulation's thread, in real or virtual time alike, except <see cref="Pictures"/>, which is how another thread reads, and
-/// <see cref="LateSteps"/> and <see cref="MaxLateness"/>, which any thread may read, each for itself, and what <see cref="Contacts"/> says of itself. What changes the world goes through this
+/// <see cref="LateSteps"/> and <see cref="MaxLateness"/>, which any thread may read, each for itself, and what <see cref="Contacts"/> says of itself. What
+/// changes the world goes through this
 /// type, so that the next <see cref="Step"/> publishes it.
 /// </remarks>
 public sealed class LiveWorld
@@ -18,7 +19,9 @@ public sealed class LiveWorld
     /// <summary>How much of the past pictures show where nothing else is said: 250 ms.</summary>
     public static readonly SimDuration DefaultPicturePast = SimDuration.FromMilliseconds(250);
 
-    /// <summary>What a step may cost where nothing else is said, as <see cref="Effort"/> counts: some hundredths of a second for a heap, which costs most.</summary>
+    /// <summary>
+    /// What a step may cost where nothing else is said, as <see cref="Effort"/> counts: some hundredths of a second for a heap, which costs most.
+    /// </summary>
     private const long DefaultEffort = 8_192;
 
     /// <summary>However many bodies there are, so many events a step: it has to get on.</summary>
@@ -56,7 +59,8 @@ public sealed class LiveWorld
     /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
     /// <exception cref="SceneException">The snapshot is of no world of the scene.</exception>
     public LiveWorld(
-        Scene scene, WorldSnapshot snapshot, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? picturePast = null, ContactNotices? contacts = null)
+        Scene scene, WorldSnapshot snapshot, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? picturePast = null,
+        ContactNotices? contacts = null)
         : this(new Simulation(scene, snapshot, Checked(options, lookAhead, picturePast, contacts)), lookAhead, picturePast, contacts)
     {
     }
@@ -89,13 +93,15 @@ public sealed class LiveWorld
     public SimDuration MaxLateness => SimDuration.FromTicks(Volatile.Read(ref maxLatenessTicks));
 
     /// <summary>
-    /// Whether the world is not where it should be, <see cref="LookAhead"/> beyond the clock of the last <see cref="Step"/> or <see cref="Advance"/>, because there
+    /// Whether the world is not where it should be, <see cref="LookAhead"/> beyond the clock of the last <see cref="Step"/> or <see cref="Advance"/>, because
+    /// there
     /// was more to do than may be done at a time; the next step goes on. From any thread.
     /// </summary>
     public bool IsBehind => isBehind;
 
     /// <summary>
-    /// What a step may cost, as looks of one body at another: an event of a body looks at all others, or at those that the index names. Counted, not timed, so that where a step stops depends
+    /// What a step may cost, as looks of one body at another: an event of a body looks at all others, or at those that the index names. Counted, not timed, so
+    /// that where a step stops depends
     /// on the world alone.
     /// </summary>
     internal long Effort { get; set; } = DefaultEffort;
@@ -103,7 +109,9 @@ public sealed class LiveWorld
     private long EventsAStep => Math.Max(LeastEvents, Effort / (Math.Min(Simulation.BodyCount, Simulation.MostLooks) + 8));
 
     /// <summary>Submits an event at its own time.</summary>
-    /// <remarks>What a late event has simulated again counts as this step's work: if it is too much, the next step goes on, and the world is behind meanwhile.</remarks>
+    /// <remarks>
+    /// What a late event has simulated again counts as this step's work: if it is too much, the next step goes on, and the world is behind meanwhile.
+    /// </remarks>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult Submit(in ExternalEvent external)
     {
@@ -139,8 +147,10 @@ public sealed class LiveWorld
     /// When the next step is due if nothing changes before: <paramref name="now"/> while the world <see cref="IsBehind"/>, and
     /// <see cref="SimTime.MaxValue"/> for a world in which nothing will happen, and of which no contact is to be confirmed.
     /// </returns>
-    /// <remarks>It does a bounded number of events, so that whoever calls it gets to other things in between. While late news is made good over several steps the last whole picture stays, until
-    /// the world has caught up with it. Half of the look-ahead may be used up before the next step is due, so a moving world steps about once a frame, one at rest never.</remarks>
+    /// <remarks>It does a bounded number of events, so that whoever calls it gets to other things in between. While late news is made good over several steps
+    /// the last whole picture stays, until
+    /// the world has caught up with it. Half of the look-ahead may be used up before the next step is due, so a moving world steps about once a frame, one at
+    /// rest never.</remarks>
     public SimTime Step(SimTime now)
     {
         if (Simulation.Horizon < now)
@@ -187,7 +197,8 @@ public sealed class LiveWorld
 
         if (options.History <= ahead)
         {
-            throw new ArgumentOutOfRangeException(nameof(options), options.History.ToShortString(), $"The history must exceed the look-ahead, {ahead.ToShortString()}.");
+            throw new ArgumentOutOfRangeException(nameof(options), options.History.ToShortString(), $"The history must exceed the look-ahead,"
+                + $" {ahead.ToShortString()}.");
         }
 
         contacts?.Follow();

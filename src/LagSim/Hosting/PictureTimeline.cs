@@ -89,7 +89,9 @@ internal sealed class PictureTimeline
         return State(entries[low - 1], time, box);
     }
 
-    /// <summary>The largest change of velocity at one stroke after one instant and up to another, in m/s; infinite if the body was put elsewhere, came or went.</summary>
+    /// <summary>
+    /// The largest change of velocity at one stroke after one instant and up to another, in m/s; infinite if the body was put elsewhere, came or went.
+    /// </summary>
     internal double SuddenChange(SimTime after, SimTime upTo, in PeriodicBox box)
     {
         double largest = 0;

@@ -36,7 +36,7 @@ public sealed class SimulationHost : IDisposable
         thread = new WorldThread("LagSim world", Step, stop.Cancel);
     }
 
-    /// <summary>The time to read the picture at.</summary>
+    /// <summary>The clock's time: what to read the picture at. From any thread, if the clock can be read so, as a <see cref="StopwatchClock"/> can.</summary>
     public SimTime Now => clock.Now;
 
     /// <summary>The newest picture, for the one reading thread.</summary>
@@ -56,19 +56,23 @@ public sealed class SimulationHost : IDisposable
     /// <summary>How often the clock was beyond what was simulated when a step began.</summary>
     public long LateSteps => world.LateSteps;
 
-    /// <summary>How far, at most.</summary>
+    /// <summary>How far the clock was beyond what was simulated when a step began, at most.</summary>
     public SimDuration MaxLateness => world.MaxLateness;
 
-    /// <summary>Whether there is more to simulate than could be done by now, so that <see cref="Picture"/> ends before <see cref="Now"/> or soon after.</summary>
+    /// <summary>
+    /// Whether there is more to simulate than could be done by now, so that <see cref="Picture"/> ends before <see cref="Now"/> or soon after.
+    /// </summary>
     public bool IsBehind => world.IsBehind;
 
     /// <summary>How many steps the thread has done; a world at rest does none.</summary>
     public long Steps => thread.Steps;
 
-    /// <summary>Starts the thread; once.</summary>
+    /// <summary>Starts the thread.</summary>
+    /// <exception cref="InvalidOperationException">It has been started already.</exception>
+    /// <exception cref="ObjectDisposedException">It has been stopped for good.</exception>
     public void Start() => thread.Start();
 
-    /// <summary>Does something to the world, now.</summary>
+    /// <summary>Does something to the world, now by the clock; the picture has it as soon as the world's thread has simulated it. From any thread.</summary>
     /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
     /// <exception cref="SceneException">A value may not enter the world; nothing happened.</exception>
     /// <exception cref="ObjectDisposedException">The thread has been stopped for good; nothing would come of it.</exception>
@@ -94,7 +98,9 @@ public sealed class SimulationHost : IDisposable
         return external;
     }
 
-    /// <summary>Stops the thread, in the middle of its work if it is at some, and waits for it. The last picture stays readable; nothing more can be done to the world.</summary>
+    /// <summary>
+    /// Stops the thread, in the middle of its work if it is at some, and waits for it. The last picture stays readable; nothing more can be done to the world.
+    /// </summary>
     public void Dispose()
     {
         disposed = true;

@@ -3,7 +3,9 @@ using LagSim.Time;
 
 namespace LagSim.Motion;
 
-/// <summary>The cubic, quartic and quintic coefficients of a path whose acceleration is not constant; kept apart so that parabolas do not pay for them.</summary>
+/// <summary>
+/// The cubic, quartic and quintic coefficients of a path whose acceleration is not constant; kept apart so that parabolas do not pay for them.
+/// </summary>
 internal readonly struct DenseOutput
 {
     internal DenseOutput(in Vector3D cubic, in Vector3D quartic, in Vector3D quintic, SimDuration nextStep = default)
@@ -24,7 +26,8 @@ internal readonly struct DenseOutput
     internal SimDuration NextStep { get; }
 
     /// <summary>
-    /// The quintic Hermite polynomial of a step: through position, velocity and acceleration at both ends. Its error is h^6 |x^(6)| / 46080 in the position at most.
+    /// The quintic Hermite polynomial of a step: through position, velocity and acceleration at both ends. Its error is h^6 |x^(6)| / 46080 in the position at
+    /// most.
     /// </summary>
     /// <param name="h">The step in seconds.</param>
     /// <param name="dx">How far the position moves in the step.</param>

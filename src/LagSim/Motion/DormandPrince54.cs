@@ -5,14 +5,18 @@ using LagSim.Time;
 namespace LagSim.Motion;
 
 /// <summary>
-/// One step of the embedded Runge-Kutta method of orders 5 and 4 by Dormand and Prince (1980, J. Comp. Appl. Math. 6, 19-26) on position and velocity: under error control,
+/// One step of the embedded Runge-Kutta method of orders 5 and 4 by Dormand and Prince (1980, J. Comp. Appl. Math. 6, 19-26) on position and velocity: under
+/// error control,
 /// or of a fixed length.
 /// </summary>
 /// <remarks>
-/// <para>Goes on with the fifth order (local extrapolation). The seventh stage is the acceleration at the end, which the quintic Hermite polynomial between the ends needs too;
+/// <para>Goes on with the fifth order (local extrapolation). The seventh stage is the acceleration at the end, which the quintic Hermite polynomial between the
+/// ends needs too;
 /// with an error of O(h^6) in the position it keeps the order where a contact is found inside a step.</para>
-/// <para>A step is accepted if the estimate of its error is within the body's tolerance, in metres for the position and in m/s for the velocity, or within a few roundings of them. The
-/// next one is 0.9 (tolerance / error)^(1/5) times as long, at least a fifth and at most five times. So stiff forces are sub-stepped, and never blow up; fixed steps are halved until
+/// <para>A step is accepted if the estimate of its error is within the body's tolerance, in metres for the position and in m/s for the velocity, or within a
+/// few roundings of them. The
+/// next one is 0.9 (tolerance / error)^(1/5) times as long, at least a fifth and at most five times. So stiff forces are sub-stepped, and never blow up; fixed
+/// steps are halved until
 /// the rate of the forces lets them be, as those of <see cref="RungeKutta4"/>.</para>
 /// </remarks>
 internal static class DormandPrince54
@@ -20,7 +24,10 @@ internal static class DormandPrince54
     /// <summary>The first step that is tried of a flight: 1/64 s. What is smooth gets to the longest in three steps.</summary>
     private static readonly SimDuration FirstTried = SimDuration.FromTicks(1L << 34);
 
-    /// <summary>The largest product of rate and step of fixed steps: the end of the stability interval on the imaginary axis, which is less than a third of that on the negative real one.</summary>
+    /// <summary>
+    /// The largest product of rate and step of fixed steps: the end of the stability interval on the imaginary axis, which is less than a third of that on the
+    /// negative real one.
+    /// </summary>
     internal const double MaxRateTimesStep = 1;
 
     /// <summary>What an estimate cannot be below, in parts of what it was subtracted from.</summary>
@@ -35,15 +42,20 @@ internal static class DormandPrince54
     /// <param name="spin">How the body turns, all the step.</param>
     /// <param name="tried">How long a step to try first, as the step before proposes it; zero if nothing does.</param>
     /// <param name="dense">The path's higher coefficients, and the next step to try.</param>
-    /// <param name="error">The error in tolerances that even the shortest step has, infinite if it has no number; the step is then not to be used. Else zero.</param>
-    /// <param name="rate">Of fixed steps the rate in 1/s that was met, where no step that may be taken is short enough for it; the step is then not to be used. Else zero.</param>
+    /// <param name="error">
+    /// The error in tolerances that even the shortest step has, infinite if it has no number; the step is then not to be used. Else zero.
+    /// </param>
+    /// <param name="rate">
+    /// Of fixed steps the rate in 1/s that was met, where no step that may be taken is short enough for it; the step is then not to be used. Else zero.
+    /// </param>
     internal static MotionSegment Step(
-        in Forces forces, in BodySpec spec, SimTime epoch, in Vector3D x0, in Vector3D v0, in Vector3D spin, SimDuration tried, out DenseOutput dense, out double error,
-        out double rate)
+        in Forces forces, in BodySpec spec, SimTime epoch, in Vector3D x0, in Vector3D v0, in Vector3D spin, SimDuration tried, out DenseOutput dense,
+        out double error, out double rate)
     {
         rate = 0;
         bool isFixed = spec.Tolerance == 0;
         SimDuration step = isFixed ? spec.Step : tried == SimDuration.Zero ? FirstTried : tried;
+        double known = isFixed ? forces.FixedStepRateAt(spec, x0, v0, spin) : 0;
         Vector3D a1 = forces.At(spec, epoch, 0, x0, v0, spin);
         while (true)
         {
@@ -74,7 +86,7 @@ internal static class DormandPrince54
             if (isFixed)
             {
                 error = 0;
-                rate = Math.Max(forces.RateAt(spec, x0, v0, spin), forces.RateAt(spec, x0 + dx, v7, spin)); // a step may lead to where forces are stiffer
+                rate = Math.Max(known, forces.FixedStepRateAt(spec, x0 + dx, v7, spin)); // a step may lead to where forces are stiffer
                 if (forces.HasSupplied(spec))
                 {
                     Vector3D x7 = x0 + dx;

@@ -1,3 +1,4 @@
+using System;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -27,13 +28,27 @@ internal readonly struct Forces
         return sum;
     }
 
-    /// <summary>How fast, in 1/s, a deviation changes at a state, as far as it is known: no less than the largest of the forces' own rates, no more than their sum.</summary>
+    /// <summary>
+    /// How fast, in 1/s, a deviation changes at a state, as far as it is known: no less than the largest of the forces' own rates, no more than their sum.
+    /// </summary>
     internal double RateAt(in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         double sum = 0;
         foreach (Force force in spec.Forces.Among(scene.ForceArray))
         {
             sum += force.RateAt(spec.Mass, position, velocity, spin);
+        }
+
+        return sum;
+    }
+
+    /// <summary>The same, and how fast the forces change because the body moves: what steps without an estimate of their error have to follow.</summary>
+    internal double FixedStepRateAt(in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D spin)
+    {
+        double sum = 0;
+        foreach (Force force in spec.Forces.Among(scene.ForceArray))
+        {
+            sum += Math.Max(force.RateAt(spec.Mass, position, velocity, spin), force.PassingRateAt(position, velocity));
         }
 
         return sum;

@@ -3,16 +3,20 @@ using LagSim.Time;
 
 namespace LagSim.Motion;
 
-/// <summary>How a hand is taken to move on after it has told where it is: the one rule by which every peer extrapolates, and a sender foresees what they do.</summary>
+/// <summary>
+/// How a hand is taken to move on after it has told where it is: the one rule by which every peer extrapolates, and a sender foresees what they do.
+/// </summary>
 /// <remarks>
 /// <para>From a knot on the hand brakes evenly, from the knot's velocity to rest, for <see cref="Stops"/>, and then keeps still: so it never gets further from
-/// the knot than half the way that it would have gone. The held body converges on that within <see cref="Settles"/>, by a cubic, without a jump in position or velocity.</para>
+/// the knot than half the way that it would have gone. The held body converges on that within <see cref="Settles"/>, by a cubic, without a jump in position or
+/// velocity.</para>
 /// <para>Pure functions, safe on any thread.</para>
 /// </remarks>
 public static class HandPath
 {
     /// <summary>
-    /// How long a held body takes to converge on what its newest knot foretells: 50 ms. Shorter than that a correction is a jerk that throws what lies in its way;
+    /// How long a held body takes to converge on what its newest knot foretells: 50 ms. Shorter than that a correction is a jerk that throws what lies in its
+    /// way;
     /// longer, and at usual rates of knots the body never gets to where the hand is.
     /// </summary>
     public static readonly SimDuration Settles = SimDuration.FromMilliseconds(50);

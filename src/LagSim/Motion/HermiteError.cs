@@ -4,7 +4,8 @@ namespace LagSim.Motion;
 
 /// <summary>How far a quintic Hermite polynomial strays from the path of which it has position, velocity and acceleration at both ends.</summary>
 /// <remarks>
-/// At most h^6 |x^(6)| / 46080 in the position and sqrt(5) h^5 |x^(6)| / 30000 in the velocity, with the largest sixth derivative in the step (Birkhoff and Priver 1967, J. Math. and Phys.
+/// At most h^6 |x^(6)| / 46080 in the position and sqrt(5) h^5 |x^(6)| / 30000 in the velocity, with the largest sixth derivative in the step (Birkhoff and
+/// Priver 1967, J. Math. and Phys.
 /// 46, 440-447).
 /// </remarks>
 internal static class HermiteError
@@ -31,7 +32,9 @@ internal static class HermiteError
         return Shorter(h, v, seventh, 6);
     }
 
-    /// <summary>No longer than the h with h^n derivative = allowed. What is not a number changes nothing here: it is found where the state is checked.</summary>
+    /// <summary>
+    /// No longer than the h with h^n derivative = allowed. What is not a number changes nothing here: it is found where the state is checked.
+    /// </summary>
     private static double Shorter(double h, double allowed, double derivative, int n)
     {
         double power = h;

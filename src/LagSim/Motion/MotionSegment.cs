@@ -29,7 +29,9 @@ internal readonly struct MotionSegment
     /// <summary>The instant at which the state below holds; the formula counts its time from here.</summary>
     internal SimTime Epoch { get; }
 
-    /// <summary>The last instant for which the formula was made: the step's or law's own end, whatever cuts it short. <see cref="SimTime.MaxValue"/>: none.</summary>
+    /// <summary>
+    /// The last instant for which the formula was made: the step's or law's own end, whatever cuts it short. <see cref="SimTime.MaxValue"/>: none.
+    /// </summary>
     internal SimTime End { get; }
 
     internal MotionLaw Law { get; }
@@ -55,7 +57,9 @@ internal readonly struct MotionSegment
         (1 << (int)MotionLaw.RungeKutta4) | (1 << (int)MotionLaw.Held) | (1 << (int)MotionLaw.ClosedForm) | (1 << (int)MotionLaw.DormandPrince54)
         | (1 << (int)MotionLaw.Constrained);
 
-    /// <summary>Whether the body is one of an island: it is in lasting contact with others, or with what no closed form carries it on, and moves or rests there.</summary>
+    /// <summary>
+    /// Whether the body is one of an island: it is in lasting contact with others, or with what no closed form carries it on, and moves or rests there.
+    /// </summary>
     internal bool IsOfIsland => Law == MotionLaw.Constrained || (Law == MotionLaw.Resting && Supports.Count == 0);
 
     /// <summary>A path that never moves: a static sphere, or a body at rest.</summary>

@@ -8,13 +8,16 @@ namespace LagSim.Motion;
 /// <remarks>
 /// <para>Dense output is the quintic Hermite polynomial through position, velocity and acceleration at both ends. Its error, O(h^6) in the
 /// position and O(h^5) in the velocity, stays below the method's own, so a contact found inside a step keeps the order.</para>
-/// <para>The method multiplies what decays at a rate lambda by more than one once lambda h is above 2.785 (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.2),
+/// <para>The method multiplies what decays at a rate lambda by more than one once lambda h is above 2.785 (Hairer and Wanner, Solving Ordinary Differential
+/// Equations II, IV.2),
 /// and blows up. So a step is halved until the rate of the forces lets it be: of the scene's own forces it is known, of a program's it is estimated from two
 /// stages and one more evaluation.</para>
 /// </remarks>
 internal static class RungeKutta4
 {
-    /// <summary>The largest product of rate and step: the end of the stability interval on the negative real axis, a little below that on the imaginary one.</summary>
+    /// <summary>
+    /// The largest product of rate and step: the end of the stability interval on the negative real axis, a little below that on the imaginary one.
+    /// </summary>
     internal const double MaxRateTimesStep = 2.785;
 
     /// <summary>One step from a state, of the body's step or so many halvings of it as its forces need.</summary>
@@ -25,12 +28,14 @@ internal static class RungeKutta4
     /// <param name="v0">The velocity then.</param>
     /// <param name="spin">How the body turns, all the step.</param>
     /// <param name="dense">The path's higher coefficients.</param>
-    /// <param name="rate">The rate in 1/s that was met, where no step that may be taken is short enough for it; the step is then not to be used. Else zero.</param>
+    /// <param name="rate">
+    /// The rate in 1/s that was met, where no step that may be taken is short enough for it; the step is then not to be used. Else zero.
+    /// </param>
     internal static MotionSegment Step(
         in Forces forces, in BodySpec spec, SimTime epoch, in Vector3D x0, in Vector3D v0, in Vector3D spin, out DenseOutput dense, out double rate)
     {
         SimDuration step = spec.Step;
-        double known = spec.Forces.IsEmpty ? 0 : forces.RateAt(spec, x0, v0, spin);
+        double known = spec.Forces.IsEmpty ? 0 : forces.FixedStepRateAt(spec, x0, v0, spin);
         bool estimates = !spec.Forces.IsEmpty && forces.HasSupplied(spec);
         while (known * step.ToSeconds() > MaxRateTimesStep && step.Ticks >= 2 * Limits.MinStep.Ticks)
         {
@@ -52,7 +57,8 @@ internal static class RungeKutta4
             Vector3D a1 = forces.At(spec, epoch, h, x0 + dx, v0 + dv, spin);
             dense = DenseOutput.Between(h, dx, dv, v0, a0, a1);
 
-            rate = spec.Forces.IsEmpty ? 0 : Math.Max(known, forces.RateAt(spec, x0 + dx, v0 + dv, spin)); // a step may lead to where forces are stiffer
+            // a step may lead to where forces are stiffer
+            rate = spec.Forces.IsEmpty ? 0 : Math.Max(known, forces.FixedStepRateAt(spec, x0 + dx, v0 + dv, spin));
             if (estimates)
             {
                 Vector3D x2 = x0 + (v0 * (0.5 * h));

@@ -13,7 +13,8 @@ internal static class Stiffness
     private const double Oscillation = 2.785 / 2.8284271247461903;
 
     /// <summary>
-    /// The rate in 1/s: that of a damper, |a(x, v) - a(x, v')| / |v - v'|, or that of an oscillator, the root of |a(x, v') - a(x', v')| / |x - x'|, whichever is more.
+    /// The rate in 1/s: that of a damper, |a(x, v) - a(x, v')| / |v - v'|, or that of an oscillator, the root of |a(x, v') - a(x', v')| / |x - x'|, whichever
+    /// is more.
     /// </summary>
     /// <param name="x">A position.</param>
     /// <param name="otherX">Another.</param>

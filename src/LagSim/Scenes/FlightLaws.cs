@@ -3,7 +3,9 @@ namespace LagSim.Scenes;
 /// <summary>Which laws of flight are exact for a body's forces, and which of them is the cheapest.</summary>
 internal static class FlightLaws
 {
-    /// <summary>What a body flies by: what it asks for, or the cheapest law that is exact for its forces, or, where none is, the one under error control.</summary>
+    /// <summary>
+    /// What a body flies by: what it asks for, or the cheapest law that is exact for its forces, or, where none is, the one under error control.
+    /// </summary>
     internal static MotionLaw Chosen(in BodySpec spec, in Vector3D gravity, Force[] forces) =>
         spec.Flight != MotionLaw.Automatic ? spec.Flight
         : spec.Forces.IsEmpty ? MotionLaw.Ballistic

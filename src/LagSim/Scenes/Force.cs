@@ -4,7 +4,8 @@ namespace LagSim.Scenes;
 
 /// <summary>A force that a scene has besides uniform gravity; bodies name the forces that act on them.</summary>
 /// <remarks>
-/// Immutable, safe on any thread. Values are checked by <see cref="SceneBuilder.Build"/>. The formulas use only <c>+ - * /</c> and square roots, so every peer gets
+/// Immutable, safe on any thread. Values are checked by <see cref="SceneBuilder.Build"/>. The formulas use only <c>+ - * /</c> and square roots, so every peer
+/// gets
 /// the same bits.
 /// </remarks>
 public sealed class Force
@@ -18,7 +19,8 @@ public sealed class Force
     public string Name { get; }
 
     /// <summary>
-    /// How strong: of linear drag c in kg/s; of quadratic drag k in kg/m, half of density times drag coefficient times cross-section; of a spring its stiffness in N/m; of a
+    /// How strong: of linear drag c in kg/s; of quadratic drag k in kg/m, half of density times drag coefficient times cross-section; of a spring its stiffness
+    /// in N/m; of a
     /// magnetic field the body's charge in C; of a central pull s, in m/s² at 1 m from the centre; of a Magnus force s in kg.
     /// </summary>
     public double Strength { get; private set; }
@@ -26,7 +28,9 @@ public sealed class Force
     /// <summary>Of a spring the damper's coefficient in kg/s; else 0.</summary>
     public double Damping { get; private set; }
 
-    /// <summary>Of drag the medium's velocity in m/s; of a spring its anchor, of a central pull its centre, in m; of a magnetic field its flux density in T.</summary>
+    /// <summary>
+    /// Of drag the medium's velocity in m/s; of a spring its anchor, of a central pull its centre, in m; of a magnetic field its flux density in T.
+    /// </summary>
     public Vector3D Vector { get; private set; }
 
     /// <summary>Of a central pull the power of the distance: -2 for gravity and electrostatics; else 0.</summary>
@@ -38,20 +42,20 @@ public sealed class Force
     /// <summary>Stokes drag, F = -c (v - w): slow motion in what is viscous.</summary>
     /// <param name="name">1 to 64 characters.</param>
     /// <param name="coefficient">c in kg/s, 0 to 1e30; of a sphere in a fluid of viscosity eta it is 6 pi eta r.</param>
-    /// <param name="medium">w, the medium's velocity in m/s; default none.</param>
+    /// <param name="medium">w, the medium's velocity (wind) in m/s, each component within 1e12; default none.</param>
     public static Force LinearDrag(string name, double coefficient, Vector3D medium = default) =>
         new(ForceKind.LinearDrag, name) { Strength = coefficient, Vector = medium.WithoutNegativeZero() };
 
     /// <summary>Newton drag, F = -k |v - w| (v - w): balls in air.</summary>
     /// <param name="name">1 to 64 characters.</param>
     /// <param name="coefficient">k in kg/m, 0 to 1e30; of a sphere 0.5 rho C pi r², with C about 0.47.</param>
-    /// <param name="medium">w, the medium's velocity in m/s; default none.</param>
+    /// <param name="medium">w, the medium's velocity (wind) in m/s, each component within 1e12; default none.</param>
     public static Force QuadraticDrag(string name, double coefficient, Vector3D medium = default) =>
         new(ForceKind.QuadraticDrag, name) { Strength = coefficient, Vector = medium.WithoutNegativeZero() };
 
     /// <summary>A spring to a point, F = -k (x - a) - c v.</summary>
     /// <param name="name">1 to 64 characters.</param>
-    /// <param name="anchor">a, in m.</param>
+    /// <param name="anchor">a, where the spring has length zero, in m; each component within 1e12.</param>
     /// <param name="stiffness">k in N/m, 0 to 1e30.</param>
     /// <param name="damping">c in kg/s, 0 to 1e30; default none.</param>
     public static Force Spring(string name, Vector3D anchor, double stiffness, double damping = 0) =>
@@ -59,25 +63,36 @@ public sealed class Force
 
     /// <summary>What a uniform magnetic field does to a charge, F = q v x B: it turns the velocity and leaves the speed.</summary>
     /// <param name="name">1 to 64 characters.</param>
-    /// <param name="field">B in T.</param>
+    /// <param name="field">B in T, each component within 1e12.</param>
     /// <param name="charge">q in C, within 1e30.</param>
     public static Force Magnetic(string name, Vector3D field, double charge) =>
         new(ForceKind.Magnetic, name) { Strength = charge, Vector = field.WithoutNegativeZero() };
 
-    /// <summary>A pull towards a centre that gives every mass the same acceleration, s |r|^p, and none at the centre itself: gravity of a fixed body with p = -2.</summary>
+    /// <summary>
+    /// A pull towards a centre that gives every mass the same acceleration, s |r|^p, and none at the centre itself: gravity of a fixed body with p = -2.
+    /// </summary>
     /// <param name="name">1 to 64 characters.</param>
-    /// <param name="centre">In m.</param>
-    /// <param name="strength">s, within 1e30: the acceleration at 1 m in m/s²; below zero it pushes. With p = -2 it is the gravitational parameter in m³/s².</param>
+    /// <param name="centre">In m, each component within 1e12. With a power below 0 no body may start at it, and none gets through it.</param>
+    /// <param name="strength">
+    /// s, within 1e30: the acceleration at 1 m in m/s²; below zero it pushes. With p = -2 it is the gravitational parameter in m³/s².
+    /// </param>
     /// <param name="power">p, -4 to 4.</param>
     public static Force Central(string name, Vector3D centre, double strength, int power = -2) =>
         new(ForceKind.Central, name) { Strength = strength, Vector = centre.WithoutNegativeZero(), Power = power };
 
     /// <summary>The Magnus force, F = s w x v, which bends the path of a body that turns and leaves its speed.</summary>
     /// <param name="name">1 to 64 characters.</param>
-    /// <param name="coefficient">s in kg, within 1e30; of a smooth sphere in a medium of density rho at low speed it is pi rho r³ (Rubinow and Keller 1961).</param>
+    /// <param name="coefficient">
+    /// s in kg, within 1e30; of a smooth sphere in a medium of density rho at low speed it is pi rho r³ (Rubinow and Keller 1961).
+    /// </param>
     public static Force Magnus(string name, double coefficient) => new(ForceKind.Magnus, name) { Strength = coefficient };
 
-    /// <summary>An acceleration in C#, which travels by name and author's version: a peer that does not have it is refused.</summary>
+    /// <summary>
+    /// An acceleration in C#, a program's own. It travels by name and author's version, never as code: a joiner that does not have it among
+    /// <c>SessionOptions.Accelerations</c> does not get in. A body under it never comes to rest, and its steps are <see cref="MotionLaw.DormandPrince54"/>'s or
+    /// fixed.
+    /// </summary>
+    /// <exception cref="ArgumentNullException">There is none.</exception>
     public static Force Supplied(IAcceleration acceleration) =>
         new(ForceKind.Supplied, (acceleration ?? throw new ArgumentNullException(nameof(acceleration))).Name) { Acceleration = acceleration };
 
@@ -106,7 +121,8 @@ public sealed class Force
     }
 
     /// <summary>
-    /// How fast, in 1/s, a deviation changes under the force at a state: the size of the largest eigenvalue that it adds to the equations of motion. Zero of what a program
+    /// How fast, in 1/s, a deviation changes under the force at a state: the size of the largest eigenvalue that it adds to the equations of motion. Zero of
+    /// what a program
     /// supplies, of which it is not known.
     /// </summary>
     internal double RateAt(double mass, in Vector3D position, in Vector3D velocity, in Vector3D spin)
@@ -130,6 +146,14 @@ public sealed class Force
                 return 0;
         }
     }
+
+    /// <summary>
+    /// How fast, in 1/s, the force itself changes because the body moves past a centre where it has no bound: (1 - p) |v| / |r|. What is integrated by steps
+    /// that know no error could else
+    /// step over such a centre, and leave it with any speed. Zero of all other forces.
+    /// </summary>
+    internal double PassingRateAt(in Vector3D position, in Vector3D velocity) =>
+        Kind == ForceKind.Central && Power < 0 && Strength != 0 ? (1 - Power) * velocity.Length / (position - Vector).Length : 0;
 
     internal void AddTo(ref StableHash hash)
     {

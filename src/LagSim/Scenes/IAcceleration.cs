@@ -13,7 +13,10 @@ public interface IAcceleration
     /// <summary>The author's version, raised with every change of a result; it stands in the scene's hash.</summary>
     int Version { get; }
 
-    /// <summary>The acceleration in metres per second squared.</summary>
+    /// <summary>
+    /// The acceleration in metres per second squared, whatever the body's mass. What is not finite, or throws, ends the simulation with a
+    /// <see cref="SimulationException"/>.
+    /// </summary>
     /// <param name="seconds">Seconds since the start of the scene.</param>
     /// <param name="position">The body's centre in metres.</param>
     /// <param name="velocity">The body's velocity in metres per second.</param>

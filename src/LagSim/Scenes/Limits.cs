@@ -36,7 +36,8 @@ internal static class Limits
         InRange(spec.RollingResistance, 0, 1, whose, "rolling resistance", "(no unit)");
         if (spec.Flight is not (MotionLaw.Ballistic or MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54 or MotionLaw.Automatic))
         {
-            throw new SceneException($"The motion law of {whose} is {spec.Flight}; a body flies by Ballistic, RungeKutta4, ClosedForm, DormandPrince54 or Automatic.");
+            throw new SceneException(
+                $"The motion law of {whose} is {spec.Flight}; a body flies by Ballistic, RungeKutta4, ClosedForm, DormandPrince54 or Automatic.");
         }
 
         if (spec.Step < MinStep || spec.Step > MaxStep)
@@ -53,26 +54,32 @@ internal static class Limits
         if (!spec.Forces.IsEmpty && spec.Flight == MotionLaw.Ballistic)
         {
             throw new SceneException(
-                $"{Capital($"{whose}")} flies by Ballistic, which is exact for gravity alone, and names the forces {spec.Forces.NamesAmong(forces)}; use Automatic, ClosedForm, DormandPrince54 or RungeKutta4.");
+                $"{Capital($"{whose}")} flies by Ballistic, which is exact for gravity alone, and names the forces {spec.Forces.NamesAmong(forces)}; use"
+                + " Automatic, ClosedForm, DormandPrince54 or RungeKutta4.");
         }
 
         if (spec.Flight == MotionLaw.ClosedForm && !FlightLaws.HasClosedForm(spec, gravity, forces))
         {
             throw new SceneException(
-                $"{Capital($"{whose}")} flies by ClosedForm and names the forces {spec.Forces.NamesAmong(forces)}; a closed form there is for linear drag, springs, magnetic fields and Magnus forces together with gravity, and for one inverse-square pull without gravity. Use Automatic, DormandPrince54 or RungeKutta4.");
+                $"{Capital($"{whose}")} flies by ClosedForm and names the forces {spec.Forces.NamesAmong(forces)}; a closed form there is for linear drag,"
+                + " springs, magnetic fields and Magnus forces together with gravity, and for one inverse-square pull without gravity. Use Automatic,"
+                + " DormandPrince54 or RungeKutta4.");
         }
 
         CheckRate(spec, whose, gravity, forces);
     }
 
-    /// <summary>No point of a body's surface turns faster than a body may be given to move, nor does a Magnus force turn its path faster than may be followed.</summary>
+    /// <summary>
+    /// No point of a body's surface turns faster than a body may be given to move, nor does a Magnus force turn its path faster than may be followed.
+    /// </summary>
     internal static void CheckSpin<T>(in Vector3D spin, in BodySpec spec, double smallestRadius, T whose, Force[] forces)
     {
         Components(spin, double.MaxValue, whose, "spin", "rad/s");
         double limit = MaxGivenSpeed(smallestRadius) / spec.Radius;
         if (!(spin.Length <= limit))
         {
-            throw new SceneException($"The spin of {whose} is {spin} rad/s; at most {Text(limit)} rad/s is allowed, at which its surface moves as fast as a body may be given to.");
+            throw new SceneException(
+                $"The spin of {whose} is {spin} rad/s; at most {Text(limit)} rad/s is allowed, at which its surface moves as fast as a body may be given to.");
         }
 
         foreach (Force force in spec.Forces.Among(forces))
@@ -81,7 +88,8 @@ internal static class Limits
             if (!(rate <= MaxRate))
             {
                 throw new SceneException(
-                    $"On {whose}, of {Text(spec.Mass)} kg and with a spin of {spin} rad/s, force '{force.Name}', of strength {Text(force.Strength)}, acts at a rate of {Text(rate)} 1/s; at most {Text(MaxRate)} 1/s is allowed.");
+                    $"On {whose}, of {Text(spec.Mass)} kg and with a spin of {spin} rad/s, force '{force.Name}', of strength {Text(force.Strength)}, acts at a"
+                    + $" rate of {Text(rate)} 1/s; at most {Text(MaxRate)} 1/s is allowed.");
             }
         }
     }
@@ -110,7 +118,9 @@ internal static class Limits
         }
     }
 
-    /// <summary>Forces whose rate does not depend on where the body is are not too stiff for its mass, nor is quadratic drag at the speed that gravity keeps up.</summary>
+    /// <summary>
+    /// Forces whose rate does not depend on where the body is are not too stiff for its mass, nor is quadratic drag at the speed that gravity keeps up.
+    /// </summary>
     private static void CheckRate<T>(in BodySpec spec, T whose, in Vector3D gravity, Force[] forces)
     {
         foreach (Force force in spec.Forces.Among(forces))
@@ -124,7 +134,22 @@ internal static class Limits
             if (!(rate <= MaxRate))
             {
                 throw new SceneException(
-                    $"On {whose}, of {Text(spec.Mass)} kg, force '{force.Name}', of strength {Text(force.Strength)} and damping {Text(force.Damping)}, acts at a rate of {Text(rate)} 1/s; at most {Text(MaxRate)} 1/s is allowed.");
+                    $"On {whose}, of {Text(spec.Mass)} kg, force '{force.Name}', of strength {Text(force.Strength)} and damping {Text(force.Damping)}, acts at"
+                    + $" a rate of {Text(rate)} 1/s; at most {Text(MaxRate)} 1/s is allowed.");
+            }
+        }
+    }
+
+    /// <summary>A body is not at the very centre of a pull that grows without bound towards it: there is no direction in which it would be drawn.</summary>
+    internal static void CheckCentres<T>(in Vector3D position, in BodySpec spec, T whose, Force[] forces)
+    {
+        foreach (Force force in spec.Forces.Among(forces))
+        {
+            if (force.Kind == ForceKind.Central && force.Power < 0 && position == force.Vector)
+            {
+                throw new SceneException(
+                    $"The position of {whose} is {position} m, the centre of force '{force.Name}', whose power is {force.Power}; at the centre of a pull with"
+                    + " a power below 0 a body may not be.");
             }
         }
     }
@@ -141,13 +166,16 @@ internal static class Limits
     /// </summary>
     internal static double MaxReboundSpeed(double smallestRadius) => 1.5 * MaxGivenSpeed(smallestRadius);
 
-    /// <summary>A box holds at least what its smallest bodies ask for.</summary>
+    /// <summary>A box holds at least the smallest body that the scene promises.</summary>
     internal static void CheckBox<T>(in PeriodicBox box, double smallestRadius, T whose)
     {
-        if (!(box.LeastSide > 0) || box.LeastSide < 2 * PeriodicBox.LeastSides * smallestRadius)
+        Components(box.Size, MaxCoordinate, whose, "periodic box", "m");
+        double least = 2 * PeriodicBox.LeastSides * smallestRadius;
+        if (!(box.LeastSide > 0) || box.LeastSide < least)
         {
             throw new SceneException(
-                $"The periodic box of {whose} is {box.Size} m; every side must be above zero, and at least {PeriodicBox.LeastSides} times the diameter of any body in it.");
+                $"The periodic box of {whose} is {box.Size} m; every side must be above zero, and at least {PeriodicBox.LeastSides} times the diameter of any"
+                + $" body in it, with the smallest {Text(least)} m.");
         }
     }
 
@@ -159,7 +187,14 @@ internal static class Limits
             throw new SceneException($"The motion law of {whose} is {spec.Flight}; in a periodic box a body flies by Ballistic.");
         }
 
-        CheckBox(box, spec.Radius, whose);
+        double least = 2 * PeriodicBox.LeastSides * spec.Radius;
+        if (box.LeastSide < least)
+        {
+            throw new SceneException(
+                $"The periodic box is {box.Size} m, and the radius of {whose} is {Text(spec.Radius)} m; every side must be at least {PeriodicBox.LeastSides}"
+                + $" times its diameter, {Text(least)} m.");
+        }
+
         CheckPlaceInBox(position, box, whose);
     }
 
@@ -168,7 +203,8 @@ internal static class Limits
     {
         if (box.Exists && !box.Contains(position))
         {
-            throw new SceneException($"The position of {whose} is {position} m; in the periodic box each component is at least 0 and less than that of {box.Size}.");
+            throw new SceneException(
+                $"The position of {whose} is {position} m; in the periodic box each component is at least 0 and less than that of {box.Size}.");
         }
     }
 

@@ -77,7 +77,7 @@ public sealed class Scene
 
     internal Force[] ForceArray { get; }
 
-    /// <summary>The identity of the body of that name.</summary>
+    /// <summary>The identity of the body of that name, case-sensitive. Cost: the number of bodies; ask once and keep it.</summary>
     /// <exception cref="ArgumentException">No body of the scene has that name.</exception>
     public BodyId BodyNamed(string name)
     {

@@ -31,10 +31,14 @@ public sealed class SceneBuilder
     private double? smallestSpawn;
     private int? threads;
 
-    /// <summary>Starts a scene of that name with default gravity and nothing in it.</summary>
+    /// <summary>Starts a scene of that name with default gravity and nothing in it. The name is for people, no part of <see cref="Scene.Hash"/>.</summary>
+    /// <exception cref="ArgumentNullException">There is no name.</exception>
     public SceneBuilder(string name) => this.name = name ?? throw new ArgumentNullException(nameof(name));
 
-    /// <summary>Sets the uniform acceleration of free bodies, in m/s^2; y points up.</summary>
+    /// <summary>
+    /// Sets the uniform acceleration of free bodies, in m/s^2, each component within 1e6; default <see cref="DefaultGravity"/>, <see cref="Vector3D.Zero"/> for
+    /// none. y points up.
+    /// </summary>
     public SceneBuilder WithGravity(Vector3D acceleration)
     {
         gravity = acceleration;
@@ -42,22 +46,31 @@ public sealed class SceneBuilder
     }
 
     /// <summary>Sets the length in metres, 1e-15 to 1e-3, below which bounces on a plane are not followed hop by hop; default 1e-9.</summary>
-    /// <remarks>On anything but a plane alone a bounce is the last that rises less than a thousand times this; and within that distance what lasts is in contact.</remarks>
+    /// <remarks>
+    /// On anything but a plane alone a bounce is the last that rises less than a thousand times this; and within that distance what lasts is in contact.
+    /// </remarks>
     public SceneBuilder WithResolution(double metres)
     {
         resolution = metres;
         return this;
     }
 
-    /// <summary>Promises that no body smaller than this, in metres, is spawned. Default: the smallest body of the scene.</summary>
+    /// <summary>
+    /// Promises that no body smaller than this, in metres, 1e-9 to 1e9, is spawned; what is smaller is refused. Default: the smallest body of the scene. With
+    /// the bodies' radii it
+    /// bounds the speed that may be given: a tenth of the smallest radius in a tick, 1.1e11 m/s times that radius in metres.
+    /// </summary>
     public SceneBuilder WithSmallestRadius(double metres)
     {
         smallestSpawn = metres;
         return this;
     }
 
-    /// <summary>On how many threads <see cref="Build"/> checks a large scene at most, 1 to <see cref="MaxThreads"/>; default as many as there are processors.</summary>
-    /// <remarks>It has no influence on the scene, to the bit, nor on which error is told. Less than 16,384 bodies are checked on the caller's thread alone, and so is everything
+    /// <summary>
+    /// On how many threads <see cref="Build"/> checks a large scene at most, 1 to <see cref="MaxThreads"/>; default as many as there are processors.
+    /// </summary>
+    /// <remarks>It has no influence on the scene, to the bit, nor on which error is told. Less than 16,384 bodies are checked on the caller's thread alone, and
+    /// so is everything
     /// where there is one processor.</remarks>
     public SceneBuilder WithThreads(int most)
     {
@@ -65,7 +78,13 @@ public sealed class SceneBuilder
         return this;
     }
 
-    /// <summary>Adds a plane through a point; bodies live on the side the normal, of any length, points to.</summary>
+    /// <summary>Adds a plane through a point. It is infinite and never moves; bodies live on one side of it.</summary>
+    /// <param name="planeName">1 to 64 characters, and no other part's.</param>
+    /// <param name="normal">Points to the side where bodies are; of any length between 1e-150 and 1e150.</param>
+    /// <param name="point">Any point of the plane, in metres.</param>
+    /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the body.</param>
+    /// <param name="friction">0 to 100. Of two things that meet, the lesser counts, so the default, 100, leaves it to the body.</param>
+    /// <exception cref="SceneException">The point is not finite, or the normal has no length.</exception>
     public SceneBuilder AddPlane(string planeName, Vector3D normal, Vector3D point, double restitution = 1, double friction = Limits.MaxFriction)
     {
         if (!point.IsFinite)
@@ -76,14 +95,25 @@ public sealed class SceneBuilder
         return AddPlane(planeName, normal, Vector3D.Dot(Unit(planeName, normal), point), restitution, friction);
     }
 
-    /// <summary>Adds the plane of the points p with n . p = <paramref name="offset"/> (metres), n the normal at unit length, towards the bodies.</summary>
+    /// <summary>Adds the plane of the points p with n . p = <paramref name="offset"/>, n the normal at unit length, towards the bodies.</summary>
+    /// <param name="planeName">1 to 64 characters, and no other part's.</param>
+    /// <param name="normal">Points to the side where bodies are; of any length between 1e-150 and 1e150.</param>
+    /// <param name="offset">The signed distance of the plane from the origin along the normal, in metres, within 1e12.</param>
+    /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the body.</param>
+    /// <param name="friction">0 to 100. Of two things that meet, the lesser counts, so the default, 100, leaves it to the body.</param>
+    /// <exception cref="SceneException">The normal is not finite, or has no length.</exception>
     public SceneBuilder AddPlane(string planeName, Vector3D normal, double offset, double restitution = 1, double friction = Limits.MaxFriction)
     {
         planes.Add(new StaticPlane(planeName, Unit(planeName, normal), offset + 0.0, restitution, friction));
         return this;
     }
 
-    /// <summary>Adds a sphere that never moves.</summary>
+    /// <summary>Adds a sphere that never moves; bodies live outside of it.</summary>
+    /// <param name="sphereName">1 to 64 characters, and no other part's.</param>
+    /// <param name="centre">In metres, each component within 1e12.</param>
+    /// <param name="radius">In metres, 1e-9 to 1e9.</param>
+    /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the body.</param>
+    /// <param name="friction">0 to 100. Of two things that meet, the lesser counts, so the default, 100, leaves it to the body.</param>
     public SceneBuilder AddStaticSphere(string sphereName, Vector3D centre, double radius, double restitution = 1, double friction = Limits.MaxFriction)
     {
         spheres.Add(new StaticSphere(sphereName, centre.WithoutNegativeZero(), radius, restitution, friction));
@@ -93,10 +123,12 @@ public sealed class SceneBuilder
     /// <summary>Adds a body; the n-th added, counted from 0, has the identity (0, 0, n).</summary>
     /// <param name="bodyName">1 to 64 characters, and no other part's.</param>
     /// <param name="spec">Size, mass, material and flight.</param>
-    /// <param name="position">Where its centre starts, in metres.</param>
-    /// <param name="velocity">In m/s; default none.</param>
+    /// <param name="position">Where its centre starts, in metres, each component within 1e12. Bodies start apart or touching, not inside of anything.</param>
+    /// <param name="velocity">In m/s; default none. At most a tenth of the smallest radius in a tick, 1.1e11 m/s times that radius in metres.</param>
     /// <param name="players">Which peers may do something to it, in a session; default everyone.</param>
-    /// <param name="spin">How it turns, in rad/s about the vector; default not at all. It matters where something has friction, or under a Magnus force.</param>
+    /// <param name="spin">
+    /// How it turns, in rad/s about the vector; default not at all. It matters where something has friction, or under a Magnus force.
+    /// </param>
     public SceneBuilder AddBody(
         string bodyName, BodySpec spec, Vector3D position, Vector3D velocity = default, PeerSet players = default, Vector3D spin = default)
     {
@@ -111,7 +143,9 @@ public sealed class SceneBuilder
         return this;
     }
 
-    /// <summary>Puts everything in a box from the origin to <paramref name="size"/> whose opposite sides meet: what leaves it on one side comes in on the other.</summary>
+    /// <summary>
+    /// Puts everything in a box from the origin to <paramref name="size"/> whose opposite sides meet: what leaves it on one side comes in on the other.
+    /// </summary>
     /// <remarks>
     /// It goes with free flight alone: no gravity, planes, static spheres or other forces, and bodies that fly by Ballistic. Each side is at least
     /// five times the largest diameter; bodies start, and are spawned or put, inside. Their paths are opened anew after an eighth of the least side, so
@@ -132,14 +166,20 @@ public sealed class SceneBuilder
         return AddForce(force);
     }
 
-    /// <summary>Adds a force; the n-th added, counted from 0, is <see cref="ForceSet.Of"/> n.</summary>
+    /// <summary>
+    /// Adds a force; the n-th added, counted from 0, is <see cref="ForceSet.Of"/> n. It acts on the bodies whose <see cref="BodySpec.Forces"/> have it, at most
+    /// <see cref="ForceSet.Most"/> there are.
+    /// </summary>
+    /// <exception cref="ArgumentNullException">There is no force.</exception>
     public SceneBuilder AddForce(Force force)
     {
         forces.Add(force ?? throw new ArgumentNullException(nameof(force)));
         return this;
     }
 
-    /// <summary>Checks everything and makes the scene. Cost: O(n log n) in the bodies, on several threads if they are many (<see cref="WithThreads"/>).</summary>
+    /// <summary>
+    /// Checks everything and makes the scene. Cost: O(n log n) in the bodies, on several threads if they are many (<see cref="WithThreads"/>).
+    /// </summary>
     /// <exception cref="SceneException">Something is not valid; the sentence names the value and what is allowed.</exception>
     public Scene Build()
     {
@@ -163,6 +203,7 @@ public sealed class SceneBuilder
             {
                 ref readonly SceneBody body = ref bodyArray[i];
                 Limits.CheckPosition(body.Position, Whose(body));
+                Limits.CheckCentres(body.Position, body.Spec, Whose(body), forceArray);
                 Limits.CheckVelocity(body.Velocity, smallest, Whose(body));
                 Limits.CheckSpin(body.Spin, body.Spec, smallest, Whose(body), forceArray);
             }
@@ -258,14 +299,14 @@ public sealed class SceneBuilder
             return;
         }
 
-        Limits.CheckPosition(box.Size, $"scene '{name}' (its periodic box)");
+        Limits.CheckBox(box, smallestSpawn ?? 0, $"scene '{name}'");
         if (gravity != Vector3D.Zero || planes.Count + spheres.Count + forces.Count > 0)
         {
             throw new SceneException(
-                $"Scene '{name}' has a periodic box, gravity {gravity} m/s^2, {planes.Count} planes, {spheres.Count} static spheres and {forces.Count} other forces; a periodic box goes with none of those.");
+                $"Scene '{name}' has a periodic box, gravity {gravity} m/s^2, {planes.Count} planes, {spheres.Count} static spheres and {forces.Count} other"
+                + " forces; a periodic box goes with none of those.");
         }
 
-        Limits.CheckBox(box, smallestSpawn ?? 0, $"scene '{name}'");
         foreach (SceneBody body in bodies)
         {
             Limits.CheckInBox(body.Spec, body.Position, box, Whose(body));

@@ -50,7 +50,9 @@ public readonly struct SimTime : IEquatable<SimTime>, IComparable<SimTime>
     /// <summary>The exact value in decimal seconds, for example <c>12.25s</c>; never rounded, at most 40 decimals.</summary>
     public override string ToString() => TickText.Format(Ticks);
 
-    /// <summary>For people: the fewest decimals that stand for no other instant, for example <c>0.01s</c>; at most 13. For machines see <see cref="ToString"/>.</summary>
+    /// <summary>
+    /// For people: the fewest decimals that stand for no other instant, for example <c>0.01s</c>; at most 13. For machines see <see cref="ToString"/>.
+    /// </summary>
     public string ToShortString() => TickText.Shortest(Ticks);
 
     /// <inheritdoc/>

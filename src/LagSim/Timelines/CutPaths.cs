@@ -7,7 +7,9 @@ using LagSim.Time;
 
 namespace LagSim.Timelines;
 
-/// <summary>What the heal at hand has cut off of the paths that stood before it, kept as long as it is little: where the new paths meet it, it is put back.</summary>
+/// <summary>
+/// What the heal at hand has cut off of the paths that stood before it, kept as long as it is little: where the new paths meet it, it is put back.
+/// </summary>
 /// <remarks>Copies, since the store gives the room of what it cuts to what comes next. It allocates only until it has held as much as it ever does.</remarks>
 internal sealed class CutPaths
 {
@@ -96,7 +98,9 @@ internal sealed class CutPaths
         IsWhole = pieces.Count <= Most;
     }
 
-    /// <summary>Whether after everything up to and including <paramref name="time"/> each body that was touched is on the very piece of path that it was on before.</summary>
+    /// <summary>
+    /// Whether after everything up to and including <paramref name="time"/> each body that was touched is on the very piece of path that it was on before.
+    /// </summary>
     /// <param name="timelines">The paths as they are now.</param>
     /// <param name="time">An instant of which the heal has done all.</param>
     /// <param name="byPlaceAlone">Wrong on purpose: takes it for the same path if it leads from the same place.</param>

@@ -15,7 +15,10 @@ internal enum HealingFault
     /// <summary>Of a body that was taken back, but to later than the heal's clock, only the newest piece of path is looked at.</summary>
     OverlooksWhoIsAhead = 2,
 
-    /// <summary>A pending contact is given up when its partner has changed at all, as if that one would find it anew, though the piece that it was found with still stands.</summary>
+    /// <summary>
+    /// A pending contact is given up when its partner has changed at all, as if that one would find it anew, though the piece that it was found with still
+    /// stands.
+    /// </summary>
     GivesUpByBody = 4,
 
     /// <summary>The events from outside of whom a heal takes back with others are not applied again.</summary>

@@ -40,7 +40,9 @@ internal sealed class HeldBackImpacts : IImpactObserver
     /// <summary>From now on nothing is told.</summary>
     internal void Hold() => holds = true;
 
-    /// <summary>Tells what was kept back of impacts up to and including <paramref name="last"/>, in the order in which it came; the rest was as nothing.</summary>
+    /// <summary>
+    /// Tells what was kept back of impacts up to and including <paramref name="last"/>, in the order in which it came; the rest was as nothing.
+    /// </summary>
     internal void Release(SimTime last)
     {
         holds = false;

@@ -2,7 +2,9 @@ using LagSim.Events;
 
 namespace LagSim.Timelines;
 
-/// <summary>Is told of every impact that is put into the timelines and of every one that is cut off again. On the thread that advances; it may change nothing.</summary>
+/// <summary>
+/// Is told of every impact that is put into the timelines and of every one that is cut off again. On the thread that advances; it may change nothing.
+/// </summary>
 internal interface IImpactObserver
 {
     /// <summary>A contact of an impact, in the impact's canonical order of contacts; called for each that closes, before any segment is opened.</summary>

@@ -6,13 +6,16 @@ using LagSim.Time;
 namespace LagSim.Timelines;
 
 /// <summary>
-/// The stretch of time around now in which a peer works: it takes events that are up to <see cref="History"/> late, and knows the world <see cref="LookAhead"/> beyond now. What
+/// The stretch of time around now in which a peer works: it takes events that are up to <see cref="History"/> late, and knows the world <see cref="LookAhead"/>
+/// beyond now. What
 /// is older is committed.
 /// </summary>
 /// <remarks>
-/// <para>Immutable, safe on any thread. The history is the session's, and so the host's: whether an event is too late is judged once, for all. The look-ahead and the lags are each peer's own, and no bit
+/// <para>Immutable, safe on any thread. The history is the session's, and so the host's: whether an event is too late is judged once, for all. The look-ahead
+/// and the lags are each peer's own, and no bit
 /// of the world depends on the look-ahead.</para>
-/// <para>Memory: the completed events are one segment for each thing that happened to a body, kept for the history: bodies × (segments a second × history + 1) × 184 bytes,
+/// <para>Memory: the completed events are one segment for each thing that happened to a body, kept for the history: bodies × (segments a second × history + 1)
+/// × 184 bytes,
 /// and at most a quarter more; integrated and held segments take 72 more.</para>
 /// </remarks>
 public sealed class LatencyCompensationWindow
@@ -20,7 +23,10 @@ public sealed class LatencyCompensationWindow
     /// <summary>The shortest history: 50 ms.</summary>
     public static readonly SimDuration MinHistory = SimDuration.FromMilliseconds(50);
 
-    /// <summary>The history where nothing else is said: 1 s, two hops of most links there are. It has to be fixed before the first event, so before anything is measured.</summary>
+    /// <summary>
+    /// The history where nothing else is said: 1 s, two hops of most links there are. It has to be fixed before the first event, so before anything is
+    /// measured.
+    /// </summary>
     public static readonly SimDuration DefaultHistory = SimDuration.FromSeconds(1);
 
     /// <summary>The longest history: 5 s.</summary>
@@ -40,9 +46,11 @@ public sealed class LatencyCompensationWindow
     private readonly SimDuration[] lags; // by kind of event
 
     /// <summary>A window without local lag; see <see cref="WithLocalLag"/>.</summary>
-    /// <param name="history">How late an event may come and still be healed, <see cref="MinHistory"/> to <see cref="MaxHistory"/>, default <see cref="DefaultHistory"/>; at least the worst expected
+    /// <param name="history">How late an event may come and still be healed, <see cref="MinHistory"/> to <see cref="MaxHistory"/>, default
+    /// <see cref="DefaultHistory"/>; at least the worst expected
     /// delay (two hops, from player to host and from host to player), the clocks' error and the interval at which is sent.</param>
-    /// <param name="lookAhead">How far beyond now the world is simulated, above zero to <see cref="MaxLookAhead"/>, default <see cref="DefaultLookAhead"/>. It covers the interpolation of frames and spikes
+    /// <param name="lookAhead">How far beyond now the world is simulated, above zero to <see cref="MaxLookAhead"/>, default <see cref="DefaultLookAhead"/>. It
+    /// covers the interpolation of frames and spikes
     /// of other work; since every peer simulates everything it needs to cover no network.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     public LatencyCompensationWindow(SimDuration? history = null, SimDuration? lookAhead = null)
@@ -54,12 +62,14 @@ public sealed class LatencyCompensationWindow
     {
         if (history < MinHistory || history > MaxHistory)
         {
-            throw new ArgumentOutOfRangeException(nameof(history), history.ToShortString(), $"The history must lie between {MinHistory.ToShortString()} and {MaxHistory.ToShortString()}.");
+            throw new ArgumentOutOfRangeException(nameof(history), history.ToShortString(), $"The history must lie between {MinHistory.ToShortString()} and"
+                + $" {MaxHistory.ToShortString()}.");
         }
 
         if (lookAhead <= SimDuration.Zero || lookAhead > MaxLookAhead)
         {
-            throw new ArgumentOutOfRangeException(nameof(lookAhead), lookAhead.ToShortString(), $"The look-ahead must be above zero and at most {MaxLookAhead.ToShortString()}.");
+            throw new ArgumentOutOfRangeException(nameof(lookAhead), lookAhead.ToShortString(), $"The look-ahead must be above zero and at most"
+                + $" {MaxLookAhead.ToShortString()}.");
         }
 
         History = history;
@@ -87,7 +97,8 @@ public sealed class LatencyCompensationWindow
 
     /// <summary>The same window with a lag for what this peer does of a kind.</summary>
     /// <param name="kind">Of which kind. Grab, knot and release of a hand should have the same, or they overtake each other.</param>
-    /// <param name="lag">So much later than it is done it is to happen, here as elsewhere; from zero, the default, to the look-ahead, and no more than half the history. Above the delay of the links nobody ever has
+    /// <param name="lag">So much later than it is done it is to happen, here as elsewhere; from zero, the default, to the look-ahead, and no more than half the
+    /// history. Above the delay of the links nobody ever has
     /// to heal it, and whoever did it sees it that much later.</param>
     /// <exception cref="ArgumentOutOfRangeException">The kind is none of a player's, or the lag is out of its range.</exception>
     public LatencyCompensationWindow WithLocalLag(EventKind kind, SimDuration lag)
@@ -95,7 +106,8 @@ public sealed class LatencyCompensationWindow
         if (!IsOfPlayers(kind))
         {
             throw new ArgumentOutOfRangeException(
-                nameof(kind), kind, "A local lag is that of what players do: a spawn, a teleport, a set velocity, an impulse, a grab, a knot, a release, a removal.");
+                nameof(kind), kind, "A local lag is that of what players do: a spawn, a teleport, a set velocity, an impulse, a grab, a knot, a release, a"
+                    + " removal.");
         }
 
         SimDuration[] changed = (SimDuration[])lags.Clone();
@@ -107,7 +119,8 @@ public sealed class LatencyCompensationWindow
     public SimDuration LocalLag(EventKind kind) => IsOfPlayers(kind) ? lags[kind - EventKind.Spawn] : SimDuration.Zero;
 
     /// <summary>
-    /// The history that would have served, from how late events were that came: the 99.9th percentile of it, but <see cref="LeastMeasuredHistory"/> at least and <see cref="MaxHistory"/> at
+    /// The history that would have served, from how late events were that came: the 99.9th percentile of it, but <see cref="LeastMeasuredHistory"/> at least
+    /// and <see cref="MaxHistory"/> at
     /// most.
     /// </summary>
     /// <param name="lateness">By how much each event came after its stamp, negative if before; as a session counts it. At least one.</param>
@@ -141,7 +154,8 @@ public sealed class LatencyCompensationWindow
         SimDuration most = LookAhead < half ? LookAhead : half;
         if (lag < SimDuration.Zero || lag > most)
         {
-            throw new ArgumentOutOfRangeException(nameof(lag), lag.ToShortString(), $"A local lag must lie between 0 s and {most.ToShortString()}, the lesser of the look-ahead and half the history.");
+            throw new ArgumentOutOfRangeException(nameof(lag), lag.ToShortString(), $"A local lag must lie between 0 s and {most.ToShortString()}, the lesser"
+                + " of the look-ahead and half the history.");
         }
     }
 }

@@ -20,7 +20,9 @@ internal static class SnapshotCheck
     {
         if (snapshot.Start.Ticks < -MaxTicks || snapshot.Time.Ticks > MaxTicks || snapshot.Time <= snapshot.Start)
         {
-            throw new SceneException($"The snapshot is of {snapshot.Time.ToShortString()} in a world that began at {snapshot.Start.ToShortString()}; neither may be further than 72 days from the origin, and the first comes after the second.");
+            throw new SceneException(
+                $"The snapshot is of {snapshot.Time.ToShortString()} in a world that began at {snapshot.Start.ToShortString()}; neither may be further than 72"
+                + " days from the origin, and the first comes after the second.");
         }
 
         BodySnapshot[] bodies = snapshot.BodyArray;
@@ -41,7 +43,8 @@ internal static class SnapshotCheck
         Limits.CheckSpec(body.Spec, whose, scene.Gravity, scene.ForceArray);
         if (body.Spec.Radius < scene.SmallestRadius)
         {
-            throw new SceneException($"The radius of {whose} is {Limits.Text(body.Spec.Radius)} m; the scene promises none below {Limits.Text(scene.SmallestRadius)} m.");
+            throw new SceneException(
+                $"The radius of {whose} is {Limits.Text(body.Spec.Radius)} m; the scene promises none below {Limits.Text(scene.SmallestRadius)} m.");
         }
 
         CheckTimes(body, snapshot, whose);
@@ -60,16 +63,20 @@ internal static class SnapshotCheck
         Limits.Components(body.Cubic, double.MaxValue, whose, "cubic coefficient", "m/s^3");
         Limits.Components(body.Quartic, double.MaxValue, whose, "quartic coefficient", "m/s^4");
         Limits.Components(body.Quintic, double.MaxValue, whose, "quintic coefficient", "m/s^5");
-        if (body.Law != body.Spec.Flight && body.Law is not (MotionLaw.Sliding or MotionLaw.Rolling or MotionLaw.Resting or MotionLaw.Held or MotionLaw.Constrained))
+        if (body.Law != body.Spec.Flight
+            && body.Law is not (MotionLaw.Sliding or MotionLaw.Rolling or MotionLaw.Resting or MotionLaw.Held or MotionLaw.Constrained))
         {
-            throw new SceneException($"The motion of {whose} is {body.Law}; it must be Sliding, Rolling, Resting, Held, Constrained, or its law of flight, {body.Spec.Flight}.");
+            throw new SceneException(
+                $"The motion of {whose} is {body.Law}; it must be Sliding, Rolling, Resting, Held, Constrained, or its law of flight, {body.Spec.Flight}.");
         }
 
         Limits.Components(body.Spin, double.MaxValue, whose, "spin", "rad/s");
         Limits.Components(body.SpinRate, double.MaxValue, whose, "rate of spin", "rad/s^2");
         if (body.NextStep != SimDuration.Zero && (body.NextStep < StepSize.Shortest || body.NextStep > StepSize.Longest))
         {
-            throw new SceneException($"The next step of {whose} is {body.NextStep.ToShortString()}; it must lie between {StepSize.Shortest.ToShortString()} and {StepSize.Longest.ToShortString()}, or be 0.");
+            throw new SceneException(
+                $"The next step of {whose} is {body.NextStep.ToShortString()}; it must lie between {StepSize.Shortest.ToShortString()} and"
+                + $" {StepSize.Longest.ToShortString()}, or be 0.");
         }
 
         bool isCarried = body.Law is MotionLaw.Sliding or MotionLaw.Rolling;
@@ -81,13 +88,16 @@ internal static class SnapshotCheck
 
         if (body.Law == MotionLaw.Resting && body.End != SimTime.MaxValue)
         {
-            throw new SceneException($"The rest of {whose} ends at {body.End.ToShortString()}; it lasts until something else happens, so its end must be {SimTime.MaxValue.ToShortString()}.");
+            throw new SceneException(
+                $"The rest of {whose} ends at {body.End.ToShortString()}; it lasts until something else happens, so its end must be"
+                + $" {SimTime.MaxValue.ToShortString()}.");
         }
 
         if (body.Law == MotionLaw.Constrained && (body.Epoch != body.Opened.Time || body.End <= body.Epoch || body.End - body.Epoch > IslandStep.Longest))
         {
             throw new SceneException(
-                $"The step of {whose}, which is Constrained, lasts from {body.Epoch.ToShortString()} to {body.End.ToShortString()} and was opened at {body.Opened.Time.ToShortString()}; it must begin where it was opened and last at most {IslandStep.Longest.ToShortString()}.");
+                $"The step of {whose}, which is Constrained, lasts from {body.Epoch.ToShortString()} to {body.End.ToShortString()} and was opened at"
+                + $" {body.Opened.Time.ToShortString()}; it must begin where it was opened and last at most {IslandStep.Longest.ToShortString()}.");
         }
 
         for (int n = 0; n < body.SupportCount; n++)
@@ -119,7 +129,8 @@ internal static class SnapshotCheck
         if (!isPast || (body.End != hold.Knot + HandPath.Settles && body.End != hold.Knot + HandPath.Stops && body.End != hold.Knot + HandPath.Lasts))
         {
             throw new SceneException(
-                $"The hand that holds {whose} last told where it is at {hold.Knot}, and this piece of its path lasts from {body.Epoch.ToShortString()} to {body.End.ToShortString()}; it must not begin before, and end {HandPath.Settles}, {HandPath.Stops} or {HandPath.Lasts} after.");
+                $"The hand that holds {whose} last told where it is at {hold.Knot}, and this piece of its path lasts from {body.Epoch.ToShortString()} to"
+                + $" {body.End.ToShortString()}; it must not begin before, and end {HandPath.Settles}, {HandPath.Stops} or {HandPath.Lasts} after.");
         }
     }
 
@@ -130,13 +141,16 @@ internal static class SnapshotCheck
             or (>= EventKind.Spawn and <= EventKind.Release) || (opened.Kind == EventKind.Remove && opened.Body != body.Id); // what it lay on is gone
         if (!isKnown || opened.Time < snapshot.Start || opened.Time >= snapshot.Time)
         {
-            throw new SceneException($"The path of {whose} was opened by {opened}; it must be an event that opens one, from {snapshot.Start.ToShortString()} on and before {snapshot.Time.ToShortString()}.");
+            throw new SceneException(
+                $"The path of {whose} was opened by {opened}; it must be an event that opens one, from {snapshot.Start.ToShortString()} on and before"
+                + $" {snapshot.Time.ToShortString()}.");
         }
 
         if (body.Epoch < snapshot.Start || body.Epoch > opened.Time || body.End < snapshot.Time)
         {
             throw new SceneException(
-                $"The path of {whose} counts from {body.Epoch.ToShortString()} and ends at {body.End.ToShortString()}; it must count from between {snapshot.Start.ToShortString()} and {opened.Time.ToShortString()}, and last to {snapshot.Time.ToShortString()}.");
+                $"The path of {whose} counts from {body.Epoch.ToShortString()} and ends at {body.End.ToShortString()}; it must count from between"
+                + $" {snapshot.Start.ToShortString()} and {opened.Time.ToShortString()}, and last to {snapshot.Time.ToShortString()}.");
         }
     }
 }

@@ -38,7 +38,8 @@ internal sealed partial class TimelineStore
 
     /// <summary>
     /// No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to
-    /// <paramref name="flights"/>; with room for as many bodies as are expected at first, and for few of them for a second segment each. Of how long a history it will be helps to guess how much
+    /// <paramref name="flights"/>; with room for as many bodies as are expected at first, and for few of them for a second segment each. Of how long a history
+    /// it will be helps to guess how much
     /// room it will need.
     /// </summary>
     internal TimelineStore(
@@ -138,7 +139,8 @@ internal sealed partial class TimelineStore
 
     /// <summary>Opens the body's next segment.</summary>
     /// <exception cref="TimelinesFullException">There are as many as may be.</exception>
-    internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output, in Hold hold = default, in Spin spin = default)
+    internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output, in Hold hold = default,
+        in Spin spin = default)
     {
         if (free == None && (used == pieces.Length || used == Most))
         {
@@ -155,7 +157,8 @@ internal sealed partial class TimelineStore
             if (used == Most)
             {
                 throw new TimelinesFullException(
-                    $"At {key.Time.ToShortString()} the timelines hold {Most} segments, the most that the options allow: allow more, keep a shorter history, or look for what makes so many events.");
+                    $"At {key.Time.ToShortString()} the timelines hold {Most} segments, the most that the options allow: allow more, keep a shorter history,"
+                    + " or look for what makes so many events.");
             }
 
             at = used++;

@@ -9,7 +9,8 @@ namespace LagSim.Timelines;
 /// came of them.
 /// </summary>
 /// <remarks>
-/// Only impacts of crowded bodies look at what is near, so it is empty where nothing is piled up. A body's entries are linked from the newest key to the oldest, so that what is
+/// Only impacts of crowded bodies look at what is near, so it is empty where nothing is piled up. A body's entries are linked from the newest key to the
+/// oldest, so that what is
 /// added, cut and forgotten, at the ends, does not cost what is kept between them.
 /// </remarks>
 internal sealed class WitnessLog
@@ -123,7 +124,8 @@ internal sealed class WitnessLog
         if (used == most)
         {
             throw new TimelinesFullException(
-                $"At {key.Time.ToShortString()} {most} looks at bodies near an impact are kept, as many as the segments that the options allow: allow more, keep a shorter history, or look for what piles up.");
+                $"At {key.Time.ToShortString()} {most} looks at bodies near an impact are kept, as many as the segments that the options allow: allow more,"
+                + " keep a shorter history, or look for what piles up.");
         }
 
         if (used == entries.Length)

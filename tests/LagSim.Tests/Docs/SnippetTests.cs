@@ -1,11 +1,17 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Text.RegularExpressions;
 using LagSim.Cli;
 using LagSim.Cli.Output;
+using LagSim.Harness.Links;
+using LagSim.Harness.Peers;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 
@@ -14,12 +20,15 @@ namespace LagSim.Tests.Docs;
 /// <summary>The code of the front pages compiles, line by line as it stands there, and what needs no second machine runs; the tool understands the calls of it that pages show.</summary>
 public sealed partial class SnippetTests
 {
-    private static readonly string Compiled = Read("tests/LagSim.Tests/Docs/Snippets.cs");
+    private static readonly string Compiled = Read("tests/LagSim.Tests/Docs/Snippets.cs") + Read("tests/LagSim.Tests/Docs/ForceSnippets.cs")
+        + Read("tests/LagSim.Tests/Docs/LiteNetLibSnippets.cs");
 
     [Theory]
     [InlineData("README.md", 6)]
     [InlineData("src/LagSim/README.md", 1)]
     [InlineData("src/LagSim.Net/README.md", 1)]
+    [InlineData("src/LagSim.Net.LiteNetLib/README.md", 1)]
+    [InlineData("docs/FORCES.md", 8)]
     public void Page_EachOfItsSnippets_IsCompiledAsItStands(string page, int count)
     {
         string[] snippets = [.. Fence().Matches(Read(page)).Select(match => match.Groups[1].Value)];
@@ -36,6 +45,50 @@ public sealed partial class SnippetTests
         snippets.Bounce();
         snippets.Contacts();
         Assert.All(shown, place => Assert.True(place.Y is > 3 and <= 4, $"{place}")); // nothing has fallen far yet
+    }
+
+    [Fact]
+    public void Forces_SnippetsAndFiguresOfThePage_AreWhatComesOut()
+    {
+        string page = Read("docs/FORCES.md");
+        Scene scene = ForceSnippets.Forces();
+        Assert.Contains($"```text\n{scene.Explain()}\n```", page, StringComparison.Ordinal);
+        Assert.Equal([MotionLaw.DormandPrince54, MotionLaw.ClosedForm, MotionLaw.Ballistic], scene.Explain().Bodies.Select(body => body.Motion));
+
+        BodyState ball = ForceSnippets.Roll();
+        Assert.Contains(
+            string.Create(CultureInfo.InvariantCulture, $"`{ball.Motion} at {ball.Velocity.X:F3} m/s, turning by {ball.Spin.Z:F2} rad/s`"), page, StringComparison.Ordinal);
+
+        Assert.Equal(At(10), ForceSnippets.OneThread(ForceSnippets.Whirl()).SimulatedTo);
+        SceneBuilder laws = new SceneBuilder("laws").AddForce(Force.QuadraticDrag("air", 0.0107), out ForceSet air);
+        MotionLaw[] chosen = [.. ForceSnippets.Laws(air).Select((spec, n) => laws.AddBody($"b{n}", spec, V(n))).Last().Build().Explain().Bodies.Select(body => body.Motion)];
+        Assert.Equal([MotionLaw.DormandPrince54, MotionLaw.DormandPrince54, MotionLaw.RungeKutta4], chosen);
+
+        string steel = Assert.Throws<SceneException>(() => new SceneBuilder("steel")
+            .AddForce(Force.Spring("coil", V(0), 1e14), out ForceSet coil).AddBody("ball", new BodySpec(0.5, 1, 1, forces: coil), V(0)).Build()).Message;
+        Assert.Contains("    " + steel + "\n", page, StringComparison.Ordinal);
+    }
+
+    /// <summary>A peer without the program's own force ends with the sentence of the page; one of another version too; one that has it plays.</summary>
+    [Theory]
+    [InlineData(0, ", which is not here.")]
+    [InlineData(2, "; here it is of version 2.")]
+    [InlineData(1, null)]
+    public void OwnForce_OfAJoinerThatHasNone_IsRefusedAsThePageSays(int version, string? refusal)
+    {
+        VirtualClock clock = new(SimTime.FromSeconds(10));
+        VirtualNetwork network = new(clock, 1, LinkProfiles.Lan);
+        VirtualSteps steps = new(network);
+        IDatagramPort hostPort = network.CreatePort(0), port = network.CreatePort(1);
+        SessionOptions options = new() { Accelerations = version == 0 ? null : [new OtherWhirl(version)] };
+        JoinerSession joiner = new(null, port, clock, options, PeerAddress.Virtual(0), 4);
+        steps.Add(new HostSession(ForceSnippets.Whirl(), hostPort, clock, new SessionOptions(), 1), hostPort);
+        steps.Add(joiner, port);
+        steps.RunFor(SimDuration.FromSeconds(5));
+        Assert.Equal(refusal is null ? SessionState.Running : SessionState.Ended, joiner.State);
+        string sentence = $"The scene needs the acceleration 'whirl' of version 1{refusal}";
+        Assert.Equal(refusal is null ? null : $"The copy of the world that the host at virtual:0 sent cannot be used: {sentence}", joiner.EndReason);
+        Assert.True(version > 0 || Read("docs/FORCES.md").Contains($"`{sentence}`", StringComparison.Ordinal));
     }
 
     [Theory]
@@ -78,6 +131,17 @@ public sealed partial class SnippetTests
         }
 
         return File.ReadAllText(Path.Combine(folder!.FullName, file)).ReplaceLineEndings("\n");
+    }
+
+    private sealed class OtherWhirl(int version) : IAcceleration
+    {
+        private readonly Whirl whirl = new();
+
+        public string Name => whirl.Name;
+
+        public int Version => version;
+
+        public Vector3D At(double seconds, in Vector3D position, in Vector3D velocity) => whirl.At(seconds, position, velocity);
     }
 
     [GeneratedRegex("```csharp\n(.*?)```", RegexOptions.Singleline)]

@@ -24,8 +24,8 @@ public sealed class PeriodicBoxTests
         { "flies by Ballistic", builder => builder.AddBody("b", Ball(0.1, flight: MotionLaw.RungeKutta4), V(1, 1, 1)) },
         { "each component is at least 0", builder => builder.AddBody("b", Ball(0.1), V(1, 1, 4)) },
         { "each component is at least 0", builder => builder.AddBody("b", Ball(0.1), V(-1, 1, 1)) },
-        { "5 times the diameter", builder => builder.AddBody("b", Ball(0.41), V(1, 1, 1)) },
-        { "5 times the diameter", builder => builder.WithPeriodicBox(V(4, 4, 0.9)).AddBody("b", Ball(0.1), V(1, 1, 0.5)) },
+        { "radius of body 'b' is 0.41 m; every side must be at least 5 times its diameter, 4.1", builder => builder.AddBody("b", Ball(0.41), V(1, 1, 1)) },
+        { "5 times its diameter", builder => builder.WithPeriodicBox(V(4, 4, 0.9)).AddBody("b", Ball(0.1), V(1, 1, 0.5)) },
         { "every side must be above zero", builder => builder.WithPeriodicBox(V(4, -4, 4)) },
         { "periodic box", builder => builder.WithPeriodicBox(V(4, double.NaN, 4)) },
         { "deep inside body", builder => builder.AddBody("a", Ball(0.1), V(0.05, 1, 1)).AddBody("b", Ball(0.1), V(3.9, 1, 1)) },
@@ -185,7 +185,7 @@ public sealed class PeriodicBoxTests
     {
         Simulation simulation = new(Box().AddBody("ball", Ball(0.1), V(1, 1, 1)).Build());
         Assert.Contains("each component is at least 0", Refusal(ExternalEvent.Teleport(At(1), 1, 1, First, V(4, 1, 1))), StringComparison.Ordinal);
-        Assert.Contains("5 times the diameter", Refusal(ExternalEvent.Spawn(At(1), 1, 1, Ball(0.41), V(1, 1, 2))), StringComparison.Ordinal);
+        Assert.Contains("5 times its diameter", Refusal(ExternalEvent.Spawn(At(1), 1, 1, Ball(0.41), V(1, 1, 2))), StringComparison.Ordinal);
         Assert.Contains("in a periodic box nothing is held", Refusal(ExternalEvent.Grab(At(1), 1, 1, First, V(0))), StringComparison.Ordinal);
         Assert.Contains("flies by Ballistic", Refusal(ExternalEvent.Spawn(At(1), 1, 1, Ball(0.1, flight: MotionLaw.RungeKutta4), V(1, 1, 2))), StringComparison.Ordinal);
 

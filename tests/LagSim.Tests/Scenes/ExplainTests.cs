@@ -62,6 +62,25 @@ public sealed class ExplainTests
         static string Contacts(Scene scene) => scene.Explain().Features.Single(f => f.Name == "contacts of bodies").Why;
     }
 
+    [Fact]
+    public void ToString_OfAScene_HasALineForEachBodyAndFeature()
+    {
+        string[] lines = Forced().Explain().ToString().Split('\n');
+        Assert.Equal(10, lines.Length);
+        Assert.Matches("^oily: ClosedForm, [0-9.]+ pieces/s, [0-9.]+ force calls/s. Gravity, oil \\(LinearDrag\\): linear in position and velocity", lines[0]);
+        Assert.Equal("free: Ballistic. Only uniform gravity acts on it: a parabola is exact.", lines[2]);
+        Assert.Equal("integrator: yes. 1 body of 3 in steps.", lines[4]);
+        Assert.Equal("periodic box: no. The scene has none.", lines[9]);
+    }
+
+    [Fact]
+    public void ToString_OfManyBodies_SaysHowManyMore()
+    {
+        string[] lines = BuiltInScenes.Crowd(65).Explain().ToString().Split('\n');
+        Assert.Equal((18, "and 55 more bodies"), (lines.Length, lines[10]));
+        Assert.DoesNotContain("more bod", BuiltInScenes.Crowd(10).Explain().ToString(), StringComparison.Ordinal);
+    }
+
     private static Scene Forced() => new SceneBuilder("forced")
         .AddForce(Force.LinearDrag("oil", 0.5), out ForceSet oil).AddForce(Force.QuadraticDrag("air", 0.1), out ForceSet air).AddForce(Force.LinearDrag("unused", 1))
         .AddBody("oily", new BodySpec(0.5, 1, 1, forces: oil), V(0), V(5)).AddBody("airy", new BodySpec(0.5, 1, 1, forces: air), V(5), V(5, 5))

@@ -1,0 +1,113 @@
+using System.Text;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <content>What is said of forces that are too much for a step, or for the timelines.</content>
+public sealed partial class Simulation
+{
+    /// <summary>Why no step from a state can be used.</summary>
+    /// <param name="slot">The body.</param>
+    /// <param name="from">When the step begins.</param>
+    /// <param name="x">The position then.</param>
+    /// <param name="v">The velocity then.</param>
+    /// <param name="spin">How it turns.</param>
+    /// <param name="tooStiff">The rate in 1/s that was met by fixed steps; zero if that is not why.</param>
+    /// <param name="tooLarge">How many times the tolerance the error of the shortest step is; zero if that is not why.</param>
+    /// <param name="isFinite">Whether the acceleration at the state is.</param>
+    private SimulationException TooMuch(
+        int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, double tooStiff, double tooLarge, bool isFinite)
+    {
+        ref readonly BodySpec spec = ref bodies[slot].Spec;
+        string where = $"From {from.ToShortString()} on, at {x} m and {v} m/s, the forces on {Whose(slot)}";
+        foreach (Force force in spec.Forces.Among(Scene.ForceArray))
+        {
+            if (force.Kind == ForceKind.Central && force.Power < 0 && x == force.Vector)
+            {
+                return new SimulationException(
+                    $"{where} have no value: it is at the centre of '{force.Name}', whose power is {force.Power}; start it, or put it, elsewhere.");
+            }
+        }
+
+        if (!isFinite || (tooStiff == 0 && tooLarge == 0))
+        {
+            return new SimulationException(
+                $"In the step from {from.ToShortString()}, at {x} m and {v} m/s, the acceleration of {Whose(slot)} became NaN or infinite; what the forces"
+                + $" {spec.Forces.NamesAmong(Scene.ForceArray)} give must be finite.");
+        }
+
+        string rates = RatesOn(slot, x, v, spin);
+        if (tooStiff > 0)
+        {
+            double most = (spec.Flight == MotionLaw.RungeKutta4 ? RungeKutta4.MaxRateTimesStep : DormandPrince54.MaxRateTimesStep) / Limits.MinStep.ToSeconds();
+            double here = forces.FixedStepRateAt(spec, x, v, spin);
+            string what = here > most ? $"act at a rate of {Limits.Text(here)} 1/s" : $"lead in a step to where they act at a rate of"
+                + $" {Limits.Text(tooStiff)} 1/s";
+            return new SimulationException(
+                $"{where} {what}: there {rates}. {spec.Flight} with fixed steps follows at most {Limits.Text(most)} 1/s, by the shortest step there is. Make"
+                + " them weaker, or use Automatic.");
+        }
+
+        return new SimulationException(
+            $"{where} change so fast that a step of {StepSize.Shortest.ToShortString()}, the shortest there is, still has {Limits.Text(tooLarge)} times the"
+            + $" error of the tolerance, {Limits.Text(spec.Tolerance)}: there {rates}. Allow a larger error, make them weaker, or keep it out of the"
+            + " singularity, if there is one.");
+    }
+
+    /// <summary>A body in words: the name that a scene gives it, and its identity.</summary>
+    private string Whose(int slot)
+    {
+        BodyId id = bodies[slot].Id;
+        return id.Peer == 0 && id.Sequence == 0 ? $"body '{Scene.BodyArray[id.Index].Name}' ({id})" : $"body {id}";
+    }
+
+    /// <summary>What forces act on a body at a state, and at which rates.</summary>
+    private string RatesOn(int slot, in Vector3D x, in Vector3D v, in Vector3D spin)
+    {
+        ref readonly BodySpec spec = ref bodies[slot].Spec;
+        StringBuilder text = new();
+        foreach (Force force in spec.Forces.Among(Scene.ForceArray))
+        {
+            string rate = force.Kind == ForceKind.Supplied ? "at a rate that is the program's" : $"at {Limits.Text(force.RateAt(spec.Mass, x, v, spin))} 1/s";
+            text.Append(text.Length > 0 ? ", " : "").Append($"'{force.Name}' ({force.Kind}) acts {rate}");
+        }
+
+        return text.ToString();
+    }
+
+    /// <summary>
+    /// Whose path most segments of full timelines are, how short they are, and how long they would have to be; a sentence that follows another.
+    /// </summary>
+    private string WhoseSegments()
+    {
+        int most = 0;
+        int whose = 0;
+        foreach (int slot in order)
+        {
+            int count = 0;
+            for (int at = timelines.First(slot); at != TimelineStore.None; at = timelines.Next(at))
+            {
+                count++;
+            }
+
+            (most, whose) = count > most ? (count, slot) : (most, whose);
+        }
+
+        int last = timelines.Last(whose);
+        if (most < 2 || last == TimelineStore.None)
+        {
+            return "";
+        }
+
+        double mean = timelines.Key(last).Time.SecondsSince(timelines.Key(timelines.First(whose)).Time) / (most - 1);
+        double least = history.ToSeconds() / timelines.Most;
+        ref readonly MotionSegment path = ref timelines.Segment(last);
+        string rates = RatesOn(whose, path.Position, path.Velocity, timelines.SpinOf(last).AtEpoch);
+        return $" Most are of {Whose(whose)}: {most}, of {Limits.Text(mean)} s in the mean; the history that is kept, {history.ToShortString()}, has room for"
+            + $" pieces of {Limits.Text(least)} s."
+            + (rates.Length > 0 ? $" On it {rates}." : "");
+    }
+}
