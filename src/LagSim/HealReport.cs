@@ -40,8 +40,7 @@ public readonly struct HealReport : IEquatable<HealReport>
 
     /// <summary>
     /// From when on all paths were the old ones again, to the bit, so that the heal was done: what came after stands as it was. Null if that never came, or was
-    /// not looked
-    /// for: after a full rollback, after more news before the heal was finished, and where it had cut more than 256 segments.
+    /// not looked for: after a full rollback, after more news before the heal was finished, and where it had cut more than 256 segments.
     /// </summary>
     public SimTime? Met { get; }
 

@@ -8,8 +8,7 @@ namespace LagSim;
 
 /// <content>
 /// The impact of two bodies in free flight with nobody near, or of one with a surface: what nearly all impacts of a gas are, and of a ball that bounces;
-/// nothing
-/// has to be gathered for it.
+/// nothing has to be gathered for it.
 /// </content>
 public sealed partial class Simulation
 {

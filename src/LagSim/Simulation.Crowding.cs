@@ -51,9 +51,8 @@ public sealed partial class Simulation
     private double HopSpeed(double acceleration) => Math.Sqrt(2 * acceleration * NearGap);
 
     /// <summary>
-    /// How many impacts in succession a body will have had with one at <paramref name="time"/>, each soon after the one before, counted no further than to
-    /// <see cref="SqueezedAfter"/>. A function of
-    /// its newest segment, so that a timeline that was cut counts again as it did.
+    /// How many impacts in succession a body will have had with one at <paramref name="time"/>, each soon after the one before, counted no further than to <see
+    /// cref="SqueezedAfter"/>. A function of its newest segment, so that a timeline that was cut counts again as it did.
     /// </summary>
     private int CrowdingAt(int slot, SimTime time) => CrowdingAfter(timelines.Last(slot), time);
 

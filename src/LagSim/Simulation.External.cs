@@ -24,10 +24,9 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// Adds an event that takes effect at <paramref name="arrival"/>, after its own time, by advancing the body alone from the event's time to
-    /// the arrival: its own motion and contacts with static geometry, as the thesis does. What lies before the arrival is not rewritten. What a hand does
-    /// (grab,
-    /// knot, release) is done at the arrival as it is.
+    /// Adds an event that takes effect at <paramref name="arrival"/>, after its own time, by advancing the body alone from the event's time to the arrival: its
+    /// own motion and contacts with static geometry, as the thesis does. What lies before the arrival is not rewritten. What a hand does (grab, knot, release)
+    /// is done at the arrival as it is.
     /// </summary>
     /// <returns>What became of it.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The arrival is before the event's time.</exception>

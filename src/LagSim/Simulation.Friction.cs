@@ -9,11 +9,9 @@ namespace LagSim;
 /// <content>Friction on a plane: slipping, rolling, rest.</content>
 /// <remarks>
 /// A solid sphere that slips with u = v - r w x n is slowed down by mu g_n against u and turned by 5/2 as much, so u' = g_t - 7/2 mu g_n u/|u|, with g_n and
-/// g_t what gravity has across
-/// and along the plane. Once u is zero it rolls, with 5/7 of g_t, if 2/7 of that is no more than friction can hold. Rolling resistance c takes 5/7 c g_n from
-/// that, against v, and
-/// holds at rest what gravity pulls by no more than c g_n; from what turns about the normal it takes 5/2 c g_n / r, whether the sphere slips, rolls or stays
-/// where it is.
+/// g_t what gravity has across and along the plane. Once u is zero it rolls, with 5/7 of g_t, if 2/7 of that is no more than friction can hold. Rolling
+/// resistance c takes 5/7 c g_n from that, against v, and holds at rest what gravity pulls by no more than c g_n; from what turns about the normal it takes 5/2
+/// c g_n / r, whether the sphere slips, rolls or stays where it is.
 /// </remarks>
 public sealed partial class Simulation
 {

@@ -230,8 +230,7 @@ public sealed partial class Simulation
 
     /// <summary>
     /// A heal whose cone has grown to so many bodies that it will grow to nearly all takes all back to the event at hand: to simulate everybody again costs
-    /// less than to ask at every step
-    /// who is ahead, and what he did there.
+    /// less than to ask at every step who is ahead, and what he did there.
     /// </summary>
     private bool HasTakenBackAll()
     {
@@ -310,8 +309,7 @@ public sealed partial class Simulation
 
     /// <summary>
     /// Whether the impact that a body was looked at for has not been taken back since. What was taken back is not put back: all who took part were looked at
-    /// too, and a heal that cuts such a
-    /// look goes on to the end.
+    /// too, and a heal that cuts such a look goes on to the end.
     /// </summary>
     private bool StillHappens(int witness, long mostSerial = long.MaxValue)
     {

@@ -48,9 +48,8 @@ public sealed partial class Simulation
 
     /// <summary>
     /// Whether a hand is so deep in a body that it must have been pressed into it, or was put there. It goes through then: until a piece of either's path
-    /// begins
-    /// with the hand outside, it neither pushes the body nor takes part in what else that meets. Else a body in a corner, which meets something a million
-    /// times a second, would be pressed anew each time, for all the rounds of a tick.
+    /// begins with the hand outside, it neither pushes the body nor takes part in what else that meets. Else a body in a corner, which meets something a
+    /// million times a second, would be pressed anew each time, for all the rounds of a tick.
     /// </summary>
     private bool IsInside(double gap) => gap < -InsideDepth * Scene.Resolution && !PressesOn;
 
@@ -147,8 +146,7 @@ public sealed partial class Simulation
 
     /// <summary>
     /// Where a body is let go that a hand holds inside static geometry: outside of it, at the surface, one after the other in the scene's order. What is
-    /// between
-    /// surfaces too close for it stays inside.
+    /// between surfaces too close for it stays inside.
     /// </summary>
     private Vector3D PutOut(int slot, in Vector3D position)
     {

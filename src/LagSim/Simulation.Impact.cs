@@ -13,8 +13,7 @@ public sealed partial class Simulation
 {
     /// <summary>
     /// How high, in units of the scene's resolution, a rebound must rise not to be the last of a contact that is pressed together and that no plane alone
-    /// carries: 1 micrometre by default.
-    /// Lasting contact with a hand goes on by hops of that height, some thousand a second.
+    /// carries: 1 micrometre by default. Lasting contact with a hand goes on by hops of that height, some thousand a second.
     /// </summary>
     private const double HopHeight = 1000;
 
@@ -153,8 +152,7 @@ public sealed partial class Simulation
 
     /// <summary>
     /// What an impact would make faster than <see cref="Limits.MaxReboundSpeed"/> leaves it at that speed, in its direction: a rule of the world, the same bits
-    /// on
-    /// every peer. What is not finite stays as it is, and ends the simulation.
+    /// on every peer. What is not finite stays as it is, and ends the simulation.
     /// </summary>
     private void LimitSpeeds()
     {
@@ -227,8 +225,7 @@ public sealed partial class Simulation
 
     /// <summary>
     /// Marks the contacts of the impact at hand that are pressed together: by the paths that they are on, as friction may have it; or by gravity and forces now
-    /// that they touch, which the
-    /// accelerations tell that are left if no contact may close, nor what carries the parties already give way.
+    /// that they touch, which the accelerations tell that are left if no contact may close, nor what carries the parties already give way.
     /// </summary>
     private void FindPressing()
     {

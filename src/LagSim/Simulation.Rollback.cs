@@ -11,8 +11,7 @@ public sealed partial class Simulation
 
     /// <summary>
     /// Whether a late event has only its own instant simulated again, so that <see cref="SimulatedTo"/> goes back, and not even that where an earlier one has
-    /// taken it further back already;
-    /// whoever advances does the rest, in pieces if need be, and for several late events once.
+    /// taken it further back already; whoever advances does the rest, in pieces if need be, and for several late events once.
     /// </summary>
     internal bool DefersAgain { get; set; }
 

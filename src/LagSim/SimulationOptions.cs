@@ -35,8 +35,8 @@ public sealed class SimulationOptions
     /// <param name="healing">How an event is brought in that lies before the simulated time. It has no influence on the result, to the bit.</param>
     /// <param name="threads">
     /// How many threads at most may be at work for this simulation at once, the one that calls it included: from 1 to <see cref="SceneBuilder.MaxThreads"/>;
-    /// default as many as there are processors, at most 8. The others are the
-    /// pool's, and take steps of islands ahead where there are several; what comes of it is the same, to the bit, on any number.
+    /// default as many as there are processors, at most 8. The others are the pool's, and take steps of islands ahead where there are several; what comes of it
+    /// is the same, to the bit, on any number.
     /// </param>
     /// <exception cref="ArgumentOutOfRangeException">
     /// The threads are not from 1 to 64, the history or the most segments are not above zero, or the start more than 72 days from the origin.

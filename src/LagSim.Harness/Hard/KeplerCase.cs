@@ -10,14 +10,12 @@ using static LagSim.Harness.Hard.HardWorlds;
 namespace LagSim.Harness.Hard;
 
 /// <summary>
-/// An orbit around a centre, against Kepler's equation: on fixed steps no further off than the classical method is at that step; in closed form and under
-/// error control no further than what each
-/// piece may be off by, passed on along the orbit.
+/// An orbit around a centre, against Kepler's equation: on fixed steps no further off than the classical method is at that step; in closed form and under error
+/// control no further than what each piece may be off by, passed on along the orbit.
 /// </summary>
 /// <remarks>
 /// A place that is off by dx and a velocity by dv change the energy by mu/r^2 dx + v dv, and so the mean motion: a time t later the body is late by 3 a/mu of
-/// that times t, and as far off as it moves in
-/// that. Everything else comes round with the orbit, magnified by 10/(1 - e) at the most.
+/// that times t, and as far off as it moves in that. Everything else comes round with the orbit, magnified by 10/(1 - e) at the most.
 /// </remarks>
 internal sealed class KeplerCase : IHardCase
 {

@@ -9,9 +9,8 @@ namespace LagSim.Harness.Hard;
 /// <summary>A solid sphere on a plane with friction: from slipping to rolling, from rolling to rest, turning on the spot, down a slope, against the textbook's formulas.</summary>
 /// <remarks>
 /// Slip, the velocity of the surface, loses 7/2 mu g a second and is gone after 2 v/(7 mu g), with 5/7 of the speed left. Down a slope it rolls with 5/7 g sin
-/// a if tan a is at most 7/2 mu, else
-/// it slips with g (sin a - mu cos a). All pieces are parabolas, so a change from one to the next, which happens at a tick, is all that is not exact but for
-/// rounding.
+/// a if tan a is at most 7/2 mu, else it slips with g (sin a - mu cos a). All pieces are parabolas, so a change from one to the next, which happens at a tick,
+/// is all that is not exact but for rounding.
 /// </remarks>
 internal sealed class RollingCase : IHardCase
 {

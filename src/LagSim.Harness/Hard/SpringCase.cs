@@ -12,8 +12,7 @@ namespace LagSim.Harness.Hard;
 /// </summary>
 /// <remarks>
 /// With the energy (v^2 + kappa x^2)/2 as a measure of distance no error grows, whatever the damping: a place that is off by dx and a velocity by dv never
-/// leave the place off by more than dx +
-/// dv/sqrt(kappa).
+/// leave the place off by more than dx + dv/sqrt(kappa).
 /// </remarks>
 internal sealed class SpringCase : IHardCase
 {

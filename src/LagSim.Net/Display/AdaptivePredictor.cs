@@ -12,9 +12,8 @@ namespace LagSim.Net.Display;
 /// <remarks>
 /// <para>For display only: what it says depends on when the samples came, so it differs from peer to peer and must never enter a simulation.</para>
 /// <para>Mixed are: hold (the hand stays), velocity that decays with a time constant of 20, 40, 80, 160 or 320 ms, constant velocity, and least squares over
-/// the
-/// last 200 ms that learn as they go. Each new sample shows what each would have said of it from the samples as old as now; that error, squared and forgotten
-/// within a second or two, gives the weights. So there is nothing to set: a calm hand is followed, a shaken one is not.</para>
+/// the last 200 ms that learn as they go. Each new sample shows what each would have said of it from the samples as old as now; that error, squared and
+/// forgotten within a second or two, gives the weights. So there is nothing to set: a calm hand is followed, a shaken one is not.</para>
 /// <para>What to expect: on generated hand motion the rms error stays within 1.15 of that of the best of them in hindsight. Nothing can promise an error below
 /// A L^2 / 2 for a hand that may accelerate by A (m/s^2) after what is known of it, L seconds ago: see <see cref="LeastWorstError"/>.</para>
 /// <para>It remembers 512 samples and so can learn for spans up to what those cover. Memory is fixed; nothing is allocated after construction. A sample costs

@@ -10,17 +10,14 @@ namespace LagSim.Net.Display;
 /// </summary>
 /// <remarks>
 /// <para>Call <see cref="Update"/> once a frame with the newest picture and the frame's time, then <see cref="TryRead"/> for each body to draw. For display
-/// only:
-/// what is drawn differs from peer to peer and must never enter a simulation.</para>
+/// only: what is drawn differs from peer to peer and must never enter a simulation.</para>
 /// <para>A correction is the difference between where the body was shown at the time of the frame before and where the new picture has it at that same time.
 /// So motion is none, however fast, nor is what a player does now; only a rewritten past is. It is added to the body's offset, and the offset decays
 /// exponentially, small ones faster (<see cref="DisplayOptions"/>), in the same curve whatever the frame rate.</para>
 /// <para>An offset is given up at once where it would have the body drawn inside a plane, a static sphere or another body as that is drawn; where it is too
-/// large to be
-/// smoothed; where the body is put elsewhere; and as far as a bounce hides it.</para>
+/// large to be smoothed; where the body is put elsewhere; and as far as a bounce hides it.</para>
 /// <para>For one world: who joins another makes another. A frame costs two readings of the picture a body, and for each body with an offset one look at every
-/// other. Memory
-/// grows with the bodies of the picture; otherwise nothing is allocated. Not thread-safe: for the thread that reads pictures.</para>
+/// other. Memory grows with the bodies of the picture; otherwise nothing is allocated. Not thread-safe: for the thread that reads pictures.</para>
 /// </remarks>
 public sealed class DisplayOffsets
 {

@@ -15,8 +15,7 @@ public sealed class HandSenderOptions
 
     /// <summary>
     /// The longest time without a knot, however still the hand keeps: up to half of <see cref="HandPath.Lasts"/>, after which the hold would end by itself, so
-    /// that
-    /// one may be late; default 400 ms.
+    /// that one may be late; default 400 ms.
     /// </summary>
     public SimDuration Longest { get; set; } = SimDuration.FromMilliseconds(400);
 

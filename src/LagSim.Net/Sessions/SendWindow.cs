@@ -116,8 +116,7 @@ internal sealed class SendWindow
 
     /// <summary>
     /// The first entry that goes out in any case, of those that are not acknowledged, up to the last. Where they are knots alone it is the newest that was sent
-    /// before; where there is anything else, it
-    /// is the first, since what comes after one that is lost can be taken only with it.
+    /// before; where there is anything else, it is the first, since what comes after one that is lost can be taken only with it.
     /// </summary>
     private uint FirstNeeded(IEntrySource source, uint last)
     {

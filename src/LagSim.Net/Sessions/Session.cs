@@ -98,8 +98,8 @@ public abstract partial class Session
 
     /// <summary>
     /// What a frame that is drawn now reads of a picture: shared time less <see cref="DisplayDelay"/>. In the first moments, when that lies before the world
-    /// this peer
-    /// has, the earliest instant of it, so that the world stands still until it can be shown on its way. From any thread, once there is a <see cref="World"/>.
+    /// this peer has, the earliest instant of it, so that the world stands still until it can be shown on its way. From any thread, once there is a <see
+    /// cref="World"/>.
     /// </summary>
     public SimTime DisplayTime
     {

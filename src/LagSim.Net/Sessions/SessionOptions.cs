@@ -48,19 +48,16 @@ public sealed class SessionOptions
 
     /// <summary>
     /// The highest speed in m/s that an event of a player may give, above 0, up to <see cref="double.PositiveInfinity"/> for no limit beyond the world's own;
-    /// default
-    /// 1,000. It holds for the velocity of a spawn, a teleport, a set velocity, a knot or a release, for the surface of a spawn that turns, for the way that a
-    /// knot has a held body make up for, and for what
-    /// an impulse leaves, unless that is slower than what was there. A host
-    /// refuses more as <see cref="Verdict.Invalid"/>, by its own option; a joiner's own <see cref="Session.Do"/> goes by the joiner's.
+    /// default 1,000. It holds for the velocity of a spawn, a teleport, a set velocity, a knot or a release, for the surface of a spawn that turns, for the way
+    /// that a knot has a held body make up for, and for what an impulse leaves, unless that is slower than what was there. A host refuses more as <see
+    /// cref="Verdict.Invalid"/>, by its own option; a joiner's own <see cref="Session.Do"/> goes by the joiner's.
     /// </summary>
     /// <remarks>It is what keeps a stranger from asking the world for more than anyone can simulate: a fast ball in a narrow gap.</remarks>
     public double MaxGivenSpeed { get; set; } = 1_000;
 
     /// <summary>
     /// How many bodies that one player spawned may be there at a time, 0 to 1,000,000; default 64. Those of the former holders of a joiner's number count. A
-    /// host
-    /// refuses more as <see cref="Verdict.NoRight"/>, by its own option; a joiner's own <see cref="Session.Do"/> goes by the joiner's.
+    /// host refuses more as <see cref="Verdict.NoRight"/>, by its own option; a joiner's own <see cref="Session.Do"/> goes by the joiner's.
     /// </summary>
     public int MaxSpawned { get; set; } = 64;
 
@@ -69,15 +66,13 @@ public sealed class SessionOptions
 
     /// <summary>
     /// How late an event may be and still be accepted, how far ahead the world is simulated, and how much later than it is done what this peer does is to
-    /// happen. The history is the
-    /// host's, whatever a joiner says.
+    /// happen. The history is the host's, whatever a joiner says.
     /// </summary>
     public LatencyCompensationWindow Window { get; set; } = new();
 
     /// <summary>
     /// How many segments all timelines of this peer may hold together, from 1; default <see cref="SimulationOptions.DefaultMaxSegments"/>. A peer that needs
-    /// more says so and leaves
-    /// (<see cref="SessionEnd.TimelinesFull"/>), and can join again: it then gets the world as it is committed.
+    /// more says so and leaves (<see cref="SessionEnd.TimelinesFull"/>), and can join again: it then gets the world as it is committed.
     /// </summary>
     public int MaxSegments { get; set; } = SimulationOptions.DefaultMaxSegments;
 
@@ -111,8 +106,7 @@ public sealed class SessionOptions
 
     /// <summary>
     /// What is told of contacts, for a sound or a score; null, the default: nobody. Of one session alone. Contacts are confirmed once the watermark has passed,
-    /// later by
-    /// <see cref="ExtraHistory"/>.
+    /// later by <see cref="ExtraHistory"/>.
     /// </summary>
     public ContactNotices? Contacts { get; set; }
 
@@ -121,16 +115,15 @@ public sealed class SessionOptions
 
     /// <summary>
     /// Whether every late event is healed and also fully rolled back in a second world, and every bit of the two compared; default false. The first difference
-    /// ends the session with a
-    /// sentence that names it in both versions. To test a scene of one's own: it costs more than twice as much. With a strategy that heals alone:
-    /// <c>healing</c> or <c>interpolation</c>.
+    /// ends the session with a sentence that names it in both versions. To test a scene of one's own: it costs more than twice as much. With a strategy that
+    /// heals alone: <c>healing</c> or <c>interpolation</c>.
     /// </summary>
     public bool SyncTest { get; set; }
 
     /// <summary>
     /// How far behind shared time <c>interpolation</c> shows the world, 0 to 5 s; default 100 ms. No other strategy looks at it. News that comes within that
-    /// time is seen
-    /// without a jump, and what this peer does itself is seen that much later. A frame reads at <see cref="Session.DisplayTime"/>. Each peer may have another.
+    /// time is seen without a jump, and what this peer does itself is seen that much later. A frame reads at <see cref="Session.DisplayTime"/>. Each peer may
+    /// have another.
     /// </summary>
     public SimDuration DisplayDelay { get; set; } = Interpolation.DefaultDelay;
 

@@ -82,8 +82,7 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
 
     /// <summary>
     /// The peer's hand takes the body, by a point that lies <paramref name="offset"/> from its centre, in metres. Until the first knot the hand is taken to be
-    /// at
-    /// rest where the body was. What is held already, or faster than may be given, it does not get. What is held does not turn, nor when it is let go.
+    /// at rest where the body was. What is held already, or faster than may be given, it does not get. What is held does not turn, nor when it is let go.
     /// </summary>
     public static ExternalEvent Grab(SimTime time, byte peer, uint sequence, BodyId body, Vector3D offset = default) =>
         new(EventKind.Grab, time, peer, sequence, body, offset, default, default);

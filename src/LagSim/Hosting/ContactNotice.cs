@@ -53,8 +53,7 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>
 
     /// <summary>
     /// What of the scene it met: below the number of <see cref="Scene.Planes"/> the plane of that index, from there on the static sphere of what is left; -1
-    /// where two
-    /// bodies met.
+    /// where two bodies met.
     /// </summary>
     public int Surface { get; }
 

@@ -10,20 +10,15 @@ namespace LagSim.Hosting;
 /// <summary>Tells a game of contacts: each predicted, then confirmed when nothing can change it any more, or retracted by late news.</summary>
 /// <remarks>
 /// <para>Made by the game and given to the one world it is to follow: to a <see cref="SimulationHost"/> or <see cref="LiveWorld"/>, or with the options of a
-/// session.
-/// It changes no bit of what happens.</para>
+/// session. It changes no bit of what happens.</para>
 /// <para>Told after each step of the world, so what a step's news took back and made again just so is not told at all: nothing is retracted that is then
-/// predicted
-/// unchanged. Each contact that was predicted is in the end either retracted or confirmed, once. Confirmed ones come in ascending order of their keys, each
-/// once, and
-/// are the same on all peers from where each of them began; what is not committed when a world ends is never confirmed. Confirmation comes as late as a late
-/// event may:
-/// the history of the world or session, and up to as long as a session at rest is silent.</para>
+/// predicted unchanged. Each contact that was predicted is in the end either retracted or confirmed, once. Confirmed ones come in ascending order of their
+/// keys, each once, and are the same on all peers from where each of them began; what is not committed when a world ends is never confirmed. Confirmation comes
+/// as late as a late event may: the history of the world or session, and up to as long as a session at rest is silent.</para>
 /// <para>The simulation's thread raises <see cref="Noticed"/>; one other thread, the game's, may read the same notices with <see cref="TryRead"/>, without a
 /// lock.</para>
 /// <para>Memory: the queue, and some 150 bytes for each contact that is neither confirmed nor retracted; these are no more than the world's own pieces of path,
-/// which the
-/// world bounds.</para>
+/// which the world bounds.</para>
 /// </remarks>
 public sealed class ContactNotices : IImpactObserver
 {
@@ -52,8 +47,7 @@ public sealed class ContactNotices : IImpactObserver
 
     /// <summary>Notices of the contacts of one world, which is told of them.</summary>
     /// <param name="minClosingSpeed">Slower contacts are not told, in m/s; at least zero, default <see cref="DefaultMinClosingSpeed"/>. With zero a body that
-    /// lies on another
-    /// is told a thousand times a second. The same on all peers that are to be told the same.</param>
+    /// lies on another is told a thousand times a second. The same on all peers that are to be told the same.</param>
     /// <param name="capacity">How many notices may wait to be read, 16 to <see cref="MaxCapacity"/>, default <see cref="DefaultCapacity"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     public ContactNotices(double minClosingSpeed = DefaultMinClosingSpeed, int capacity = DefaultCapacity)
@@ -84,8 +78,7 @@ public sealed class ContactNotices : IImpactObserver
 
     /// <summary>
     /// How many notices <see cref="TryRead"/> will never give, because too many waited: predictions take at most half of the queue, and what else finds no room
-    /// is left
-    /// out too, each with a gap in <see cref="ContactNotice.Number"/>. <see cref="Noticed"/> had them. From any thread.
+    /// is left out too, each with a gap in <see cref="ContactNotice.Number"/>. <see cref="Noticed"/> had them. From any thread.
     /// </summary>
     public long Lost => Volatile.Read(ref lost);
 

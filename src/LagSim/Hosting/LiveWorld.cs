@@ -9,10 +9,9 @@ namespace LagSim.Hosting;
 
 /// <summary>A simulation kept ahead of a clock: it is advanced to now plus the look-ahead, and its picture published.</summary>
 /// <remarks>
-/// For the simulation's thread, in real or virtual time alike, except <see cref="Pictures"/>, which is how another thread reads, and
-/// <see cref="LateSteps"/> and <see cref="MaxLateness"/>, which any thread may read, each for itself, and what <see cref="Contacts"/> says of itself. What
-/// changes the world goes through this
-/// type, so that the next <see cref="Step"/> publishes it.
+/// For the simulation's thread, in real or virtual time alike, except <see cref="Pictures"/>, which is how another thread reads, and <see cref="LateSteps"/>
+/// and <see cref="MaxLateness"/>, which any thread may read, each for itself, and what <see cref="Contacts"/> says of itself. What changes the world goes
+/// through this type, so that the next <see cref="Step"/> publishes it.
 /// </remarks>
 public sealed class LiveWorld
 {
@@ -94,15 +93,13 @@ public sealed class LiveWorld
 
     /// <summary>
     /// Whether the world is not where it should be, <see cref="LookAhead"/> beyond the clock of the last <see cref="Step"/> or <see cref="Advance"/>, because
-    /// there
-    /// was more to do than may be done at a time; the next step goes on. From any thread.
+    /// there was more to do than may be done at a time; the next step goes on. From any thread.
     /// </summary>
     public bool IsBehind => isBehind;
 
     /// <summary>
     /// What a step may cost, as looks of one body at another: an event of a body looks at all others, or at those that the index names. Counted, not timed, so
-    /// that where a step stops depends
-    /// on the world alone.
+    /// that where a step stops depends on the world alone.
     /// </summary>
     internal long Effort { get; set; } = DefaultEffort;
 
@@ -148,9 +145,8 @@ public sealed class LiveWorld
     /// <see cref="SimTime.MaxValue"/> for a world in which nothing will happen, and of which no contact is to be confirmed.
     /// </returns>
     /// <remarks>It does a bounded number of events, so that whoever calls it gets to other things in between. While late news is made good over several steps
-    /// the last whole picture stays, until
-    /// the world has caught up with it. Half of the look-ahead may be used up before the next step is due, so a moving world steps about once a frame, one at
-    /// rest never.</remarks>
+    /// the last whole picture stays, until the world has caught up with it. Half of the look-ahead may be used up before the next step is due, so a moving
+    /// world steps about once a frame, one at rest never.</remarks>
     public SimTime Step(SimTime now)
     {
         if (Simulation.Horizon < now)

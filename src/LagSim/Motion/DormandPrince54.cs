@@ -6,18 +6,14 @@ namespace LagSim.Motion;
 
 /// <summary>
 /// One step of the embedded Runge-Kutta method of orders 5 and 4 by Dormand and Prince (1980, J. Comp. Appl. Math. 6, 19-26) on position and velocity: under
-/// error control,
-/// or of a fixed length.
+/// error control, or of a fixed length.
 /// </summary>
 /// <remarks>
 /// <para>Goes on with the fifth order (local extrapolation). The seventh stage is the acceleration at the end, which the quintic Hermite polynomial between the
-/// ends needs too;
-/// with an error of O(h^6) in the position it keeps the order where a contact is found inside a step.</para>
+/// ends needs too; with an error of O(h^6) in the position it keeps the order where a contact is found inside a step.</para>
 /// <para>A step is accepted if the estimate of its error is within the body's tolerance, in metres for the position and in m/s for the velocity, or within a
-/// few roundings of them. The
-/// next one is 0.9 (tolerance / error)^(1/5) times as long, at least a fifth and at most five times. So stiff forces are sub-stepped, and never blow up; fixed
-/// steps are halved until
-/// the rate of the forces lets them be, as those of <see cref="RungeKutta4"/>.</para>
+/// few roundings of them. The next one is 0.9 (tolerance / error)^(1/5) times as long, at least a fifth and at most five times. So stiff forces are
+/// sub-stepped, and never blow up; fixed steps are halved until the rate of the forces lets them be, as those of <see cref="RungeKutta4"/>.</para>
 /// </remarks>
 internal static class DormandPrince54
 {

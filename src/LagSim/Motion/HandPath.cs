@@ -16,8 +16,7 @@ public static class HandPath
 {
     /// <summary>
     /// How long a held body takes to converge on what its newest knot foretells: 50 ms. Shorter than that a correction is a jerk that throws what lies in its
-    /// way;
-    /// longer, and at usual rates of knots the body never gets to where the hand is.
+    /// way; longer, and at usual rates of knots the body never gets to where the hand is.
     /// </summary>
     public static readonly SimDuration Settles = SimDuration.FromMilliseconds(50);
 

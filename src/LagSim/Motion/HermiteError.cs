@@ -5,8 +5,7 @@ namespace LagSim.Motion;
 /// <summary>How far a quintic Hermite polynomial strays from the path of which it has position, velocity and acceleration at both ends.</summary>
 /// <remarks>
 /// At most h^6 |x^(6)| / 46080 in the position and sqrt(5) h^5 |x^(6)| / 30000 in the velocity, with the largest sixth derivative in the step (Birkhoff and
-/// Priver 1967, J. Math. and Phys.
-/// 46, 440-447).
+/// Priver 1967, J. Math. and Phys. 46, 440-447).
 /// </remarks>
 internal static class HermiteError
 {

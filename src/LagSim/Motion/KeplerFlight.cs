@@ -7,11 +7,9 @@ namespace LagSim.Motion;
 /// <summary>Flight under one inverse-square pull alone, in closed form: ellipse, parabola or hyperbola.</summary>
 /// <remarks>
 /// <para>Kepler's equation in universal variables (Battin, An Introduction to the Mathematics and Methods of Astrodynamics, 4.5): with beta = 2 mu / r - v² and
-/// the functions
-/// G of s, t = r G1 + (x.v) G2 + mu G3 is solved for s by Newton's method; then x(t) = f x + g v. One formula for every eccentricity.</para>
+/// the functions G of s, t = r G1 + (x.v) G2 + mu G3 is solved for s by Newton's method; then x(t) = f x + g v. One formula for every eccentricity.</para>
 /// <para>A piece of path is the quintic Hermite polynomial between two such states, within the body's tolerance of the orbit. It lasts a tenth of the time in
-/// which
-/// the body could reach the centre or circle it, at most; in that time the sixth and seventh derivative grow by less than four.</para>
+/// which the body could reach the centre or circle it, at most; in that time the sixth and seventh derivative grow by less than four.</para>
 /// </remarks>
 internal readonly struct KeplerFlight
 {

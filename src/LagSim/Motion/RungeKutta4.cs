@@ -9,9 +9,8 @@ namespace LagSim.Motion;
 /// <para>Dense output is the quintic Hermite polynomial through position, velocity and acceleration at both ends. Its error, O(h^6) in the
 /// position and O(h^5) in the velocity, stays below the method's own, so a contact found inside a step keeps the order.</para>
 /// <para>The method multiplies what decays at a rate lambda by more than one once lambda h is above 2.785 (Hairer and Wanner, Solving Ordinary Differential
-/// Equations II, IV.2),
-/// and blows up. So a step is halved until the rate of the forces lets it be: of the scene's own forces it is known, of a program's it is estimated from two
-/// stages and one more evaluation.</para>
+/// Equations II, IV.2), and blows up. So a step is halved until the rate of the forces lets it be: of the scene's own forces it is known, of a program's it is
+/// estimated from two stages and one more evaluation.</para>
 /// </remarks>
 internal static class RungeKutta4
 {

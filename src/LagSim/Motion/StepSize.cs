@@ -21,8 +21,7 @@ internal static class StepSize
 
     /// <summary>
     /// A root of a positive number, to about 1e-5, as good as the size of a step needs to be. Newton's method from above, where it falls monotonically; made of
-    /// nothing but
-    /// multiplication and division.
+    /// nothing but multiplication and division.
     /// </summary>
     /// <param name="number">Above zero, 1e-30 to 1e30.</param>
     /// <param name="degree">2 or more.</param>

@@ -5,8 +5,7 @@ namespace LagSim.Motion;
 /// </summary>
 /// <remarks>
 /// For |beta| s² up to 0.1, where ten terms are more than enough: the next is below 0.1^10 / 22!. Error: 2 units in the last place (tests). G0 = 1 - beta G2
-/// and G1 = s - beta G3 are
-/// made of the other two.
+/// and G1 = s - beta G3 are made of the other two.
 /// </remarks>
 internal readonly struct UniversalFunctions
 {

@@ -5,8 +5,7 @@ namespace LagSim.Scenes;
 /// <summary>A force that a scene has besides uniform gravity; bodies name the forces that act on them.</summary>
 /// <remarks>
 /// Immutable, safe on any thread. Values are checked by <see cref="SceneBuilder.Build"/>. The formulas use only <c>+ - * /</c> and square roots, so every peer
-/// gets
-/// the same bits.
+/// gets the same bits.
 /// </remarks>
 public sealed class Force
 {
@@ -20,8 +19,7 @@ public sealed class Force
 
     /// <summary>
     /// How strong: of linear drag c in kg/s; of quadratic drag k in kg/m, half of density times drag coefficient times cross-section; of a spring its stiffness
-    /// in N/m; of a
-    /// magnetic field the body's charge in C; of a central pull s, in m/s² at 1 m from the centre; of a Magnus force s in kg.
+    /// in N/m; of a magnetic field the body's charge in C; of a central pull s, in m/s² at 1 m from the centre; of a Magnus force s in kg.
     /// </summary>
     public double Strength { get; private set; }
 
@@ -122,8 +120,7 @@ public sealed class Force
 
     /// <summary>
     /// How fast, in 1/s, a deviation changes under the force at a state: the size of the largest eigenvalue that it adds to the equations of motion. Zero of
-    /// what a program
-    /// supplies, of which it is not known.
+    /// what a program supplies, of which it is not known.
     /// </summary>
     internal double RateAt(double mass, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
@@ -149,8 +146,7 @@ public sealed class Force
 
     /// <summary>
     /// How fast, in 1/s, the force itself changes because the body moves past a centre where it has no bound: (1 - p) |v| / |r|. What is integrated by steps
-    /// that know no error could else
-    /// step over such a centre, and leave it with any speed. Zero of all other forces.
+    /// that know no error could else step over such a centre, and leave it with any speed. Zero of all other forces.
     /// </summary>
     internal double PassingRateAt(in Vector3D position, in Vector3D velocity) =>
         Kind == ForceKind.Central && Power < 0 && Strength != 0 ? (1 - Power) * velocity.Length / (position - Vector).Length : 0;

@@ -19,8 +19,7 @@ public enum MotionLaw : byte
 
     /// <summary>
     /// At rest on static planes, or in an island of bodies at rest: the centre stays where it is, and that costs nothing until something touches the body.
-    /// Never a scene's choice.
-    /// It may turn all the while, evenly: about the plane's normal, which no friction resists here, and without friction about anything
+    /// Never a scene's choice. It may turn all the while, evenly: about the plane's normal, which no friction resists here, and without friction about anything
     /// (<see cref="BodyState.Spin"/>).
     /// </summary>
     Resting = 4,
@@ -32,8 +31,7 @@ public enum MotionLaw : byte
 
     /// <summary>
     /// Free flight in closed form under forces that have one: gravity with linear drag, springs and magnetic fields in any mixture, or one centre that pulls as
-    /// gravity does. One segment
-    /// for as long as a polynomial of degree five follows it within the body's tolerance.
+    /// gravity does. One segment for as long as a polynomial of degree five follows it within the body's tolerance.
     /// </summary>
     ClosedForm = 6,
 
@@ -45,8 +43,7 @@ public enum MotionLaw : byte
 
     /// <summary>
     /// The cheapest of the laws above that is exact for the forces that act on the body: <see cref="Ballistic"/> under gravity alone, <see cref="ClosedForm"/>
-    /// where there is one, else
-    /// <see cref="DormandPrince54"/>. What a scene may ask for, never how a body moves.
+    /// where there is one, else <see cref="DormandPrince54"/>. What a scene may ask for, never how a body moves.
     /// </summary>
     Automatic = 8,
 
@@ -58,8 +55,7 @@ public enum MotionLaw : byte
 
     /// <summary>
     /// In lasting contact with other bodies, with a static sphere, or with planes under forces: an island of such bodies moves by steps of at most 1/512 s, a
-    /// cubic each, that are taken for all of it
-    /// together. Entered from an impact, ends in flight, on planes, or at rest; never a scene's choice.
+    /// cubic each, that are taken for all of it together. Entered from an impact, ends in flight, on planes, or at rest; never a scene's choice.
     /// </summary>
     Constrained = 10,
 }

@@ -6,8 +6,8 @@ namespace LagSim.Scenes;
 /// <summary>Which two of many balls overlap: space is halved until few are left together, and who lies on both sides of a cut is looked at on both.</summary>
 /// <remarks>
 /// Cost: n log n for balls that fill space; where cuts part nothing, as among balls of all sizes in one place, what sort and sweep costs. The two sides of a
-/// cut have nothing to do with
-/// each other, so another thread may have one; of what both find the lower side's counts, which is what one thread would have found.
+/// cut have nothing to do with each other, so another thread may have one; of what both find the lower side's counts, which is what one thread would have
+/// found.
 /// </remarks>
 internal sealed class OverlapSearch
 {

@@ -57,8 +57,7 @@ public sealed class SceneBuilder
 
     /// <summary>
     /// Promises that no body smaller than this, in metres, 1e-9 to 1e9, is spawned; what is smaller is refused. Default: the smallest body of the scene. With
-    /// the bodies' radii it
-    /// bounds the speed that may be given: a tenth of the smallest radius in a tick, 1.1e11 m/s times that radius in metres.
+    /// the bodies' radii it bounds the speed that may be given: a tenth of the smallest radius in a tick, 1.1e11 m/s times that radius in metres.
     /// </summary>
     public SceneBuilder WithSmallestRadius(double metres)
     {
@@ -70,8 +69,7 @@ public sealed class SceneBuilder
     /// On how many threads <see cref="Build"/> checks a large scene at most, 1 to <see cref="MaxThreads"/>; default as many as there are processors.
     /// </summary>
     /// <remarks>It has no influence on the scene, to the bit, nor on which error is told. Less than 16,384 bodies are checked on the caller's thread alone, and
-    /// so is everything
-    /// where there is one processor.</remarks>
+    /// so is everything where there is one processor.</remarks>
     public SceneBuilder WithThreads(int most)
     {
         threads = most;

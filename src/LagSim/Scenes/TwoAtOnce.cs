@@ -7,8 +7,7 @@ namespace LagSim.Scenes;
 /// <summary>Does two things that have nothing to do with each other on two threads, and comes back when both are done.</summary>
 /// <remarks>
 /// What they do must not depend on which thread they are on, and each writes to places of its own. Errors come as from one after the other: that of the first,
-/// or else that of the second.
-/// Where there are no threads, one thing is done after the other.
+/// or else that of the second. Where there are no threads, one thing is done after the other.
 /// </remarks>
 internal static class TwoAtOnce
 {

@@ -37,10 +37,9 @@ internal sealed partial class TimelineStore
     private SimTime edge = SimTime.MinValue; // what lies before is dropped when room is needed
 
     /// <summary>
-    /// No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to
-    /// <paramref name="flights"/>; with room for as many bodies as are expected at first, and for few of them for a second segment each. Of how long a history
-    /// it will be helps to guess how much
-    /// room it will need.
+    /// No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to <paramref
+    /// name="flights"/>; with room for as many bodies as are expected at first, and for few of them for a second segment each. Of how long a history it will be
+    /// helps to guess how much room it will need.
     /// </summary>
     internal TimelineStore(
         SimTime origin, int most = SimulationOptions.DefaultMaxSegments, FreeFlights? flights = null, int expected = 0, SimDuration history = default)

@@ -10,8 +10,7 @@ namespace LagSim.Timelines;
 /// </summary>
 /// <remarks>
 /// Only impacts of crowded bodies look at what is near, so it is empty where nothing is piled up. A body's entries are linked from the newest key to the
-/// oldest, so that what is
-/// added, cut and forgotten, at the ends, does not cost what is kept between them.
+/// oldest, so that what is added, cut and forgotten, at the ends, does not cost what is kept between them.
 /// </remarks>
 internal sealed class WitnessLog
 {
