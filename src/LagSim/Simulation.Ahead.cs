@@ -24,6 +24,9 @@ public sealed partial class Simulation
     /// <summary>How many steps of islands another thread has taken in time: it depends on the machine, and nothing on it.</summary>
     internal long StepsUsedAhead => stepsAhead?.Used ?? 0;
 
+    /// <summary>Uses steps taken ahead though their islands have been touched since: a negative control, which only a test sets.</summary>
+    internal bool UsesStepsOfTouched { get; set; }
+
     private void NoteOpened(int slot)
     {
         if (openedCount == opened.Length)
@@ -43,7 +46,7 @@ public sealed partial class Simulation
         openedCount = 0;
         if (threads > 1 && (count > 1 || IsOtherMoving(opened[0])))
         {
-            stepsAhead ??= new StepsAhead(threads - 1, () => new IslandStep(Scene, forces), otherThread);
+            stepsAhead ??= new StepsAhead(threads - 1, () => new IslandStep(Scene, forces), otherThread) { TakesAnyState = UsesStepsOfTouched };
             for (int i = 0; i < count; i++)
             {
                 TakeStepAhead(opened[i]);

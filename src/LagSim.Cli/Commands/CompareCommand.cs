@@ -59,6 +59,7 @@ internal static class CompareCommand
             {
                 Peers = count,
                 Seed = seed,
+                Cancellation = console.Stop,
                 DisplayDelay = SimDuration.FromMilliseconds(parsed.GetValue(delay)),
             })).ToArray();
             return Run(console, runs, parsed.GetValue(common.Out), parsed.GetValue(common.Json));
@@ -108,7 +109,7 @@ internal static class CompareCommand
         Scene small = BuiltInScenes.Pair();
         foreach (string strategy in options.Select(run => run.Strategy).Distinct())
         {
-            CompareTest.Run(new CompareOptions(small, PlayerPlan.Draw(small, 2, 1), strategy, LinkProfiles.Awful) { Peers = 2 }, _ => progress(0));
+            CompareTest.Run(new CompareOptions(small, PlayerPlan.Draw(small, 2, 1), strategy, LinkProfiles.Awful) { Peers = 2, Cancellation = options[0].Cancellation }, _ => progress(0));
         }
     }
 

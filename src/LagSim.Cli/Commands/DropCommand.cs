@@ -59,6 +59,7 @@ internal static class DropCommand
                 SecondHeightMetres = parsed.GetValue(second),
                 Restitution = parsed.GetValue(restitution),
                 Seed = parsed.GetValue(common.Seed),
+                Cancellation = console.Stop,
             };
             return Run(console, options, chosen == All, parsed.GetValue(common.Out), parsed.GetValue(common.Json));
         });

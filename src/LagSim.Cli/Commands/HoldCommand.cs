@@ -70,6 +70,7 @@ internal static class HoldCommand
                 Peers = parsed.GetValue(peers),
                 IsVirtual = isVirtual,
                 Seed = seed,
+                Cancellation = console.Stop,
             };
             HoldTest.Check(options);
             double?[] each = asked is not null ? [parsed.GetValue(delay)] : isVirtual ? [.. Delays.Select(d => (double?)d)] : [RealDelay];

@@ -15,6 +15,13 @@ internal static class CheckJson
             json.WriteNumber("sessions", report.Outcomes.Count);
             json.WriteNumber("sessions_asked_for", report.AskedFor);
             json.WriteBoolean("stopped_early", report.IsStopped);
+            json.WriteStartArray("stopped_seeds");
+            foreach (ulong seed in report.StoppedSeeds)
+            {
+                json.WriteNumberValue(seed);
+            }
+
+            json.WriteEndArray();
             json.WriteNumber("events", report.Events);
             json.WriteNumber("external_events", report.ExternalEvents);
             json.WriteNumber("tied_events", report.Outcomes.Sum(o => (long)o.TiedEvents));

@@ -14,6 +14,14 @@ internal static class CheckText
         CultureInfo culture = CultureInfo.InvariantCulture;
         string stopped = report.IsStopped ? "stopped early: " : "";
         output.WriteLine(string.Create(culture, $"{stopped}{report.Outcomes.Count:N0} of {report.AskedFor:N0} sessions played from seed {options.Seed} in {report.WallSeconds:0.0} s"));
+        if (report.StoppedSeeds.Count > 0)
+        {
+            string seeds = string.Join(", ", report.StoppedSeeds);
+            output.WriteLine(report.StoppedSeeds.Count == 1
+                ? $"stopped in the middle of the session of seed {seeds}, which is not counted; lagsim check --sessions 1 --seed {seeds} plays it"
+                : $"stopped in the middle of the sessions of seeds {seeds}, which are not counted; lagsim check --sessions 1 --seed {report.StoppedSeeds[0]} plays the first");
+        }
+
         output.WriteLine(string.Create(culture, $"{report.ExternalEvents:N0} external events, heard late {report.LateEvents:N0} times; {report.Events:N0} events in all worlds"));
         double changed = report.Heals == 0 ? 0 : 100.0 * report.HealsThatChangedAnImpact / report.Heals;
         output.WriteLine(string.Create(culture, $"{report.Heals:N0} heals, of which {report.HealsThatChangedAnImpact:N0} ({changed:0.0} %) changed an impact; too late {report.TooLateEvents:N0}"));

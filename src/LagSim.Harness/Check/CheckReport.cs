@@ -10,6 +10,9 @@ namespace LagSim.Harness.Check;
 /// <param name="WallSeconds">How long it took, without the shrinking.</param>
 public sealed record CheckReport(IReadOnlyList<CheckOutcome> Outcomes, IReadOnlyList<CheckFailure> Failures, int AskedFor, double WallSeconds)
 {
+    /// <summary>The seeds of the sessions that were given up in the middle because the check was stopped, ascending; they have no outcome.</summary>
+    public IReadOnlyList<ulong> StoppedSeeds { get; init; } = [];
+
     /// <summary>Whether it was stopped before all sessions were done.</summary>
     public bool IsStopped => Outcomes.Count < AskedFor;
 

@@ -56,7 +56,8 @@ internal sealed class CheckSession
     internal static CheckOutcome Play(ulong seed, CheckOptions options, CancellationToken cancellation)
     {
         CheckCase drawn = new(seed, options, cancellation);
-        return new CheckSession(drawn, options, cancellation).Play();
+        using CancellationTokenSource stop = CancellationTokenSource.CreateLinkedTokenSource(cancellation); // the token of all sessions would keep these peers
+        return new CheckSession(drawn, options, stop.Token).Play();
     }
 
     private CheckOutcome Play()
@@ -160,6 +161,7 @@ internal sealed class CheckSession
             Strategy = options.Strategy,
             ExpectedJoiners = expectedJoiners,
             Timeout = SimDuration.FromSeconds(20), // several times the slowest round trip
+            Cancellation = cancellation,
         };
         Session session = address == 0
             ? new HostSession(drawn.Scene, port, own, sessionOptions, drawn.Seed)

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Concurrent;
 using System.Collections.Generic;
 using System.Diagnostics;
 using System.Linq;
@@ -28,6 +29,7 @@ public static class InvariantCheck
         ThrowIfInvalid(options);
         Stopwatch watch = Stopwatch.StartNew();
         CheckOutcome?[] outcomes = new CheckOutcome?[options.Sessions];
+        ConcurrentBag<ulong> stopped = [];
         int next = -1, done = 0;
         Exception? fault = null;
         Thread[] workers = [.. Enumerable.Range(0, Math.Min(options.Workers, options.Sessions)).Select(n => new Thread(Work) { IsBackground = true, Name = $"LagSim check {n}" })];
@@ -54,21 +56,23 @@ public static class InvariantCheck
             failures.Add(new CheckFailure(failed, least, Command(least, options)));
         }
 
-        return new CheckReport(played, failures, options.Sessions, seconds);
+        return new CheckReport(played, failures, options.Sessions, seconds) { StoppedSeeds = [.. stopped.Order()] };
 
         void Work()
         {
+            ulong seed = options.Seed;
             try
             {
                 for (int n = Interlocked.Increment(ref next); n < options.Sessions && !cancellation.IsCancellationRequested; n = Interlocked.Increment(ref next))
                 {
-                    outcomes[n] = CheckSession.Play(unchecked(options.Seed + (ulong)n), options, cancellation);
+                    seed = unchecked(options.Seed + (ulong)n);
+                    outcomes[n] = CheckSession.Play(seed, options, cancellation);
                     Interlocked.Increment(ref done);
                 }
             }
             catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
             {
-                // What it was at is not done; what was done is reported.
+                stopped.Add(seed); // it is not done; what was done is reported
             }
             catch (Exception failure)
             {

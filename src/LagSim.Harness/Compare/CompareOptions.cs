@@ -1,4 +1,6 @@
+using System;
 using System.Collections.Generic;
+using System.Threading;
 using LagSim.Harness.Links;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
@@ -24,6 +26,9 @@ public sealed record CompareOptions(Scene Scene, IReadOnlyList<PlannedDeed> Plan
 
     /// <summary>The luck of links and clocks.</summary>
     public ulong Seed { get; init; } = 1;
+
+    /// <summary>Ends a run, in the middle of a step if need be, by an <see cref="OperationCanceledException"/>; default none.</summary>
+    public CancellationToken Cancellation { get; init; }
 
     /// <summary>How far behind shared time <c>interpolation</c> shows the world.</summary>
     public SimDuration DisplayDelay { get; init; } = Interpolation.DefaultDelay;

@@ -21,6 +21,7 @@ public static class CompareTest
     /// <param name="progress">Is told the shared time since the start of the scene, from time to time.</param>
     /// <exception cref="SceneException">There are more bodies than are watched, or a player may not do what the plan says.</exception>
     /// <exception cref="PeerGroupException">The peers did not come together, or one dropped out.</exception>
+    /// <exception cref="OperationCanceledException">Its options asked for an end.</exception>
     public static CompareRun Run(CompareOptions options, Action<SimDuration>? progress = null)
     {
         ArgumentNullException.ThrowIfNull(options);
@@ -34,6 +35,7 @@ public static class CompareTest
         PeerGroupOptions group = new(options.Peers, options.Link, options.Strategy, options.Seed, CompareOptions.Length)
         {
             DisplayDelay = options.DisplayDelay,
+            Cancellation = options.Cancellation,
             StartLead = StartLead,
             Spawned = spawned,
         };
@@ -69,7 +71,7 @@ public static class CompareTest
     {
         SampleGrid grid = peers.Grid;
         int last = grid.Count - 1;
-        Simulation truth = GroupFigures.Truth(peers, news.Accepted);
+        Simulation truth = GroupFigures.Truth(peers, news.Accepted, options.Cancellation);
         PeerSamples onTime = new(grid, peers.Bodies);
         onTime.TakeSettled(truth);
         PeerSamples[] fromTruth = [onTime, .. peers.Seen];

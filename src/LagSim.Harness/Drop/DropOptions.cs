@@ -1,4 +1,6 @@
+using System;
 using System.Collections.Generic;
+using System.Threading;
 using LagSim.Harness.Links;
 using LagSim.Harness.Peers;
 using LagSim.Net.Strategies;
@@ -60,6 +62,9 @@ public sealed record DropOptions
 
     /// <summary>The luck of links and clocks.</summary>
     public ulong Seed { get; init; } = 1;
+
+    /// <summary>Ends a run in virtual time, in the middle of a step if need be, by an <see cref="OperationCanceledException"/>; default none. In real time whoever is told of progress ends it, by an exception.</summary>
+    public CancellationToken Cancellation { get; init; }
 
     /// <summary>Whether heights and restitution are the thesis's, so that its figures compare.</summary>
     public bool IsThesisSetting => HeightMetres == 10 && SecondHeightMetres == 15 && Restitution == 0.8;

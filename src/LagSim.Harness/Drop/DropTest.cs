@@ -21,6 +21,7 @@ public static class DropTest
     /// <param name="progress">Is told the shared time since the start of the scene, from time to time.</param>
     /// <exception cref="SceneException">A height or the restitution is out of range.</exception>
     /// <exception cref="PeerGroupException">The peers did not come together.</exception>
+    /// <exception cref="OperationCanceledException">Its options asked for an end.</exception>
     public static IReadOnlyList<DropRun> Run(DropOptions options, Action<SimDuration>? progress = null)
     {
         ArgumentNullException.ThrowIfNull(options);
@@ -29,6 +30,7 @@ public static class DropTest
         {
             Carrier = options.Carrier,
             DisplayDelay = options.DisplayDelay,
+            Cancellation = options.Cancellation,
         };
         using PeerGroup peers = options.IsVirtual ? new VirtualPeers(scene, group) : new RealPeers(scene, group);
         peers.Connect();

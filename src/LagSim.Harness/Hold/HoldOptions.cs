@@ -1,4 +1,5 @@
 using System;
+using System.Threading;
 using LagSim.Harness.Hands;
 using LagSim.Harness.Links;
 using LagSim.Net.Sessions;
@@ -53,6 +54,9 @@ public sealed record HoldOptions(HandMotion Motion)
 
     /// <summary>The luck of links and clocks.</summary>
     public ulong Seed { get; init; } = 1;
+
+    /// <summary>Ends a run in virtual time, in the middle of a step if need be, by an <see cref="OperationCanceledException"/>; default none. In real time whoever is told of progress ends it, by an exception.</summary>
+    public CancellationToken Cancellation { get; init; }
 
     /// <summary>How long the run takes, from the start of the scene.</summary>
     public SimDuration Length => GrabAfter + SimDuration.FromSeconds(HandCourse.LiftSeconds + HoldSeconds) + Afterwards;

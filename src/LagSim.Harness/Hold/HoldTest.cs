@@ -37,6 +37,7 @@ public static class HoldTest
     /// <exception cref="ArgumentOutOfRangeException">The hold's length is out of range.</exception>
     /// <exception cref="HandMotionException">The motion is faster, or goes deeper, than can be played.</exception>
     /// <exception cref="PeerGroupException">The peers did not come together, or one dropped out.</exception>
+    /// <exception cref="OperationCanceledException">Its options asked for an end.</exception>
     public static HoldRun Run(HoldOptions options, Action<SimDuration>? progress = null)
     {
         ArgumentNullException.ThrowIfNull(options);
@@ -44,6 +45,7 @@ public static class HoldTest
         PeerGroupOptions group = new(options.Peers, options.Link, options.Strategy, options.Seed, options.Length)
         {
             DisplayDelay = options.DisplayDelay,
+            Cancellation = options.Cancellation,
             StartLead = StartLead,
         };
         Scene scene = HoldOptions.BuildScene();
@@ -58,7 +60,7 @@ public static class HoldTest
     {
         SampleGrid grid = peers.Grid;
         int last = grid.Count - 1;
-        Simulation truth = GroupFigures.Truth(peers, session.News.Accepted);
+        Simulation truth = GroupFigures.Truth(peers, session.News.Accepted, options.Cancellation);
         IReadOnlyList<(SimTime Stamp, SimTime Dealt)> windows = session.News.Windows;
         Phase[] phases = Instants(n => NewsWatch.PhaseAt(windows, grid.At(n)));
         Vector3D[] hand = Instants(n => session.HandAt(grid.At(n)) ?? Nowhere);

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Threading;
 using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Time;
@@ -42,9 +43,9 @@ internal static class GroupFigures
     }
 
     /// <summary>The world that had everything on time: what the host accepted, at its own time, before anything was simulated.</summary>
-    internal static Simulation Truth(PeerGroup peers, IReadOnlyList<ExternalEvent> accepted)
+    internal static Simulation Truth(PeerGroup peers, IReadOnlyList<ExternalEvent> accepted, CancellationToken cancellation)
     {
-        Simulation truth = new(peers.Scene, new SimulationOptions(peers.Start, SimDuration.MaxValue));
+        Simulation truth = new(peers.Scene, new SimulationOptions(peers.Start, SimDuration.MaxValue, cancellation: cancellation));
         foreach (ExternalEvent external in accepted)
         {
             truth.Submit(external);

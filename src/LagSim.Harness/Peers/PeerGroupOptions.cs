@@ -1,4 +1,5 @@
 using System.Collections.Generic;
+using System.Threading;
 using LagSim.Harness.Links;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
@@ -30,6 +31,9 @@ public sealed record PeerGroupOptions(
 
     /// <summary>What carries datagrams in real time.</summary>
     public Carrier Carrier { get; init; } = Carrier.Udp;
+
+    /// <summary>Ends a run in virtual time, in the middle of a step if need be, by an <see cref="System.OperationCanceledException"/>; default none. In real time whoever is told of progress ends it.</summary>
+    public CancellationToken Cancellation { get; init; }
 
     /// <summary>The session options that all peers of a test use: history enough for every link, timelines kept for the whole run.</summary>
     internal Net.Sessions.SessionOptions ToSessionOptions() => new()

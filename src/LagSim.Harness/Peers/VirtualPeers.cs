@@ -1,5 +1,6 @@
 using System;
 using System.Linq;
+using System.Threading;
 using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Net.Carriers;
@@ -26,6 +27,7 @@ public sealed class VirtualPeers : PeerGroup
     private readonly VirtualNetwork network;
     private readonly VirtualSteps steps;
     private readonly Session[] sessions;
+    private readonly CancellationTokenSource stop; // its own, so that a token of the whole program does not keep these sessions
 
     /// <summary>Makes the peers; nobody is connected yet.</summary>
     public VirtualPeers(Scene scene, PeerGroupOptions options)
@@ -35,6 +37,7 @@ public sealed class VirtualPeers : PeerGroup
         network = new VirtualNetwork(clock, options.Seed, options.Link);
         SeededRandom random = new SeededRandom(options.Seed).Fork(0xC10C);
         sessions = new Session[PeerCount];
+        stop = CancellationTokenSource.CreateLinkedTokenSource(options.Cancellation);
         steps = new VirtualSteps(network);
         for (int peer = 0; peer < PeerCount; peer++)
         {
@@ -42,9 +45,11 @@ public sealed class VirtualPeers : PeerGroup
             double drift = ((2 * random.NextDouble()) - 1) * ClockDriftPartsPerMillion;
             SimDuration apart = SimDuration.FromSeconds(((2 * random.NextDouble()) - 1) * ClockSpreadSeconds);
             SkewedClock own = new(clock, drift, peer == 0 ? apart : apart + options.Link.ReceiverClockOffset);
+            SessionOptions session = options.ToSessionOptions();
+            session.Cancellation = stop.Token;
             sessions[peer] = peer == 0
-                ? new HostSession(scene, port, own, options.ToSessionOptions(), options.Seed)
-                : new JoinerSession(scene, port, own, options.ToSessionOptions(), PeerAddress.Virtual(0), options.Seed + (ulong)peer);
+                ? new HostSession(scene, port, own, session, options.Seed)
+                : new JoinerSession(scene, port, own, session, PeerAddress.Virtual(0), options.Seed + (ulong)peer);
             steps.Add(sessions[peer], port);
         }
     }
@@ -97,9 +102,7 @@ public sealed class VirtualPeers : PeerGroup
     public override void Finish() => CollectSettled();
 
     /// <inheritdoc/>
-    public override void Dispose()
-    {
-    }
+    public override void Dispose() => stop.Dispose();
 
     private void Run(SimTime end, Session[] clocks, Action<SimDuration>? progress)
     {

@@ -20,6 +20,7 @@ public abstract partial class Session
     /// </summary>
     /// <returns>How long until something is due again, unless a datagram or an action comes first.</returns>
     /// <remarks>A world that cannot be simulated any further ends the session, with the reason; whatever others send, it does not throw.</remarks>
+    /// <exception cref="OperationCanceledException"><see cref="SessionOptions.Cancellation"/> asked for an end, and the session has not ended; <see cref="Leave"/> ends it.</exception>
     public SimDuration Step()
     {
         try
@@ -35,6 +36,11 @@ public abstract partial class Session
 
     private SimDuration StepOnce()
     {
+        if (State != SessionState.Ended)
+        {
+            cancellation.ThrowIfCancellationRequested();
+        }
+
         int taken = 0;
         while (taken < MaxDatagramsAStep && Port.TryReceive(buffer, out int length, out PeerAddress from))
         {

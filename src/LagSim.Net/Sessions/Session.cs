@@ -35,6 +35,8 @@ public abstract partial class Session
     private readonly ILateEventStrategy strategy;
     private readonly ContactNotices? contacts;
     private readonly CancellationTokenSource interruption = new();
+    private readonly CancellationToken cancellation;
+    private readonly CancellationTokenRegistration watch;
     private bool hasUnshown;
     private SimTime begunAt = SimTime.MaxValue; // the earliest instant of the world; there before the world is
     private volatile SessionState state;
@@ -50,6 +52,7 @@ public abstract partial class Session
         Clock = clock ?? throw new ArgumentNullException(nameof(clock));
         Options = options ?? throw new ArgumentNullException(nameof(options));
         options.Check();
+        cancellation = options.Cancellation;
         if (clock.Now > MaxClock)
         {
             throw new ArgumentException(
@@ -67,6 +70,7 @@ public abstract partial class Session
 
         contacts = options.Contacts;
         SharedTime = new SharedClock(clock);
+        watch = cancellation.Register(static session => ((Session)session!).Interrupt(), this);
     }
 
     /// <summary>
@@ -217,6 +221,7 @@ public abstract partial class Session
             return;
         }
 
+        watch.Dispose(); // a token of the whole program would keep all sessions there ever were
         endedBy = by;
         endReason = reason; // first: who reads that it ended reads why
         State = SessionState.Ended;

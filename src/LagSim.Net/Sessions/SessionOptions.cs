@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Threading;
 using LagSim.Hosting;
 using LagSim.Net.Strategies;
 using LagSim.Net.Wire;
@@ -126,6 +127,13 @@ public sealed class SessionOptions
     /// have another.
     /// </summary>
     public SimDuration DisplayDelay { get; set; } = Interpolation.DefaultDelay;
+
+    /// <summary>
+    /// Ends from any thread whatever the session is at, the simulating of its world included, between two instants: <see cref="Session.Step"/> then throws an
+    /// <see cref="OperationCanceledException"/>, and every later one too, until the session has ended; default none. Nobody is told: <see cref="Session.Leave"/> says goodbye, and of a
+    /// <see cref="PeerThread"/>, whose thread ends by that exception, <see cref="PeerThread.Dispose"/>. The token keeps the session from being collected until that has ended.
+    /// </summary>
+    public CancellationToken Cancellation { get; set; }
 
     internal void Check()
     {

@@ -216,6 +216,49 @@ public sealed class InvariantCheckTests
     }
 
     [Fact]
+    public void Run_AskedToStopWhileAPeersWorldComesToNoEnd_EndsAndNamesTheSeed()
+    {
+        const ulong Endless = 34;
+        Assert.Null(CheckSession.Play(Endless, new CheckOptions(), TestContext.Current.CancellationToken).Failure); // by itself it ends
+        CheckCase drawn = new(Endless, new CheckOptions());
+        using CancellationTokenSource stop = new();
+        CheckOptions options = new() { Sessions = 100, Seed = Endless - 1, Workers = 1, Prepare = (peer, simulation) => Disturb(peer, simulation) };
+        CheckReport report = InvariantCheck.Run(options, null, stop.Token);
+        Assert.Equal([Endless], report.StoppedSeeds);
+        Assert.Equal([Endless - 1], report.Outcomes.Select(o => o.Seed));
+        Assert.True(report.IsStopped);
+
+        // The control: that world would have gone on for hours.
+        long events = 100_000;
+        Simulation alone = new(drawn.Scene, new SimulationOptions());
+        Submit(alone);
+        Assert.False(alone.TryAdvanceTo(At(CheckCase.Length), ref events) || alone.SimulatedTo > At(0.01), alone.SimulatedTo.ToShortString());
+
+        void Disturb(int peer, Simulation simulation)
+        {
+            if (peer == 1 && simulation.Scene.Hash == drawn.Scene.Hash)
+            {
+                Submit(simulation);
+                new Thread(() => StopAfter(simulation)) { IsBackground = true }.Start();
+            }
+        }
+
+        void StopAfter(Simulation simulation)
+        {
+            while (simulation.EventsProcessed < 20_000)
+            {
+                Thread.Yield(); // another thread counts
+            }
+
+            stop.Cancel();
+        }
+
+        // Between floor and ceiling, which take no speed from it, and it is too heavy to be put off by whom it meets.
+        static void Submit(Simulation simulation) => simulation.Submit(
+            ExternalEvent.Spawn(simulation.Start + SimDuration.FromMilliseconds(1), 200, 1, new BodySpec(0.15, 1e9, 1), V(0.95, 0.4, 0.9), V(0, 1e8)));
+    }
+
+    [Fact]
     public void Run_OptionsOutOfRange_AreRefusedByName()
     {
         Assert.Contains("0 to", Assert.Throws<ArgumentException>(() => Run(new CheckOptions { Sessions = 1, Bodies = [0, 99] })).Message, StringComparison.Ordinal);

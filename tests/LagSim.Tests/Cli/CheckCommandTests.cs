@@ -97,10 +97,12 @@ public sealed class CheckCommandTests
             Assert.True(told.GetProperty("stopped_early").GetBoolean());
             Assert.Equal(100_000, told.GetProperty("sessions_asked_for").GetInt32());
             Assert.InRange(told.GetProperty("sessions").GetInt32(), 1, 40);
+            Assert.InRange(told.GetProperty("stopped_seeds").GetArrayLength(), 1, Environment.ProcessorCount);
             return;
         }
 
         Assert.Matches("^stopped early: [0-9,]+ of 100,000 sessions played from seed 1 ", output);
+        Assert.Matches("(?m)^stopped in the middle of the sessions? of seeds? [0-9, ]+, which (is|are) not counted; lagsim check --sessions 1 --seed [0-9]+ plays ", output);
         Assert.Contains("failing seeds 0", output, StringComparison.Ordinal);
     }
 

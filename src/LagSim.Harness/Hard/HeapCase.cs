@@ -1,0 +1,191 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Scenes;
+using LagSim.Time;
+using static LagSim.Harness.Hard.HardWorlds;
+
+namespace LagSim.Harness.Hard;
+
+/// <summary>Heaps: what falls into a box with friction, and a pyramid of balls in steps without end.</summary>
+internal sealed class HeapCase : IHardCase
+{
+    private const double Step = 1.0 / 512;
+
+    /// <summary>The edge of the pyramid's base, in balls; 30 balls then, with some 150 contacts.</summary>
+    private const int Edge = 4;
+
+    public string Name => "heap";
+
+    public string Title => "a heap with friction falls into a box; a pyramid of 30 balls stands in steps that never end: no gain of energy, no depth, no drift, and what carries it is its weight";
+
+    public IEnumerable<HardRow> Rows(HardContext context)
+    {
+        foreach ((int balls, double friction) in context.Sizes([(8, 0.5)], [(8, 0.0), (8, 0.5), (16, 0.3), (16, 1.0)]))
+        {
+            Simulation simulation = context.Simulate(Box(balls, friction, context.Seed));
+            yield return Gain($"{balls} balls, mu {friction}", Largest(context, simulation, 3, out double depth), 1);
+            yield return Depth($"{balls} balls, mu {friction}", depth);
+        }
+
+        double seconds = context.Size(0.25, 4.0);
+        foreach (double friction in context.Sizes([0.0], [0.0, 0.5]))
+        {
+            Scene pyramid = Pyramid(friction);
+            Simulation simulation = context.Simulate(pyramid);
+            double drift = 0, momentum = 0, gain = 0;
+            double weight = Gravity * pyramid.Bodies.Count, start = Energy(simulation, 0);
+            int samples = (int)(seconds * 100);
+            for (int n = 1; n <= samples; n++)
+            {
+                double at = seconds * n / samples;
+                simulation.AdvanceTo(SimTime.FromSeconds(at));
+                momentum = Math.Max(momentum, Momentum(simulation, at).Length);
+                gain = Math.Max(gain, Energy(simulation, at) - start);
+                for (int body = 0; body < pyramid.Bodies.Count; body++)
+                {
+                    drift = Math.Max(drift, (Read(simulation, body, at).Position - pyramid.Bodies[body].Position).Length);
+                }
+
+                context.Report(n / (double)samples);
+            }
+
+            bool isStepped = simulation.EventsProcessed > 0.9 * 512 * seconds; // else nothing was shown
+            foreach (HardRow row in Stands(FormattableString.Invariant($"a pyramid of {pyramid.Bodies.Count}, mu {friction}, {seconds} s"), isStepped ? drift : double.NaN, momentum / weight, gain / start))
+            {
+                yield return row;
+            }
+        }
+    }
+
+    public IEnumerable<HardRow> Controls(HardContext context)
+    {
+        // A ball on a stiff spring in place of a contact, by Euler's steps.
+        double y = 1, v = 0, most = 0, depth = 0;
+        for (double t = 0; t < 3; t += Step)
+        {
+            (y, v) = (y + (v * Step), v + (((y < 0 ? -1e4 * y : 0) - Gravity) * Step));
+            depth = Math.Max(depth, -y);
+            most = Math.Max(most, (0.5 * v * v) + (Gravity * y) + (y < 0 ? 0.5e4 * y * y : 0));
+        }
+
+        const string Springs = "a spring of 10 kN/m for a contact, by Euler's steps";
+        yield return Gain("one ball", (most - Gravity) / Gravity, 1) with { Note = Springs };
+        yield return Depth("one ball", depth) with { Note = Springs };
+        foreach (HardRow row in Stands("one ball, 1 s", 1e-6 * Gravity / 2, 1e-6, 1e-6))
+        {
+            yield return row with { Note = "a floor that carries a millionth less than the weight" };
+        }
+    }
+
+    /// <summary>Balls on a loose grid above a floor with four walls, all as rough as each other.</summary>
+    private static Scene Box(int balls, double friction, ulong seed)
+    {
+        Links.SeededRandom random = new(seed);
+        const double half = 0.8;
+        SceneBuilder builder = new SceneBuilder("box").AddPlane("floor", Vector3D.Up, 0.0, 0, friction)
+            .AddPlane("west", V(1), -half, 0, friction).AddPlane("east", V(-1), -half, 0, friction)
+            .AddPlane("north", V(0, 0, 1), -half, 0, friction).AddPlane("south", V(0, 0, -1), -half, 0, friction);
+        for (int n = 0; n < balls; n++)
+        {
+            double radius = random.NextDouble(0.2, 0.35);
+            builder.AddBody(
+                $"ball {n}", new BodySpec(radius, radius * radius * radius * 50, 0.3, friction: friction),
+                V((((n % 2) - 0.5) * 0.8) + random.NextDouble(-0.02, 0.02), 0.4 + (0.75 * (n / 4)), ((n / 2 % 2) - 0.5) * 0.8));
+        }
+
+        return builder.Build();
+    }
+
+    /// <summary>A square pyramid in a bin that is as wide as its base. A program's own force is its weight: of that nobody knows what it will do, so nothing ever rests.</summary>
+    private static Scene Pyramid(double friction)
+    {
+        SceneBuilder builder = new SceneBuilder("pyramid").WithGravity(Vector3D.Zero).AddForce(Force.Supplied(new Weight()))
+            .AddPlane("floor", Vector3D.Up, 0.0, 0, friction)
+            .AddPlane("west", V(1), -Edge / 2.0, 0, friction).AddPlane("east", V(-1), -Edge / 2.0, 0, friction)
+            .AddPlane("north", V(0, 0, 1), -Edge / 2.0, 0, friction).AddPlane("south", V(0, 0, -1), -Edge / 2.0, 0, friction);
+        for (int layer = 0; layer < Edge; layer++)
+        {
+            int side = Edge - layer;
+            for (int n = 0; n < side * side; n++)
+            {
+                Vector3D at = V((n % side) - ((side - 1) / 2.0), 0.5 + (layer * Math.Sqrt(0.5)), (n / side) - ((side - 1) / 2.0));
+                builder.AddBody($"ball {layer}.{n}", new BodySpec(0.5, 1, 0, MotionLaw.Automatic, forces: ForceSet.Of(0), tolerance: 1e-9, friction: friction), at);
+            }
+        }
+
+        return builder.Build();
+    }
+
+    /// <summary>The largest gain of energy, turning included, over all that went before, as part of the energy at the start; and how deep anything was in anything.</summary>
+    private static double Largest(HardContext context, Simulation simulation, double seconds, out double depth)
+    {
+        double least = Energy(simulation, 0), start = least, gain = 0;
+        depth = 0;
+        const int Samples = 600;
+        for (int n = 1; n <= Samples; n++)
+        {
+            double at = seconds * n / Samples;
+            simulation.AdvanceTo(SimTime.FromSeconds(at));
+            double energy = Energy(simulation, at);
+            gain = double.IsNaN(energy) ? double.NaN : Math.Max(gain, energy - least);
+            least = Math.Min(least, energy);
+            depth = Math.Max(depth, Deepest(simulation, at));
+            context.Report(n / (double)Samples);
+        }
+
+        return gain / start;
+    }
+
+    private static double Deepest(Simulation simulation, double at)
+    {
+        double depth = 0;
+        (Vector3D Position, double Radius)[] balls = [.. Enumerable.Range(0, simulation.BodyCount).Select(n => (Read(simulation, n, at).Position, simulation.SpecOf(BodyId.OfScene(n)).Radius))];
+        for (int i = 0; i < balls.Length; i++)
+        {
+            depth = Math.Max(depth, simulation.Scene.Planes.Max(p => p.Offset + balls[i].Radius - Vector3D.Dot(p.Normal, balls[i].Position)));
+            for (int j = 0; j < i; j++)
+            {
+                depth = Math.Max(depth, balls[i].Radius + balls[j].Radius - (balls[i].Position - balls[j].Position).Length);
+            }
+        }
+
+        return depth;
+    }
+
+    /// <summary>Of solid spheres, in J.</summary>
+    private static double Energy(Simulation simulation, double at) => Enumerable.Range(0, simulation.BodyCount).Sum(n =>
+    {
+        BodyState state = Read(simulation, n, at);
+        BodySpec spec = simulation.SpecOf(BodyId.OfScene(n));
+        return spec.Mass * ((0.5 * state.Velocity.LengthSquared) + (0.2 * spec.Radius * spec.Radius * state.Spin.LengthSquared) + (Gravity * state.Position.Y));
+    });
+
+    private HardRow Gain(string size, double gain, double height)
+    {
+        double turn = Math.Sqrt(2 * Gravity * (height + 3)) * Step / 0.4;
+        return new HardRow(
+            Name, size, gain, "energy_gain_relative", turn * turn,
+            "second order: the square of the angle by which the line between two of the smallest balls turns in a step, at the speed of the deepest fall", "all the energy there was before");
+    }
+
+    private HardRow Depth(string size, double depth) => new(
+        Name, size, depth, "depth_m", 1000 * SceneBuilder.DefaultResolution, "a thousand resolutions, within which a contact lasts", "no ball is in another or in a plane");
+
+    private IEnumerable<HardRow> Stands(string size, double drift, double momentum, double gain)
+    {
+        yield return new HardRow(Name, size, drift, "drift_m", SceneBuilder.DefaultResolution, "the scene's resolution: what is nearer to equilibrium stands", "nothing moves; NaN where no steps were taken");
+        yield return new HardRow(
+            Name, size, momentum, "momentum_s", SceneBuilder.DefaultResolution / Step, "the resolution in a step: what carries is that near to the weight", "forces that sum to the weight leave no momentum");
+        yield return new HardRow(Name, size, gain, "energy_gain_relative_standing", 512 * Rounding.Unit * 4 * 30, "a rounding of each of 30 balls in each step of 4 s", "the energy at the start");
+    }
+
+    private sealed class Weight : IAcceleration
+    {
+        public string Name => "weight";
+
+        public int Version => 1;
+
+        public Vector3D At(double seconds, in Vector3D position, in Vector3D velocity) => V(0, -Gravity);
+    }
+}
