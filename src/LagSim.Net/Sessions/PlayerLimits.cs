@@ -45,7 +45,7 @@ internal sealed class PlayerLimits
         }
 
         sentence = FormattableString.Invariant(
-            $"The {external.Kind} gives {(turns ? "the surface of body" : "body")} {external.Body} a speed of {speed:R} m/s; ")
+            $"The {external.Kind} gives {(turns ? "the surface of body" : "body")} {external.Body} a speed of {speed:R} m/s;")
             + FormattableString.Invariant($" in this session a player may give {options.MaxGivenSpeed:R} m/s at most.");
         return Verdict.Invalid;
     }
