@@ -209,7 +209,7 @@ public sealed partial class Simulation
             double seconds = segment.End.SecondsSince(segment.Epoch);
             Span<int> carrier = stackalloc int[] { segment.Supports[0] };
             Open(
-                slot, key, segment.PositionAt(seconds, default), segment.VelocityAt(seconds, default), 0, carrier, segment.Crowding,
+                slot, key, segment.PositionAt(seconds, default), segment.VelocityAt(seconds, default), 0, carrier, CrowdingAt(slot, key.Time),
                 timelines.SpinOf(last).At(seconds));
         }
         else if (segment.Acceleration != Vector3D.Zero)

@@ -59,7 +59,8 @@ public sealed partial class Simulation
     private int CrowdingAfter(int segment, SimTime time)
     {
         ref readonly EventKey opened = ref timelines.Key(segment);
-        return opened.Kind == EventKind.Impact && time - opened.Time <= CrowdedWithin ? Math.Min(timelines.Segment(segment).Crowding + 1, SqueezedAfter) : 0;
+        int more = opened.Kind == EventKind.Impact ? 1 : 0; // else it is carried on, where slipping or rolling has turned a little
+        return time - opened.Time <= CrowdedWithin ? Math.Min(timelines.Segment(segment).Crowding + more, SqueezedAfter) : 0;
     }
 
     /// <summary>Whether a crowded body is so near to a static surface that it does not strike now that the surface takes part.</summary>
@@ -100,7 +101,7 @@ public sealed partial class Simulation
 
         double gap = Gap(slot, mine, other, piece, time);
         bool isPushed = IsHeld(mine) || IsHeld(piece);
-        return gap <= reach && !(isPushed && IsInside(gap));
+        return gap <= reach && !(isPushed && IsThrough(gap, timelines.Segment(IsHeld(mine) ? piece : mine).Crowding));
     }
 
     /// <summary>The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits whoever asks.</summary>

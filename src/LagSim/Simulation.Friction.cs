@@ -110,12 +110,22 @@ public sealed partial class Simulation
         double aslant = Vector3D.Cross(along, pull).Length;
         if (aslant > 1e-13 * pull.Length && velocity.Length > 0)
         {
-            seconds = Math.Min(seconds, MostTurn * velocity.Length / aslant);
+            seconds = Math.Min(seconds, Turn(velocity.Length, pull) * velocity.Length / aslant);
         }
 
         return TickConversion.TryFromSeconds(seconds, out long ticks) && ticks <= SimTime.MaxValue.Ticks - Math.Max(0, from.Ticks)
             ? from + SimDuration.FromTicks(Math.Max(1, ticks))
             : EndOfRange(from, velocity, pull);
+    }
+
+    /// <summary>
+    /// By how much, in radians, the direction of something so fast may turn in a piece. A piece is off by its speed times the cube of that; so what is slower than it gets within the scene's
+    /// resolution may turn more, as the inverse of the fourth root, and is off by less all the same. Else what starts from next to nothing would take thousands of pieces.
+    /// </summary>
+    private double Turn(double speed, in Vector3D pull)
+    {
+        double resolved = Math.Sqrt(2 * Scene.Resolution * pull.Length);
+        return speed < resolved ? Math.Min(0.5, MostTurn * Math.Sqrt(Math.Sqrt(resolved / speed))) : MostTurn;
     }
 
     /// <summary>The direction at the middle of a piece, which makes it right to the second order; as it was where it does not turn.</summary>

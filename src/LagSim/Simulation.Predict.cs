@@ -256,7 +256,7 @@ public sealed partial class Simulation
 
         double reach = bodies[a].Spec.Radius + bodies[b].Spec.Radius;
         SimTime from = opened;
-        if (isPushed && IsInside(Gap(a, lastA, b, lastB, from)))
+        if (isPushed && IsThrough(Gap(a, lastA, b, lastB, from), segmentA.Law == MotionLaw.Held ? segmentB.Crowding : segmentA.Crowding))
         {
             return false;
         }

@@ -252,6 +252,34 @@ public sealed class HeldTests
         }
     }
 
+    /// <summary>A ball that rolls, or is pushed, into the gap between a slope and a still hand above it jams there by friction: no impact, however small, parts it from both.</summary>
+    [Theory]
+    [InlineData(0.3, 1)]
+    [InlineData(0.3, 0.2)]
+    [InlineData(1, 1)]
+    public void Jammed_ByFrictionBetweenASlopeAndAHand_LetsTheHandThrough(double friction, double handFriction)
+    {
+        Vector3D normal = V(-0.6, 0.8), down = V(-0.8, -0.6), lid = (normal * 0.998) + (down * Math.Sqrt(1 - (0.998 * 0.998)));
+        Scene scene = new SceneBuilder("jam").AddPlane("slope", normal, 0.0, 0)
+            .AddBody("ball", new BodySpec(0.5, 1, 0, friction: friction), normal * 0.5, V(0, 0, 0.01))
+            .AddBody("held", new BodySpec(0.5, 1, 0, friction: handFriction), (normal * 0.5) + (lid * 1.00001)).Build();
+        Assert.True(IsDone(pressesOn: false));
+        Assert.False(IsDone(pressesOn: true)); // the control
+
+        bool IsDone(bool pressesOn)
+        {
+            Simulation simulation = new(scene) { PressesOn = pressesOn };
+            for (uint n = 0; n < 10; n++)
+            {
+                simulation.Submit(n == 0 ? ExternalEvent.Grab(At(0), 1, 1, Second)
+                    : ExternalEvent.HoldKnot(At(0.1 * n), 1, n + 1, Second, (normal * 0.5) + (lid * 1.00001), V(0)));
+            }
+
+            long budget = 5_000;
+            return simulation.TryAdvanceTo(At(1), ref budget);
+        }
+    }
+
     [Fact]
     public void Pressed_BetweenTwoHandsOrOnTheFloor_StaysOfThisWorld()
     {

@@ -202,7 +202,7 @@ public sealed class RunCommandTests
         using TemporaryFolder folder = new();
         string scene = folder["fall.json"];
         File.WriteAllText(scene, """{"format": "lagsim-scene-1", "name": "fall", "bodies": [{"name": "the stone", "radius_m": 1e-9, "mass_kg": 1, "restitution": 1, "position_m": [0, 0, 0]}]}""");
-        Tool.Refuses(3, ["run", scene, "--until-s", "60"], "body 'the stone' reaches 219", "it falls without end");
+        Tool.Refuses(3, ["run", scene, "--until-s", "60"], "body 'the stone' (0.0.0) reaches 219", "it falls without end");
     }
 
     private static double Number(string field) => double.Parse(field, NumberStyles.Float, CultureInfo.InvariantCulture);
