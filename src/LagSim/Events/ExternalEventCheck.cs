@@ -50,6 +50,7 @@ public static class ExternalEventCheck
         else if (external.Kind == EventKind.Teleport && external.Body.Peer == 0 && external.Body.Sequence == 0)
         {
             CheckPlace(external.Position, scene.BodyArray[external.Body.Index].Spec.Radius, scene, whose);
+            Limits.CheckCentres(external.Position, scene.BodyArray[external.Body.Index].Spec, whose, scene.ForceArray);
         }
         else if (external.Kind == EventKind.Teleport)
         {
@@ -82,6 +83,7 @@ public static class ExternalEventCheck
 
         Limits.CheckSpin(external.Spin, external.Spec, scene.SmallestRadius, whose, scene.ForceArray);
         CheckPlace(external.Position, external.Spec.Radius, scene, whose);
+        Limits.CheckCentres(external.Position, external.Spec, whose, scene.ForceArray);
         if (scene.Box.Exists)
         {
             Limits.CheckInBox(external.Spec, external.Position, scene.Box, whose);

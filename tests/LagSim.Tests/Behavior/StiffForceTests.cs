@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Time;
 using Xunit;
@@ -113,6 +114,28 @@ public sealed class StiffForceTests
             Assert.Null(refusal);
             Assert.Equal(V(3), ball.Position); // nothing pulls it anywhere
         }
+    }
+
+    /// <summary>Nor may a player put one there, and so end everybody's world; but where the pull is bounded, or is none on that body, he may.</summary>
+    [Theory]
+    [InlineData(-2, false)]
+    [InlineData(1, true)]
+    public void Centre_BodyThatAPlayerPutsThere_IsRefusedToo(int power, bool may)
+    {
+        Simulation world = new(
+            new SceneBuilder("sun").WithGravity(V(0)).WithSmallestRadius(0.1).AddForce(Force.Central("sun", V(3), 1, power), out ForceSet sun)
+                .AddBody("drawn", new BodySpec(0.1, 1, 1, forces: sun), V(0)).AddBody("free", new BodySpec(0.1, 1, 1), V(0, 5)).Build(),
+            KeepAll);
+        ExternalEvent spawn = ExternalEvent.Spawn(At(1e-3), 1, 1, new BodySpec(0.1, 1, 1, forces: sun), V(3)), teleport = ExternalEvent.Teleport(At(1e-3), 1, 2, First, V(3));
+        foreach (ExternalEvent put in new[] { spawn, teleport })
+        {
+            string? refusal = Record.Exception(() => world.Submit(put))?.Message;
+            Assert.Equal(may, refusal is null);
+            Assert.True(may || refusal!.Contains("'sun'", StringComparison.Ordinal), refusal);
+        }
+
+        world.Submit(ExternalEvent.Teleport(At(1e-3), 1, 3, Second, V(3, 0, may ? 1 : 0)));
+        world.AdvanceTo(At(0.1));
     }
 
     /// <summary>What falls straight into a singularity ends there, under fixed steps too: they may not step over it and leave it with any speed.</summary>
