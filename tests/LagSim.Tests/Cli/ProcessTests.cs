@@ -68,7 +68,7 @@ public sealed class ProcessTests
         ToolProcess[] all =
         [
             host,
-            .. Enumerable.Range(1, 7).Select(n => ToolProcess.Start($"join {host.Address} --for-s 2 --do impulse@{n}e-1:0.1,0,0.{n} --do impulse@1.{n}:0,0,-0.1 --record {files[n]}")),
+            .. Enumerable.Range(1, 7).Select(n => ToolProcess.Start($"join {host.Address} --for-s 2 --do impulse@9.{n}e-1:0.1,0,0.{n} --do impulse@1.{n}:0,0,-0.1 --record {files[n]}")),
         ];
         try
         {
