@@ -21,8 +21,8 @@ public readonly struct BodyState
     public Vector3D Velocity { get; }
 
     /// <summary>
-    /// How it turns, in radians per second about the vector; zero of what has no friction and was not given any. What rests may turn too: nothing resists
-    /// turning about the normal of what it lies on, and without friction nothing resists turning at all.
+    /// How it turns, in radians per second about the vector; zero of what has no friction and was not given any. What rests may turn too: only
+    /// rolling resistance resists turning about the normal of what it lies on, and without friction nothing resists turning at all.
     /// </summary>
     public Vector3D Spin { get; }
 

@@ -52,7 +52,7 @@ public sealed partial class Simulation
     /// neither pushes the body nor takes part in what else that meets. Else a body in a corner, which meets something a million times a second, would be
     /// pressed anew each time, for all the rounds of a tick.
     /// </summary>
-    private bool IsThrough(double gap, int crowding) => gap < (crowding < SqueezedAfter ? -InsideDepth : 1) * Scene.Resolution && !PressesOn;
+    private bool IsThrough(double gap, int crowding) => gap < (crowding < SqueezedAfter ? -InsideDepth * Scene.Resolution : NearGap) && !PressesOn;
 
     private bool IsHolding(int slot, byte peer)
     {

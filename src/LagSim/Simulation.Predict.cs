@@ -297,6 +297,14 @@ public sealed partial class Simulation
     {
         double seconds = UntilDeep(2e-3 * Scene.Resolution, closing, pressing);
         SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
+        if (pressing < 0)
+        {
+            // It parts by itself, and from then on may come back as fast as it likes.
+            SimDuration parts = TickConversion.TryFromSeconds(-2 * closing / pressing, out ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
+            parts = parts < CollapseWait ? CollapseWait : parts;
+            wait = parts < wait ? parts : wait;
+        }
+
         if (isPushed && wait < PressedWait && UntilDeep(PressedDepth * Scene.Resolution, closing, pressing) >= PressedWait.ToSeconds())
         {
             wait = PressedWait; // a hand that creeps

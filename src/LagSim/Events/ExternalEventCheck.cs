@@ -24,7 +24,7 @@ public static class ExternalEventCheck
 
         if (scene.Box.Exists && external.Kind is >= EventKind.Grab and <= EventKind.Release)
         {
-            throw new SceneException($"There is no {whose}: in a periodic box nothing is held.");
+            throw new SceneException($"{external.Kind} of body {external.Body} is no event of this scene: in a periodic box nothing is held.");
         }
 
         if (external.Sequence == 0)

@@ -238,7 +238,7 @@ public sealed class SceneBuilder
         double length = normal.Length;
         if (!normal.IsFinite || !(length > 1e-150 && length < 1e150))
         {
-            throw new SceneException($"The normal of plane '{planeName}' is {normal}; it must be finite and longer than zero.");
+            throw new SceneException($"The normal of plane '{planeName}' is {normal}; its length must be between 1e-150 and 1e150.");
         }
 
         bool isUnit = Math.Abs(normal.LengthSquared - 1) <= rounding;

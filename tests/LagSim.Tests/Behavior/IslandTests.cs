@@ -98,6 +98,26 @@ public sealed class IslandTests
         Assert.Equal(!rests, Bodies(world).Any(body => Read(world, body, 8).Spin.Length > 0.1));
     }
 
+    /// <summary>What is left touching, closes by rounding alone, parts by itself and falls back is struck then, not looked for when the rounding would have got deep.</summary>
+    [Theory]
+    [InlineData(0)]
+    [InlineData(1e-9)]
+    public void Touching_PartsAndFallsBack_IsStruck(double further)
+    {
+        Simulation world = new(
+            new SceneBuilder("back").AddPlane("floor", Vector3D.Up, 0.0, 1, 1)
+                .AddBody("falls", new BodySpec(0.25, 1, 0.3, friction: 2, rollingResistance: 0.01), V(0.7414639853172622, 0.2956019980417861 + further, 0.7500000000024419),
+                    V(-0.20394043781556367, 0.7189095752636673, -1.7606551020872233E-11), spin: V(2.875638301035462, 0.815761751292646, 3.831282350740072))
+                .AddBody("rolls", new BodySpec(0.29552200226836, 1, 0.3, friction: 2, rollingResistance: 0.01), V(0.25323853557908804, 0.29552200226836, 0.5066275307559448),
+                    V(-0.1874658218841395, 0, -0.03281314880166998), spin: V(-0.11103453736034433, -0.813787171040385, 0.6343548718714487)).Build(),
+            KeepAll);
+        for (int n = 1; n <= 30; n++)
+        {
+            world.AdvanceTo(At(0.01 * n));
+            Assert.True(LeastGap(world, At(0.01 * n)) > -1e-9, $"{LeastGap(world, At(0.01 * n))} m at {0.01 * n} s");
+        }
+    }
+
     /// <summary>Beside the top of a dome a ball stays where the slope is no more than its rolling resistance.</summary>
     [Theory]
     [InlineData(0.11, true)]
