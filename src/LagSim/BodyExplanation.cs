@@ -41,6 +41,5 @@ public sealed class BodyExplanation
         SegmentsPerSecond == 0
             ? $"{Body}: {Motion}. {Why}"
             : string.Format(
-                CultureInfo.InvariantCulture, "{0}: {1}, {2:G3} pieces/s, {3:G3} force"
-                    + " calls/s. {4}", Body, Motion, SegmentsPerSecond, EvaluationsPerSecond, Why);
+                CultureInfo.InvariantCulture, "{0}: {1}, {2:G3} pieces/s, {3:G3} force calls/s. {4}", Body, Motion, SegmentsPerSecond, EvaluationsPerSecond, Why);
 }

@@ -84,7 +84,10 @@ public sealed partial class Simulation
             spin: new Spin((Vector3D.Cross(n, start) / spec.Radius) + pivot, (Vector3D.Cross(n, change) / spec.Radius) - slowing));
     }
 
-    /// <summary>What rolling resistance takes from what turns about the normal, in rad/s²; where it is slower than <paramref name="least"/>, or than a tick takes, it turns no more.</summary>
+    /// <summary>
+    /// What rolling resistance takes from what turns about the normal, in rad/s²; where it is slower than <paramref name="least"/>, or than a tick takes, it
+    /// turns no more.
+    /// </summary>
     private static Vector3D Slowing(ref Vector3D pivot, double rate, double least)
     {
         if (!(rate > 0))
@@ -99,7 +102,8 @@ public sealed partial class Simulation
     }
 
     private SimTime EndOfPivoting(SimTime from, in Vector3D pivot, in Vector3D slowing) =>
-        slowing == Vector3D.Zero ? SimTime.MaxValue : EndOfTurning(from, pivot, slowing, Vector3D.Zero, -slowing.Length);
+        slowing != Vector3D.Zero && TickConversion.TryFromSeconds(pivot.Length / slowing.Length, out long ticks) && ticks <= SimTime.MaxValue.Ticks - Math.Max(0, from.Ticks)
+            ? from + SimDuration.FromTicks(Math.Max(1, ticks)) : SimTime.MaxValue;
 
     /// <summary>
     /// When something that slips or rolls with that velocity has stopped doing so, or has turned so far that a new piece is due; never, if neither comes.
@@ -119,8 +123,9 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// By how much, in radians, the direction of something so fast may turn in a piece. A piece is off by its speed times the cube of that; so what is slower than it gets within the scene's
-    /// resolution may turn more, as the inverse of the fourth root, and is off by less all the same. Else what starts from next to nothing would take thousands of pieces.
+    /// By how much, in radians, the direction of something so fast may turn in a piece. A piece is off by its speed times the cube of that; so what is slower
+    /// than it gets within the scene's resolution may turn more, as the inverse of the fourth root, and is off by less all the same. Else what starts from next
+    /// to nothing would take thousands of pieces.
     /// </summary>
     private double Turn(double speed, in Vector3D pull)
     {

@@ -7,10 +7,12 @@ using LagSim.Time;
 
 namespace LagSim;
 
-/// <content>Islands: bodies in lasting contact with each other, or with what no closed form carries them on. They move by steps that are taken for all together, and rest together.</content>
+/// <content>Islands: bodies in lasting contact with each other, or with what no closed form carries them on. They move by steps that are taken for all
+/// together, and rest together.</content>
 /// <remarks>
-/// All of an island open their pieces of path with one key, and whatever opens a new piece for one opens one for all. So a timeline that is cut cuts them all, and healing needs to know nothing else
-/// of them. Who is in an island with whom is told by the pieces: opened by one event, and touching there (<see cref="Lasts(int, int, int, int)"/>).
+/// All of an island open their pieces of path with one key, and whatever opens a new piece for one opens one for all. So a timeline that is cut cuts them all,
+/// and healing needs to know nothing else of them. Who is in an island with whom is told by the pieces: opened by one event, and touching there (<see
+/// cref="Lasts(int, int, int, int)"/>).
 /// </remarks>
 public sealed partial class Simulation
 {
@@ -32,7 +34,8 @@ public sealed partial class Simulation
     internal bool IgnoresIslands { get; set; }
 
     /// <summary>
-    /// Opens the next pieces of those parties that are in islands from here on. The states hold <paramref name="carry"/> seconds before the key's tick. Who is in none is not opened.
+    /// Opens the next pieces of those parties that are in islands from here on. The states hold <paramref name="carry"/> seconds before the key's tick. Who is
+    /// in none is not opened.
     /// </summary>
     private void OpenIslands(in EventKey key, double carry, bool mayRest)
     {
@@ -84,7 +87,9 @@ public sealed partial class Simulation
         Group(byPush: false);
     }
 
-    /// <summary>All that touches among the parties at hand, and with static surfaces, at the tick, whether it lasts or not: what opens may close again within a step.</summary>
+    /// <summary>
+    /// All that touches among the parties at hand, and with static surfaces, at the tick, whether it lasts or not: what opens may close again within a step.
+    /// </summary>
     private void FindTouching(double carry)
     {
         touchingCount = 0;
@@ -129,8 +134,8 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// Whether a contact has just been struck that is pressed together and so will last. It is kept for a step even if over the whole of that it does not push: else it would be struck again and again
-    /// for as long as it does.
+    /// Whether a contact has just been struck that is pressed together and so will last. It is kept for a step even if over the whole of that it does not push:
+    /// else it would be struck again and again for as long as it does.
     /// </summary>
     private bool IsPressed(in ContactPoint contact)
     {
@@ -148,7 +153,9 @@ public sealed partial class Simulation
     private Vector3D PlaceOf(int party, double carry) =>
         (carry == 0 ? partyPositions[party] : partyPositions[party] + (partyVelocities[party] * carry)).WithoutNegativeZero();
 
-    /// <summary>Whether no closed form carries a body on this contact: it is with another body or a static sphere, under forces, or one of several with friction.</summary>
+    /// <summary>
+    /// Whether no closed form carries a body on this contact: it is with another body or a static sphere, under forces, or one of several with friction.
+    /// </summary>
     private bool NeedsSteps(in ContactPoint c, bool byPush)
     {
         if (!IsSupportable(c))
@@ -281,7 +288,10 @@ public sealed partial class Simulation
         }
     }
 
-    /// <summary>Whether nobody in the step at hand is faster than what rises less than the scene resolves, and no force on them depends on the time as far as anybody knows.</summary>
+    /// <summary>
+    /// Whether nobody in the step at hand is faster than what rises less than the scene resolves, and no force on them depends on the time as far as anybody
+    /// knows.
+    /// </summary>
     private bool AreSlow()
     {
         bool isSlow = true;
@@ -295,8 +305,8 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// Whether nothing moves in the step that was taken from rest: without friction where gravity would pull as much if everything were displaced by the scene's resolution, with friction as far as
-    /// the solver tells.
+    /// Whether nothing moves in the step that was taken from rest: without friction where gravity would pull as much if everything were displaced by the
+    /// scene's resolution, with friction as far as the solver tells.
     /// </summary>
     private bool StaysAtRest()
     {

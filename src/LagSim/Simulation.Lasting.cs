@@ -17,7 +17,9 @@ public sealed partial class Simulation
     /// <summary>Whether so fast an opening is that of a contact of which a step is under way: nothing of it closes when it begins.</summary>
     private bool IsCalm(double opening) => opening <= LastingSpeed && opening >= -MostClosing;
 
-    /// <summary>Whether two bodies on these pieces of their paths are in lasting contact: their island keeps them apart, and nobody looks for an impact of theirs.</summary>
+    /// <summary>
+    /// Whether two bodies on these pieces of their paths are in lasting contact: their island keeps them apart, and nobody looks for an impact of theirs.
+    /// </summary>
     private bool Lasts(int slot, int piece, int other, int otherPiece)
     {
         ref readonly MotionSegment a = ref timelines.Segment(piece);
@@ -65,7 +67,9 @@ public sealed partial class Simulation
     private bool MayLast(in ContactPoint c, double opening) =>
         opening <= 2 * LastingSpeed && (!IsSupportable(c) || Friction(c) > 0 || IsRubbed(parties[c.First])) && !AreInFreeFlight(c) && !Scene.Box.Exists && !IgnoresIslands;
 
-    /// <summary>The lever of rolling resistance of a contact, in metres: the larger of its two bodies', each of which has no more resistance than friction.</summary>
+    /// <summary>
+    /// The lever of rolling resistance of a contact, in metres: the larger of its two bodies', each of which has no more resistance than friction.
+    /// </summary>
     private double RollingLever(in ContactPoint c)
     {
         double friction = Friction(c);

@@ -7,7 +7,7 @@ using static LagSim.Harness.Hard.HardWorlds;
 
 namespace LagSim.Harness.Hard;
 
-/// <summary>Heaps: what falls into a box with friction, and a pyramid of balls in steps without end.</summary>
+/// <summary>Heaps: what falls into a box with friction, a ball that only friction keeps on two others, and a pyramid of balls in steps without end.</summary>
 internal sealed class HeapCase : IHardCase
 {
     private const double Step = 1.0 / 512;
@@ -17,7 +17,7 @@ internal sealed class HeapCase : IHardCase
 
     public string Name => "heap";
 
-    public string Title => "a heap with friction falls into a box; a pyramid of 30 balls stands in steps that never end: no gain of energy, no depth, no drift, and what carries it is its weight";
+    public string Title => "a heap with friction falls into a box; a ball stays on two that only friction keeps together; a pyramid of 30 balls stands in steps that never end: no gain of energy, no depth, no drift, and what carries it is its weight";
 
     public IEnumerable<HardRow> Rows(HardContext context)
     {
@@ -28,30 +28,14 @@ internal sealed class HeapCase : IHardCase
             yield return Depth($"{balls} balls, mu {friction}", depth);
         }
 
-        double seconds = context.Size(0.25, 4.0);
+        foreach (double friction in context.Sizes([0.28], [0.28, 0.5, 2]))
+        {
+            yield return Stays(context, friction);
+        }
+
         foreach (double friction in context.Sizes([0.0], [0.0, 0.5]))
         {
-            Scene pyramid = Pyramid(friction);
-            Simulation simulation = context.Simulate(pyramid);
-            double drift = 0, momentum = 0, gain = 0;
-            double weight = Gravity * pyramid.Bodies.Count, start = Energy(simulation, 0);
-            int samples = (int)(seconds * 100);
-            for (int n = 1; n <= samples; n++)
-            {
-                double at = seconds * n / samples;
-                simulation.AdvanceTo(SimTime.FromSeconds(at));
-                momentum = Math.Max(momentum, Momentum(simulation, at).Length);
-                gain = Math.Max(gain, Energy(simulation, at) - start);
-                for (int body = 0; body < pyramid.Bodies.Count; body++)
-                {
-                    drift = Math.Max(drift, (Read(simulation, body, at).Position - pyramid.Bodies[body].Position).Length);
-                }
-
-                context.Report(n / (double)samples);
-            }
-
-            bool isStepped = simulation.EventsProcessed > 0.9 * 512 * seconds; // else nothing was shown
-            foreach (HardRow row in Stands(FormattableString.Invariant($"a pyramid of {pyramid.Bodies.Count}, mu {friction}, {seconds} s"), isStepped ? drift : double.NaN, momentum / weight, gain / start))
+            foreach (HardRow row in Stands(context, context.Size(0.25, 4.0), friction, Edge))
             {
                 yield return row;
             }
@@ -72,9 +56,10 @@ internal sealed class HeapCase : IHardCase
         const string Springs = "a spring of 10 kN/m for a contact, by Euler's steps";
         yield return Gain("one ball", (most - Gravity) / Gravity, 1) with { Note = Springs };
         yield return Depth("one ball", depth) with { Note = Springs };
-        foreach (HardRow row in Stands("one ball, 1 s", 1e-6 * Gravity / 2, 1e-6, 1e-6))
+        yield return Stays(context, 0.26) with { Note = "a friction below tan 15 degrees" };
+        foreach (HardRow row in Stands(context, 0.25, 0, Edge + 0.1))
         {
-            yield return row with { Note = "a floor that carries a millionth less than the weight" };
+            yield return row with { Note = "a bin that is a decimetre too wide" };
         }
     }
 
@@ -98,12 +83,12 @@ internal sealed class HeapCase : IHardCase
     }
 
     /// <summary>A square pyramid in a bin that is as wide as its base. A program's own force is its weight: of that nobody knows what it will do, so nothing ever rests.</summary>
-    private static Scene Pyramid(double friction)
+    private static Scene Pyramid(double friction, double width)
     {
         SceneBuilder builder = new SceneBuilder("pyramid").WithGravity(Vector3D.Zero).AddForce(Force.Supplied(new Weight()))
             .AddPlane("floor", Vector3D.Up, 0.0, 0, friction)
-            .AddPlane("west", V(1), -Edge / 2.0, 0, friction).AddPlane("east", V(-1), -Edge / 2.0, 0, friction)
-            .AddPlane("north", V(0, 0, 1), -Edge / 2.0, 0, friction).AddPlane("south", V(0, 0, -1), -Edge / 2.0, 0, friction);
+            .AddPlane("west", V(1), -width / 2, 0, friction).AddPlane("east", V(-1), -width / 2, 0, friction)
+            .AddPlane("north", V(0, 0, 1), -width / 2, 0, friction).AddPlane("south", V(0, 0, -1), -width / 2, 0, friction);
         for (int layer = 0; layer < Edge; layer++)
         {
             int side = Edge - layer;
@@ -172,8 +157,38 @@ internal sealed class HeapCase : IHardCase
     private HardRow Depth(string size, double depth) => new(
         Name, size, depth, "depth_m", 1000 * SceneBuilder.DefaultResolution, "a thousand resolutions, within which a contact lasts", "no ball is in another or in a plane");
 
-    private IEnumerable<HardRow> Stands(string size, double drift, double momentum, double gain)
+    /// <summary>A ball on two that touch, on a floor: friction keeps them so from the tangent of 15 degrees on, half the angle between the line of centres and the vertical.</summary>
+    private HardRow Stays(HardContext context, double friction)
     {
+        BodySpec ball = new(0.5, 1, 0, friction: friction);
+        Scene scene = new SceneBuilder("three").AddPlane("floor", Vector3D.Up, 0.0, 0, friction)
+            .AddBody("left", ball, V(-0.5, 0.5)).AddBody("right", ball, V(0.5, 0.5)).AddBody("top", ball, V(0, 0.5 + Math.Sqrt(0.75))).Build();
+        Simulation simulation = context.Run(scene, 3);
+        double drift = Enumerable.Range(0, 3).Max(n => (Read(simulation, n, 3).Position - scene.Bodies[n].Position).Length);
+        return new HardRow(
+            Name, FormattableString.Invariant($"a ball on two, mu {friction}, 3 s"), drift, "drift_m", 1000 * SceneBuilder.DefaultResolution,
+            "a thousand resolutions, within which a contact lasts", "they stay where mu is at least tan 15 degrees, 0.268");
+    }
+
+    private IEnumerable<HardRow> Stands(HardContext context, double seconds, double friction, double width)
+    {
+        Scene pyramid = Pyramid(friction, width);
+        Simulation simulation = context.Simulate(pyramid);
+        double drift = 0, momentum = 0, gain = 0, weight = Gravity * pyramid.Bodies.Count, start = Energy(simulation, 0);
+        int samples = (int)(seconds * 100);
+        for (int n = 1; n <= samples; n++)
+        {
+            double at = seconds * n / samples;
+            simulation.AdvanceTo(SimTime.FromSeconds(at));
+            momentum = Math.Max(momentum, Momentum(simulation, at).Length / weight);
+            gain = Math.Max(gain, (Energy(simulation, at) - start) / start);
+            drift = Math.Max(drift, Enumerable.Range(0, pyramid.Bodies.Count).Max(body => (Read(simulation, body, at).Position - pyramid.Bodies[body].Position).Length));
+            context.Report(n / (double)samples);
+        }
+
+        bool isStepped = simulation.EventsProcessed > 0.9 * 512 * seconds; // else nothing was shown
+        string size = FormattableString.Invariant($"a pyramid of {pyramid.Bodies.Count}, mu {friction}, {seconds} s");
+        drift = isStepped ? drift : double.NaN;
         yield return new HardRow(Name, size, drift, "drift_m", SceneBuilder.DefaultResolution, "the scene's resolution: what is nearer to equilibrium stands", "nothing moves; NaN where no steps were taken");
         yield return new HardRow(
             Name, size, momentum, "momentum_s", SceneBuilder.DefaultResolution / Step, "the resolution in a step: what carries is that near to the weight", "forces that sum to the weight leave no momentum");

@@ -3,12 +3,15 @@ using LagSim.Scenes;
 
 namespace LagSim.Contacts;
 
-/// <summary>The rows of contacts that push, made orthogonal, and what follows from them: the impulses with which each meets its demand, and how they change the velocities.</summary>
+/// <summary>
+/// The rows of contacts that push, made orthogonal, and what follows from them: the impulses with which each meets its demand, and how they change the
+/// velocities.
+/// </summary>
 /// <remarks>
-/// <para>A contact's row is its part in each body's motion: its normal at the first, the opposite at the second. They are made orthogonal in the space of the bodies' motions, by modified Gram-Schmidt with 1/mass as
-/// weight, rather than by factors of the matrix of their products: where a light body carries a heavy one, that matrix has already lost
-/// the heavy one to rounding. No square roots in what is solved: small integer systems, such as equal masses in a row, stay exact and a symmetric impact
-/// keeps its symmetry.</para>
+/// <para>A contact's row is its part in each body's motion: its normal at the first, the opposite at the second. They are made orthogonal in the space of the
+/// bodies' motions, by modified Gram-Schmidt with 1/mass as weight, rather than by factors of the matrix of their products: where a light body carries a heavy
+/// one, that matrix has already lost the heavy one to rounding. No square roots in what is solved: small integer systems, such as equal masses in a row, stay
+/// exact and a symmetric impact keeps its symmetry.</para>
 /// <para>Cost: a row is made in the rows before it times the bodies. Allocates only when there are more contacts or bodies than ever before.</para>
 /// </remarks>
 internal sealed class ContactBasis

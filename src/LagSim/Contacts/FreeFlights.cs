@@ -10,8 +10,8 @@ namespace LagSim.Contacts;
 /// line as seen from each other, so that most pairs are seen at once to stay apart. So do two that rest or slide straight on.
 /// </summary>
 /// <remarks>
-/// It answers no in doubt, and then the pair is looked at as ever; so it changes no bit of what happens. It is there for speed alone: a look at a pair's segments
-/// is several loads from far apart, and nearly all pairs that an index names do not meet.
+/// It answers no in doubt, and then the pair is looked at as ever; so it changes no bit of what happens. It is there for speed alone: a look at a pair's
+/// segments is several loads from far apart, and nearly all pairs that an index names do not meet.
 /// </remarks>
 internal sealed class FreeFlights
 {
@@ -100,9 +100,9 @@ internal sealed class FreeFlights
     }
 
     /// <summary>
-    /// Whether two bodies surely come nowhere near each other from a time on, on the pieces of path that are their newest, those opened by then; false if it cannot be told
-    /// so easily. A tick more on both sides is looked at. It is told of free flights and of those who rest or slide straight on; of one of each where they begin at rest to each other,
-    /// or come no nearer within the span however the one falls.
+    /// Whether two bodies surely come nowhere near each other from a time on, on the pieces of path that are their newest, those opened by then; false if it
+    /// cannot be told so easily. A tick more on both sides is looked at. It is told of free flights and of those who rest or slide straight on; of one of each
+    /// where they begin at rest to each other, or come no nearer within the span however the one falls.
     /// </summary>
     internal bool AreApart(int slot, int other, SimTime from, SimTime until)
     {

@@ -11,14 +11,17 @@ namespace LagSim.Contacts;
 /// <para>If no velocities
 /// satisfy all targets (a body squeezed between surfaces that cannot give way), or only at an expense of energy, only restitution is asked for, and
 /// if that cannot be had either every target becomes 0, which always can.</para>
-/// <para>Few contacts are solved exactly (<see cref="ActiveSet"/>), many, as in a heap, by <see cref="ProjectedGradients"/>. Allocates only when an impact has more contacts or bodies than any before.</para>
+/// <para>Few contacts are solved exactly (<see cref="ActiveSet"/>), many, as in a heap, by <see cref="ProjectedGradients"/>. Allocates only when an impact has
+/// more contacts or bodies than any before.</para>
 /// </remarks>
 internal sealed class ImpactSolver
 {
     /// <summary>So many contacts at most are solved exactly: beyond, what that costs grows too fast for one event.</summary>
     internal const int MostAtOnce = 96;
 
-    /// <summary>So many are always solved exactly; more than these only if masses differ by more than <see cref="LikeMasses"/>, else gradients get as near in less time.</summary>
+    /// <summary>
+    /// So many are always solved exactly; more than these only if masses differ by more than <see cref="LikeMasses"/>, else gradients get as near in less time.
+    /// </summary>
     internal const int FewAtOnce = 32;
 
     /// <summary>By what factor masses may differ for <see cref="ProjectedGradients"/> to get to the rounding in its steps.</summary>
@@ -51,8 +54,8 @@ internal sealed class ImpactSolver
     }
 
     /// <summary>
-    /// The same with other targets and velocities: for the very bodies and normals that were solved last, which saves most of the work. It begins with the contacts that pushed then,
-    /// or, of many, with their impulses.
+    /// The same with other targets and velocities: for the very bodies and normals that were solved last, which saves most of the work. It begins with the
+    /// contacts that pushed then, or, of many, with their impulses.
     /// </summary>
     internal void SolveAgain(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities)
     {

@@ -7,12 +7,13 @@ namespace LagSim.Contacts;
 
 /// <summary>One step of bodies in lasting contact: where they are after it, and which contacts have pushed.</summary>
 /// <remarks>
-/// <para>The method is RATTLE (Andersen 1983, J. Comput. Phys. 52, 24-34) for contacts that push and do not pull: half a kick and impulses along the normals at the start of the step, so that at
-/// its end no gap is below zero, or smaller than it was if it was below; half a kick and impulses along the normals at its end, so that nothing closes. Of order 2, without drift, and without
-/// friction it neither makes nor loses energy but by what a contact takes that begins to push. Each half is one solution of all contacts together with their friction.</para>
+/// <para>The method is RATTLE (Andersen 1983, J. Comput. Phys. 52, 24-34) for contacts that push and do not pull: half a kick and impulses along the normals at
+/// the start of the step, so that at its end no gap is below zero, or smaller than it was if it was below; half a kick and impulses along the normals at its
+/// end, so that nothing closes. Of order 2, without drift, and without friction it neither makes nor loses energy but by what a contact takes that begins to
+/// push. Each half is one solution of all contacts together with their friction.</para>
 /// <para>Between the two ends the path is a cubic with the positions and velocities of both.</para>
-/// <para>Deterministic; the order of bodies and contacts counts, so both come in canonical order. Cost: some four times that of <see cref="LastingContactSolver"/>. Allocates only when an
-/// island has more bodies or contacts than any before.</para>
+/// <para>Deterministic; the order of bodies and contacts counts, so both come in canonical order. Cost: some four times that of <see
+/// cref="LastingContactSolver"/>. Allocates only when an island has more bodies or contacts than any before.</para>
 /// </remarks>
 internal sealed class IslandStep
 {
@@ -113,7 +114,10 @@ internal sealed class IslandStep
         Rubs |= friction > 0;
     }
 
-    /// <summary>Takes the step from <paramref name="time"/> on. Before it what closes by no more than so many m/s is stopped without a rebound; what is faster has an impact of its own to come.</summary>
+    /// <summary>
+    /// Takes the step from <paramref name="time"/> on. Before it what closes by no more than so many m/s is stopped without a rebound; what is faster has an
+    /// impact of its own to come.
+    /// </summary>
     internal void Take(SimTime time, double closing)
     {
         for (int b = 0; b < BodyCount; b++)
@@ -316,7 +320,9 @@ internal sealed class IslandStep
     /// <summary>What of a length in parts of what touches is rounding.</summary>
     private const double Rounding = 1e-13;
 
-    /// <summary>The second half: impulses along the normals where the step has led, of contacts that have pushed or have no gap, so that they do not close.</summary>
+    /// <summary>
+    /// The second half: impulses along the normals where the step has led, of contacts that have pushed or have no gap, so that they do not close.
+    /// </summary>
     private void Kick(SimTime time, double h)
     {
         for (int b = 0; b < BodyCount; b++)

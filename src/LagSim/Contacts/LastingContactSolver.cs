@@ -5,12 +5,13 @@ namespace LagSim.Contacts;
 
 /// <summary>Solves contacts that last together with Coulomb friction and rolling resistance.</summary>
 /// <remarks>
-/// <para>The law along the normals is that of <see cref="ImpactSolver"/>; across it each contact gives what stops the slip, or as much as its normal impulse allows, and what stops the two from
-/// rolling, and from turning about the normal, on each other, or as much as that allows. All contacts are gone through in their order, again and again, each with all three at once (Moreau and Jean's non-smooth contact dynamics; Jean 1999,
-/// Comput. Methods Appl. Mech. Eng. 177, 235-257), with over-relaxation; then, with friction as it is, the normals are solved by themselves. So whatever friction has not settled by then,
-/// nothing is driven into anything. That is repeated if the normals change much by it, as where a light body carries a heavy one.</para>
-/// <para>Cost: without friction that of one <see cref="ImpactSolver"/>; else up to <see cref="MostTurns"/> times that and up to <see cref="Sweeps"/> sweeps each. Allocates only when there are more
-/// contacts or bodies than ever before.</para>
+/// <para>The law along the normals is that of <see cref="ImpactSolver"/>; across it each contact gives what stops the slip, or as much as its normal impulse
+/// allows, and what stops the two from rolling, and from turning about the normal, on each other, or as much as that allows. All contacts are gone through in
+/// their order, again and again, each with all three at once (Moreau and Jean's non-smooth contact dynamics; Jean 1999, Comput. Methods Appl. Mech. Eng. 177,
+/// 235-257), with over-relaxation; then, with friction as it is, the normals are solved by themselves. So whatever friction has not settled by then, nothing is
+/// driven into anything. That is repeated if the normals change much by it, as where a light body carries a heavy one.</para>
+/// <para>Cost: without friction that of one <see cref="ImpactSolver"/>; else up to <see cref="MostTurns"/> times that and up to <see cref="Sweeps"/> sweeps
+/// each. Allocates only when there are more contacts or bodies than ever before.</para>
 /// </remarks>
 internal sealed class LastingContactSolver
 {
@@ -20,7 +21,9 @@ internal sealed class LastingContactSolver
     /// <summary>So often at most all contacts are gone through in a turn.</summary>
     private const int Sweeps = 32;
 
-    /// <summary>What a contact gives, by what it alone would need: more than 1, for its neighbours take some of it back. Below 2 no energy is gained by it.</summary>
+    /// <summary>
+    /// What a contact gives, by what it alone would need: more than 1, for its neighbours take some of it back. Below 2 no energy is gained by it.
+    /// </summary>
     private const double Relaxation = 1.3;
 
     /// <summary>What changes by less than this part of the largest speed is settled.</summary>
@@ -126,7 +129,10 @@ internal sealed class LastingContactSolver
         return speed;
     }
 
-    /// <summary>Goes through all contacts until a sweep changes no speed by more than <paramref name="settled"/>, or often enough. False if the first did not, and changed nothing that counts.</summary>
+    /// <summary>
+    /// Goes through all contacts until a sweep changes no speed by more than <paramref name="settled"/>, or often enough. False if the first did not, and
+    /// changed nothing that counts.
+    /// </summary>
     private bool Sweep(Span<ContactPoint> contacts, Span<Rub> rubs, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins, double settled)
     {
         for (int sweep = 0; sweep < Sweeps; sweep++)

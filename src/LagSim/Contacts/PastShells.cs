@@ -24,7 +24,8 @@ internal sealed class PastShells
         slabs.Get(SlabRing.NumberOf(until)).Add(cell, new Stay(slot, shell, from, until));
 
     /// <summary>
-    /// The same of what is healed, which as a rule is where it was before: one entry is made to stand for both, if it can, so that what is healed again and again does not fill the cells.
+    /// The same of what is healed, which as a rule is where it was before: one entry is made to stand for both, if it can, so that what is healed again and
+    /// again does not fill the cells.
     /// </summary>
     internal void AddAgain(ulong cell, int slot, in Shell shell, SimTime from, SimTime until)
     {

@@ -147,8 +147,8 @@ internal sealed class PresentShells
         !box.Exists || (place.X > far && place.X < sides.X - far && place.Y > far && place.Y < sides.Y - far && place.Z > far && place.Z < sides.Z - far);
 
     /// <summary>
-    /// The same among those of one list that are of a cell, by the straight way. Whether one is found is no branch, for nobody can foretell it; and how many are
-    /// is kept in a register.
+    /// The same among those of one list that are of a cell, by the straight way. Whether one is found is no branch, for nobody can foretell it; and how many
+    /// are is kept in a register.
     /// </summary>
     private static void LookIn(Span<Entry> entries, ulong cell, in Vector3D place, double reach, FoundSlots found)
     {

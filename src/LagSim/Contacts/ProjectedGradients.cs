@@ -5,12 +5,13 @@ namespace LagSim.Contacts;
 
 /// <summary>Solves many contacts at once, as of a large heap, by conjugate gradients that are kept from pulling.</summary>
 /// <remarks>
-/// <para>What is solved is what <see cref="ActiveSet"/> solves: the impulses p >= 0 that make 1/2 p'Ap - p'demand least, which is the change of energy where nothing is to open after. The method is
-/// "modified proportioning with reduced gradient projections" (Dostál and Schöberl 2005, Comput. Optim. Appl. 30, 23-43): conjugate gradients among the contacts that push, a step along
-/// the gradient cut off at zero where one of them would pull, and one along what closes where that has come to outweigh the rest. What it makes least never grows, so where nothing is to part faster
-/// than at rest no energy is gained, whenever it ends.</para>
-/// <para>Each contact is measured by the root of its 1/mass, so that unequal masses count alike. Cost: the number of contacts, times some 50 to 300 steps, at most <see cref="MostSteps"/>; more where
-/// light bodies carry heavy ones. Allocates only when there are more contacts or bodies than ever before.</para>
+/// <para>What is solved is what <see cref="ActiveSet"/> solves: the impulses p >= 0 that make 1/2 p'Ap - p'demand least, which is the change of energy where
+/// nothing is to open after. The method is "modified proportioning with reduced gradient projections" (Dostál and Schöberl 2005, Comput. Optim. Appl. 30,
+/// 23-43): conjugate gradients among the contacts that push, a step along the gradient cut off at zero where one of them would pull, and one along what closes
+/// where that has come to outweigh the rest. What it makes least never grows, so where nothing is to part faster than at rest no energy is gained, whenever it
+/// ends.</para>
+/// <para>Each contact is measured by the root of its 1/mass, so that unequal masses count alike. Cost: the number of contacts, times some 50 to 300 steps, at
+/// most <see cref="MostSteps"/>; more where light bodies carry heavy ones. Allocates only when there are more contacts or bodies than ever before.</para>
 /// </remarks>
 internal sealed class ProjectedGradients
 {
@@ -117,7 +118,9 @@ internal sealed class ProjectedGradients
         return 1.75 / norm;
     }
 
-    /// <summary>A step along the direction, or as far along it as nobody pulls and then one along the gradient. False if nothing is to be had that way.</summary>
+    /// <summary>
+    /// A step along the direction, or as far along it as nobody pulls and then one along the gradient. False if nothing is to be had that way.
+    /// </summary>
     private bool Follow(Span<ContactPoint> contacts, Span<double> masses, Span<double> demand, Span<Vector3D> change, double stride)
     {
         double curvature = Probe(contacts, masses, change);

@@ -17,6 +17,8 @@ internal struct Rub
     /// <summary>The impulse of friction on the first of the two, in N s.</summary>
     internal Vector3D Push;
 
-    /// <summary>The angular impulse of rolling resistance on the first, in N m s: across the normal against rolling, along it against turning on the spot.</summary>
+    /// <summary>
+    /// The angular impulse of rolling resistance on the first, in N m s: across the normal against rolling, along it against turning on the spot.
+    /// </summary>
     internal Vector3D Turn;
 }

@@ -6,10 +6,11 @@ namespace LagSim.Contacts;
 
 /// <summary>Steps of islands that other threads take before they are due, while this one is busy with other islands.</summary>
 /// <remarks>
-/// <para>A step is a pure function of who takes part, from what state, and when. So it may be taken ahead, from what it will be if nothing happens before; when it is due, and still is of just
-/// that, to the bit, what was taken is used, else it is taken anew. What comes of it is the same on any number of threads.</para>
-/// <para>A step that no thread has begun by then is taken by the one that needs it, which so never waits for a thread that is not there. All but the taking itself is done by the simulation's thread.
-/// Allocates nothing once its steps have grown to their islands.</para>
+/// <para>A step is a pure function of who takes part, from what state, and when. So it may be taken ahead, from what it will be if nothing happens before; when
+/// it is due, and still is of just that, to the bit, what was taken is used, else it is taken anew. What comes of it is the same on any number of
+/// threads.</para>
+/// <para>A step that no thread has begun by then is taken by the one that needs it, which so never waits for a thread that is not there. All but the taking
+/// itself is done by the simulation's thread. Allocates nothing once its steps have grown to their islands.</para>
 /// </remarks>
 internal sealed class StepsAhead
 {

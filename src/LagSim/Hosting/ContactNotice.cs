@@ -101,8 +101,8 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>
 
     /// <summary>Kind, bodies, time, place and speed, for logs.</summary>
     public override string ToString() => string.Format(
-        CultureInfo.InvariantCulture, "{0} {1}/{2} at {3}, {4}"
-            + " m, {5} m/s", Kind, First, Surface < 0 ? Second.ToString() : $"surface {Surface}", Time, Position, ClosingSpeed);
+        CultureInfo.InvariantCulture, "{0} {1}/{2} at {3}, {4} m, {5} m/s",
+            Kind, First, Surface < 0 ? Second.ToString() : $"surface {Surface}", Time, Position, ClosingSpeed);
 
     /// <summary>The order of contacts: by impact, then by bodies and surface.</summary>
     internal static int Compare(in ContactNotice a, in ContactNotice b)

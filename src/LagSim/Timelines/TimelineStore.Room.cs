@@ -102,7 +102,8 @@ internal sealed partial class TimelineStore
 
     /// <summary>
     /// For how many segments room will be needed, as far as can be told before a whole history has gone by: if as many are opened for the rest of it, from an
-    /// eighth of it on. No more than a quarter above what there is, for what begins need not go on. To grow by little until then would be to copy everything some hundred times.
+    /// eighth of it on. No more than a quarter above what there is, for what begins need not go on. To grow by little until then would be to copy everything
+    /// some hundred times.
     /// </summary>
     private int Expected(SimTime now)
     {

@@ -1,8 +1,8 @@
 using System.Globalization;
 using System.Linq;
 using System.Text.Json;
-using LagSim.Tests.Cli;
 using Xunit;
+using static LagSim.Tests.Cli.DropCommandTests;
 
 namespace LagSim.Tests.Docs;
 
@@ -13,8 +13,7 @@ public sealed class FigureTests
     public void Readme_TableOfStrategies_IsWhatCompareGives()
     {
         string readme = SnippetTests.Read("README.md");
-        Tool tool = Tool.Run("compare", "--scene", "billiards", "--profile", "transatlantic", "--json");
-        JsonElement[] runs = JsonDocument.Parse(tool.Output).RootElement.GetProperty("runs").EnumerateArray().ToArray();
+        JsonElement[] runs = Json("compare", "--scene", "billiards", "--profile", "transatlantic", "--json").GetProperty("runs").EnumerateArray().ToArray();
         Assert.Equal(5, runs.Length);
         foreach (JsonElement run in runs)
         {
