@@ -276,7 +276,7 @@ public sealed partial class Simulation
             isOpened[party] = true;
             if (rests)
             {
-                bool turns = partySpins[party].Length * partyRadii[party] > Unsettled * island.Length.ToSeconds() * island.Pull() || !island.Rubs;
+                bool turns = island.EndSpin(n).Length * partyRadii[party] > Unsettled * island.Length.ToSeconds() * island.Pull() || !island.Rubs;
                 Append(slot, key, MotionSegment.AtRest(key.Time, PlaceOf(party, carry)), default, spin: turns ? new Spin(partySpins[party]) : default);
                 continue;
             }

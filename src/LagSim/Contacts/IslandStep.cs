@@ -40,6 +40,12 @@ internal sealed class IslandStep
     /// <summary>So often at most the normals' turning is taken in anew; each time it is right to two orders more.</summary>
     private const int MostRefinements = 8;
 
+    /// <summary>
+    /// So many turns the solver may take where it is asked who rests: a tower that leans is held by the rolling resistance of all its contacts together, which
+    /// comes to light slowly, and what is left over moves it for ever.
+    /// </summary>
+    private const int RestTurns = 64;
+
     private readonly Scene scene;
     private readonly Forces forces;
     private readonly LastingContactSolver solver = new();
@@ -132,6 +138,7 @@ internal sealed class IslandStep
     }
 
     /// <summary>Takes the step as if nobody moved.</summary>
+    /// <remarks>What is apart by less than the scene resolves touches then, and nothing sinks into that.</remarks>
     internal void TakeFromRest(SimTime time) => TakeWith(time, fromRest: true);
 
     private void TakeWith(SimTime time, bool fromRest)
@@ -145,8 +152,8 @@ internal sealed class IslandStep
 
         Length = SimDuration.FromTicks(Ticks());
         double h = Length.ToSeconds();
-        Move(h);
-        Kick(time, h);
+        Move(h, fromRest);
+        Kick(time, h, fromRest);
     }
 
     /// <summary>Whether another step is of the same bodies from the same states, to the bit, with the same contacts.</summary>
@@ -178,12 +185,19 @@ internal sealed class IslandStep
         return t.Push * inverse > LeastPush * Length.ToSeconds() * Pull();
     }
 
-    /// <summary>How fast a body gets in the step: at its middle or its end, on its surface or with its centre, whichever is most; in m/s.</summary>
+    /// <summary>
+    /// How fast a body gets in the step: at its middle or its end, on its surface or with its centre, whichever is most; in m/s. A spin that stays does not
+    /// count, nor one that the step stops.
+    /// </summary>
     internal double Stir(int body)
     {
         ref readonly Member m = ref members[body];
-        return Math.Max(Math.Max(m.Middle.Length, m.EndVelocity.Length), (m.EndSpin - m.StartSpin).Length * radii[body]);
+        double spin = Math.Min((m.EndSpin - m.StartSpin).Length, m.EndSpin.Length); // it turns on as it did, or not any more
+        return Math.Max(Math.Max(m.Middle.Length, m.EndVelocity.Length), spin * radii[body]);
     }
+
+    /// <summary>How a body turns at the end of the step, in rad/s.</summary>
+    internal Vector3D EndSpin(int body) => members[body].EndSpin;
 
     /// <summary>The largest acceleration that anybody would have if nothing touched him, in m/s².</summary>
     internal double Pull()
@@ -239,7 +253,7 @@ internal sealed class IslandStep
             return;
         }
 
-        Solve(count, LastingContactSolver.Start.Anew);
+        Solve(count, LastingContactSolver.Start.Anew, isPatient: false);
         for (int b = 0; b < BodyCount; b++)
         {
             members[b].StartVelocity = velocities[b].WithoutNegativeZero();
@@ -248,7 +262,7 @@ internal sealed class IslandStep
     }
 
     /// <summary>The first half: impulses that keep the gaps open, and where they lead.</summary>
-    private void Move(double h)
+    private void Move(double h, bool fromRest)
     {
         for (int i = 0; i < ContactCount; i++)
         {
@@ -271,11 +285,11 @@ internal sealed class IslandStep
             for (int i = 0; i < ContactCount; i++)
             {
                 ref readonly Touch t = ref touches[i];
-                points[i].Target = ((Math.Min(0, t.Gap) - t.Gap) / h) - t.Bend;
+                points[i].Target = (fromRest ? 0 : (Math.Min(0, t.Gap) - t.Gap) / h) - t.Bend;
                 points[i].Restored = points[i].Target;
             }
 
-            Solve(ContactCount, n == 0 ? LastingContactSolver.Start.Anew : LastingContactSolver.Start.Again);
+            Solve(ContactCount, n == 0 ? LastingContactSolver.Start.Anew : LastingContactSolver.Start.Again, isPatient: fromRest);
             for (int b = 0; b < BodyCount; b++)
             {
                 ref Member m = ref members[b];
@@ -323,7 +337,7 @@ internal sealed class IslandStep
     /// <summary>
     /// The second half: impulses along the normals where the step has led, of contacts that have pushed or have no gap, so that they do not close.
     /// </summary>
-    private void Kick(SimTime time, double h)
+    private void Kick(SimTime time, double h, bool fromRest)
     {
         for (int b = 0; b < BodyCount; b++)
         {
@@ -350,7 +364,7 @@ internal sealed class IslandStep
 
         if (count > 0)
         {
-            Solve(count, LastingContactSolver.Start.Near);
+            Solve(count, LastingContactSolver.Start.Near, isPatient: fromRest);
         }
 
         for (int k = 0; k < count; k++)
@@ -365,9 +379,9 @@ internal sealed class IslandStep
         }
     }
 
-    private void Solve(int count, LastingContactSolver.Start start) => solver.Solve(
+    private void Solve(int count, LastingContactSolver.Start start, bool isPatient) => solver.Solve(
         points.AsSpan(0, count), rubs.AsSpan(0, count), masses.AsSpan(0, BodyCount), radii.AsSpan(0, BodyCount), velocities.AsSpan(0, BodyCount),
-        spins.AsSpan(0, BodyCount), start);
+        spins.AsSpan(0, BodyCount), start, isPatient ? RestTurns : LastingContactSolver.UsualTurns);
 
     /// <summary>A power of two of ticks, so short that in the step no normal turns far and no force changes much.</summary>
     private long Ticks()

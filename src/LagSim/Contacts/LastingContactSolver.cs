@@ -10,13 +10,13 @@ namespace LagSim.Contacts;
 /// their order, again and again, each with all three at once (Moreau and Jean's non-smooth contact dynamics; Jean 1999, Comput. Methods Appl. Mech. Eng. 177,
 /// 235-257), with over-relaxation; then, with friction as it is, the normals are solved by themselves. So whatever friction has not settled by then, nothing is
 /// driven into anything. That is repeated if the normals change much by it, as where a light body carries a heavy one.</para>
-/// <para>Cost: without friction that of one <see cref="ImpactSolver"/>; else up to <see cref="MostTurns"/> times that and up to <see cref="Sweeps"/> sweeps
+/// <para>Cost: without friction that of one <see cref="ImpactSolver"/>; else up to <see cref="UsualTurns"/> times that and up to <see cref="Sweeps"/> sweeps
 /// each. Allocates only when there are more contacts or bodies than ever before.</para>
 /// </remarks>
 internal sealed class LastingContactSolver
 {
-    /// <summary>So many times at most friction is solved, and the normals after it.</summary>
-    private const int MostTurns = 4;
+    /// <summary>So many times friction is solved, and the normals after it, where nothing asks for more.</summary>
+    internal const int UsualTurns = 4;
 
     /// <summary>So often at most all contacts are gone through in a turn.</summary>
     private const int Sweeps = 32;
@@ -40,8 +40,10 @@ internal sealed class LastingContactSolver
     /// <param name="velocities">In m/s.</param>
     /// <param name="spins">In rad/s.</param>
     /// <param name="start">What is known of the solution.</param>
+    /// <param name="turns">So many times at most friction is solved, and the normals after it.</param>
     internal void Solve(
-        Span<ContactPoint> contacts, Span<Rub> rubs, Span<double> masses, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins, Start start)
+        Span<ContactPoint> contacts, Span<Rub> rubs, Span<double> masses, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins, Start start,
+        int turns)
     {
         double most = 0;
         for (int i = 0; i < rubs.Length; i++)
@@ -80,7 +82,7 @@ internal sealed class LastingContactSolver
             }
         }
 
-        for (int turn = 0; turn < MostTurns && (Sweep(contacts, rubs, radii, velocities, spins, Settled * speed) || (turn == 0 && start == Start.Near)); turn++)
+        for (int turn = 0; turn < turns && (Sweep(contacts, rubs, radii, velocities, spins, Settled * speed) || (turn == 0 && start == Start.Near)); turn++)
         {
             for (int b = 0; b < velocities.Length; b++)
             {
