@@ -85,7 +85,7 @@ internal sealed class HeapCase : IHardCase
     /// <summary>A square pyramid in a bin that is as wide as its base. A program's own force is its weight: of that nobody knows what it will do, so nothing ever rests.</summary>
     private static Scene Pyramid(double friction, double width)
     {
-        SceneBuilder builder = new SceneBuilder("pyramid").WithGravity(Vector3D.Zero).AddForce(Force.Supplied(new Weight()))
+        SceneBuilder builder = new SceneBuilder("pyramid").WithGravity(Vector3D.Zero).AddForce(Force.Supplied(new SuppliedWeight()))
             .AddPlane("floor", Vector3D.Up, 0.0, 0, friction)
             .AddPlane("west", V(1), -width / 2, 0, friction).AddPlane("east", V(-1), -width / 2, 0, friction)
             .AddPlane("north", V(0, 0, 1), -width / 2, 0, friction).AddPlane("south", V(0, 0, -1), -width / 2, 0, friction);
@@ -193,14 +193,5 @@ internal sealed class HeapCase : IHardCase
         yield return new HardRow(
             Name, size, momentum, "momentum_s", SceneBuilder.DefaultResolution / Step, "the resolution in a step: what carries is that near to the weight", "forces that sum to the weight leave no momentum");
         yield return new HardRow(Name, size, gain, "energy_gain_relative_standing", 512 * Rounding.Unit * 4 * 30, "a rounding of each of 30 balls in each step of 4 s", "the energy at the start");
-    }
-
-    private sealed class Weight : IAcceleration
-    {
-        public string Name => "weight";
-
-        public int Version => 1;
-
-        public Vector3D At(double seconds, in Vector3D position, in Vector3D velocity) => V(0, -Gravity);
     }
 }

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using LagSim.Scenes;
 using LagSim.Time;
 using static LagSim.Harness.Hard.HardWorlds;
@@ -8,11 +9,11 @@ namespace LagSim.Harness.Hard;
 
 /// <summary>A solid sphere on a plane with friction: from slipping to rolling, from rolling to rest, turning on the spot, down a slope, against the textbook's formulas.</summary>
 /// <remarks>
-/// Slip, the velocity of the surface, loses 7/2 mu g a second and is gone after 2 v/(7 mu g), with 5/7 of the speed left. Down a slope it rolls with 5/7 g sin
-/// a if tan a is at most 7/2 mu, else it slips with g (sin a - mu cos a). All pieces are parabolas, so a change from one to the next, which happens at a tick,
+/// Slip, the velocity of the surface, loses 7/2 mu g a second and is gone after 2 v/(7 mu g), with 5/7 of the speed left. Down a slope it rolls with 5/7 g (sin
+/// a - c cos a) if 2/7 tan a + 5/7 c is at most mu, else it slips with g (sin a - mu cos a). All pieces are parabolas, so a change from one to the next, which happens at a tick,
 /// is all that is not exact but for rounding.
 /// </remarks>
-internal sealed class RollingCase : IHardCase
+internal sealed partial class RollingCase : IHardCase
 {
     private const double Radius = 0.5;
 
@@ -41,10 +42,15 @@ internal sealed class RollingCase : IHardCase
 
         foreach (double nearness in context.Sizes([1e-6, -1e-6], [0.5, 1e-2, 1e-6, 1e-12, -1e-12, -1e-6, -1e-2, -0.5]))
         {
-            foreach (HardRow row in Slope(context, nearness, nearness))
+            foreach (HardRow row in Slope(context, nearness, nearness, 0).Concat(Slope(context, nearness, nearness, 0.05)))
             {
                 yield return row;
             }
+        }
+
+        foreach (HardRow row in ResistedRows(context))
+        {
+            yield return row;
         }
     }
 
@@ -61,9 +67,14 @@ internal sealed class RollingCase : IHardCase
             yield return row with { Note = "a resistance that is a millionth too strong" };
         }
 
-        foreach (HardRow row in Slope(context, -1e-2, 1e-2))
+        foreach (HardRow row in Slope(context, -1e-2, 1e-2, 0))
         {
             yield return row with { Note = "what rolls taken for what slips" };
+        }
+
+        foreach (HardRow row in ResistedControls(context))
+        {
+            yield return row;
         }
     }
 
@@ -129,28 +140,28 @@ internal sealed class RollingCase : IHardCase
             Name, size, Math.Abs(rests - stops), "time_s", Rounding.Tick + (16 * Rounding.Unit * stops), "a tick, and 16 roundings", "2 w r/(5 c g)");
     }
 
-    /// <summary>Let go on a slope of 3 in 4, with friction above or below what rolling needs.</summary>
-    private IEnumerable<HardRow> Slope(HardContext context, double nearness, double actual)
+    /// <summary>Let go on a slope of 3 in 4, with friction above or below what rolling needs, which is more where something resists it.</summary>
+    private IEnumerable<HardRow> Slope(HardContext context, double nearness, double actual, double c)
     {
         const double sine = 0.6, cosine = 0.8, seconds = 2;
         Vector3D normal = V(-sine, cosine), down = V(-cosine, -sine);
-        double needed = 2.0 / 7 * sine / cosine, mu = needed * (1 + nearness);
+        double needed = (2.0 / 7 * sine / cosine) + (5.0 / 7 * c), mu = needed * (1 + nearness);
         Scene scene = new SceneBuilder("slope").AddPlane("slope", normal, 0.0)
-            .AddBody("ball", new BodySpec(Radius, 1, 0, friction: needed * (1 + actual)), normal * Radius).Build();
+            .AddBody("ball", new BodySpec(Radius, 1, 0, friction: needed * (1 + actual), rollingResistance: c), normal * Radius).Build();
         BodyState state = Read(context.Run(scene, seconds), 0, seconds);
-        double a = nearness >= 0 ? 5.0 / 7 * Gravity * sine : Gravity * (sine - (mu * cosine));
-        double turning = nearness >= 0 ? a / Radius : 2.5 * mu * Gravity * cosine / Radius;
-        string size = FormattableString.Invariant($"slope of 3 in 4, friction {1 + nearness:0.############} times what rolling needs");
-        string law = nearness >= 0 ? "5/7 g sin a" : "g (sin a - mu cos a)";
+        double a = nearness >= 0 ? 5.0 / 7 * Gravity * (sine - (c * cosine)) : Gravity * (sine - (mu * cosine));
+        double turning = nearness >= 0 ? a / Radius : 2.5 * (mu - c) * Gravity * cosine / Radius;
+        string size = FormattableString.Invariant($"slope of 3 in 4, friction {1 + nearness:0.############} times what rolling needs{(c > 0 ? $", resistance {c}" : "")}");
+        string law = nearness >= 0 ? "5/7 g (sin a - c cos a)" : "g (sin a - mu cos a)";
         double way = a * seconds * seconds / 2;
         yield return new HardRow(
             Name, size, (state.Position - (normal * Radius) - (down * way)).Length, "position_m", 32 * Rounding.Unit * Gravity * seconds * seconds,
             "one parabola: 32 roundings of g t^2", law + " t^2/2");
         yield return new HardRow(
             Name, size, Math.Abs(state.Spin.Z - (turning * seconds)), "spin_rad_per_s", 32 * Rounding.Unit * Gravity * seconds / Radius,
-            "32 roundings of g t/r", nearness >= 0 ? law + " t/r" : "5/2 mu g cos a t/r");
+            "32 roundings of g t/r", nearness >= 0 ? law + " t/r" : "5/2 (mu - c) g cos a t/r");
         yield return new HardRow(
             Name, size, state.Motion == (nearness >= 0 ? MotionLaw.Rolling : MotionLaw.Sliding) ? 0 : 1, "count", 0, "it rolls or it slips",
-            "it rolls if tan a is at most 7/2 mu");
+            "it rolls if 2/7 tan a + 5/7 c is at most mu");
     }
 }

@@ -34,7 +34,7 @@ internal sealed class IslandStep
     /// <summary>A contact that changes a speed by less than this part of what gravity and forces do does not push.</summary>
     private const double LeastPush = 1e-9;
 
-    /// <summary>What closes slower than this, in m/s, is rounding.</summary>
+    /// <summary>What closes, or turns on its surface, slower than this, in m/s, is rounding.</summary>
     private const double Still = 1e-10;
 
     /// <summary>So often at most the normals' turning is taken in anew; each time it is right to two orders more.</summary>
@@ -377,6 +377,36 @@ internal sealed class IslandStep
             members[b].EndVelocity = velocities[b];
             members[b].EndSpin = spins[b];
         }
+
+        StopTurning();
+    }
+
+    /// <summary>
+    /// What turns by no more than rounding, and by less than resistance takes in the step, turns no more, as on a plane by closed form: else what the solver
+    /// leaves would be a part of what it was each time, down to the least of all numbers, and never nothing.
+    /// </summary>
+    private void StopTurning()
+    {
+        for (int i = 0; i < ContactCount; i++)
+        {
+            ref readonly Touch t = ref touches[i];
+            double taken = t.Lever * t.Push;
+            bool isPair = t.Second != ContactPoint.Static;
+            if (taken > 0 && IsStopped(t.First, taken) && (!isPair || IsStopped(t.Second, taken)))
+            {
+                members[t.First].EndSpin = Vector3D.Zero;
+                if (isPair)
+                {
+                    members[t.Second].EndSpin = Vector3D.Zero;
+                }
+            }
+        }
+    }
+
+    private bool IsStopped(int body, double taken)
+    {
+        double spin = members[body].EndSpin.Length;
+        return spin * radii[body] <= Still && spin * masses[body] * radii[body] * radii[body] <= ImpactFriction.TurnPerImpulse * taken;
     }
 
     private void Solve(int count, LastingContactSolver.Start start, bool isPatient) => solver.Solve(

@@ -98,6 +98,24 @@ public sealed class IslandTests
         Assert.Equal(!rests, Bodies(world).Any(body => Read(world, body, 8).Spin.Length > 0.1));
     }
 
+    /// <summary>In steps that never end what turns against a resistance comes to stand to the last bit, in a groove as on a floor; without it, it turns on.</summary>
+    [Theory]
+    [InlineData(0.02, false)]
+    [InlineData(0.02, true)]
+    [InlineData(0, false)]
+    public void Turning_InStepsWithoutEnd_EndsInNothing(double resistance, bool isGroove)
+    {
+        Vector3D weight = V(0, -Gravity);
+        SceneBuilder scene = new SceneBuilder("endless").WithGravity(V(0)).AddForce(Force.Supplied(new FunctionForce((_, _, _) => weight)), out ForceSet force);
+        scene = isGroove ? scene.AddPlane("left", V(0.6, 0.8), 0.0).AddPlane("right", V(-0.6, 0.8), 0.0) : scene.AddPlane("floor", Vector3D.Up, 0.0);
+        BodySpec ball = new(R, 1, 0, MotionLaw.Automatic, forces: force, friction: 1, rollingResistance: resistance);
+        Simulation world = new(scene.AddBody("ball", ball, V(0, isGroove ? R / 0.8 : R), spin: V(0, 1)).Build());
+        world.AdvanceTo(At(3));
+        BodyState end = Read(world, First, 3);
+        Assert.Equal(MotionLaw.Constrained, end.Motion);
+        Assert.Equal(resistance > 0, end.Spin == Vector3D.Zero);
+    }
+
     /// <summary>What is left touching, closes by rounding alone, parts by itself and falls back is struck then, not looked for when the rounding would have got deep.</summary>
     [Theory]
     [InlineData(0)]
