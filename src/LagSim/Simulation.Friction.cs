@@ -8,13 +8,13 @@ namespace LagSim;
 
 /// <content>Friction on a plane: slipping, rolling, rest.</content>
 /// <remarks>
-/// <para>A solid sphere that moves with v, turns with q = r w x n, as fast as it would have to move to roll so, and slips with u = v - q is slowed down by mu g_n
-/// against u and turned by 5/2 as much, with g_n and g_t what gravity has across and along the plane. Rolling resistance c takes 5/2 c g_n from q. So v' = g_t -
-/// mu g_n u/|u|, q' = 5/2 mu g_n u/|u| - 5/2 c g_n q/|q|: even, but for the two directions, which turn where they and gravity are aslant. What does not turn yet
-/// begins to do so with q' along u, for c counts for no more than mu.</para>
+/// <para>A solid sphere that moves with v, turns with q = r w x n, as fast as it would have to move to roll so, and slips with u = v - q is slowed down by mu
+/// g_n against u and turned by 5/2 as much, with g_n and g_t what gravity has across and along the plane. Rolling resistance c takes 5/2 c g_n from q. So v' =
+/// g_t - mu g_n u/|u|, q' = 5/2 mu g_n u/|u| - 5/2 c g_n q/|q|: even, but for the two directions, which turn where they and gravity are aslant. What does not
+/// turn yet begins to do so with q' along u, for c counts for no more than mu.</para>
 /// <para>Once u is zero it rolls, with 5/7 of g_t - c g_n v/|v|, if 2/7 g_t + 5/7 c g_n v/|v|, which friction then has to give, is no more than mu g_n.
-/// Resistance holds at rest what gravity pulls by no more than c g_n. From what turns about the normal it takes 5/2 c g_n / r, whether the sphere slips, rolls or
-/// stays where it is.</para>
+/// Resistance holds at rest what gravity pulls by no more than c g_n. From what turns about the normal it takes 5/2 c g_n / r, whether the sphere slips, rolls
+/// or stays where it is.</para>
 /// </remarks>
 public sealed partial class Simulation
 {
@@ -39,7 +39,9 @@ public sealed partial class Simulation
         Vector3D turn = Vector3D.Cross(spin, n) * spec.Radius; // as fast as it would have to move to roll
         Vector3D slip = velocity - turn;
         slip -= n * Vector3D.Dot(n, slip);
-        double tick = SimDuration.OneTick.ToSeconds() * (pull.Length + (3.5 * mu * pressing) + (2.5 * resistance)); // what a tick changes of a speed: times are rounded to ticks
+
+        // What a tick changes of a speed: times are rounded to ticks.
+        double tick = SimDuration.OneTick.ToSeconds() * (pull.Length + (3.5 * mu * pressing) + (2.5 * resistance));
         Vector3D pivot = n * Vector3D.Dot(n, spin); // what turns about the normal
         Vector3D slowing = Slowing(ref pivot, 2.5 * resistance / spec.Radius, Stopped / spec.Radius);
         bool slips = slip.Length > Stopped + (1e-12 * velocity.Length) + tick;
@@ -87,7 +89,8 @@ public sealed partial class Simulation
 
             Append(
                 slot, key, slowing == Vector3D.Zero ? MotionSegment.AtRest(key.Time, position, supports).WithCrowding(crowding)
-                    : new MotionSegment(MotionLaw.Rolling, key.Time, still, position, Vector3D.Zero, Vector3D.Zero, supports, crowding), default, spin: new Spin(pivot, -slowing));
+                    : new MotionSegment(MotionLaw.Rolling, key.Time, still, position, Vector3D.Zero, Vector3D.Zero, supports, crowding),
+                default, spin: new Spin(pivot, -slowing));
             return;
         }
 
