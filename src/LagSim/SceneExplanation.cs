@@ -1,6 +1,7 @@
 using System.Collections.Generic;
 using System.Globalization;
 using System.Text;
+using LagSim.Contacts;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -157,6 +158,7 @@ public sealed class SceneExplanation
                 canLast
                     ? "Planes under gravity: bounces below the resolution end in sliding or rest, which cost nothing."
                     : "There is no plane, or no gravity to press on it."),
+            Islands(scene, used != 0),
             new FeatureExplanation(
                 "static geometry", scene.PlaneArray.Length + scene.SphereArray.Length > 0,
                 $"{Count(scene.PlaneArray.Length, "plane")}, {Count(scene.SphereArray.Length, "static sphere")}: each is asked for every piece of path."),
@@ -188,10 +190,34 @@ public sealed class SceneExplanation
         return new FeatureExplanation("spin and friction", rough + turning > 0, why);
     }
 
+    /// <summary>Who may come to move with others by common steps: what no closed form carries on.</summary>
+    private static FeatureExplanation Islands(Scene scene, bool isForced)
+    {
+        bool isRough = false;
+        foreach (SceneBody body in scene.BodyArray)
+        {
+            isRough |= body.Spec.Friction > 0;
+        }
+
+        bool isPressed = scene.Gravity != Vector3D.Zero || isForced;
+        bool canTouch = scene.BodyArray.Length > 1 || scene.SphereArray.Length > 0 || (isForced && scene.PlaneArray.Length > 0)
+            || (isRough && scene.PlaneArray.Length > 1);
+        bool isModelled = isPressed && canTouch && !scene.Box.Exists;
+        int perSecond = (int)(SimDuration.TicksPerSecond / IslandStep.Longest.Ticks);
+        string moves = $"Bodies in lasting contact{(isRough ? ", with friction," : "")} that no closed form carries are moved together, by steps of at most 1/{perSecond} s."
+            + $" That is {perSecond} pieces/s or more for each, every step solved for all of them at once, until they rest; then it costs nothing."
+            + (isRough ? "" : " Without friction a heap may sway for long.");
+        return new FeatureExplanation(
+            "islands", isModelled,
+            isModelled ? moves
+                : !isPressed ? "Nothing presses bodies on each other or on anything."
+                : scene.PlaneArray.Length == 0 ? "There is nothing that a body could lean on."
+                : "There is nothing that a body could lean on but planes that carry it by a closed form.");
+    }
+
     private static string Idle(List<string> idle) => idle.Count == 0 ? "" : $" On no body of the scene: {string.Join(", ", idle)}.";
 
-    private static string Count(int count, string one, string? many = null) =>
-        $"{count.ToString(CultureInfo.InvariantCulture)} {(count == 1 ? one : many ?? one + "s")}";
+    private static string Count(int count, string one, string? many = null) => Limits.Count(count, one, many);
 
     private static string Text(double value) => value.ToString("R", CultureInfo.InvariantCulture);
 }

@@ -12,7 +12,10 @@ public sealed partial class Simulation
 {
     /// <summary>Adds an event at its own time. Should that be simulated already, all timelines are cut at its key and simulated again.</summary>
     /// <returns>What became of it. <see cref="SubmitResult.TooOld"/> means that nothing changed.</returns>
-    /// <remarks>Cost: O(1) in the bodies if it lies ahead; else that of everything since its time.</remarks>
+    /// <remarks>
+    /// That it is there does not mean that it has an effect: that depends on what it meets when its time comes, and <see cref="TookEffect"/> tells. Cost: O(1) in
+    /// the bodies if it lies ahead; else that of everything since its time.
+    /// </remarks>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     /// <exception cref="SimulationException">Simulating again led out of the permitted range.</exception>
     public SubmitResult Submit(in ExternalEvent external)

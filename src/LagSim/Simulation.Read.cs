@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -97,6 +98,27 @@ public sealed partial class Simulation
         }
 
         return entries;
+    }
+
+    /// <summary>
+    /// Whether an event changed its body, as far as is known now. False while its time is not simulated yet; if it was submitted and its time has come, it had no
+    /// effect: the body was not there, or was in a hand (or not in that hand), or an impulse would have made it faster than a body may be given to move, a tenth
+    /// of <see cref="Scene.SmallestRadius"/> in a tick. Nothing is ever clamped. Later news may change the answer.
+    /// </summary>
+    /// <remarks>Pure, the same on every peer. Cost: the number of the body's segments. What lies before <see cref="HistoryEdge"/> is no longer known: false.</remarks>
+    public bool TookEffect(in ExternalEvent external)
+    {
+        int slot = SlotOf(external.Body);
+        for (int at = slot < 0 ? TimelineStore.None : timelines.Last(slot); at != TimelineStore.None; at = timelines.Previous(at))
+        {
+            ref readonly EventKey key = ref timelines.Key(at);
+            if (key.Kind == external.Kind && key.Peer == external.Peer && key.Sequence == external.Sequence && key.Time >= external.Time)
+            {
+                return key.Time <= SimulatedTo;
+            }
+        }
+
+        return false;
     }
 
     /// <summary>The properties of a body that has been there; the default for an unknown one.</summary>

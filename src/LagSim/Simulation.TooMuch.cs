@@ -22,7 +22,7 @@ public sealed partial class Simulation
         int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, double tooStiff, double tooLarge, bool isFinite)
     {
         ref readonly BodySpec spec = ref bodies[slot].Spec;
-        string where = $"From {from.ToShortString()} on, at {x} m and {v} m/s, the forces on {Whose(slot)}";
+        string where = $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {Whose(slot)}";
         foreach (Force force in spec.Forces.Among(Scene.ForceArray))
         {
             if (force.Kind == ForceKind.Central && force.Power < 0 && x == force.Vector)
@@ -35,26 +35,47 @@ public sealed partial class Simulation
         if (!isFinite || (tooStiff == 0 && tooLarge == 0))
         {
             return new SimulationException(
-                $"In the step from {from.ToShortString()}, at {x} m and {v} m/s, the acceleration of {Whose(slot)} became NaN or infinite; what the forces"
+                $"In the step from {from.ToShortString()}, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the acceleration of {Whose(slot)} became NaN or infinite; what the forces"
                 + $" {spec.Forces.NamesAmong(Scene.ForceArray)} give must be finite.");
         }
 
         string rates = RatesOn(slot, x, v, spin);
         if (tooStiff > 0)
         {
-            double most = (spec.Flight == MotionLaw.RungeKutta4 ? RungeKutta4.MaxRateTimesStep : DormandPrince54.MaxRateTimesStep) / Limits.MinStep.ToSeconds();
+            SimDuration shortest = spec.Step;
+            while (shortest.Ticks >= 2 * Limits.MinStep.Ticks)
+            {
+                shortest = SimDuration.FromTicks(shortest.Ticks / 2);
+            }
+
+            double most = (spec.Flight == MotionLaw.RungeKutta4 ? RungeKutta4.MaxRateTimesStep : DormandPrince54.MaxRateTimesStep) / shortest.ToSeconds();
             double here = forces.FixedStepRateAt(spec, x, v, spin);
-            string what = here > most ? $"act at a rate of {Limits.Text(here)} 1/s" : $"lead in a step to where they act at a rate of"
-                + $" {Limits.Text(tooStiff)} 1/s";
+            string what = here > most ? $"act at a rate of {Limits.Short(here)} 1/s" : $"lead in a step to where they act at a rate of"
+                + $" {Limits.Short(tooStiff)} 1/s";
             return new SimulationException(
-                $"{where} {what}: there {rates}. {spec.Flight} with fixed steps follows at most {Limits.Text(most)} 1/s, by the shortest step there is. Make"
+                $"{where} {what}: there {rates}. {spec.Flight} with fixed steps follows at most {Limits.Short(most)} 1/s, by steps halved to {Limits.Short(shortest.ToSeconds())} s. Make"
                 + " them weaker, or use Automatic.");
         }
 
         return new SimulationException(
-            $"{where} change so fast that a step of {StepSize.Shortest.ToShortString()}, the shortest there is, still has {Limits.Text(tooLarge)} times the"
+            $"{where} change so fast that a step of {Limits.Short(StepSize.Shortest.ToSeconds())} s, the shortest there is, still has {Limits.Short(tooLarge)} times the"
             + $" error of the tolerance, {Limits.Text(spec.Tolerance)}: there {rates}. Allow a larger error, make them weaker, or keep it out of the"
-            + " singularity, if there is one.");
+            + $" singularity, if there is one.{Jumps(spec)}");
+    }
+
+    /// <summary>What error control cannot follow and nobody but the program's author can see; a sentence that follows another.</summary>
+    private string Jumps(in BodySpec spec)
+    {
+        foreach (Force force in spec.Forces.Among(Scene.ForceArray))
+        {
+            if (force.Kind == ForceKind.Supplied && spec.Flight == MotionLaw.DormandPrince54 && spec.Tolerance > 0)
+            {
+                return $" If '{force.Name}' jumps, between two places or at a change of sign, error control takes the shortest steps there are at the jump: take"
+                    + " fixed steps, with a tolerance of 0, or make it continuous.";
+            }
+        }
+
+        return "";
     }
 
     /// <summary>A body in words: the name that a scene gives it, and its identity.</summary>
@@ -71,7 +92,7 @@ public sealed partial class Simulation
         StringBuilder text = new();
         foreach (Force force in spec.Forces.Among(Scene.ForceArray))
         {
-            string rate = force.Kind == ForceKind.Supplied ? "at a rate that is the program's" : $"at {Limits.Text(force.RateAt(spec.Mass, x, v, spin))} 1/s";
+            string rate = force.Kind == ForceKind.Supplied ? "at a rate that is the program's" : $"at {Limits.Short(force.RateAt(spec.Mass, x, v, spin))} 1/s";
             text.Append(text.Length > 0 ? ", " : "").Append($"'{force.Name}' ({force.Kind}) acts {rate}");
         }
 
@@ -106,8 +127,8 @@ public sealed partial class Simulation
         double least = history.ToSeconds() / timelines.Most;
         ref readonly MotionSegment path = ref timelines.Segment(last);
         string rates = RatesOn(whose, path.Position, path.Velocity, timelines.SpinOf(last).AtEpoch);
-        return $" Most are of {Whose(whose)}: {most}, of {Limits.Text(mean)} s in the mean; the history that is kept, {history.ToShortString()}, has room for"
-            + $" pieces of {Limits.Text(least)} s."
-            + (rates.Length > 0 ? $" On it {rates}." : "");
+        return $" Most are of {Whose(whose)}: {most}, of {Limits.Short(mean)} s in the mean; the history that is kept, {history.ToShortString()}, has room for"
+            + $" pieces of {Limits.Short(least)} s."
+            + (rates.Length > 0 ? $" On it {rates}." : "") + Jumps(bodies[whose].Spec);
     }
 }

@@ -3,7 +3,10 @@ namespace LagSim;
 /// <summary>What became of an external event that was submitted.</summary>
 public enum SubmitResult
 {
-    /// <summary>It lies ahead of what is simulated and happens when its time comes.</summary>
+    /// <summary>
+    /// It lies ahead of what is simulated and happens when its time comes. Whether it then has an effect depends on what it meets; ask
+    /// <see cref="Simulation.TookEffect"/>.
+    /// </summary>
     Queued,
 
     /// <summary>It lay inside what was simulated already: the timelines were cut at its key and simulated again.</summary>

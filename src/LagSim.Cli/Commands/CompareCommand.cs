@@ -6,6 +6,7 @@ using LagSim.Cli.Output;
 using LagSim.Events;
 using LagSim.Harness.Compare;
 using LagSim.Harness.Links;
+using LagSim.Harness.Reports;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
@@ -52,7 +53,7 @@ internal static class CompareCommand
             if (played.Bodies.Count + spawned > CompareOptions.MaxBodies)
             {
                 throw new UsageException(
-                    $"--scene is '{played.Name}' with {played.Bodies.Count} bodies, and players spawn {spawned} more; at most {CompareOptions.MaxBodies} in all can be watched.");
+                    $"--scene is '{played.Name}' with {NumberText.Count(played.Bodies.Count, "body", many: "bodies")}, and players spawn {spawned} more; at most {CompareOptions.MaxBodies} in all can be watched.");
             }
 
             CompareOptions[] runs = links.SelectMany(link => strategies.Select(name => new CompareOptions(played, plan, name, link)

@@ -64,7 +64,12 @@ internal sealed class Deed
             throw Wrong(text, "its body has no name");
         }
 
-        return new Deed(text, kind, seconds, body, isRemoval ? default : Vector(text, parts.Length > 1 ? parts[^1] : ""));
+        if (!isRemoval && parts.Length == 1)
+        {
+            throw Wrong(text, $"{kind} needs X,Y,Z besides, {Meaning(kind)}: such as {text}:0,5,0");
+        }
+
+        return new Deed(text, kind, seconds, body, isRemoval ? default : Vector(text, parts[^1]));
     }
 
     /// <summary>What is to be done in this scene.</summary>
@@ -108,6 +113,17 @@ internal sealed class Deed
             : $"it has {string.Join(", ", scene.Bodies.Take(shown).Select(b => b.Name))}{(scene.Bodies.Count > shown ? ", ..." : "")}";
         throw Wrong(Text, body is null ? $"scene '{scene.Name}' has no body" : $"scene '{scene.Name}' has no body '{body}'; {there}");
     }
+
+    private static string Meaning(string kind) => kind switch
+    {
+        "teleport" => "where to in m",
+        "set-velocity" => "how fast in m/s",
+        "impulse" => "how hard in N s",
+        "spawn" => "where in m",
+        "grab" => "how far from the centre in m",
+        "knot" => "where the hand is in m",
+        _ => "how fast it goes on in m/s",
+    };
 
     private static Vector3D Vector(string text, string part)
     {

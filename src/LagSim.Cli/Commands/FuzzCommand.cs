@@ -2,6 +2,7 @@ using System.CommandLine;
 using System.Globalization;
 using LagSim.Cli.Output;
 using LagSim.Harness.Fuzz;
+using LagSim.Harness.Reports;
 
 namespace LagSim.Cli.Commands;
 
@@ -77,7 +78,7 @@ internal static class FuzzCommand
     private static void WriteText(ToolConsole console, FuzzReport report)
     {
         CultureInfo culture = CultureInfo.InvariantCulture;
-        console.Output.WriteLine(string.Create(culture, $"{report.Packets:N0} hostile datagrams at {report.Sessions:N0} sessions, every other of which got them from strangers, or as true ones played again"));
+        console.Output.WriteLine(string.Create(culture, $"{NumberText.Count(report.Packets, "hostile datagram", "N0")} at {NumberText.Count(report.Sessions, "session", "N0")}, every other of which got them from strangers, or as true ones played again"));
         console.Output.WriteLine(string.Create(culture, $"refused by a decoder {report.Malformed:N0}, ignored {report.Ignored:N0}"));
         console.Output.WriteLine(string.Create(culture, $"strangers sent {report.StrangerBytesSent:N0} bytes and got {report.StrangerBytesReceived:N0}"));
         console.Output.WriteLine(string.Create(culture, $"sessions broken by who had a peer's own address {report.SessionsBroken:N0}; memory grew by {report.RetainedBytes:N0} bytes, within a session by {report.SessionGrowthBytes:N0}"));

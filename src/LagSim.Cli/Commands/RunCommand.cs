@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.CommandLine;
+using System.Diagnostics;
 using System.Globalization;
 using System.IO;
 using System.Linq;
@@ -19,6 +20,9 @@ internal static class RunCommand
     /// <summary>Some 1.5 GB of CSV.</summary>
     private const double MostSampleRows = 1e7;
 
+    /// <summary>In seconds; what has run for so long is compiled as well as it will be.</summary>
+    private const double LongEnoughToWarmUp = 1;
+
     internal static Command Create(ToolConsole console)
     {
         CommonOptions common = new();
@@ -28,7 +32,7 @@ internal static class RunCommand
         Option<string?> events = CommonOptions.File("--events", "Write every event to this CSV file; - is stdout.");
         Option<string?> samples = CommonOptions.File("--samples", "Write the state of all bodies, every so often, to this CSV file; - is stdout.");
         Option<double> every = CommonOptions.Number("--every-s", "The time between samples", 0.01, 1e-9, 1e6);
-        Option<int> repeat = CommonOptions.Whole("--repeat", "Run so many times after a warm-up; wall_s is then the least", 1, 1, 1_000_000);
+        Option<int> repeat = CommonOptions.Whole("--repeat", "Run so many times more, after a warm-up; wall_s is the least of them", 1, 1, 1_000_000);
         Command command = new("run", "Runs one scene in virtual time.") { scene, until, motion, events, samples, every, repeat };
         common.AddTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
@@ -116,23 +120,40 @@ internal static class RunCommand
             Directory.CreateDirectory(folder); // the tables are written as the run goes
         }
 
-        // The run that is written, those that are timed with a warm-up before them, and one for the picture.
+        // The run that is written, those that are timed with a warm-up before them where the first was too short for one, and one for the picture.
         double once = length.ToSeconds();
         double timing = request.Timed == 0 ? 0 : once * (request.Timed + 1);
         double picture = request.Folder is null ? 0 : once;
         return console.WithProgress($"run {scene.Name}", once + timing + picture, progress =>
         {
             double start = SceneRun.Energy(new Simulation(scene, new SimulationOptions(cancellation: console.Stop)), SimTime.Zero);
+            long began = Stopwatch.GetTimestamp();
             Simulation end = Write(console, request, done => progress(done.ToSeconds()));
-            double wall = request.Timed == 0 ? double.NaN : SceneRun.LeastSeconds(scene, length, request.Timed, done => progress(once + done), console.Stop);
-            RunSummary summary = new(end, SimTime.Zero + length, start, SceneRun.Energy(end, SimTime.Zero + length), wall);
+            double written = Lap(ref began);
+            double wall = request.Timed == 0 ? double.NaN : SceneRun.LeastSeconds(
+                scene, length, request.Timed, done => progress(once + done), isWarm: written > LongEnoughToWarmUp, console.Stop);
+            double timed = Lap(ref began);
+            RunSummary summary = new(end, SimTime.Zero + length, start, SceneRun.Energy(end, SimTime.Zero + length), wall)
+            {
+                Timed = request.Timed,
+                WritingSeconds = written,
+                TimingSeconds = timed,
+            };
             if (request.Folder is not null)
             {
                 RunReport.Write(request.Folder, scene, summary, request.Seed, request.SampleFile, done => progress(once + timing + done.ToSeconds()));
+                summary = summary with { PictureSeconds = Lap(ref began) };
             }
 
             return summary;
         }, isBarShown);
+    }
+
+    private static double Lap(ref long began)
+    {
+        double seconds = Stopwatch.GetElapsedTime(began).TotalSeconds;
+        began = Stopwatch.GetTimestamp();
+        return seconds;
     }
 
     private static Simulation Write(ToolConsole console, Request request, Action<SimDuration> progress)

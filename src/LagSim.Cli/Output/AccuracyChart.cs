@@ -22,7 +22,7 @@ internal static class AccuracyChart
         method => [.. PointsOf(report, scene, method).Where(point => point.StepSeconds > 0)], point => point.StepSeconds,
         isJoined: (a, b) => a.Error >= scene.Rounding && b.Error >= scene.Rounding,
         note: (method, points) => report.Work.Orders.FirstOrDefault(o => o.Scene == scene.Name && o.Method == method) is WorkOrder order
-            ? $"order {order.Slope:0.00}"
+            ? FormattableString.Invariant($"order {order.Slope:0.00}, from {order.Points} points")
             : points.All(point => point.Error < scene.Rounding) ? "no order: rounding alone" : "no order: too few points");
 
     private static IEnumerable<WorkPoint> PointsOf(AccuracyReport report, WorkScene scene, string method) => report.Work.Points.Where(

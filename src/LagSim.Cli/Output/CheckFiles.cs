@@ -49,8 +49,11 @@ internal static class CheckFiles
         if (report.Failures.Count > 0)
         {
             page.AddTable(new ReportTable(
-                "Failures", ["seed", "what", "first difference", "replay"],
-                [.. report.Failures.Select(IReadOnlyList<string> (f) => [$"{f.Whole.Seed}", f.Whole.Failure ?? "", f.Least.Difference?.ToString() ?? "", f.Command])]));
+                "Failures", ["seed", "what", "shrunk", "first difference", "replay"],
+                [
+                    .. report.Failures.Select(IReadOnlyList<string> (f) =>
+                        [$"{f.Whole.Seed}", f.Whole.Failure ?? "", f.IsShrunk ? "yes" : "no", f.Least.Difference?.ToString() ?? "", f.Command]),
+                ]));
         }
 
         page.Save(Path.Combine(folder, "report.html"));

@@ -62,6 +62,7 @@ internal static class CheckJson
         json.WriteNumber("seed", failure.Whole.Seed);
         json.WriteString("failure", failure.Whole.Failure);
         json.WriteString("replay", failure.Command);
+        json.WriteBoolean("shrunk", failure.IsShrunk);
         json.WriteNumber("bodies", failure.Least.Bodies.Count);
         json.WriteNumber("deeds", failure.Least.Deeds.Count);
         if (failure.Least.Difference is FirstDifference difference)

@@ -1,6 +1,8 @@
 using System.Globalization;
 using System.IO;
+using System.Linq;
 using LagSim.Harness.Check;
+using LagSim.Harness.Reports;
 
 namespace LagSim.Cli.Output;
 
@@ -13,7 +15,7 @@ internal static class CheckText
     {
         CultureInfo culture = CultureInfo.InvariantCulture;
         string stopped = report.IsStopped ? "stopped early: " : "";
-        output.WriteLine(string.Create(culture, $"{stopped}{report.Outcomes.Count:N0} of {report.AskedFor:N0} sessions played from seed {options.Seed} in {report.WallSeconds:0.0} s"));
+        output.WriteLine(string.Create(culture, $"{stopped}{report.Outcomes.Count:N0} of {Count(report.AskedFor, "session")} played from seed {options.Seed} in {report.WallSeconds:0.0} s"));
         if (report.StoppedSeeds.Count > 0)
         {
             string seeds = string.Join(", ", report.StoppedSeeds);
@@ -22,10 +24,15 @@ internal static class CheckText
                 : $"stopped in the middle of the sessions of seeds {seeds}, which are not counted; lagsim check --sessions 1 --seed {report.StoppedSeeds[0]} plays the first");
         }
 
-        output.WriteLine(string.Create(culture, $"{report.ExternalEvents:N0} external events, heard late {report.LateEvents:N0} times; {report.Events:N0} events in all worlds"));
+        output.WriteLine(string.Create(culture, $"{Count(report.ExternalEvents, "external event")}, heard late {Count(report.LateEvents, "time")}; {Count(report.Events, "event")} in all worlds"));
         double changed = report.Heals == 0 ? 0 : 100.0 * report.HealsThatChangedAnImpact / report.Heals;
-        output.WriteLine(string.Create(culture, $"{report.Heals:N0} heals, of which {report.HealsThatChangedAnImpact:N0} ({changed:0.0} %) changed an impact; too late {report.TooLateEvents:N0}"));
+        output.WriteLine(string.Create(culture, $"{Count(report.Heals, "heal")}, of which {report.HealsThatChangedAnImpact:N0} ({changed:0.0} %) changed an impact; too late {report.TooLateEvents:N0}"));
         output.WriteLine(string.Create(culture, $"differing bits {report.DifferingBits:N0}; failing seeds {report.Failures.Count:N0}"));
+        if (Shrunk(report) is string shrunk)
+        {
+            output.WriteLine(shrunk);
+        }
+
         for (int n = 0; n < report.Failures.Count && n < MostNamed; n++)
         {
             CheckFailure failure = report.Failures[n];
@@ -33,7 +40,7 @@ internal static class CheckText
             output.WriteLine(string.Create(culture, $"seed {failure.Whole.Seed}: {failure.Whole.Failure}"));
             if (failure.Least.Difference is FirstDifference difference)
             {
-                output.WriteLine($"  first difference of the least that fails: {difference}");
+                output.WriteLine($"  first difference{(failure.IsShrunk ? " of the least that fails" : "")}: {difference}");
             }
             else if (failure.Least.Failure != failure.Whole.Failure)
             {
@@ -52,5 +59,22 @@ internal static class CheckText
         {
             output.WriteLine($"files in {folder}");
         }
+    }
+
+    private static string Count(long number, string thing) => NumberText.Count(number, thing, "N0");
+
+    /// <summary>Of which failing sessions the least that fails was looked for, where that is not all of them.</summary>
+    internal static string? Shrunk(CheckReport report)
+    {
+        string[] shrunk = [.. report.Failures.Where(f => f.IsShrunk).Select(f => $"{f.Whole.Seed}")];
+        CheckFailure[] others = [.. report.Failures.Where(f => !f.IsShrunk)];
+        if (others.Length == 0)
+        {
+            return null;
+        }
+
+        string done = shrunk.Length == 0 ? "no failing seed shrunk" : $"{(shrunk.Length == 1 ? "seed" : "seeds")} {string.Join(", ", shrunk)} shrunk";
+        string left = string.Create(CultureInfo.InvariantCulture, $"{Count(others.Length, $"{(shrunk.Length == 0 ? "" : "more ")}failing seed")} not shrunk");
+        return $"{done}; {left}: {others[0].Command} shrinks {(others.Length == 1 ? "it" : "the first of them")}";
     }
 }

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
@@ -12,6 +13,9 @@ namespace LagSim.Cli.Output;
 internal static class ExplainOutput
 {
     private const int MostNames = 3;
+
+    /// <summary>So long that what is named besides the first body leaves room for the sentence.</summary>
+    private const int LongestNames = 40;
 
     internal static void WriteTables(ToolConsole console, Scene scene, SceneExplanation explanation)
     {
@@ -83,6 +87,15 @@ internal static class ExplainOutput
         return table;
     }
 
-    private static string Names(IReadOnlyList<BodyExplanation> bodies) =>
-        string.Join(", ", bodies.Take(MostNames).Select(body => body.Body)) + (bodies.Count > MostNames ? $" and {bodies.Count - MostNames} more" : "");
+    private static string Names(IReadOnlyList<BodyExplanation> bodies)
+    {
+        int named = 1;
+        string names = bodies[0].Body;
+        while (named < Math.Min(MostNames, bodies.Count) && names.Length + bodies[named].Body.Length < LongestNames)
+        {
+            names += $", {bodies[named++].Body}";
+        }
+
+        return names + (bodies.Count > named ? $" and {bodies.Count - named} more" : "");
+    }
 }

@@ -48,7 +48,7 @@ internal static class HardTables
     internal static IEnumerable<string> Footnotes(HardReport report)
     {
         int all = report.Rows.Count, right = report.AsItShouldBe;
-        string outcome = !report.AreControls ? $"{right} of {all} rows within their bound"
+        string outcome = !report.AreControls ? all == 1 ? $"{right} of 1 row within its bound" : $"{right} of {all} rows within their bound"
             : right == all ? $"All {all} checks of wrong methods failed, as they must: none was taken for right"
             : $"{right} of {all} checks of wrong methods failed, as all of them must; NOT caught: {all - right}, named below";
         yield return string.Create(

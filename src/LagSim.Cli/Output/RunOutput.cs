@@ -19,6 +19,9 @@ internal static class RunOutput
             json.WriteNumber("impacts", run.End.ImpactsProcessed);
             json.WriteString("event_hash", JsonDocumentWriter.Hash(run.End.EventHash(run.Until)));
             json.WriteNumber("wall_s", run.WallSeconds);
+            json.WriteNumber("written_run_wall_s", run.WritingSeconds);
+            json.WriteNumber("timed_runs_wall_s", run.TimingSeconds);
+            json.WriteNumber("picture_wall_s", run.PictureSeconds);
             json.WriteStartObject("energy_j");
             json.WriteNumber("start", run.StartEnergy);
             json.WriteNumber("end", run.EndEnergy);
@@ -45,8 +48,9 @@ internal static class RunOutput
             $"lagsim {ToolVersion.Text}   run {scene.Name}   seed {seed}   scene {scene.Hash:x16}   state {run.End.StateHash(run.Until):x16}   events {run.End.EventHash(run.Until):x16}"));
         console.Rich.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
-            $"{run.Until.ToSeconds()} s, {NumberText.Count(run.End.EventsProcessed, "event")}, {NumberText.Count(run.End.ImpactsProcessed, "impact")}, {NumberText.Short(run.WallSeconds)} s of computing; "
+            $"{run.Until.ToSeconds():0.#########} s, {NumberText.Count(run.End.EventsProcessed, "event")}, {NumberText.Count(run.End.ImpactsProcessed, "impact")}; "
             + $"energy {NumberText.Short(run.StartEnergy)} J at the start, {NumberText.Short(run.EndEnergy)} J at the end"));
+        console.Rich.WriteLine(Times(run));
         Table table = new Table { Border = TableBorder.Rounded }.AddColumns("body", "position (m)", "velocity (m/s)", "motion");
         for (int body = 0; body < scene.Bodies.Count; body++)
         {
@@ -56,6 +60,16 @@ internal static class RunOutput
         }
 
         console.Write(table);
+    }
+
+    /// <summary>What the time went into: the simulation alone, and all that was done for the report.</summary>
+    private static string Times(RunSummary run)
+    {
+        string least = run.Timed == 1 ? "timed once" : $"the least of {NumberText.Count(run.Timed, "run")}";
+        string picture = run.PictureSeconds > 0 ? $", {NumberText.Short(run.PictureSeconds)} s the picture" : "";
+        double all = run.WritingSeconds + run.TimingSeconds + run.PictureSeconds;
+        return $"{NumberText.Short(run.WallSeconds)} s to simulate, {least} after a warm-up; {NumberText.Short(all)} s in all: {NumberText.Short(run.WritingSeconds)} s this run and"
+            + $" its files, {NumberText.Short(run.TimingSeconds)} s timing{picture}";
     }
 
     private static string Text(in Vector3D v) => $"{NumberText.Short(v.X)}  {NumberText.Short(v.Y)}  {NumberText.Short(v.Z)}";

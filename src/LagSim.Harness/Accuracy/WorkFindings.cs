@@ -71,7 +71,7 @@ public static class WorkFindings
         Duel? closest = won.MinBy(duel => duel.Factor);
         string least = closest is null ? "" : $"by {NumberText.Short(closest.Factor)} times at least ({closest.Peer.Method} at {closest.Peer.Setting})";
         return lost.Length == 0 ? $"{scene}: in front of every peer at every error, {least}."
-            : $"{scene}: NOT in front at {lost.Length} of {duels.Length} points of {duels.Select(duel => duel.Peer.Method).Distinct().Count()} peers, named below{(won.Length > 0 ? "; in front at all others " + least : "")}.";
+            : $"{scene}: NOT in front at {lost.Length} of {NumberText.Count(duels.Length, "point")} of {NumberText.Count(duels.Select(duel => duel.Peer.Method).Distinct().Count(), "peer")}, named below{(won.Length > 0 ? "; in front at all others " + least : "")}.";
     }
 
     private static IEnumerable<string> Against(string scene, string peer, Duel[] duels)

@@ -19,7 +19,7 @@ namespace LagSim.Harness.Accuracy;
 public sealed record WorkOrder(string Scene, string Method, double Slope, int Points)
 {
     /// <summary>The most points that count.</summary>
-    internal const int Most = 4;
+    public const int Most = 4;
 
     private const int Fewest = 3;
 

@@ -6,6 +6,7 @@ using System.Threading;
 using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Harness.Peers;
+using LagSim.Harness.Reports;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
@@ -321,7 +322,7 @@ internal sealed class CheckSession
 
         long lost = members.Sum(m => m.Session.Counters.EventsLost);
         string? failure = comparison.Differing > 0 ? string.Create(CultureInfo.InvariantCulture, $"{comparison.Differing} of {comparison.Compared} compared states and events differ. {comparison.FirstCommitted}").TrimEnd()
-            : tooLate + lost > 0 ? $"{tooLate + lost} events were too late."
+            : tooLate + lost > 0 ? $"{NumberText.Count(tooLate + lost, "event was", many: "events were")} too late."
             : members.Sum(m => m.Session.Counters.StatesDiffered) > 0 ? "A joiner's committed state was not what the host said."
             : null;
         return outcome with

@@ -1,5 +1,8 @@
 using System;
+using System.Collections.Generic;
 using LagSim.Events;
+using LagSim.Harness.Reports;
+using LagSim.Harness.Scenes;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -22,10 +25,87 @@ public sealed record FirstDifference(
     /// <summary>When that happens.</summary>
     public double SinceStartSeconds => (Key.Time - Start).ToSeconds();
 
-    /// <summary>Both versions, in one sentence.</summary>
-    public override string ToString() => FormattableString.Invariant(
-        $"Peer {Peer}, body {Body}, seconds after the start: expected {Text(ExpectedKey, Expected)}; there is {Text(ActualKey, Actual)}.");
+    /// <summary>What differs, of which body, in both versions, and how far apart they are: one sentence, of times since the start.</summary>
+    /// <remarks>Numbers have four digits where that tells them apart, else all.</remarks>
+    public override string ToString() => $"Peer {Peer}, body {Body}, {What()}.";
 
-    private string Text(EventKey? version, BodyState state) => version is not EventKey key ? "none" : FormattableString.Invariant(
-        $"at {(key.Time - Start).ToSeconds():R} round {key.Round} {key.Kind} {key.Body}/{key.Other} by {key.Peer}.{key.Sequence} ({state.Motion} at {state.Position} m with {state.Velocity} m/s)");
+    private string What()
+    {
+        if (ExpectedKey is not EventKey should)
+        {
+            return $"expected no event here; there is {Event(ActualKey!.Value)}, {After(Actual)}";
+        }
+
+        if (ActualKey is not EventKey there)
+        {
+            return $"expected {Event(should)}, {After(Expected)}; there is none";
+        }
+
+        return should == there ? $"after {Event(should)}: {States()}" : $"{Events(should, there)}; right after {(should.Time == there.Time ? "it" : "each")}: {States()}";
+    }
+
+    private string Events(in EventKey should, in EventKey there)
+    {
+        if (should.Time == there.Time)
+        {
+            string round = should.Round == there.Round ? "" : $", in round {there.Round} of that tick and not {should.Round}";
+            return $"expected {Event(should)}; there is {Event(there)}{round}";
+        }
+
+        double apart = (there.Time - should.Time).ToSeconds();
+        string when = $"{NumberText.Short(Math.Abs(apart))} s {(apart > 0 ? "later" : "earlier")}";
+        return $"expected {Event(should)}; there is {Event(there)}, {when}";
+    }
+
+    private string Event(in EventKey key)
+    {
+        string at = FormattableString.Invariant($"at {(key.Time - Start).ToSeconds():0.############} s"); // to the tick
+        return key.Kind switch
+        {
+            EventKind.Start => $"the start {at}",
+            EventKind.StepEnd => $"the end of a step {at}",
+            EventKind.Impact when key.Body == key.Other => $"an impact on what does not move {at}",
+            EventKind.Impact => $"an impact with body {(key.Body == Body ? key.Other : key.Other == Body ? key.Body : $"{key.Body} and {key.Other}")} {at}",
+            _ => $"{key.Kind} by peer {key.Peer}, its event {key.Sequence}, {at}",
+        };
+    }
+
+    private static string After(BodyState state) => state.Motion == MotionLaw.Absent
+        ? "after which it is not there"
+        : $"after which it is at {Text(state.Position)} m with {Text(state.Velocity)} m/s, {MotionNames.Of(state.Motion)}";
+
+    private string States()
+    {
+        if (Expected.Motion == MotionLaw.Absent || Actual.Motion == MotionLaw.Absent)
+        {
+            return $"expected {Presence(Expected)}, there is {Presence(Actual)}";
+        }
+
+        List<string> parts = [];
+        if (Expected.Motion != Actual.Motion)
+        {
+            parts.Add($"motion expected {MotionNames.Of(Expected.Motion)}, there is {MotionNames.Of(Actual.Motion)}");
+        }
+
+        Add(parts, "position", Expected.Position, Actual.Position, "m");
+        Add(parts, "velocity", Expected.Velocity, Actual.Velocity, "m/s");
+        Add(parts, "spin", Expected.Spin, Actual.Spin, "rad/s");
+        return parts.Count == 0 ? "the states are the same" : string.Join("; ", parts);
+    }
+
+    private static string Presence(BodyState state) =>
+        state.Motion == MotionLaw.Absent ? "no body" : $"one at {Text(state.Position)} m with {Text(state.Velocity)} m/s, {MotionNames.Of(state.Motion)}";
+
+    private static void Add(List<string> parts, string what, Vector3D should, Vector3D there, string unit)
+    {
+        if (should != there)
+        {
+            bool isTold = Text(should) != Text(there);
+            parts.Add(
+                $"{what} expected {(isTold ? Text(should) : should.ToString())} {unit}, there is {(isTold ? Text(there) : there.ToString())} {unit},"
+                + $" {NumberText.Short((there - should).Length)} {unit} apart");
+        }
+    }
+
+    private static string Text(in Vector3D v) => $"({NumberText.Short(v.X)}, {NumberText.Short(v.Y)}, {NumberText.Short(v.Z)})";
 }

@@ -52,8 +52,9 @@ public static class InvariantCheck
         List<CheckFailure> failures = [];
         foreach (CheckOutcome failed in played.Where(o => o.Failure is not null))
         {
-            CheckOutcome least = failures.Count < MostShrunk ? Shrinking.Shrink(failed, options, cancellation) : failed;
-            failures.Add(new CheckFailure(failed, least, Command(least, options)));
+            bool isShrunk = failures.Count < MostShrunk && options.ShrinkingPlays > 0 && !cancellation.IsCancellationRequested;
+            CheckOutcome least = isShrunk ? Shrinking.Shrink(failed, options, cancellation) : failed;
+            failures.Add(new CheckFailure(failed, least, isShrunk, Command(least, options, isShrunk)));
         }
 
         return new CheckReport(played, failures, options.Sessions, seconds) { StoppedSeeds = [.. stopped.Order()] };
@@ -95,14 +96,16 @@ public static class InvariantCheck
     }
 
     /// <summary>The command that plays one session, or what is kept of it.</summary>
-    internal static string Command(CheckOutcome of, CheckOptions options)
+    internal static string Command(CheckOutcome of, CheckOptions options, bool isShrunk)
     {
+        bool isPart = isShrunk || (options.Bodies ?? options.Events) is not null;
+        string part = isPart ? $" --bodies {string.Join(',', of.Bodies)} --events {List(of.Deeds)}" : "";
         string peers = options.FromPeers == CheckOptions.FewestPeers && options.ToPeers == CheckOptions.MostPeers ? ""
             : options.FromPeers == options.ToPeers ? $" --peers {options.FromPeers}"
             : $" --peers {options.FromPeers}-{options.ToPeers}";
         string profile = options.Profile is LinkProfile link ? $" --profile {link.Name}" : "";
         string strategy = options.Strategy == LateEventStrategies.Default ? "" : $" --strategy {options.Strategy}";
-        return $"lagsim check --seed {of.Seed} --sessions 1{peers}{profile}{strategy} --bodies {string.Join(',', of.Bodies)} --events {List(of.Deeds)}";
+        return $"lagsim check --seed {of.Seed} --sessions 1{peers}{profile}{strategy}{part}";
     }
 
     private static string List(IReadOnlyList<int> indices) => indices.Count == 0 ? "none" : string.Join(',', indices);

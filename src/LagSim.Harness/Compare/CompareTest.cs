@@ -5,6 +5,7 @@ using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Harness.Metrics;
 using LagSim.Harness.Peers;
+using LagSim.Harness.Reports;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -29,7 +30,7 @@ public static class CompareTest
         int bodies = options.Scene.Bodies.Count + spawned.Length;
         if (bodies > CompareOptions.MaxBodies)
         {
-            throw new SceneException($"The scene '{options.Scene.Name}' has {bodies} bodies with those that will be spawned; at most {CompareOptions.MaxBodies} are watched.");
+            throw new SceneException($"The scene '{options.Scene.Name}' has {NumberText.Count(bodies, "body", many: "bodies")} with those that will be spawned; at most {CompareOptions.MaxBodies} are watched.");
         }
 
         PeerGroupOptions group = new(options.Peers, options.Link, options.Strategy, options.Seed, CompareOptions.Length)

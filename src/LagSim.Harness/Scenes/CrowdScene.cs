@@ -34,6 +34,19 @@ internal static class CrowdScene
                 && name == NameOf(bodies));
     }
 
+    /// <summary>What to write in place of a name that means a crowd and is not one; empty for any other.</summary>
+    internal static string Hint(string name)
+    {
+        if (!name.StartsWith($"{Name}-", StringComparison.Ordinal))
+        {
+            return "";
+        }
+
+        return int.TryParse(name.AsSpan(Name.Length + 1), NumberStyles.None, CultureInfo.InvariantCulture, out int bodies) && bodies is >= 1 and <= MaxBodies
+            ? $"; N is written without leading zeros: {NameOf(bodies)}"
+            : $"; N is a whole number from 1 to {MaxBodies}, such as {NameOf(DefaultBodies)}";
+    }
+
     internal static string NameOf(int bodies) => string.Create(CultureInfo.InvariantCulture, $"{Name}-{bodies}");
 
     /// <summary>How many cells the box has along each edge; each ball starts within a cell of its own.</summary>

@@ -24,7 +24,7 @@ public static class SceneSource
                 nameOrPath.Length == 0 ? "''" : JsonFault.Clip(nameOrPath, 300),
                 "",
                 0,
-                $"this is neither a built-in scene ({BuiltInScenes.KnownNames}) nor a file that exists");
+                $"this is neither a built-in scene ({BuiltInScenes.KnownNames}) nor a file that exists{CrowdScene.Hint(nameOrPath)}");
         }
 
         return SceneFile.Read(nameOrPath);

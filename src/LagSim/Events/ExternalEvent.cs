@@ -76,7 +76,11 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     public static ExternalEvent SetVelocity(SimTime time, byte peer, uint sequence, BodyId body, Vector3D velocity) =>
         new(EventKind.SetVelocity, time, peer, sequence, body, default, velocity, default);
 
-    /// <summary>The body's momentum changes by this many newton seconds, as of a push through its centre: it turns as it did.</summary>
+    /// <summary>
+    /// The body's momentum changes by this many newton seconds, as of a push through its centre: it turns as it did. One that would make it faster than a
+    /// tenth of the smallest radius in a tick (1.1e11 m/s times that radius in metres) has no effect, on every peer alike; what it meets is known only when its
+    /// time comes. <see cref="Simulation.TookEffect"/> tells.
+    /// </summary>
     public static ExternalEvent Impulse(SimTime time, byte peer, uint sequence, BodyId body, Vector3D impulse) =>
         new(EventKind.Impulse, time, peer, sequence, body, default, impulse, default);
 

@@ -44,7 +44,11 @@ public readonly struct PlayerAction
     /// <summary>The body's velocity becomes this, in m/s. It turns as it did.</summary>
     public static PlayerAction SetVelocity(BodyId body, Vector3D velocity) => new(EventKind.SetVelocity, body, default, velocity, default);
 
-    /// <summary>The body's momentum changes by this many newton seconds, as of a push through its centre: it turns as it did.</summary>
+    /// <summary>
+    /// The body's momentum changes by this many newton seconds, as of a push through its centre: it turns as it did. One that would make it faster than a
+    /// tenth of the smallest radius in a tick (1.1e11 m/s times that radius in metres) has no effect, on every peer alike; what it meets is known only when its
+    /// time comes. <see cref="Simulation.TookEffect"/> tells.
+    /// </summary>
     public static PlayerAction Impulse(BodyId body, Vector3D impulse) => new(EventKind.Impulse, body, default, impulse, default);
 
     /// <summary>

@@ -48,7 +48,8 @@ internal static class Limits
         if (spec.Forces.UpTo > forces.Length)
         {
             throw new SceneException(
-                $"{Capital($"{whose}")} names force {spec.Forces.UpTo - 1}, counted from 0, but the scene has {forces.Length}.");
+                $"{Capital($"{whose}")} names force {spec.Forces.UpTo - 1}, counted from 0, but the scene has {Forces(forces.Length)}. A ForceSet holds numbers, of the"
+                + " scene whose AddForce gave it: take one of this scene.");
         }
 
         if (!spec.Forces.IsEmpty && spec.Flight == MotionLaw.Ballistic)
@@ -135,7 +136,7 @@ internal static class Limits
             {
                 throw new SceneException(
                     $"On {whose}, of {Text(spec.Mass)} kg, force '{force.Name}', of strength {Text(force.Strength)} and damping {Text(force.Damping)}, acts at"
-                    + $" a rate of {Text(rate)} 1/s; at most {Text(MaxRate)} 1/s is allowed.");
+                    + $" a rate of {Above(rate, MaxRate)} 1/s; at most {Text(MaxRate)} 1/s is allowed.");
             }
         }
     }
@@ -170,12 +171,17 @@ internal static class Limits
     internal static void CheckBox<T>(in PeriodicBox box, double smallestRadius, T whose)
     {
         Components(box.Size, MaxCoordinate, whose, "periodic box", "m");
+        if (!(box.LeastSide > 0))
+        {
+            throw new SceneException($"The periodic box of {whose} is {box.Size} m; every side must be above zero.");
+        }
+
         double least = 2 * PeriodicBox.LeastSides * smallestRadius;
-        if (!(box.LeastSide > 0) || box.LeastSide < least)
+        if (box.LeastSide < least)
         {
             throw new SceneException(
-                $"The periodic box of {whose} is {box.Size} m; every side must be above zero, and at least {PeriodicBox.LeastSides} times the diameter of any"
-                + $" body in it, with the smallest {Text(least)} m.");
+                $"The periodic box of {whose} is {box.Size} m, and the smallest radius of a body {Text(smallestRadius)} m; every side must be at least"
+                + $" {PeriodicBox.LeastSides} times the diameter, {Short(least)} m.");
         }
     }
 
@@ -192,7 +198,7 @@ internal static class Limits
         {
             throw new SceneException(
                 $"The periodic box is {box.Size} m, and the radius of {whose} is {Text(spec.Radius)} m; every side must be at least {PeriodicBox.LeastSides}"
-                + $" times its diameter, {Text(least)} m.");
+                + $" times its diameter, {Short(least)} m.");
         }
 
         CheckPlaceInBox(position, box, whose);
@@ -241,6 +247,21 @@ internal static class Limits
     }
 
     internal static string Text(double value) => value.ToString("R", CultureInfo.InvariantCulture);
+
+    /// <summary>What was computed, not given: six digits say all that there is to say.</summary>
+    internal static string Short(double value) =>
+        Text(double.Parse(value.ToString("G6", CultureInfo.InvariantCulture), NumberStyles.Float, CultureInfo.InvariantCulture));
+
+    internal static string Short(in Vector3D v) => $"({Short(v.X)}, {Short(v.Y)}, {Short(v.Z)})";
+
+    /// <summary>So many of a thing: "1 plane", "2 planes".</summary>
+    internal static string Count(int count, string one, string? many = null) =>
+        $"{count.ToString(CultureInfo.InvariantCulture)} {(count == 1 ? one : many ?? one + "s")}";
+
+    /// <summary>What is above a limit, so that nobody reads the limit itself.</summary>
+    private static string Above(double value, double limit) => Short(value) == Short(limit) ? $"just above {Short(limit)}" : Short(value);
+
+    private static string Forces(int count) => count == 0 ? "none" : count == 1 ? "1, number 0" : $"{count}, numbers 0 to {count - 1}";
 
     private static string Capital(string text) => text.Length == 0 ? text : char.ToUpperInvariant(text[0]) + text.Substring(1);
 }

@@ -301,8 +301,8 @@ public sealed class SceneBuilder
         if (gravity != Vector3D.Zero || planes.Count + spheres.Count + forces.Count > 0)
         {
             throw new SceneException(
-                $"Scene '{name}' has a periodic box, gravity {gravity} m/s^2, {planes.Count} planes, {spheres.Count} static spheres and {forces.Count} other"
-                + " forces; a periodic box goes with none of those.");
+                $"Scene '{name}' has a periodic box, gravity {gravity} m/s^2, {Limits.Count(planes.Count, "plane")},"
+                + $" {Limits.Count(spheres.Count, "static sphere")} and {Limits.Count(forces.Count, "other force")}; a periodic box goes with none of those.");
         }
 
         foreach (SceneBody body in bodies)

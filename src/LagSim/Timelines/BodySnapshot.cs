@@ -144,5 +144,5 @@ public readonly struct BodySnapshot
     /// <summary>The index in the scene of the n-th plane that carries it.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no such one.</exception>
     public int Support(int n) =>
-        n >= 0 && n < SupportCount ? Segment.Supports[n] : throw new ArgumentOutOfRangeException(nameof(n), n, $"{SupportCount} planes carry body {Id}.");
+        n >= 0 && n < SupportCount ? Segment.Supports[n] : throw new ArgumentOutOfRangeException(nameof(n), n, $"{Limits.Count(SupportCount, "plane carries", "planes carry")} body {Id}.");
 }

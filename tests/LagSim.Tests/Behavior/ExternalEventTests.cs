@@ -30,6 +30,46 @@ public sealed class ExternalEventTests
     }
 
     [Fact]
+    public void TookEffect_OfEachEvent_TellsWhatHadNone()
+    {
+        ExternalEvent push = ExternalEvent.Impulse(At(1), 1, 1, First, V(0, 2)), shot = ExternalEvent.Impulse(At(1.5), 1, 2, First, V(0, 1e13));
+        ExternalEvent gone = ExternalEvent.SetVelocity(At(1.5), 2, 1, Guest, V(1)), held = ExternalEvent.SetVelocity(At(2.5), 2, 2, First, V(1));
+        ExternalEvent grab = ExternalEvent.Grab(At(2), 1, 3, First), knot = ExternalEvent.HoldKnot(At(2.25), 1, 5, First, V(1, 2), V(0));
+        ExternalEvent drop = ExternalEvent.Release(At(3), 2, 3, First), removal = ExternalEvent.Remove(At(4), 1, 4, First);
+        Simulation simulation = new(Space, KeepAll);
+        Assert.Equal(SubmitResult.Queued, simulation.Submit(push));
+        Assert.Equal(SubmitResult.Queued, simulation.Submit(shot));
+        Assert.False(simulation.TookEffect(push)); // its time has not come
+        foreach (ExternalEvent external in new[] { gone, held, grab, knot, drop, removal })
+        {
+            simulation.Submit(external);
+        }
+
+        simulation.AdvanceTo(At(5));
+        Assert.Equal([true, false, false, false, true, true, false, true], new[] { push, shot, gone, held, grab, knot, drop, removal }.Select(e => simulation.TookEffect(e)));
+        Assert.Equal(V(1, 1), Read(simulation, First, 1.6).Velocity); // what was too much has not been clamped
+
+        // Later news can change the answer.
+        simulation.Submit(ExternalEvent.Spawn(At(0.5), 1, 9, Ball(), V(0, 5), V(0)));
+        Assert.False(simulation.TookEffect(gone)); // that is another body
+        simulation.Submit(ExternalEvent.Spawn(At(0.5), 1, 1, Ball(), V(0, -5), V(0)));
+        Assert.True(simulation.TookEffect(gone));
+        simulation.Retract(push);
+        Assert.False(simulation.TookEffect(push));
+    }
+
+    [Fact]
+    public void TookEffect_OfAForwardedEvent_IsOfItsArrival()
+    {
+        Simulation simulation = Run(Space, 1);
+        ExternalEvent push = ExternalEvent.Impulse(At(0.5), 1, 1, First, V(0, 2));
+        simulation.SubmitForwarded(push, At(1.5));
+        Assert.False(simulation.TookEffect(push));
+        simulation.AdvanceTo(At(2));
+        Assert.True(simulation.TookEffect(push));
+    }
+
+    [Fact]
     public void Spawn_AtItsTime_IsThereFromThatTickOn()
     {
         Simulation simulation = new(Space, KeepAll);

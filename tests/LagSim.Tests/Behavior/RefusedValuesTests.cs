@@ -23,7 +23,7 @@ public sealed class RefusedValuesTests
         ["restitution"] = (b => b.AddBody("x", Ball(e: 1.5), V(0, 9)), ["restitution", "'x'", "1.5"]),
         ["law"] = (b => b.AddBody("x", Ball(flight: MotionLaw.Resting), V(0, 9)), ["motion law", "'x'", "Resting"]),
         ["step"] = (b => b.AddBody("x", Ball(flight: MotionLaw.RungeKutta4, step: 2), V(0, 9)), ["step", "'x'", "2s"]),
-        ["no such force"] = (b => b.AddBody("x", Ball(flight: MotionLaw.RungeKutta4, force: 3), V(0, 9)), ["'x'", "force 2", "has 0"]),
+        ["no such force"] = (b => b.AddBody("x", Ball(flight: MotionLaw.RungeKutta4, force: 3), V(0, 9)), ["'x'", "force 2", "has none"]),
         ["force on ballistic"] = (
             b => b.AddForce(Force.Supplied(new FunctionForce((_, _, _) => default))).AddBody("x", Ball(force: 1), V(0, 9)), ["'x'", "Ballistic", "RungeKutta4"]),
         ["no closed form"] = (
@@ -32,6 +32,12 @@ public sealed class RefusedValuesTests
         ["too stiff"] = (
             b => b.AddForce(Force.Spring("steel", V(0), 1e14), out ForceSet steel).AddBody("x", new BodySpec(0.5, 1, 1, forces: steel), V(0, 9)),
             ["'x'", "'steel'", "10000000", "1000000"]),
+        ["hardly too stiff"] = (
+            b => b.AddForce(Force.Spring("steel", V(0), 1.0000000000001e12), out ForceSet steel).AddBody("x", new BodySpec(0.5, 1, 1, forces: steel), V(0, 9)),
+            ["'x'", "at a rate of just above 1000000 1/s; at most 1000000 1/s"]),
+        ["forces of another scene"] = (
+            b => b.AddForce(Force.LinearDrag("oil", 1)).AddBody("x", new BodySpec(0.5, 1, 1, forces: ForceSet.Of(2)), V(0, 9)),
+            ["'x'", "names force 2, counted from 0, but the scene has 1, number 0. A ForceSet holds numbers, of the scene whose AddForce gave it"]),
         ["tolerance"] = (b => b.AddBody("x", new BodySpec(0.5, 1, 1, tolerance: -1e-9), V(0, 9)), ["tolerance", "'x'", "-1E-09"]),
         ["nan tolerance"] = (b => b.AddBody("x", new BodySpec(0.5, 1, 1, tolerance: double.NaN), V(0, 9)), ["tolerance", "'x'", "NaN"]),
         ["negative drag"] = (b => b.AddForce(Force.LinearDrag("oil", -1)), ["coefficient", "'oil'", "-1"]),

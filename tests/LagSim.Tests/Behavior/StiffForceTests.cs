@@ -92,6 +92,33 @@ public sealed class StiffForceTests
         Assert.DoesNotContain("full", slack.Explain().Bodies[0].Why, StringComparison.Ordinal); // the control
     }
 
+    /// <summary>A dry brake turns round where the velocity does: error control comes no further, and fixed steps go through.</summary>
+    [Fact]
+    public void Supplied_ThatJumps_IsNamedWithTheWayOut()
+    {
+        Simulation controlled = new(Braked(1e-9), new SimulationOptions(maxSegments: 10_000));
+        SimulationException failure = Assert.ThrowsAny<SimulationException>(() => controlled.AdvanceTo(At(1)));
+        Assert.Contains("body 'ball' (0.0.0)", failure.Message, StringComparison.Ordinal);
+        Assert.Contains("If 'brake' jumps", failure.Message, StringComparison.Ordinal);
+        Assert.Contains("a tolerance of 0", failure.Message, StringComparison.Ordinal);
+
+        Simulation stepped = Run(Braked(0), 1); // what the sentence advises
+        Assert.InRange(Read(stepped, First, 1).Velocity.Length, 0, 5 * 0.005);
+        Assert.InRange(stepped.EventsProcessed, 200, 400);
+
+        static Scene Braked(double tolerance) => new SceneBuilder("brake").WithGravity(Floating).AddForce(Force.Supplied(new Brake()), out ForceSet brake)
+            .AddBody("ball", new BodySpec(0.1, 1, 1, MotionLaw.DormandPrince54, BodySpec.DefaultStep, brake, tolerance), V(0), V(1)).Build();
+    }
+
+    private sealed class Brake : IAcceleration
+    {
+        public string Name => "brake";
+
+        public int Version => 1;
+
+        public Vector3D At(double seconds, in Vector3D position, in Vector3D velocity) => new(velocity.X > 0 ? -5 : velocity.X < 0 ? 5 : 0, 0, 0);
+    }
+
     [Theory]
     [InlineData(-4)]
     [InlineData(-2)]

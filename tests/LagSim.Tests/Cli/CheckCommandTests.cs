@@ -6,6 +6,7 @@ using System.Text.Json;
 using System.Threading;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
+using LagSim.Harness.Check;
 using LagSim.Timelines;
 using Xunit;
 
@@ -68,10 +69,26 @@ public sealed class CheckCommandTests
 
         (int again, string replayed) = Run(least[1..], Wrong);
         Assert.Equal(1, again);
-        Assert.Contains("1 of 1 sessions", replayed, StringComparison.Ordinal);
+        Assert.Contains("1 of 1 session ", replayed, StringComparison.Ordinal);
         Assert.Contains(difference["first difference of the least that fails: ".Length..], replayed, StringComparison.Ordinal);
         Assert.Contains(commands[0], replayed, StringComparison.Ordinal); // nothing more can be left out
         Assert.Equal(0, Run(least[1..], null).Code);
+    }
+
+    [Fact]
+    public void Check_MoreFailingSeedsThanAreShrunk_SaysWhichAreNotAndHowToShrinkOne()
+    {
+        string[] arguments = ["check", "--sessions", "5", "--seed", "2", "--peers", "3", "--profile", "delay-200ms", "--strategy", "none"];
+        (int code, string output) = Change(arguments, options => options with { ShrinkingPlays = 1 });
+        Assert.Equal(1, code);
+        Assert.Contains("failing seeds 5", output, StringComparison.Ordinal);
+        const string Left = "lagsim check --seed 5 --sessions 1 --peers 3 --profile delay-200ms --strategy none";
+        Assert.Contains($"seeds 2, 3, 4 shrunk; 2 more failing seeds not shrunk: {Left} shrinks the first of them", output, StringComparison.Ordinal);
+        Assert.Contains($"  {Left}", output.Split('\n').Select(line => line.TrimEnd())); // the command of that seed, which shrinks it
+
+        (_, string alone) = Change(["check", "--sessions", "1", .. arguments[3..]], options => options with { ShrinkingPlays = 1 });
+        Assert.DoesNotContain("not shrunk", alone, StringComparison.Ordinal); // the control
+        Assert.Contains(" --bodies ", alone, StringComparison.Ordinal);
     }
 
     [Theory]
@@ -106,10 +123,13 @@ public sealed class CheckCommandTests
         Assert.Contains("failing seeds 0", output, StringComparison.Ordinal);
     }
 
-    private static (int Code, string Output) Run(string[] arguments, Action<int, Simulation>? prepare, CancellationTokenSource? stop = null)
+    private static (int Code, string Output) Run(string[] arguments, Action<int, Simulation>? prepare, CancellationTokenSource? stop = null) =>
+        Change(arguments, options => options with { Prepare = prepare }, stop);
+
+    private static (int Code, string Output) Change(string[] arguments, Func<CheckOptions, CheckOptions> change, CancellationTokenSource? stop = null)
     {
         using StringWriter output = new(), error = new();
-        Command command = CheckCommand.Create(new ToolConsole(output, error, stop?.Token ?? TestContext.Current.CancellationToken), options => options with { Prepare = prepare });
+        Command command = CheckCommand.Create(new ToolConsole(output, error, stop?.Token ?? TestContext.Current.CancellationToken), change);
         return (command.Parse(arguments[1..]).Invoke(new InvocationConfiguration { Output = output, Error = error, EnableDefaultExceptionHandler = false }), output.ToString());
     }
 

@@ -46,6 +46,22 @@ public sealed class ExplainCommandTests
     }
 
     [Fact]
+    public void Explain_LongNamesWithoutATerminal_KeepsTo160Columns()
+    {
+        using TemporaryFolder folder = new();
+        string scene = folder["long.json"];
+        string Name(int n) => $"{new string('b', 60)} {n}";
+        string bodies = string.Join(",", Enumerable.Range(0, 5).Select(
+            n => $$"""{"name": "{{Name(n)}}", "radius_m": 0.5, "mass_kg": 1, "restitution": 1, "position_m": [{{3 * n}}, 0, 0], "forces": ["f0"]}"""));
+        string forces = string.Join(",", Enumerable.Range(0, 32).Select(n => $$"""{"name": "f{{n}}", "kind": "quadratic_drag", "coefficient_kg_per_m": 0.1}"""));
+        File.WriteAllText(scene, $$"""{"format": "lagsim-scene-1", "name": "long", "forces": [{{forces}}], "bodies": [{{bodies}}]}""");
+        string output = Run("explain", scene).Output;
+        Assert.All(output.Split('\n'), line => Assert.True(line.TrimEnd().Length <= 160, line));
+        Assert.Contains($"{Name(0)} and 4 more", output, StringComparison.Ordinal);
+        Assert.DoesNotContain(Name(1), output, StringComparison.Ordinal);
+    }
+
+    [Fact]
     public void Explain_NoScene_IsAnError() => Assert.Equal(3, Run("explain", "nowhere.json").Code);
 
     private static (int Code, string Output, string Error) Run(params string[] arguments)

@@ -76,7 +76,7 @@ public sealed class HardCommandTests
     {
         HardRow row = new("drag-quadratic", "so many words that no line of eighty columns has room for all of them", 1.234e-12, "time_s", 1.5e-11, "why", "what");
         string[] lines = Written(new([row], HardScale.Small, false, 1, 0.5), width: 80).Split('\n');
-        Assert.All(lines.TakeWhile(line => !line.Contains("rows within", StringComparison.Ordinal)), line => Assert.True(line.TrimEnd().Length <= 80, line));
+        Assert.All(lines.TakeWhile(line => !line.Contains("row within", StringComparison.Ordinal)), line => Assert.True(line.TrimEnd().Length <= 80, line));
         Assert.Contains(lines, line => line.Contains("drag-quadratic  1.234e-12  1.5e-11  passed ", StringComparison.Ordinal));
     }
 

@@ -34,6 +34,25 @@ public sealed class RunCommandTests
     }
 
     [Fact]
+    public void Text_OfARun_SaysWhatTheTimeWentInto()
+    {
+        using TemporaryFolder folder = new();
+        string once = Tool.Run("run", "drop").Done().Output, drawn = Tool.Run("run", "drop", "--repeat", "3", "--out", folder["out"]).Done().Output;
+        Assert.Matches("(?m)^[0-9.e-]+ s to simulate, timed once after a warm-up; [0-9.e-]+ s in all: [0-9.e-]+ s this run and its files, [0-9.e-]+ s timing\\s*$", once);
+        Assert.Matches("the least of 3 runs after a warm-up; .* timing, [0-9.e-]+ s the picture", drawn);
+        JsonElement document = Json("run", "drop", "--repeat", "2", "--json");
+        Assert.InRange(document.GetProperty("timed_runs_wall_s").GetDouble(), document.GetProperty("wall_s").GetDouble(), double.MaxValue);
+        Assert.True(document.GetProperty("written_run_wall_s").GetDouble() > 0);
+        Assert.Equal(0, document.GetProperty("picture_wall_s").GetDouble());
+    }
+
+    [Theory]
+    [InlineData("crowd-007", "N is written without leading zeros: crowd-7")]
+    [InlineData("crowd-0", "N is a whole number from 1 to 100000, such as crowd-200")]
+    [InlineData("crowds", "nor a file that exists")]
+    public void Scene_NameThatIsNone_SaysWhatToWrite(string name, string says) => Tool.Refuses(3, ["run", name], $"{name}: this is neither a built-in scene", says);
+
+    [Fact]
     public void Json_OfARun_AgreesWithTheSimulationItself()
     {
         JsonElement document = Json("run", "drop", "--until-s", "7.25", "--motion", "ballistic", "--json");

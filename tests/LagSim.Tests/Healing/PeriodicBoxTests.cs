@@ -19,14 +19,15 @@ public sealed class PeriodicBoxTests
     public static TheoryData<string, Action<SceneBuilder>> Refusals => new()
     {
         { "gravity (0, -9.81, 0) m/s^2", builder => builder.WithGravity(SceneBuilder.DefaultGravity) },
-        { "1 planes", builder => builder.AddPlane("floor", Vector3D.Up, V(0)) },
-        { "1 static spheres", builder => builder.AddStaticSphere("dome", V(1, 1, 1), 0.2) },
+        { "1 plane, 0 static spheres and 0 other forces;", builder => builder.AddPlane("floor", Vector3D.Up, V(0)) },
+        { "0 planes, 1 static sphere and", builder => builder.AddStaticSphere("dome", V(1, 1, 1), 0.2) },
         { "flies by Ballistic", builder => builder.AddBody("b", Ball(0.1, flight: MotionLaw.RungeKutta4), V(1, 1, 1)) },
         { "each component is at least 0", builder => builder.AddBody("b", Ball(0.1), V(1, 1, 4)) },
         { "each component is at least 0", builder => builder.AddBody("b", Ball(0.1), V(-1, 1, 1)) },
         { "radius of body 'b' is 0.41 m; every side must be at least 5 times its diameter, 4.1", builder => builder.AddBody("b", Ball(0.41), V(1, 1, 1)) },
         { "5 times its diameter", builder => builder.WithPeriodicBox(V(4, 4, 0.9)).AddBody("b", Ball(0.1), V(1, 1, 0.5)) },
-        { "every side must be above zero", builder => builder.WithPeriodicBox(V(4, -4, 4)) },
+        { "every side must be above zero.", builder => builder.WithPeriodicBox(V(4, -4, 4)) },
+        { "smallest radius of a body 0.5 m; every side must be at least 5 times the diameter, 5 m.", b => b.WithPeriodicBox(V(4, 4, 4)).WithSmallestRadius(0.5) },
         { "periodic box", builder => builder.WithPeriodicBox(V(4, double.NaN, 4)) },
         { "deep inside body", builder => builder.AddBody("a", Ball(0.1), V(0.05, 1, 1)).AddBody("b", Ball(0.1), V(3.9, 1, 1)) },
     };

@@ -54,6 +54,31 @@ public sealed class ExplainTests
     }
 
     [Fact]
+    public void Explain_BodiesThatMayLeanOnEachOther_SaysWhatIslandsCost()
+    {
+        FeatureExplanation rough = Islands(Two(friction: 0.5).Build());
+        Assert.True(rough.IsModelled);
+        Assert.Contains("in lasting contact, with friction, that no closed form", rough.Why, StringComparison.Ordinal);
+        Assert.Contains("at most 1/512 s. That is 512 pieces/s or more for each", rough.Why, StringComparison.Ordinal);
+        Assert.Contains("Without friction a heap may sway", Islands(Two(friction: 0).Build()).Why, StringComparison.Ordinal);
+
+        // The controls: nothing presses, or nothing is there to lean on but one plane.
+        Assert.Equal((false, "Nothing presses bodies on each other or on anything."), Told(Islands(Two(0.5).WithGravity(Floating).Build())));
+        Assert.Equal((false, "There is nothing that a body could lean on but planes that carry it by a closed form."), Told(Islands(BuiltInScenes.Drop())));
+
+        // It is what a world does: one ball on another beside a wall, in pieces of 1/512 s at most while they move.
+        Simulation world = Run(Two(0.5).Build(), 0.5);
+        Assert.Contains(world.Timeline(Second), entry => entry.State.Motion == MotionLaw.Constrained);
+
+        static SceneBuilder Two(double friction) => new SceneBuilder("two").AddPlane("floor", V(0, 1), V(0))
+            .AddBody("lower", new BodySpec(0.5, 1, 0, friction: friction), V(0, 0.5)).AddBody("upper", new BodySpec(0.5, 1, 0, friction: friction), V(0.1, 1.6));
+
+        static FeatureExplanation Islands(Scene scene) => scene.Explain().Features.Single(f => f.Name == "islands");
+
+        static (bool, string) Told(FeatureExplanation feature) => (feature.IsModelled, feature.Why);
+    }
+
+    [Fact]
     public void Explain_ManyBodies_SaysThatThereIsAnIndex()
     {
         Assert.Contains("without an index", Contacts(BuiltInScenes.Crowd(64)), StringComparison.Ordinal);
@@ -66,18 +91,18 @@ public sealed class ExplainTests
     public void ToString_OfAScene_HasALineForEachBodyAndFeature()
     {
         string[] lines = Forced().Explain().ToString().Split('\n');
-        Assert.Equal(10, lines.Length);
+        Assert.Equal(11, lines.Length);
         Assert.Matches("^oily: ClosedForm, [0-9.]+ pieces/s, [0-9.]+ force calls/s. Gravity, oil \\(LinearDrag\\): linear in position and velocity", lines[0]);
         Assert.Equal("free: Ballistic. Only uniform gravity acts on it: a parabola is exact.", lines[2]);
         Assert.Equal("integrator: yes. 1 body of 3 in steps.", lines[4]);
-        Assert.Equal("periodic box: no. The scene has none.", lines[9]);
+        Assert.Equal("periodic box: no. The scene has none.", lines[10]);
     }
 
     [Fact]
     public void ToString_OfManyBodies_SaysHowManyMore()
     {
         string[] lines = BuiltInScenes.Crowd(65).Explain().ToString().Split('\n');
-        Assert.Equal((18, "and 55 more bodies"), (lines.Length, lines[10]));
+        Assert.Equal((19, "and 55 more bodies"), (lines.Length, lines[10]));
         Assert.DoesNotContain("more bod", BuiltInScenes.Crowd(10).Explain().ToString(), StringComparison.Ordinal);
     }
 

@@ -169,7 +169,7 @@ public sealed class SceneFormatTests
         Refused(With(SmallestAt, 0), "The smallest radius of scene 's' is 0;");
         Refused(WithByte(BodyNameAt, (byte)'p'), "Two parts of scene 's' are named 'p'");
         Refused(WithByte(FlightAt, 3), "The motion law of body 'b' is Sliding;");
-        Refused(WithByte(SpecForcesAt, 1), "names force 0, counted from 0, but the scene has 0");
+        Refused(WithByte(SpecForcesAt, 1), "names force 0, counted from 0, but the scene has none");
         Refused(With(ToleranceAt, 2), "The tolerance of body 'b' is 2;");
         Refused(WithInt64(StepAt, 5), "The integrator step of body 'b' is");
     }
