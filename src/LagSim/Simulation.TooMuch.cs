@@ -35,7 +35,8 @@ public sealed partial class Simulation
         if (!isFinite || (tooStiff == 0 && tooLarge == 0))
         {
             return new SimulationException(
-                $"In the step from {from.ToShortString()}, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the acceleration of {Whose(slot)} became NaN or infinite; what the forces"
+                $"In the step from {from.ToShortString()}, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the acceleration of {Whose(slot)} became NaN or"
+                    + " infinite; what the forces"
                 + $" {spec.Forces.NamesAmong(Scene.ForceArray)} give must be finite.");
         }
 
@@ -53,12 +54,14 @@ public sealed partial class Simulation
             string what = here > most ? $"act at a rate of {Limits.Short(here)} 1/s" : $"lead in a step to where they act at a rate of"
                 + $" {Limits.Short(tooStiff)} 1/s";
             return new SimulationException(
-                $"{where} {what}: there {rates}. {spec.Flight} with fixed steps follows at most {Limits.Short(most)} 1/s, by steps halved to {Limits.Short(shortest.ToSeconds())} s. Make"
+                $"{where} {what}: there {rates}. {spec.Flight} with fixed steps follows at most {Limits.Short(most)} 1/s, by steps halved to"
+                    + $" {Limits.Short(shortest.ToSeconds())} s. Make"
                 + " them weaker, or use Automatic.");
         }
 
         return new SimulationException(
-            $"{where} change so fast that a step of {Limits.Short(StepSize.Shortest.ToSeconds())} s, the shortest there is, still has {Limits.Short(tooLarge)} times the"
+            $"{where} change so fast that a step of {Limits.Short(StepSize.Shortest.ToSeconds())} s, the shortest there is, still has"
+                + $" {Limits.Short(tooLarge)} times the"
             + $" error of the tolerance, {Limits.Text(spec.Tolerance)}: there {rates}. Allow a larger error, make them weaker, or keep it out of the"
             + $" singularity, if there is one.{Jumps(spec)}");
     }
@@ -70,7 +73,8 @@ public sealed partial class Simulation
         {
             if (force.Kind == ForceKind.Supplied && spec.Flight == MotionLaw.DormandPrince54 && spec.Tolerance > 0)
             {
-                return $" If '{force.Name}' jumps, between two places or at a change of sign, error control takes the shortest steps there are at the jump: take"
+                return $" If '{force.Name}' jumps, between two places or at a change of sign, error control takes the shortest steps there are at the jump:"
+                    + " take"
                     + " fixed steps, with a tolerance of 0, or make it continuous.";
             }
         }

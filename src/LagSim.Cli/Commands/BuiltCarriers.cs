@@ -21,6 +21,7 @@ internal static class BuiltCarriers
     private static Carrier OverLiteNetLib() => new(LiteNetLib, bind => new LiteNetLibPort(bind));
 #else
     private static Carrier OverLiteNetLib() => throw new UsageException(
-        "--transport litenetlib is not in this build. Build with -p:WithLiteNetLib=true to have it: that adds LagSim.Net.LiteNetLib and needs the package LiteNetLib.");
+        "--transport litenetlib is not in this build. Build with -p:WithLiteNetLib=true to have it: that adds LagSim.Net.LiteNetLib and needs the package"
+            + " LiteNetLib.");
 #endif
 }

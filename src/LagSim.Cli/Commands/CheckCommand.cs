@@ -30,7 +30,8 @@ internal static class CheckCommand
         };
         Option<string> profile = new("--profile")
         {
-            Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, {LinkProfiles.AnyDelay}; or {All}: each joiner another.",
+            Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, {LinkProfiles.AnyDelay};"
+                + $" or {All}: each joiner another.",
             HelpName = "NAME",
             DefaultValueFactory = _ => All,
         };
@@ -108,7 +109,8 @@ internal static class CheckCommand
         int[] numbers = [.. parts.Select(part => int.TryParse(part, NumberStyles.None, CultureInfo.InvariantCulture, out int number) ? number : -1)];
         return parts.Length <= 2 && numbers[0] >= CheckOptions.FewestPeers && numbers[^1] <= CheckOptions.MostPeers && numbers[0] <= numbers[^1]
             ? (numbers[0], numbers[^1])
-            : throw new UsageException($"--peers is '{text}'; it must be a number from {CheckOptions.FewestPeers} to {CheckOptions.MostPeers}, or a range of them such as 2-8.");
+            : throw new UsageException($"--peers is '{text}'; it must be a number from {CheckOptions.FewestPeers} to {CheckOptions.MostPeers}, or a range of"
+                + " them such as 2-8.");
     }
 
     private static LinkProfile? Profile(string name) =>

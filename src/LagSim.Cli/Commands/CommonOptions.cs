@@ -148,7 +148,8 @@ internal sealed class CommonOptions
         {
             if (result.Tokens.Count == 1 && (result.Tokens[0].Value.Length == 0 || result.Tokens[0].Value.Contains('\0', StringComparison.Ordinal)))
             {
-                result.AddError($"{name} is '{result.Tokens[0].Value.Replace("\0", "\\0", StringComparison.Ordinal)}'; it must be the name of a {help.ToLowerInvariant()}.");
+                result.AddError($"{name} is '{result.Tokens[0].Value.Replace("\0", "\\0", StringComparison.Ordinal)}'; it must be the name of a"
+                    + $" {help.ToLowerInvariant()}.");
             }
         });
         return option;

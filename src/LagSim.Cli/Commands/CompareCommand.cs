@@ -24,13 +24,15 @@ internal static class CompareCommand
         CommonOptions common = new();
         Option<string> scene = new("--scene")
         {
-            Description = $"What is played in: {string.Join(", ", BuiltInScenes.Names)}, or any other scene by name or file, of at most {CompareOptions.MaxBodies} bodies with those that the players spawn; default pair.",
+            Description = $"What is played in: {string.Join(", ", BuiltInScenes.Names)}, or any other scene by name or file, of at most"
+                + $" {CompareOptions.MaxBodies} bodies with those that the players spawn; default pair.",
             DefaultValueFactory = _ => "pair",
             HelpName = "NAME",
         };
         Option<string> profile = new("--profile")
         {
-            Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, {LinkProfiles.AnyDelay}, or all of the named.",
+            Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, {LinkProfiles.AnyDelay},"
+                + " or all of the named.",
             DefaultValueFactory = _ => All,
             HelpName = "NAME",
         };
@@ -53,7 +55,8 @@ internal static class CompareCommand
             if (played.Bodies.Count + spawned > CompareOptions.MaxBodies)
             {
                 throw new UsageException(
-                    $"--scene is '{played.Name}' with {NumberText.Count(played.Bodies.Count, "body", many: "bodies")}, and players spawn {spawned} more; at most {CompareOptions.MaxBodies} in all can be watched.");
+                    $"--scene is '{played.Name}' with {NumberText.Count(played.Bodies.Count, "body", many: "bodies")}, and players spawn {spawned} more; at"
+                        + $" most {CompareOptions.MaxBodies} in all can be watched.");
             }
 
             CompareOptions[] runs = links.SelectMany(link => strategies.Select(name => new CompareOptions(played, plan, name, link)

@@ -12,7 +12,8 @@ internal static class DiffCommand
         CommonOptions common = new();
         Argument<string> first = new("A") { Description = "A recording." };
         Argument<string> second = new("B") { Description = "Another peer's of the same session." };
-        Command command = new("diff", "Compares two recordings and names the first thing that differs: 0 they agree in at least one committed state, 1 they do not or hold none in common, 3 one "
+        Command command = new("diff", "Compares two recordings and names the first thing that differs: 0 they agree in at least one committed state, 1 they"
+            + " do not or hold none in common, 3 one "
             + "cannot be read. A damaged one counts up to its damage, which is told.")
         {
             first, second,

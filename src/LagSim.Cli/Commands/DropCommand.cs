@@ -29,7 +29,8 @@ internal static class DropCommand
         Option<string?> profile = CommonOptions.Profile();
         Option<int> peers = CommonOptions.Whole("--peers", "How many peers, the host included", 2, 2, 9);
         Option<string> time = CommonOptions.Time("real");
-        Option<string> transport = CommonOptions.Word("--transport", "What carries datagrams in real time; in virtual time nothing does but the simulated link.", Carrier.Udp.Name, BuiltCarriers.Names);
+        Option<string> transport = CommonOptions.Word("--transport", "What carries datagrams in real time; in virtual time nothing does but the simulated"
+            + " link.", Carrier.Udp.Name, BuiltCarriers.Names);
         Option<double> height = CommonOptions.Number("--height-m", "Where the ball's centre falls from", 10, 0.5, 1e6);
         Option<double> second = CommonOptions.Number("--second-height-m", "Where it is lifted to", 15, 0.5, 1e6);
         Option<double> restitution = CommonOptions.Number("--restitution", "Restitution of ball and floor", 0.8, 0, 1);

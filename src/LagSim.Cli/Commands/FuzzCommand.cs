@@ -66,9 +66,12 @@ internal static class FuzzCommand
         }
         else
         {
-            console.Output.WriteLine(string.Create(culture, $"{report.GarbageSent:N0} datagrams of garbage and {report.ReplaysSent:N0} replayed ones in {report.Seconds:0.0} s at a host and a joiner"));
-            console.Output.WriteLine(string.Create(culture, $"taken in {report.Received:N0}, refused by a decoder {report.Malformed:N0}, ignored {report.Ignored:N0}"));
-            console.Output.WriteLine(string.Create(culture, $"{report.EventsAgreed} of {report.EventsDone} events that the two did meanwhile are on both; memory grew by {report.RetainedBytes:N0} bytes; a world was at most {report.MaxLatenessMilliseconds:0.0} ms behind"));
+            console.Output.WriteLine(string.Create(culture, $"{report.GarbageSent:N0} datagrams of garbage and {report.ReplaysSent:N0} replayed ones in"
+                + $" {report.Seconds:0.0} s at a host and a joiner"));
+            console.Output.WriteLine(string.Create(culture, $"taken in {report.Received:N0}, refused by a decoder {report.Malformed:N0}, ignored"
+                + $" {report.Ignored:N0}"));
+            console.Output.WriteLine(string.Create(culture, $"{report.EventsAgreed} of {report.EventsDone} events that the two did meanwhile are on both;"
+                + $" memory grew by {report.RetainedBytes:N0} bytes; a world was at most {report.MaxLatenessMilliseconds:0.0} ms behind"));
             console.Output.WriteLine(report.Failure ?? "The session went on, and both have the same world.");
         }
 
@@ -78,10 +81,12 @@ internal static class FuzzCommand
     private static void WriteText(ToolConsole console, FuzzReport report)
     {
         CultureInfo culture = CultureInfo.InvariantCulture;
-        console.Output.WriteLine(string.Create(culture, $"{NumberText.Count(report.Packets, "hostile datagram", "N0")} at {NumberText.Count(report.Sessions, "session", "N0")}, every other of which got them from strangers, or as true ones played again"));
+        console.Output.WriteLine(string.Create(culture, $"{NumberText.Count(report.Packets, "hostile datagram", "N0")} at"
+            + $" {NumberText.Count(report.Sessions, "session", "N0")}, every other of which got them from strangers, or as true ones played again"));
         console.Output.WriteLine(string.Create(culture, $"refused by a decoder {report.Malformed:N0}, ignored {report.Ignored:N0}"));
         console.Output.WriteLine(string.Create(culture, $"strangers sent {report.StrangerBytesSent:N0} bytes and got {report.StrangerBytesReceived:N0}"));
-        console.Output.WriteLine(string.Create(culture, $"sessions broken by who had a peer's own address {report.SessionsBroken:N0}; memory grew by {report.RetainedBytes:N0} bytes, within a session by {report.SessionGrowthBytes:N0}"));
+        console.Output.WriteLine(string.Create(culture, $"sessions broken by who had a peer's own address {report.SessionsBroken:N0}; memory grew by"
+            + $" {report.RetainedBytes:N0} bytes, within a session by {report.SessionGrowthBytes:N0}"));
         console.Output.WriteLine(report.Failure ?? "Nothing threw, and no stranger ended a session.");
     }
 

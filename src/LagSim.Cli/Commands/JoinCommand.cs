@@ -20,7 +20,8 @@ internal static class JoinCommand
         };
         Command command = new(
             "join",
-            "Joins a session; the host gives the scene. Ends with 0 when the host ends the session after --for-s, or without it at any time, and with 3 before, or if a --do was refused or not done.")
+            "Joins a session; the host gives the scene. Ends with 0 when the host ends the session after --for-s, or without it at any time, and with 3"
+                + " before, or if a --do was refused or not done.")
         {
             host,
         };

@@ -75,7 +75,8 @@ internal static class RelayCommand
             {
                 console.Output.WriteLine(string.Create(
                     CultureInfo.InvariantCulture,
-                    $"{link.Name}, {NumberText.Count(traffic.Clients, "joiner")}; to the host {NumberText.Count(traffic.ForwardedToHost, "datagram")}, {traffic.LostToHost} lost; from the host {traffic.ForwardedFromHost}, {traffic.LostFromHost} lost; {traffic.Refused} refused"));
+                    $"{link.Name}, {NumberText.Count(traffic.Clients, "joiner")}; to the host {NumberText.Count(traffic.ForwardedToHost, "datagram")},"
+                        + $" {traffic.LostToHost} lost; from the host {traffic.ForwardedFromHost}, {traffic.LostFromHost} lost; {traffic.Refused} refused"));
             }
 
             return console.Stop.IsCancellationRequested ? ExitCode.Interrupted : ExitCode.Done;

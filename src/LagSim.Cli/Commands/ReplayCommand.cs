@@ -11,7 +11,8 @@ internal static class ReplayCommand
     {
         CommonOptions common = new();
         Argument<string> file = new("FILE") { Description = "A recording." };
-        Command command = new("replay", "Runs a recording again; it must give its hashes: 0 it does, 1 it does not or has none, 3 it cannot be run. A damaged one counts up to its damage, which is told.") { file };
+        Command command = new("replay", "Runs a recording again; it must give its hashes: 0 it does, 1 it does not or has none, 3 it cannot be run. A"
+            + " damaged one counts up to its damage, which is told.") { file };
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {

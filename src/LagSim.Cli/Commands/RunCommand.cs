@@ -107,7 +107,8 @@ internal static class RunCommand
         {
             throw new UsageException(string.Create(
                 CultureInfo.InvariantCulture,
-                $"--every-s is {every}; up to --until-s {until} that is {rows:N0} rows of samples, one for each instant and body, and at most {MostSampleRows:N0} are allowed."));
+                $"--every-s is {every}; up to --until-s {until} that is {rows:N0} rows of samples, one for each instant and body, and at most"
+                    + $" {MostSampleRows:N0} are allowed."));
         }
     }
 

@@ -25,7 +25,8 @@ internal sealed class SessionArguments
 
     private readonly Option<string[]> deeds = new("--do") { Description = $"Do something: {Deed.Syntax}", HelpName = "DEED" };
     private readonly Option<double?> length = Seconds("--for-s", "How long to take part, counted from the session's start; by default until Ctrl-C.", LeastLength, Deed.MostSeconds);
-    private readonly Option<string?> record = CommonOptions.File("--record", "Record the session in this file, .lagsim by custom; one that is there is replaced.");
+    private readonly Option<string?> record = CommonOptions.File("--record", "Record the session in this file, .lagsim by custom; one that is there is"
+        + " replaced.");
     private readonly Option<double> timeout = CommonOptions.Number(
         "--timeout-s", "After how much silence another peer is given up; to be the same everywhere", DefaultTimeoutSeconds, 0.5, 600);
 

@@ -79,8 +79,10 @@ internal static class AccuracyTables
 
     internal static IEnumerable<string> Footnotes(AccuracyReport report)
     {
-        yield return $"Speed is by {ThreadClock.Name}, the least of several runs after a warm-up, building the world included. A method without steps counts events, any other its steps.";
-        yield return "order: slope of error against step, logarithmic, least squares over the finest four points, or three if there are no more, above a hundred times rounding and below a tenth of the scene's size.";
+        yield return $"Speed is by {ThreadClock.Name}, the least of several runs after a warm-up, building the world included. A method without steps counts"
+            + " events, any other its steps.";
+        yield return "order: slope of error against step, logarithmic, least squares over the finest four points, or three if there are no more, above a"
+            + " hundred times rounding and below a tenth of the scene's size.";
         if (report.IsQuick)
         {
             yield return "A quick look: few settings, short runs; its figures of speed are not to be trusted.";

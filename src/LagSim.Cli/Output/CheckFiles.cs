@@ -43,7 +43,8 @@ internal static class CheckFiles
         ];
         HtmlReport page = new(
             "LagSim check",
-            $"Random sessions from seed {options.Seed}, {options.FromPeers} to {options.ToPeers} peers, link {options.Profile?.Name ?? "all"}, strategy {options.Strategy}.",
+            $"Random sessions from seed {options.Seed}, {options.FromPeers} to {options.ToPeers} peers, link {options.Profile?.Name ?? "all"}, strategy"
+                + $" {options.Strategy}.",
             new ReportFooter("lagsim", ToolVersion.Text, options.Seed, null));
         page.AddTable(new ReportTable("All sessions", ["what", "number"], sums));
         if (report.Failures.Count > 0)

@@ -15,18 +15,22 @@ internal static class CheckText
     {
         CultureInfo culture = CultureInfo.InvariantCulture;
         string stopped = report.IsStopped ? "stopped early: " : "";
-        output.WriteLine(string.Create(culture, $"{stopped}{report.Outcomes.Count:N0} of {Count(report.AskedFor, "session")} played from seed {options.Seed} in {report.WallSeconds:0.0} s"));
+        output.WriteLine(string.Create(culture, $"{stopped}{report.Outcomes.Count:N0} of {Count(report.AskedFor, "session")} played from seed {options.Seed}"
+            + $" in {report.WallSeconds:0.0} s"));
         if (report.StoppedSeeds.Count > 0)
         {
             string seeds = string.Join(", ", report.StoppedSeeds);
             output.WriteLine(report.StoppedSeeds.Count == 1
                 ? $"stopped in the middle of the session of seed {seeds}, which is not counted; lagsim check --sessions 1 --seed {seeds} plays it"
-                : $"stopped in the middle of the sessions of seeds {seeds}, which are not counted; lagsim check --sessions 1 --seed {report.StoppedSeeds[0]} plays the first");
+                : $"stopped in the middle of the sessions of seeds {seeds}, which are not counted; lagsim check --sessions 1 --seed {report.StoppedSeeds[0]}"
+                    + " plays the first");
         }
 
-        output.WriteLine(string.Create(culture, $"{Count(report.ExternalEvents, "external event")}, heard late {Count(report.LateEvents, "time")}; {Count(report.Events, "event")} in all worlds"));
+        output.WriteLine(string.Create(culture, $"{Count(report.ExternalEvents, "external event")}, heard late {Count(report.LateEvents, "time")};"
+            + $" {Count(report.Events, "event")} in all worlds"));
         double changed = report.Heals == 0 ? 0 : 100.0 * report.HealsThatChangedAnImpact / report.Heals;
-        output.WriteLine(string.Create(culture, $"{Count(report.Heals, "heal")}, of which {report.HealsThatChangedAnImpact:N0} ({changed:0.0} %) changed an impact; too late {report.TooLateEvents:N0}"));
+        output.WriteLine(string.Create(culture, $"{Count(report.Heals, "heal")}, of which {report.HealsThatChangedAnImpact:N0} ({changed:0.0} %) changed an"
+            + $" impact; too late {report.TooLateEvents:N0}"));
         output.WriteLine(string.Create(culture, $"differing bits {report.DifferingBits:N0}; failing seeds {report.Failures.Count:N0}"));
         if (Shrunk(report) is string shrunk)
         {

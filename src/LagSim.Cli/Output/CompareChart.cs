@@ -19,7 +19,8 @@ internal static class CompareChart
         double[] all = runs.SelectMany(run => new[] { Largest(run.Trace.SeenError), Largest(run.Trace.SeenFromTruth) }).ToArray();
         return new LineChart(
             $"{runs[0].Options.Scene.Name} on {runs[0].Options.Link.Name}: every strategy",
-            "For each strategy the largest distance of a body between the host's picture and another peer's, and from a world that had every event on time. Triangles are events.",
+            "For each strategy the largest distance of a body between the host's picture and another peer's, and from a world that had every event on time."
+                + " Triangles are events.",
             runs.Select(run => new ChartPanel(
                 run.Options.Strategy,
                 "error (m)",
@@ -46,7 +47,8 @@ internal static class CompareChart
         double[] all = runs.SelectMany(run => new[] { During(run), After(run), run.Corrections.Max }).ToArray();
         return new LineChart(
             $"{runs[0].Options.Scene.Name}: every strategy on every link",
-            "For each strategy the largest error as seen while events are on their way and after, and the furthest jump, for each link, by how late its worst news came.",
+            "For each strategy the largest error as seen while events are on their way and after, and the furthest jump, for each link, by how late its"
+                + " worst news came.",
             strategies.Select(strategy =>
             {
                 CompareRun[] own = runs.Where(run => run.Options.Strategy == strategy).OrderBy(run => run.Lateness.Max).ToArray();

@@ -61,8 +61,10 @@ internal sealed class CompareFindings
             yield return BetterDuring.Count == 0
                 ? "While news is on its way interpolation looks better than healing on no link here."
                 : $"While news is on its way interpolation looks better than healing on {links}: {string.Join(", ", BetterDuring)}.";
-            yield return $"Its largest jump is smaller on {SmootherThanHealing.Count} of {NumberText.Count(interpolated.Length, "link")}. The price: all it shows is old, and"
-                + $" players see what they do themselves after {NumberText.Short(Median(interpolated))} ms (median), with healing after {NumberText.Short(Median(healed))} ms, to the next sample.";
+            yield return $"Its largest jump is smaller on {SmootherThanHealing.Count} of {NumberText.Count(interpolated.Length, "link")}. The price: all it"
+                + " shows is old, and"
+                + $" players see what they do themselves after {NumberText.Short(Median(interpolated))} ms (median), with healing after"
+                + $" {NumberText.Short(Median(healed))} ms, to the next sample.";
         }
     }
 

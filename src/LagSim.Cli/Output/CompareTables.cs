@@ -37,7 +37,8 @@ internal static class CompareTables
     }
 
     internal static string Introduction(CompareOptions options) =>
-        $"{options.Scene.Name}, {options.Peers} peers, {NumberText.Count(options.Plan.Count, "event")} in {NumberText.Short(CompareOptions.Length.ToSeconds())} s of virtual time, the same for all";
+        $"{options.Scene.Name}, {options.Peers} peers, {NumberText.Count(options.Plan.Count, "event")} in"
+            + $" {NumberText.Short(CompareOptions.Length.ToSeconds())} s of virtual time, the same for all";
 
     /// <summary>The cells of a run under <see cref="Columns"/>.</summary>
     internal static string[] Row(CompareRun run) =>
@@ -54,9 +55,12 @@ internal static class CompareTables
 
     internal static IEnumerable<string> Footnotes(IReadOnlyList<CompareRun> runs)
     {
-        yield return "during, after: largest distance in metres between the host's picture and another peer's at the same shared time, while an event is on its way to somebody, and while none is.";
-        yield return "off truth: after the events, from what a world shows then that had all of them on time. heal ms: wall clock of the step that takes news in, 99th percentile.";
-        yield return "re-run, cone: events run again and bodies predicted anew for one piece of news, in the mean. bytes/s: the peer that sends most. jumps: the furthest a drawn body jumped.";
+        yield return "during, after: largest distance in metres between the host's picture and another peer's at the same shared time, while an event is on"
+            + " its way to somebody, and while none is.";
+        yield return "off truth: after the events, from what a world shows then that had all of them on time. heal ms: wall clock of the step that takes"
+            + " news in, 99th percentile.";
+        yield return "re-run, cone: events run again and bodies predicted anew for one piece of news, in the mean. bytes/s: the peer that sends most. jumps:"
+            + " the furthest a drawn body jumped.";
         foreach (string sentence in new CompareFindings(runs).Sentences())
         {
             yield return sentence;

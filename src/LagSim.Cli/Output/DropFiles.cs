@@ -17,7 +17,8 @@ internal static class DropFiles
         DropOptions options = runs[0].Options;
         HtmlReport report = new(
             "LagSim drop test",
-            $"{options.Peers} peers in {DropNames.Time(options)} time, strategy {options.Strategy}, motion {MotionNames.Of(options.Motion)}, link {options.Link.Name}.",
+            $"{options.Peers} peers in {DropNames.Time(options)} time, strategy {options.Strategy}, motion {MotionNames.Of(options.Motion)}, link"
+                + $" {options.Link.Name}.",
             new ReportFooter("lagsim", ToolVersion.Text, options.Seed, JsonDocumentWriter.Hash(runs[0].SceneHash)));
         foreach (DropRun run in runs)
         {

@@ -20,7 +20,8 @@ internal static class DropTables
     {
         console.Output.WriteLine($"lagsim {ToolVersion.Text}   drop   seed {options.Seed}   scene {JsonDocumentWriter.Hash(runs[0].SceneHash)}");
         console.Output.WriteLine(
-            $"{options.Strategy}, {MotionNames.Of(options.Motion)}, {options.Peers} peers, {options.Link.Name}, {(options.IsVirtual ? "virtual time" : $"real time over {options.Carrier.Name}")}");
+            $"{options.Strategy}, {MotionNames.Of(options.Motion)}, {options.Peers} peers, {options.Link.Name},"
+                + $" {(options.IsVirtual ? "virtual time" : $"real time over {options.Carrier.Name}")}");
         foreach (DropRun run in runs)
         {
             WritePicture(console, run);
@@ -31,7 +32,8 @@ internal static class DropTables
         console.Write(Strategies(strategies));
         foreach (DropRun late in strategies.Where(run => DelayOf(run) > SimDuration.Zero))
         {
-            console.Output.WriteLine($"{late.Options.Strategy} shows everything {NumberText.Short(DelayOf(late).ToMilliseconds())} ms late, what a player does itself included.");
+            console.Output.WriteLine($"{late.Options.Strategy} shows everything {NumberText.Short(DelayOf(late).ToMilliseconds())} ms late, what a player"
+                + " does itself included.");
         }
 
         if (folder is not null)
@@ -106,14 +108,16 @@ internal static class DropTables
     {
         string late = run.Case == DropCase.Teleport ? $", event {NumberText.Short(run.Lateness.Max)} ms late" : "";
         string rest = run.CpuCoresAtRest is double cpu ? $", at rest {NumberText.Short(100 * cpu)} % of a core" : "";
-        console.Output.WriteLine($"{NumberText.Count(run.Events, "event")}, {NumberText.Count(run.Heals, "heal")}, clock error {NumberText.Short(run.ClockErrorMilliseconds)} ms{late}{rest}");
+        console.Output.WriteLine($"{NumberText.Count(run.Events, "event")}, {NumberText.Count(run.Heals, "heal")}, clock error"
+            + $" {NumberText.Short(run.ClockErrorMilliseconds)} ms{late}{rest}");
         if (!run.BallRested)
         {
             console.Output.WriteLine("The ball had not come to rest when it was lifted: this is not the thesis's test.");
         }
 
         console.Output.WriteLine($"bytes/s {string.Join(" ", run.BytesSentPerSecond.Select(NumberText.Short))}");
-        console.Output.WriteLine($"event hashes {string.Join(" ", run.EventHashes.Select(h => JsonDocumentWriter.Hash(h)))} {(run.Agrees ? "(equal)" : "(NOT equal)")}");
+        console.Output.WriteLine($"event hashes {string.Join(" ", run.EventHashes.Select(h => JsonDocumentWriter.Hash(h)))}"
+            + $" {(run.Agrees ? "(equal)" : "(NOT equal)")}");
         console.Output.WriteLine();
     }
 

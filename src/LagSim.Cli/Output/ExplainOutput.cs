@@ -40,7 +40,8 @@ internal static class ExplainOutput
         }
 
         console.Write(features);
-        console.Output.WriteLine("pieces/s: pieces of path in a simulated second where the body starts, besides those that impacts open; 0: one from impact to impact.");
+        console.Output.WriteLine("pieces/s: pieces of path in a simulated second where the body starts, besides those that impacts open; 0: one from impact"
+            + " to impact.");
     }
 
     internal static void WriteJson(TextWriter output, Scene scene, SceneExplanation explanation, ulong seed) =>

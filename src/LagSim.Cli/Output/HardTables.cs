@@ -58,7 +58,8 @@ internal static class HardTables
         {
             string note = row.Note.Length > 0 ? $" ({row.Note})" : "";
             yield return
-                $"{report.Outcome(row)}: {row.Case}, {row.Size}{note}: {Text(row.Error)} is {(row.Passed ? "" : "not ")}within {Text(row.Bound)}, {Kind(row.ErrorKind)}";
+                $"{report.Outcome(row)}: {row.Case}, {row.Size}{note}: {Text(row.Error)} is {(row.Passed ? "" : "not ")}within {Text(row.Bound)},"
+                    + $" {Kind(row.ErrorKind)}";
         }
     }
 

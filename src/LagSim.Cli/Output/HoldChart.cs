@@ -25,7 +25,8 @@ internal static class HoldChart
         double[] all = lines.SelectMany(of => of).SelectMany(series => series.Y).Where(double.IsFinite).ToArray();
         return new LineChart(
             $"The held ball as {Viewer(runs[0])} saw it: {motion.Name} motion",
-            "For each link one coordinate of the hand against shared time, and of the ball that it holds as another peer saw it, as its world has it and as the predictor draws it.",
+            "For each link one coordinate of the hand against shared time, and of the ball that it holds as another peer saw it, as its world has it and as"
+                + " the predictor draws it.",
             runs.Select((run, n) => new ChartPanel(run.Options.Link.Name, $"{name} (m)", lines[n]) { PlotHeight = SmallPanel, Reaches = [all.Min(), all.Max()] }).ToArray())
         {
             XLabel = TimeLabel,
@@ -40,7 +41,8 @@ internal static class HoldChart
         ChartSeries Off(string name, Vector3D[] ball, SeriesStyle style, int colour) => Series(run, name, shown, n => (ball[n] - trace.Hand[n]).Length, style, colour);
         return new LineChart(
             $"In the hand, {run.Options.Link.Name}: {motion.Name} motion",
-            "Above one coordinate of the hand against shared time, and of the ball as another peer saw it; below how far the ball was from the hand, for its holder too.",
+            "Above one coordinate of the hand against shared time, and of the ball as another peer saw it; below how far the ball was from the hand, for its"
+                + " holder too.",
             [
                 new ChartPanel($"The hand, and the ball as {Viewer(run)} saw it", $"{Coordinate(run)} (m)", Lines(run, Axis(run, out _))) { PlotHeight = 260 },
                 new ChartPanel(

@@ -48,7 +48,8 @@ internal static class HoldTables
 
     internal const string PredictionTitle = "the hand told from all of its samples, by delay in ms: rms error in mm";
 
-    internal const string PredictionFootnote = "best: of what the adaptive one mixes, in hindsight; linear: 20 taps, fitted to the other nine tenths of this very motion";
+    internal const string PredictionFootnote = "best: of what the adaptive one mixes, in hindsight; linear: 20 taps, fitted to the other nine tenths of this"
+        + " very motion";
 
     internal static string Introduction(HoldReport report)
     {
@@ -60,9 +61,12 @@ internal static class HoldTables
 
     internal static IEnumerable<string> Footnotes(HoldReport report)
     {
-        yield return "simulated: where that peer's world has the ball, by the last knot; predicted: drawn where the adaptive predictor tells the hand is, from the same knots.";
-        yield return "of best: its rms error over that of the best in hindsight of what it mixes; hold, velocity: two of those; own: what the holder sees, which knots leave out.";
-        yield return $"A knot goes out when the others are off by more than {NumberText.Short(1000 * report.Runs[0].Options.KnotDistanceMetres)} mm. The throw is not in these errors.";
+        yield return "simulated: where that peer's world has the ball, by the last knot; predicted: drawn where the adaptive predictor tells the hand is,"
+            + " from the same knots.";
+        yield return "of best: its rms error over that of the best in hindsight of what it mixes; hold, velocity: two of those; own: what the holder sees,"
+            + " which knots leave out.";
+        yield return $"A knot goes out when the others are off by more than {NumberText.Short(1000 * report.Runs[0].Options.KnotDistanceMetres)} mm. The"
+            + " throw is not in these errors.";
         yield return "during: while news of the hand is on its way to somebody, after: while none is. Bytes while it holds, with UDP and IP headers.";
         yield return "The thesis's own figures for this (Fig 4 and 5) are not known to this tool.";
         foreach (HoldRun broken in report.Runs.Where(run => !run.Agrees))

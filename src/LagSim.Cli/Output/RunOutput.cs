@@ -45,10 +45,12 @@ internal static class RunOutput
     {
         console.Rich.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
-            $"lagsim {ToolVersion.Text}   run {scene.Name}   seed {seed}   scene {scene.Hash:x16}   state {run.End.StateHash(run.Until):x16}   events {run.End.EventHash(run.Until):x16}"));
+            $"lagsim {ToolVersion.Text}   run {scene.Name}   seed {seed}   scene {scene.Hash:x16}   state {run.End.StateHash(run.Until):x16}   events"
+                + $" {run.End.EventHash(run.Until):x16}"));
         console.Rich.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
-            $"{run.Until.ToSeconds():0.#########} s, {NumberText.Count(run.End.EventsProcessed, "event")}, {NumberText.Count(run.End.ImpactsProcessed, "impact")}; "
+            $"{run.Until.ToSeconds():0.#########} s, {NumberText.Count(run.End.EventsProcessed, "event")},"
+                + $" {NumberText.Count(run.End.ImpactsProcessed, "impact")}; "
             + $"energy {NumberText.Short(run.StartEnergy)} J at the start, {NumberText.Short(run.EndEnergy)} J at the end"));
         console.Rich.WriteLine(Times(run));
         Table table = new Table { Border = TableBorder.Rounded }.AddColumns("body", "position (m)", "velocity (m/s)", "motion");
@@ -66,10 +68,10 @@ internal static class RunOutput
     private static string Times(RunSummary run)
     {
         string least = run.Timed == 1 ? "timed once" : $"the least of {NumberText.Count(run.Timed, "run")}";
-        string picture = run.PictureSeconds > 0 ? $", {NumberText.Short(run.PictureSeconds)} s the picture" : "";
+        string picture = run.PictureSeconds > 0 ? $", picture {NumberText.Short(run.PictureSeconds)} s" : "";
         double all = run.WritingSeconds + run.TimingSeconds + run.PictureSeconds;
-        return $"{NumberText.Short(run.WallSeconds)} s to simulate, {least} after a warm-up; {NumberText.Short(all)} s in all: {NumberText.Short(run.WritingSeconds)} s this run and"
-            + $" its files, {NumberText.Short(run.TimingSeconds)} s timing{picture}";
+        return $"{NumberText.Short(run.WallSeconds)} s to simulate, {least} after a warm-up; in all {NumberText.Short(all)} s: run and files"
+            + $" {NumberText.Short(run.WritingSeconds)} s, timing {NumberText.Short(run.TimingSeconds)} s{picture}";
     }
 
     private static string Text(in Vector3D v) => $"{NumberText.Short(v.X)}  {NumberText.Short(v.Y)}  {NumberText.Short(v.Z)}";

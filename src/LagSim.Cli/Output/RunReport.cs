@@ -21,7 +21,8 @@ internal static class RunReport
     {
         HtmlReport report = new(
             $"LagSim run of {scene.Name}",
-            string.Create(CultureInfo.InvariantCulture, $"{run.Until.ToSeconds():0.#########} s, {NumberText.Count(run.End.EventsProcessed, "event")}, {NumberText.Count(run.End.ImpactsProcessed, "impact")}. Samples: {Path.GetFileName(sampleFile)}."),
+            string.Create(CultureInfo.InvariantCulture, $"{run.Until.ToSeconds():0.#########} s, {NumberText.Count(run.End.EventsProcessed, "event")},"
+                + $" {NumberText.Count(run.End.ImpactsProcessed, "impact")}. Samples: {Path.GetFileName(sampleFile)}."),
             new ReportFooter("lagsim", ToolVersion.Text, seed, JsonDocumentWriter.Hash(scene.Hash)));
         if (scene.Bodies.Count > 0 && run.Until > SimTime.Zero)
         {

@@ -68,7 +68,8 @@ internal sealed class SessionPrinter
             clock = now;
             Line(string.Create(
                 CultureInfo.InvariantCulture,
-                $"clock offset {now.Offset.ToMilliseconds():0.0000} ms bound {now.Bound.ToMilliseconds():0.0000} ms delay {now.Delay.ToMilliseconds():0.0000} ms"));
+                $"clock offset {now.Offset.ToMilliseconds():0.0000} ms bound {now.Bound.ToMilliseconds():0.0000} ms delay"
+                    + $" {now.Delay.ToMilliseconds():0.0000} ms"));
         }
     }
 

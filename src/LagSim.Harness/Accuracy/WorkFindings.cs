@@ -10,7 +10,8 @@ public static class WorkFindings
 {
     /// <summary>What stands beside any figures of speed against physics engines.</summary>
     public const string Caution =
-        "Sparse frictionless scenes favour an event-driven engine; stacks, friction and joints do not: there the engines compared here are at home, and LagSim is not.";
+        "Sparse frictionless scenes favour an event-driven engine; stacks, friction and joints do not: there the engines compared here are at home, and"
+            + " LagSim is not.";
 
     /// <summary>For each scene, and for each of its peers: where LagSim is not in front, or by how much it is at least.</summary>
     /// <remarks>
@@ -71,7 +72,9 @@ public static class WorkFindings
         Duel? closest = won.MinBy(duel => duel.Factor);
         string least = closest is null ? "" : $"by {NumberText.Short(closest.Factor)} times at least ({closest.Peer.Method} at {closest.Peer.Setting})";
         return lost.Length == 0 ? $"{scene}: in front of every peer at every error, {least}."
-            : $"{scene}: NOT in front at {lost.Length} of {NumberText.Count(duels.Length, "point")} of {NumberText.Count(duels.Select(duel => duel.Peer.Method).Distinct().Count(), "peer")}, named below{(won.Length > 0 ? "; in front at all others " + least : "")}.";
+            : $"{scene}: NOT in front at {lost.Length} of {NumberText.Count(duels.Length, "point")} of"
+                + $" {NumberText.Count(duels.Select(duel => duel.Peer.Method).Distinct().Count(), "peer")}, named"
+                + $" below{(won.Length > 0 ? "; in front at all others " + least : "")}.";
     }
 
     private static IEnumerable<string> Against(string scene, string peer, Duel[] duels)
@@ -80,8 +83,10 @@ public static class WorkFindings
         {
             WorkPoint point = duel.Peer;
             yield return double.IsPositiveInfinity(duel.Cost)
-                ? $"{scene}: NOT in front of {peer} at {point.Setting}: no setting of LagSim is as exact as {NumberText.Short(point.Error)} {WorkErrorKinds.Of(point.ErrorKind).Unit}."
-                : $"{scene}: NOT in front of {peer} at {point.Setting} (error {NumberText.Short(point.Error)}): {duel.Method} takes {NumberText.Short(1 / duel.Factor)} times as long for that error or less.";
+                ? $"{scene}: NOT in front of {peer} at {point.Setting}: no setting of LagSim is as exact as {NumberText.Short(point.Error)}"
+                    + $" {WorkErrorKinds.Of(point.ErrorKind).Unit}."
+                : $"{scene}: NOT in front of {peer} at {point.Setting} (error {NumberText.Short(point.Error)}): {duel.Method} takes"
+                    + $" {NumberText.Short(1 / duel.Factor)} times as long for that error or less.";
         }
 
         if (duels.All(duel => duel.IsWon))

@@ -117,7 +117,8 @@ public static class InvariantCheck
         if (options.FromPeers < CheckOptions.FewestPeers || options.ToPeers > CheckOptions.MostPeers || options.FromPeers > options.ToPeers)
         {
             throw new ArgumentOutOfRangeException(
-                nameof(options), $"{options.FromPeers}-{options.ToPeers}", $"A session has {CheckOptions.FewestPeers} to {CheckOptions.MostPeers} peers, the host included.");
+                nameof(options), $"{options.FromPeers}-{options.ToPeers}", $"A session has {CheckOptions.FewestPeers} to {CheckOptions.MostPeers} peers, the"
+                    + " host included.");
         }
 
         if (options.Sessions > 1 && (options.Bodies is not null || options.Events is not null))

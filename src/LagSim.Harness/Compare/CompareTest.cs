@@ -30,7 +30,8 @@ public static class CompareTest
         int bodies = options.Scene.Bodies.Count + spawned.Length;
         if (bodies > CompareOptions.MaxBodies)
         {
-            throw new SceneException($"The scene '{options.Scene.Name}' has {NumberText.Count(bodies, "body", many: "bodies")} with those that will be spawned; at most {CompareOptions.MaxBodies} are watched.");
+            throw new SceneException($"The scene '{options.Scene.Name}' has {NumberText.Count(bodies, "body", many: "bodies")} with those that will be"
+                + $" spawned; at most {CompareOptions.MaxBodies} are watched.");
         }
 
         PeerGroupOptions group = new(options.Peers, options.Link, options.Strategy, options.Seed, CompareOptions.Length)

@@ -157,7 +157,8 @@ public static class SessionFuzz
             long strangersSent = strangers.Sum(p => network.Traffic(Number(p)).BytesSent - (28 * network.Traffic(Number(p)).DatagramsSent));
             long strangersGot = strangers.Sum(p => network.Traffic(Number(p)).BytesReceived - (28 * network.Traffic(Number(p)).DatagramsReceived));
             failure ??= isFromStrangers && !isWhole ? $"Seed {seed}: a session came apart under datagrams of strangers and replays: {State()}." : null;
-            failure ??= held > MaxGrowth ? $"Seed {seed}: the memory of a living session grew by {held} bytes over its last {packets - (packets / 4)} packets." : null;
+            failure ??= held > MaxGrowth ? $"Seed {seed}: the memory of a living session grew by {held} bytes over its last {packets - (packets / 4)}"
+                + " packets." : null;
             failure ??= strangersGot > strangersSent ? $"Seed {seed}: strangers sent {strangersSent} bytes and got {strangersGot}." : null;
             return new FuzzReport(
                 sum.Packets + packets,
@@ -215,6 +216,7 @@ public static class SessionFuzz
         }
 
         private string State() => string.Join("; ", sessions.Select(
-            s => $"{s.State} {s.EndReason} log {s.LogLength}, refused {s.Counters.EventsRefused}, forged {s.Counters.EventsForged}, differed {s.Counters.StatesDiffered}"));
+            s => $"{s.State} {s.EndReason} log {s.LogLength}, refused {s.Counters.EventsRefused}, forged {s.Counters.EventsForged}, differed"
+                + $" {s.Counters.StatesDiffered}"));
     }
 }

@@ -49,7 +49,8 @@ public static class HandMotionFile
         string? header = text.ReadLine();
         if (header != Header)
         {
-            throw Fault(name, 1, header is null ? $"the file is empty; it must begin with '{Header}'" : $"the header is '{Clip(header)}'; it must be '{Header}'");
+            throw Fault(name, 1, header is null ? $"the file is empty; it must begin with '{Header}'" : $"the header is '{Clip(header)}'; it must be"
+                + $" '{Header}'");
         }
 
         List<Vector3D> samples = [];
@@ -103,7 +104,8 @@ public static class HandMotionFile
     private static double[] Numbers(string row, string name, int line)
     {
         string[] columns = Header.Split(',');
-        string[] fields = row.Length <= LongestLine ? row.Split(',') : throw Fault(name, line, $"the line has {row.Length} characters; at most {LongestLine} are allowed");
+        string[] fields = row.Length <= LongestLine ? row.Split(',') : throw Fault(name, line, $"the line has {row.Length} characters; at most {LongestLine}"
+            + " are allowed");
         if (fields.Length != columns.Length)
         {
             throw Fault(name, line, $"'{Clip(row)}' has {fields.Length} values; there must be {columns.Length}: {Header}");

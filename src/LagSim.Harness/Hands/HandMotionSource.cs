@@ -21,6 +21,7 @@ public static class HandMotionSource
 
         return File.Exists(nameOrPath)
             ? HandMotionFile.Read(nameOrPath)
-            : throw new HandMotionException($"'{nameOrPath}' is neither a generated hand motion ({string.Join(", ", HandMotions.Names)}) nor a file that exists.");
+            : throw new HandMotionException($"'{nameOrPath}' is neither a generated hand motion ({string.Join(", ", HandMotions.Names)}) nor a file that"
+                + " exists.");
     }
 }

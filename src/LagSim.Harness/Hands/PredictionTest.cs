@@ -29,7 +29,8 @@ public static class PredictionTest
             throw new ArgumentOutOfRangeException(
                 nameof(horizonMilliseconds),
                 horizonMilliseconds,
-                $"The horizon must be 0 to 1000 ms, a whole number of intervals of 1/{HandMotion.RateHertz} s, and a second shorter than the motion, {motion.Seconds} s.");
+                $"The horizon must be 0 to 1000 ms, a whole number of intervals of 1/{HandMotion.RateHertz} s, and a second shorter than the motion,"
+                    + $" {motion.Seconds} s.");
         }
 
         int first = LinearFit.Taps - 1; // from where on the linear one has what it needs; the same for all

@@ -95,7 +95,8 @@ internal sealed class BoxReversalCase : IHardCase
                 (back.Position - Turn(Start, isTurned)).Length, "position_m",
             places + speeds,
             isTurned
-                ? "4 roundings of the place a hit, added; the velocity walks by 8 roundings a hit, four times its rms, summed over the time: flat walls add, they do not multiply"
+                ? "4 roundings of the place a hit, added; the velocity walks by 8 roundings a hit, four times its rms, summed over the time: flat walls add,"
+                    + " they do not multiply"
                 : "4 roundings of the place a hit, added; a hit turns a component round exactly",
             "the start");
     }

@@ -67,7 +67,8 @@ internal sealed class HardSphereGasCase : IHardCase
     {
         string size = FormattableString.Invariant($"{bodies:N0} spheres, fraction {fraction}, {seen.Contacts:N0} impacts");
         double scatter = 1 / Math.Sqrt(seen.Contacts);
-        const string why = "0.5 %, as the catalogue asks: Carnahan and Starling's formula is itself off by up to 0.35 % in g up to a fraction of 0.4, and 1/N is left out";
+        const string why = "0.5 %, as the catalogue asks: Carnahan and Starling's formula is itself off by up to 0.35 % in g up to a fraction of 0.4, and"
+            + " 1/N is left out";
         string note = FormattableString.Invariant($"statistical error {100 * scatter:0.00} % (1/sqrt of the impacts); no correction for the number of spheres is made");
         yield return new HardRow(
             Name, size, Math.Abs((seen.Frequency / EquilibriumGas.Frequency(expected, seen.Temperature)) - 1), "rate_relative", Allowed, why,

@@ -20,7 +20,8 @@ internal sealed class HeapCase : IHardCase
 
     public string Name => "heap";
 
-    public string Title => "a heap with friction falls into a box; a ball stays on two that only friction keeps together; a pyramid of 30 balls stands in steps that never end: no gain of energy, no depth, no drift, and what carries it is its weight";
+    public string Title => "a heap with friction falls into a box; a ball stays on two that only friction keeps together; a pyramid of 30 balls stands in"
+        + " steps that never end: no gain of energy, no depth, no drift, and what carries it is its weight";
 
     public IEnumerable<HardRow> Rows(HardContext context)
     {
@@ -199,6 +200,7 @@ internal sealed class HeapCase : IHardCase
         yield return new HardRow(Name, size, drift, "drift_m", SceneBuilder.DefaultResolution, "the scene's resolution: what is nearer to equilibrium stands", "nothing moves; NaN where no steps were taken");
         yield return new HardRow(
             Name, size, momentum, "momentum_s", SceneBuilder.DefaultResolution / Step, "the resolution in a step: what carries is that near to the weight", "forces that sum to the weight leave no momentum");
-        yield return new HardRow(Name, size, gain, "energy_gain_relative_standing", 512 * Rounding.Unit * 4 * 30, "a rounding of each of 30 balls in each step of 4 s", "the energy at the start");
+        yield return new HardRow(Name, size, gain, "energy_gain_relative_standing", 512 * Rounding.Unit * 4 * 30, "a rounding of each of 30 balls in each"
+            + " step of 4 s", "the energy at the start");
     }
 }

@@ -23,7 +23,8 @@ internal sealed class OrderCase : IHardCase
 
     public string Name => "order";
 
-    public string Title => "the measured orders of Runge-Kutta and Dormand-Prince steps of fixed length under a driven spring with quadratic drag and a magnetic part, through contacts";
+    public string Title => "the measured orders of Runge-Kutta and Dormand-Prince steps of fixed length under a driven spring with quadratic drag and a"
+        + " magnetic part, through contacts";
 
     public IEnumerable<HardRow> Rows(HardContext context)
     {

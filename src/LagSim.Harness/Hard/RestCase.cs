@@ -12,7 +12,8 @@ internal sealed class RestCase : IHardCase
 {
     public string Name => "rest";
 
-    public string Title => "at rest on a plane, on another ball, in a small pile: no drift, no gain of energy, finitely many events; down a slope as the formula says";
+    public string Title => "at rest on a plane, on another ball, in a small pile: no drift, no gain of energy, finitely many events; down a slope as the"
+        + " formula says";
 
     public IEnumerable<HardRow> Rows(HardContext context)
     {

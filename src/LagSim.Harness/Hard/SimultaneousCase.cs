@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using LagSim.Harness.Reports;
 using LagSim.Scenes;
 using LagSim.Time;
 using static LagSim.Harness.Hard.HardWorlds;
@@ -60,7 +61,7 @@ internal sealed class SimultaneousCase : IHardCase
         Simulation simulation = context.Run(scene, 5);
         double[] v = Enumerable.Range(0, 3).Select(n => Read(simulation, n, 5).Velocity.X).ToArray();
         return new HardRow(
-            Name, FormattableString.Invariant($"hit from both sides, middle {mass} kg"), Worst([Math.Abs(v[0] + 1), Math.Abs(v[1]), Math.Abs(v[2] - 1)]),
+            Name, $"hit from both sides, middle {NumberText.Short(mass)} kg", Worst([Math.Abs(v[0] + 1), Math.Abs(v[1]), Math.Abs(v[2] - 1)]),
                 "speed_m_per_s",
             Together * Math.Max(1, 1 / Math.Sqrt(mass)),
             "16 roundings, and for a light middle the root of the mass ratio times that: the solver's rows are weighed by the roots of masses",

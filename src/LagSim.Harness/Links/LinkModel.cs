@@ -79,7 +79,8 @@ public sealed class LinkModel
     {
         if (at < lastSent)
         {
-            throw new ArgumentOutOfRangeException(nameof(at), at.ToShortString(), $"A datagram was already sent at {lastSent.ToShortString()}; time only goes forward.");
+            throw new ArgumentOutOfRangeException(nameof(at), at.ToShortString(), $"A datagram was already sent at {lastSent.ToShortString()}; time only"
+                + " goes forward.");
         }
 
         lastSent = at;

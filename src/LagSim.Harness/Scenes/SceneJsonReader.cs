@@ -77,7 +77,8 @@ internal ref partial struct SceneJsonReader
                     Vector3D box = cursor.Vector();
                     if (box == Vector3D.Zero)
                     {
-                        throw cursor.Fail("the sides of the periodic box are [0, 0, 0]; each must be above zero, at least five times the largest diameter, or the key left out");
+                        throw cursor.Fail("the sides of the periodic box are [0, 0, 0]; each must be above zero, at least five times the largest diameter,"
+                            + " or the key left out");
                     }
 
                     Add(b => b.WithPeriodicBox(box));

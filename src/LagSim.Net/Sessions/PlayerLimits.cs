@@ -31,7 +31,8 @@ internal sealed class PlayerLimits
                 return Verdict.Accepted;
             }
 
-            sentence = $"Peer {player} has spawned {options.MaxSpawned} {(options.MaxSpawned == 1 ? "body that is" : "bodies that are")} still there, and no player may have more at a time; some have to be"
+            sentence = $"Peer {player} has spawned {options.MaxSpawned} {(options.MaxSpawned == 1 ? "body that is" : "bodies that are")} still there, and no"
+                + " player may have more at a time; some have to be"
                 + " removed first.";
             return Verdict.NoRight;
         }

@@ -74,6 +74,7 @@ public sealed class SimulationHost : IDisposable
 
     /// <summary>Does something to the world, now by the clock; the picture has it as soon as the world's thread has simulated it. From any thread.</summary>
     /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
+    /// <remarks>What meets a body that is not there, or gives it more speed than it may be given, has no effect; see <see cref="Simulation.TookEffect"/>.</remarks>
     /// <exception cref="SceneException">A value may not enter the world; nothing happened.</exception>
     /// <exception cref="ObjectDisposedException">The thread has been stopped for good; nothing would come of it.</exception>
     /// <exception cref="InvalidOperationException">The simulation ended by an exception, the inner one.</exception>

@@ -83,7 +83,8 @@ internal static class SnapshotCheck
         if (isCarried != body.SupportCount > 0 && body.Law != MotionLaw.Resting)
         {
             throw new SceneException(
-                $"{Limits.Count(body.SupportCount, "plane carries", "planes carry")} {whose}, which is {body.Law}; what slides or rolls is carried, what rests may be, and nothing else is.");
+                $"{Limits.Count(body.SupportCount, "plane carries", "planes carry")} {whose}, which is {body.Law}; what slides or rolls is carried, what"
+                    + " rests may be, and nothing else is.");
         }
 
         if (body.Law == MotionLaw.Resting && body.End != SimTime.MaxValue)

@@ -38,8 +38,9 @@ public sealed class RunCommandTests
     {
         using TemporaryFolder folder = new();
         string once = Tool.Run("run", "drop").Done().Output, drawn = Tool.Run("run", "drop", "--repeat", "3", "--out", folder["out"]).Done().Output;
-        Assert.Matches("(?m)^[0-9.e-]+ s to simulate, timed once after a warm-up; [0-9.e-]+ s in all: [0-9.e-]+ s this run and its files, [0-9.e-]+ s timing\\s*$", once);
-        Assert.Matches("the least of 3 runs after a warm-up; .* timing, [0-9.e-]+ s the picture", drawn);
+        const string Number = "[0-9.e-]+ s";
+        Assert.Matches($"(?m)^{Number} to simulate, timed once after a warm-up; in all {Number}: run and files {Number}, timing {Number}\\s*$", once);
+        Assert.Matches($"(?m)^{Number} to simulate, the least of 3 runs after a warm-up; in all .*, timing {Number}, picture {Number}\\s*$", drawn);
         JsonElement document = Json("run", "drop", "--repeat", "2", "--json");
         Assert.InRange(document.GetProperty("timed_runs_wall_s").GetDouble(), document.GetProperty("wall_s").GetDouble(), double.MaxValue);
         Assert.True(document.GetProperty("written_run_wall_s").GetDouble() > 0);
