@@ -37,6 +37,14 @@ internal static class CheckJson
             json.WriteNumber("peers", report.Outcomes.Sum(o => (long)o.Peers));
             json.WriteNumber("late_joiners", report.Outcomes.Sum(o => (long)o.LateJoiners));
             json.WriteNumber("leavers", report.Outcomes.Sum(o => (long)o.Leavers));
+            json.WriteStartObject("sessions_that_met");
+            json.WriteNumber("large_island", report.SessionsThatMet(m => m.LargeIsland));
+            json.WriteNumber("hand_in_island", report.SessionsThatMet(m => m.HandInIsland));
+            json.WriteNumber("removal_from_island", report.SessionsThatMet(m => m.RemovalFromIsland));
+            json.WriteNumber("magnus", report.SessionsThatMet(m => m.Magnus));
+            json.WriteNumber("force_in_contact", report.SessionsThatMet(m => m.ForceInContact));
+            json.WriteNumber("steps_ahead", report.SessionsThatMet(m => m.StepsAhead));
+            json.WriteEndObject();
             json.WriteString("profile", options.Profile?.Name ?? "all");
             json.WriteString("strategy", options.Strategy);
             json.WriteNumber("wall_s", report.WallSeconds);

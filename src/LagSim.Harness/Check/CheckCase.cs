@@ -20,15 +20,18 @@ internal sealed class CheckCase
     private const int MostSpawns = 6;
     private const int MostRemovals = 3;
 
-    /// <summary>How often players' hands take a body, at most.</summary>
-    private const int MostHands = 3;
-
     private const int FewestKnots = 2;
     private const int MostKnots = 10;
 
     /// <summary>Who needs longer than this for a round trip is there from the start as a rule: to get in takes several.</summary>
     private const double SlowMilliseconds = 500;
 
+    private const double HeapPercent = 4;
+
+    /// <summary>Of heaps each step is an event in every world, so they take few peers.</summary>
+    private const int MostPeersOfHeap = 3;
+
+    private const ulong HeapStream = 3;
     private const ulong FirstRoom = 100;
     private const ulong FirstHands = 1000;
     private const ulong MostAttempts = 20;
@@ -41,9 +44,7 @@ internal sealed class CheckCase
     private const long HeavyEvents = 6_000;
     private const double HeavyPercent = 1;
 
-    /// <summary>The same of a calm scene: with a little more going on there balls come to lie on each other, and when each event is done decides that.</summary>
-    private const long CalmEvents = 400;
-
+    private readonly bool isHeap;
     private readonly CheckScene room;
     private readonly List<CheckPlayer> players = [];
     private readonly List<CheckDeed> deeds = [];
@@ -53,15 +54,17 @@ internal sealed class CheckCase
     {
         Seed = seed;
         SeededRandom random = new(seed);
+        isHeap = random.Fork(HeapStream).IsLucky(HeapPercent); // a stream of its own: all other sessions are what they would be without
         DrawPlayers(random.Fork(1), options);
         SeededRandom rest = random.Fork(2);
         long budget = rest.IsLucky(HeavyPercent) ? HeavyEvents : UsualEvents;
         for (ulong attempt = 0; ; attempt++)
         {
-            room = new CheckScene(random.Fork(FirstRoom + (2 * attempt)));
+            SeededRandom things = random.Fork(FirstRoom + (2 * attempt));
+            room = isHeap ? new HeapScene(things) : new RoomScene(things);
             DrawDeeds(random.Fork(FirstRoom + (2 * attempt) + 1));
             DrawHands(random.Fork(FirstHands + attempt));
-            if (attempt == MostAttempts || IsWithin(room.IsCalm ? CalmEvents : budget, cancellation))
+            if (attempt == MostAttempts || IsWithin(room.MostEvents ?? budget, cancellation))
             {
                 break;
             }
@@ -107,6 +110,9 @@ internal sealed class CheckCase
 
     internal SimDuration LookAhead { get; }
 
+    /// <summary>How many steps of islands the scene lets others take ahead, with all that is to be done in it; the same on any machine.</summary>
+    internal long StepsAhead { get; private set; }
+
     /// <summary>The body of the scene that had that index when it was drawn; null if it is left out.</summary>
     internal BodyId? BodyDrawnAs(int index)
     {
@@ -138,7 +144,8 @@ internal sealed class CheckCase
 
     private void DrawPlayers(SeededRandom random, CheckOptions options)
     {
-        int peers = options.FromPeers + random.NextInt(options.ToPeers - options.FromPeers + 1);
+        int most = isHeap ? Math.Clamp(MostPeersOfHeap, options.FromPeers, options.ToPeers) : options.ToPeers;
+        int peers = options.FromPeers + random.NextInt(most - options.FromPeers + 1);
         players.Add(Player(random, LinkProfiles.PureDelay(0), null, null, false));
         for (int peer = 1; peer < peers; peer++)
         {
@@ -175,7 +182,8 @@ internal sealed class CheckCase
     /// <summary>Whether the scene, with all that is to be done in it, takes no more events than that.</summary>
     private bool IsWithin(long budget, CancellationToken cancellation)
     {
-        Simulation alone = new(room.Build([.. Enumerable.Range(0, room.BodyCount)]), new SimulationOptions(cancellation: cancellation));
+        Scene scene = room.Build([.. Enumerable.Range(0, room.BodyCount)]);
+        Simulation alone = new(scene, new SimulationOptions(cancellation: cancellation, threads: 2) { OtherThread = static (take, step) => take(step) });
         BodyId[] bodies = new BodyId[deeds.Count];
         for (int i = 0; i < deeds.Count; i++)
         {
@@ -186,6 +194,7 @@ internal sealed class CheckCase
                 return false;
             }
 
+            StepsAhead = alone.StepsUsedAhead;
             ExternalEvent external = deed.On(deed.Spawn >= 0 ? bodies[deed.Spawn] : BodyId.OfScene(Math.Max(0, deed.Body))).Stamp(time, (byte)deed.Peer, (uint)i + 1);
             bodies[i] = external.Body;
             alone.Submit(external);
@@ -199,7 +208,7 @@ internal sealed class CheckCase
         deeds.Clear();
         int count = FewestDeeds + random.NextInt(17);
         List<int> spawns = [];
-        double[] times = Enumerable.Range(0, count).Select(_ => random.NextDouble() * Length).Order().ToArray();
+        double[] times = Enumerable.Range(0, count).Select(_ => random.NextDouble() * room.BusySeconds).Order().ToArray();
         int removals = 0;
         for (int i = 0; i < count; i++)
         {
@@ -208,7 +217,7 @@ internal sealed class CheckCase
             double at = isTogether ? deeds[i - 1].AtSeconds : times[i];
             int peer = isTogether && random.IsLucky(60) ? deeds[i - 1].Peer : random.NextInt(players.Count);
             int spawn = spawns.Count > 0 && random.IsLucky(20) ? spawns[random.NextInt(spawns.Count)] : -1;
-            int body = spawn >= 0 ? -1 : random.NextInt(room.BodyCount);
+            int body = spawn >= 0 ? -1 : room.DrawBody(random);
             if (isTogether && deeds[i - 1].Kind != EventKind.Spawn && random.IsLucky(50))
             {
                 (body, spawn) = (deeds[i - 1].Body, deeds[i - 1].Spawn);
@@ -239,13 +248,13 @@ internal sealed class CheckCase
     {
         List<CheckDeed> all = [.. deeds];
         int[] spawns = [.. Enumerable.Range(0, deeds.Count).Where(i => deeds[i].Kind == EventKind.Spawn)];
-        int hands = room.IsCalm ? 0 : random.NextInt(MostHands + 1);
+        int hands = random.NextInt(room.MostHands + 1);
         CheckDeed? before = null;
         for (int hand = 0; hand < hands; hand++)
         {
             int spawn = spawns.Length > 0 && random.IsLucky(20) ? random.Pick(spawns) : -1;
             int body = spawn >= 0 ? -1 : random.NextInt(room.BodyCount);
-            double at = random.NextDouble(spawn >= 0 ? deeds[spawn].AtSeconds : 0, Length);
+            double at = random.NextDouble(spawn >= 0 ? deeds[spawn].AtSeconds : 0, room.BusySeconds);
             if (before is not null && random.IsLucky(50))
             {
                 (spawn, body) = (before.Spawn, before.Body);

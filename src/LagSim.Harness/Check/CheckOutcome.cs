@@ -35,6 +35,9 @@ public sealed record CheckOutcome
     /// <summary>Impacts in the world of the peer that never had a delay.</summary>
     public long Impacts { get; init; }
 
+    /// <summary>What of rare things it met.</summary>
+    public SceneFeatures Met { get; init; }
+
     /// <summary>Events that were refused for being too late, or came to a peer whose history no longer had their time.</summary>
     public long TooLateEvents { get; init; }
 

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Linq;
 
@@ -36,4 +37,8 @@ public sealed record CheckReport(IReadOnlyList<CheckOutcome> Outcomes, IReadOnly
 
     /// <summary>States, hashes and timeline entries that differ in any bit.</summary>
     public long DifferingBits => Outcomes.Sum(o => o.DifferingBits);
+
+    /// <summary>How many sessions met something rare.</summary>
+    /// <param name="what">Tells it from all that was met.</param>
+    public int SessionsThatMet(Func<SceneFeatures, bool> what) => Outcomes.Count(o => what(o.Met));
 }

@@ -302,7 +302,7 @@ internal sealed class CheckSession
     {
         List<Member> there = members.FindAll(m => !m.HasGone);
         SimTime end = members.Where(m => m.Session.World is not null).Max(m => m.Session.World!.Simulation.SimulatedTo);
-        Simulation alone = new(drawn.Scene, new SimulationOptions(Host.World!.Simulation.Start, SimDuration.MaxValue, cancellation: cancellation));
+        Simulation alone = new(drawn.Scene, new SimulationOptions(Host.World!.Simulation.Start, SimDuration.MaxValue, cancellation: cancellation, threads: 1)); // no step of it is taken ahead; peers may
         foreach (ExternalEvent external in accepted)
         {
             alone.Submit(external);
@@ -337,6 +337,7 @@ internal sealed class CheckSession
             HealsThatChangedAnImpact = members.Sum(m => m.Heals?.Changed ?? 0),
             EventsRerun = members.Sum(m => m.Heals?.Events ?? 0),
             Impacts = alone.ImpactsProcessed,
+            Met = SceneFeatures.Of(alone, accepted, drawn.StepsAhead),
             TooLateEvents = tooLate + lost,
             RefusedEvents = refused,
             LateJoiners = members.Count(m => drawn.Players[m.Peer].AsksAtSeconds is not null && m.Session.World is not null),

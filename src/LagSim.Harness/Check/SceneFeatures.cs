@@ -1,0 +1,116 @@
+using System.Collections.Generic;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Harness.Check;
+
+/// <summary>What a session met of what is rarely drawn: seen in the world that had all on time, at every event and right before those of players.</summary>
+/// <param name="LargeIsland">Five bodies or more that touched moved by common steps.</param>
+/// <param name="HandInIsland">A hand took a body of an island of two or more, moving or at rest.</param>
+/// <param name="RemovalFromIsland">One of such an island was removed.</param>
+/// <param name="Magnus">The Magnus force bent the path of a body that flew.</param>
+/// <param name="ForceInContact">A body on which a force acts besides gravity was in lasting contact under both.</param>
+/// <param name="StepsAhead">A step of one island could be taken while another's was.</param>
+public readonly record struct SceneFeatures(bool LargeIsland, bool HandInIsland, bool RemovalFromIsland, bool Magnus, bool ForceInContact, bool StepsAhead)
+{
+    private const int Large = 5;
+    private const double Touching = 1e-6; // metres
+
+    /// <param name="alone">The world, advanced to its end, with a history without end.</param>
+    /// <param name="accepted">What players did in it.</param>
+    /// <param name="stepsAhead">How many steps could be taken ahead.</param>
+    internal static SceneFeatures Of(Simulation alone, IReadOnlyList<ExternalEvent> accepted, long stepsAhead)
+    {
+        SceneFeatures met = new() { StepsAhead = stepsAhead > 0 };
+        List<(BodyId Body, BodySpec Spec, BodyState State)> there = [];
+        Dictionary<EventKey, int> steps = [];
+        for (int n = 0; n < alone.BodyCount; n++)
+        {
+            BodyId body = alone.BodyAt(n);
+            ForceSet forces = alone.SpecOf(body).Forces;
+            foreach (TimelineEntry entry in alone.Timeline(body))
+            {
+                BodyState state = entry.State;
+                bool isInContact = state.Motion is MotionLaw.Constrained or MotionLaw.Sliding or MotionLaw.Rolling or MotionLaw.Resting;
+                if (!forces.IsEmpty && state.Motion is not (MotionLaw.Absent or MotionLaw.Held))
+                {
+                    met = met with
+                    {
+                        Magnus = met.Magnus || (!isInContact && forces.Contains(CheckScene.Magnus) && Vector3D.Cross(state.Spin, state.Velocity) != Vector3D.Zero),
+                        ForceInContact = met.ForceInContact || (isInContact && alone.Scene.Gravity != Vector3D.Zero),
+                    };
+                }
+
+                if (state.Motion == MotionLaw.Constrained && !met.LargeIsland)
+                {
+                    // All of an island open their pieces with one key; others, beside it, may do so as well.
+                    int count = steps[entry.Key] = steps.GetValueOrDefault(entry.Key) + 1;
+                    if (count >= Large)
+                    {
+                        Read(alone, entry.Key.Time, there);
+                        met = met with { LargeIsland = CountIsland(there, there.FindIndex(b => b.Body == body), MotionLaw.Constrained) >= Large };
+                    }
+                }
+            }
+        }
+
+        foreach (ExternalEvent external in accepted)
+        {
+            if (external.Kind is EventKind.Grab or EventKind.Remove)
+            {
+                Read(alone, SimTime.Max(external.Time - SimDuration.OneTick, alone.Start), there);
+                int at = there.FindIndex(b => b.Body == external.Body);
+                bool isOfIsland = at >= 0 && CountIsland(there, at, MotionLaw.Resting) >= 2;
+                met = met with
+                {
+                    HandInIsland = met.HandInIsland || (isOfIsland && external.Kind == EventKind.Grab),
+                    RemovalFromIsland = met.RemovalFromIsland || (isOfIsland && external.Kind == EventKind.Remove),
+                };
+            }
+        }
+
+        return met;
+    }
+
+    private static void Read(Simulation alone, SimTime time, List<(BodyId Body, BodySpec Spec, BodyState State)> there)
+    {
+        there.Clear();
+        for (int n = 0; n < alone.BodyCount; n++)
+        {
+            BodyId body = alone.BodyAt(n);
+            if (alone.TryRead(body, time, out BodyState state) && state.Motion != MotionLaw.Absent)
+            {
+                there.Add((body, alone.SpecOf(body), state));
+            }
+        }
+    }
+
+    /// <summary>How many bodies that move by common steps, or by that other law as well, touch each other, one by one, from a body on; none if it is not such a one.</summary>
+    private static int CountIsland(List<(BodyId Body, BodySpec Spec, BodyState State)> there, int from, MotionLaw other)
+    {
+        if (!IsOf(there[from].State))
+        {
+            return 0;
+        }
+
+        List<int> island = [from];
+        for (int i = 0; i < island.Count; i++)
+        {
+            (_, BodySpec spec, BodyState state) = there[island[i]];
+            for (int j = 0; j < there.Count; j++)
+            {
+                double gap = (there[j].State.Position - state.Position).Length - spec.Radius - there[j].Spec.Radius;
+                if (gap <= Touching && IsOf(there[j].State) && !island.Contains(j))
+                {
+                    island.Add(j);
+                }
+            }
+        }
+
+        return island.Count;
+
+        bool IsOf(in BodyState state) => state.Motion == MotionLaw.Constrained || state.Motion == other;
+    }
+}
