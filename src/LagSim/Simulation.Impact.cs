@@ -342,6 +342,7 @@ public sealed partial class Simulation
         friction.Solve(
             contacts.AsSpan(0, contactCount), coefficients.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount), partyRadii.AsSpan(0, partyCount),
             partyVelocities.AsSpan(0, partyCount), partySpins.AsSpan(0, partyCount));
+        SettleDriven();
     }
 
     /// <summary>The lesser of the two parties' coefficients of friction.</summary>

@@ -33,6 +33,12 @@ public sealed partial class Simulation
     /// <summary>Takes no contact for one that lasts: only a test's negative control sets it.</summary>
     internal bool IgnoresIslands { get; set; }
 
+    /// <summary>Takes no step of an island anew, however deep bodies get on the way: only a test's negative control sets it, of one thread.</summary>
+    internal bool MayBeDeep
+    {
+        set => island.MayBeDeep = value;
+    }
+
     /// <summary>
     /// Opens the next pieces of those parties that are in islands from here on. The states hold <paramref name="carry"/> seconds before the key's tick. Who is
     /// in none is not opened.
