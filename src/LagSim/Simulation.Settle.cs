@@ -57,7 +57,7 @@ public sealed partial class Simulation
 
         for (int i = 0; i < contactCount; i++)
         {
-            // What closes faster has an impact of its own to come; what has parted may come back as slowly as it likes.
+            // What closes faster keeps that speed, for it has an impact of its own to come; what opens may be brought back to touching, and no further.
             contacts[i].Target = Math.Min(0, ImpactSolver.Opening(contacts[i], partyVelocities));
             contacts[i].Target = IsDriven(contacts[i], 0) ? 0 : contacts[i].Target;
             contacts[i].Restored = contacts[i].Target;

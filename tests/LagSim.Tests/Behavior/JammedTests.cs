@@ -7,7 +7,7 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Behavior;
 
-/// <summary>Light balls among heavy ones in a box on a slope, with so much friction that they jam: neither a storm of impacts, nor deep in each other.</summary>
+/// <summary>Light balls among heavy ones in a box on a slope, with so much friction that they jam: no storm of impacts, nor deep in each other.</summary>
 public sealed class JammedTests
 {
     private const int Balls = 4;
