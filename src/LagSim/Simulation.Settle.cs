@@ -66,7 +66,7 @@ public sealed partial class Simulation
 
         settling.Solve(
             contacts.AsSpan(0, contactCount), settlingRubs.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount), partyRadii.AsSpan(0, partyCount),
-            partyVelocities.AsSpan(0, partyCount), partySpins.AsSpan(0, partyCount), LastingContactSolver.Start.Anew);
+            partyVelocities.AsSpan(0, partyCount), partySpins.AsSpan(0, partyCount), LastingContactSolver.Start.Anew, LastingContactSolver.UsualTurns);
     }
 
     /// <summary>Whether two close faster than rounding has them, and so slowly that their rebound would rise less than a hop.</summary>
