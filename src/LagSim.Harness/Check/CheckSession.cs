@@ -322,7 +322,7 @@ internal sealed class CheckSession
 
         long lost = members.Sum(m => m.Session.Counters.EventsLost);
         string? failure = comparison.Differing > 0 ? string.Create(CultureInfo.InvariantCulture, $"{comparison.Differing} of {comparison.Compared} compared"
-            + $" states and events differ. {comparison.FirstCommitted}").TrimEnd()
+            + $" states and events differ. {comparison.FirstHash}").TrimEnd()
             : tooLate + lost > 0 ? $"{NumberText.Count(tooLate + lost, "event was", many: "events were")} too late."
             : members.Sum(m => m.Session.Counters.StatesDiffered) > 0 ? "A joiner's committed state was not what the host said."
             : null;

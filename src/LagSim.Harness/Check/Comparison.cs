@@ -35,20 +35,17 @@ internal sealed class Comparison
     /// <summary>The first event that differs; of several peers that of the first.</summary>
     internal FirstDifference? First { get; private set; }
 
-    /// <summary>The first state that a peer committed otherwise, as a sentence; of several peers that of the first. The timelines may agree all the same, where it came right afterwards.</summary>
-    internal string? FirstCommitted { get; private set; }
+    /// <summary>
+    /// The first hash of states or events that a peer has otherwise, as a sentence; of several peers that of the first. The timelines may agree all the same, where
+    /// a committed state came right afterwards, or an event was counted that changed nothing.
+    /// </summary>
+    internal string? FirstHash { get; private set; }
 
     /// <summary>What a peer had committed.</summary>
     internal void Take(int peer, in CommittedState state)
     {
-        bool isSame = state.StateHash == expected.StateHash(state.Time);
-        if (!isSame)
-        {
-            FirstCommitted ??= FormattableString.Invariant($"Peer {peer} committed another state {(state.Time - expected.Start).ToSeconds():R} s after the start.");
-        }
-
-        Count(isSame);
-        Count(state.EventHash == expected.EventHash(state.Time));
+        Take(peer, state.StateHash == expected.StateHash(state.Time), "committed another state", state.Time);
+        Take(peer, state.EventHash == expected.EventHash(state.Time), "committed the hash of other events", state.Time);
     }
 
     /// <summary>A peer's whole world, as far as it keeps it.</summary>
@@ -59,8 +56,8 @@ internal sealed class Comparison
         for (int i = 0; i <= Instants; i++)
         {
             SimTime time = from + ((to - from) / Instants * i);
-            Count(actual.StateHash(time) == expected.StateHash(time));
-            Count(actual.EventHash(time) == expected.EventHash(time));
+            Take(peer, actual.StateHash(time) == expected.StateHash(time), "ends with another state", time);
+            Take(peer, actual.EventHash(time) == expected.EventHash(time), "ends with the hash of other events", time);
         }
 
         FirstDifference? first = null;
@@ -79,6 +76,16 @@ internal sealed class Comparison
         }
 
         First ??= first;
+    }
+
+    private void Take(int peer, bool isSame, string what, SimTime time)
+    {
+        if (!isSame)
+        {
+            FirstHash ??= FormattableString.Invariant($"Peer {peer} {what} {(time - expected.Start).ToSeconds():0.############} s after the start.");
+        }
+
+        Count(isSame);
     }
 
     private FirstDifference? Take(int peer, Simulation actual, BodyId body, TimelineEntry[] should, SimTime from, SimTime to)
