@@ -147,13 +147,13 @@ public sealed partial class Simulation
 
     /// <summary>
     /// By how much, in radians, the direction of something so fast may turn in a piece. A piece is off by its speed times the cube of that; so what is slower
-    /// than it gets within the scene's resolution may turn more, as the inverse of the fourth root, and is off by less all the same. Else what starts from next
-    /// to nothing would take thousands of pieces.
+    /// than a hundred times what it gets within the scene's resolution, some 14 mm/s, may turn more, as the inverse of the fourth root, and is off by less than
+    /// that is all the same, some 7 nm/s. Else what starts from next to nothing would take thousands of pieces, and what hops again and again would each time.
     /// </summary>
     private double Turn(double speed, in Vector3D pull)
     {
-        double resolved = Math.Sqrt(2 * Scene.Resolution * pull.Length);
-        return speed < resolved ? Math.Min(0.5, MostTurn * Math.Sqrt(Math.Sqrt(resolved / speed))) : MostTurn;
+        double slow = 100 * Math.Sqrt(2 * Scene.Resolution * pull.Length);
+        return speed < slow ? Math.Min(0.5, MostTurn * Math.Sqrt(Math.Sqrt(slow / speed))) : MostTurn;
     }
 
     /// <summary>The direction at the middle of a piece, which makes it right to the second order; as it was where it does not turn.</summary>
