@@ -7,7 +7,10 @@ using static LagSim.Harness.Hard.HardWorlds;
 
 namespace LagSim.Harness.Hard;
 
-/// <summary>Heaps: what falls into a box with friction, a ball that only friction keeps on two others, and a pyramid of balls in steps without end.</summary>
+/// <summary>
+/// Heaps: what falls into a box with friction, a ball that only friction keeps on two others, a leaning tower that only rolling resistance keeps from falling, and
+/// a pyramid of balls in steps without end.
+/// </summary>
 internal sealed class HeapCase : IHardCase
 {
     private const double Step = 1.0 / 512;
@@ -20,8 +23,8 @@ internal sealed class HeapCase : IHardCase
 
     public string Name => "heap";
 
-    public string Title => "a heap with friction falls into a box; a ball stays on two that only friction keeps together; a pyramid of 30 balls stands in"
-        + " steps that never end: no gain of energy, no depth, no drift, and what carries it is its weight";
+    public string Title => "a heap with friction falls into a box; a ball stays on two that only friction keeps together, a leaning tower by"
+        + " rolling resistance; a pyramid of 30 balls stands in steps that never end: no gain of energy, no depth, no drift, and what carries it is its weight";
 
     public IEnumerable<HardRow> Rows(HardContext context)
     {
@@ -35,6 +38,11 @@ internal sealed class HeapCase : IHardCase
         foreach (double friction in context.Sizes([0.28], [0.28, 0.5, 2]))
         {
             yield return Stays(context, friction);
+        }
+
+        foreach (int balls in context.Sizes([3], [2, 3, 5]))
+        {
+            yield return Leans(context, balls, 0.99);
         }
 
         foreach (double friction in context.Sizes([0.0], [0.0, 0.5]))
@@ -61,6 +69,7 @@ internal sealed class HeapCase : IHardCase
         yield return Gain("one ball", (most - Gravity) / Gravity, 1) with { Note = Springs };
         yield return Depth("one ball", depth) with { Note = Springs };
         yield return Stays(context, 0.26) with { Note = "a friction below tan 15 degrees" };
+        yield return Leans(context, 3, 1.01) with { Note = "a hundredth more aslant than resistance holds" };
         foreach (HardRow row in Stands(context, 0.25, 0, Edge + 0.1))
         {
             yield return row with { Note = "a bin that is a decimetre too wide" };
@@ -176,6 +185,32 @@ internal sealed class HeapCase : IHardCase
         return new HardRow(
             Name, FormattableString.Invariant($"a ball on two, mu {friction}, 3 s"), drift, "drift_m", 1000 * SceneBuilder.DefaultResolution,
             "a thousand resolutions, within which a contact lasts", "they stay where mu is at least tan 15 degrees, 0.268");
+    }
+
+    /// <summary>
+    /// A tower of equal balls on a floor, the line of centres aslant. What is above the k-th contact from the top weighs k balls, with its centre k radii up that
+    /// line; so rolling resistance c, which takes a moment of c r times what presses, holds it to k tan = c, and the lowest contact of two gives way first.
+    /// </summary>
+    /// <remarks>At the start each ball turns by what a heap leaves of that when it comes to rest.</remarks>
+    private HardRow Leans(HardContext context, int balls, double part)
+    {
+        const double Resistance = 0.05, Seconds = 3;
+        double tangent = part * Resistance / (balls - 1), up = 1 / Math.Sqrt(1 + (tangent * tangent));
+        BodySpec ball = new(0.5, 1, 0, friction: 0.4, rollingResistance: Resistance);
+        SceneBuilder builder = new SceneBuilder("tower").AddPlane("floor", Vector3D.Up, 0.0, 0, 0.4);
+        for (int n = 0; n < balls; n++)
+        {
+            builder.AddBody($"ball {n}", ball, V(n * up * tangent, 0.5 + (n * up)), spin: V(0, 0, -2e-7));
+        }
+
+        Simulation simulation = context.Run(builder.Build(), Seconds);
+        BodyState[] ends = [.. Enumerable.Range(0, balls).Select(n => Read(simulation, n, Seconds))];
+        double drift = ends.Max(end => end.Motion == MotionLaw.Resting ? 0 : double.NaN);
+        drift += Enumerable.Range(0, balls).Max(n => (ends[n].Position - simulation.Scene.Bodies[n].Position).Length);
+        return new HardRow(
+            Name, FormattableString.Invariant($"a tower of {balls}, c {Resistance}, aslant by {part} of what that holds, {Seconds} s"), drift, "drift_m",
+            1000 * SceneBuilder.DefaultResolution, "a thousand resolutions, within which a contact lasts",
+            "it rests where the number of balls but one, times the tangent of its slant, is at most c; NaN where it does not rest");
     }
 
     private IEnumerable<HardRow> Stands(HardContext context, double seconds, double friction, double width)

@@ -13,21 +13,10 @@ namespace LagSim.Contacts;
 /// <para>Cost: without friction that of one <see cref="ImpactSolver"/>; else up to <see cref="UsualTurns"/> times that and up to <see cref="Sweeps"/> sweeps
 /// each. Allocates only when there are more contacts or bodies than ever before.</para>
 /// </remarks>
-internal sealed class LastingContactSolver
+internal sealed partial class LastingContactSolver
 {
     /// <summary>So many times friction is solved, and the normals after it, where nothing asks for more.</summary>
     internal const int UsualTurns = 4;
-
-    /// <summary>So often at most all contacts are gone through in a turn.</summary>
-    private const int Sweeps = 32;
-
-    /// <summary>
-    /// What a contact gives, by what it alone would need: more than 1, for its neighbours take some of it back. Below 2 no energy is gained by it.
-    /// </summary>
-    private const double Relaxation = 1.3;
-
-    /// <summary>What changes by less than this part of the largest speed is settled.</summary>
-    private const double Settled = 1e-9;
 
     private readonly ImpactSolver normals = new();
     private Body[] bodies = Array.Empty<Body>();
@@ -131,68 +120,6 @@ internal sealed class LastingContactSolver
         return speed;
     }
 
-    /// <summary>
-    /// Goes through all contacts until a sweep changes no speed by more than <paramref name="settled"/>, or often enough. False if the first did not, and
-    /// changed nothing that counts.
-    /// </summary>
-    private bool Sweep(Span<ContactPoint> contacts, Span<Rub> rubs, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins, double settled)
-    {
-        for (int sweep = 0; sweep < Sweeps; sweep++)
-        {
-            double most = 0;
-            for (int i = 0; i < contacts.Length; i++)
-            {
-                most = Math.Max(most, Relax(ref contacts[i], ref rubs[i], radii, velocities, spins));
-            }
-
-            if (!(most > settled))
-            {
-                return sweep > 0;
-            }
-        }
-
-        return true;
-    }
-
-    /// <summary>Gives a contact what it needs if nothing else changed. Returns by how much of a speed that has changed.</summary>
-    private double Relax(ref ContactPoint c, ref Rub rub, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins)
-    {
-        bool isPair = c.Second != ContactPoint.Static;
-        double inverse = bodies[c.First].PerPush + (isPair ? bodies[c.Second].PerPush : 0);
-        double more = Math.Max(-c.Impulse, Relaxation * (c.Target - ImpactSolver.Opening(c, velocities)) / inverse);
-        c.Impulse += more;
-        PushAlong(c, more, velocities);
-
-        Vector3D slip = ImpactFriction.Slip(c, radii, velocities, spins);
-        // Gently: a ball that slips on a floor is pressed to a wall, which lifts it off the floor again, by mu² of what pressed it there. To follow that at once would be to go to and fro for ever.
-        rub.Allowed += ((rub.Friction * c.Impulse) - rub.Allowed) / (1 + (rub.Friction * rub.Friction));
-        Vector3D across = Within(rub.Push - (slip * (Relaxation / (ImpactFriction.SlipPerImpulse * inverse))), rub.Allowed) - rub.Push;
-        rub.Push += across;
-        PushAcross(c, across, velocities, spins);
-        double most = Math.Max(Math.Abs(more), across.Length) * inverse;
-
-        if (rub.Lever > 0)
-        {
-            Vector3D turning = spins[c.First] - (isPair ? spins[c.Second] : Vector3D.Zero);
-            double perTurn = bodies[c.First].PerTurn + (isPair ? bodies[c.Second].PerTurn : 0);
-            Vector3D wanted = rub.Turn - (turning * (Relaxation / perTurn));
-            Vector3D pivot = c.Normal * Vector3D.Dot(c.Normal, wanted);
-            double allowed = rub.Lever * c.Impulse;
-            Vector3D turn = Within(wanted - pivot, allowed) + Within(pivot, allowed) - rub.Turn;
-            rub.Turn += turn;
-            TurnBy(c, turn, spins);
-            most = Math.Max(most, turn.Length * perTurn * radii[c.First]);
-        }
-
-        return most;
-    }
-
-    private static Vector3D Within(in Vector3D wanted, double allowed)
-    {
-        double size = wanted.Length;
-        return size > allowed ? wanted * (allowed / size) : wanted;
-    }
-
     private void PushAlong(in ContactPoint c, double impulse, Span<Vector3D> velocities)
     {
         if (impulse != 0)
@@ -249,6 +176,10 @@ internal sealed class LastingContactSolver
     {
         internal Vector3D Velocity; // without contacts
         internal Vector3D Spin;
+        internal Vector3D VelocityBefore; // the last sweep
+        internal Vector3D SpinBefore;
+        internal Vector3D VelocityWay; // what the direction of the search changes
+        internal Vector3D SpinWay;
         internal double PerPush; // of its velocity, by an impulse
         internal double PerSurfacePush; // of its spin, by one on its surface
         internal double PerTurn; // and by one that turns it
