@@ -33,75 +33,118 @@ public sealed partial class Simulation
     {
         ref readonly BodySpec spec = ref bodies[slot].Spec;
         Vector3D n = Scene.PlaneArray[supports[0]].Normal;
-        double pressing = -Vector3D.Dot(n, Scene.Gravity);
-        double mu = FrictionOn(slot, supports[0]);
-        double resistance = Math.Min(spec.RollingResistance, mu) * pressing;
-        Vector3D turn = Vector3D.Cross(spin, n) * spec.Radius; // as fast as it would have to move to roll
-        Vector3D slip = velocity - turn;
-        slip -= n * Vector3D.Dot(n, slip);
+        double pressing = -Vector3D.Dot(n, Scene.Gravity), mu = FrictionOn(slot, supports[0]);
+        Rubbing at = new()
+        {
+            Position = position,
+            Velocity = velocity,
+            Spin = spin,
+            Radius = spec.Radius,
+            Normal = n,
+            Pull = pull,
+            Grip = mu * pressing,
+            Resistance = Math.Min(spec.RollingResistance, mu) * pressing,
+            Turn = Vector3D.Cross(spin, n) * spec.Radius,
+            Supports = supports,
+            Crowding = crowding,
+        };
 
         // What a tick changes of a speed: times are rounded to ticks.
-        double tick = SimDuration.OneTick.ToSeconds() * (pull.Length + (3.5 * mu * pressing) + (2.5 * resistance));
-        Vector3D pivot = n * Vector3D.Dot(n, spin); // what turns about the normal
-        Vector3D slowing = Slowing(ref pivot, 2.5 * resistance / spec.Radius, Stopped / spec.Radius);
+        double tick = SimDuration.OneTick.ToSeconds() * (pull.Length + (3.5 * at.Grip) + (2.5 * at.Resistance));
+        at.Pivot = n * Vector3D.Dot(n, spin);
+        at.Slowing = Slowing(ref at.Pivot, 2.5 * at.Resistance / spec.Radius, Stopped / spec.Radius);
+        Vector3D slip = velocity - at.Turn;
+        slip -= n * Vector3D.Dot(n, slip);
         bool slips = slip.Length > Stopped + (1e-12 * velocity.Length) + tick;
         bool moves = velocity.Length > Stopped + tick;
-        Vector3D heading = moves ? velocity / velocity.Length : pull.Length > resistance ? pull / pull.Length : Vector3D.Zero;
-        bool holds = ((pull * (2.0 / 7)) + (heading * (5.0 / 7 * resistance))).Length <= mu * pressing;
+        Vector3D heading = moves ? velocity / velocity.Length : pull.Length > at.Resistance ? pull / pull.Length : Vector3D.Zero;
+        bool holds = ((pull * (2.0 / 7)) + (heading * (5.0 / 7 * at.Resistance))).Length <= at.Grip;
         if (slips || !holds)
         {
-            Vector3D push = pull + (heading * (2.5 * resistance)); // what makes it slip if it does not yet
+            Vector3D push = pull + (heading * (2.5 * at.Resistance)); // what makes it slip if it does not yet
             Vector3D along = slips ? slip / slip.Length : push / push.Length;
-            bool turns = resistance > 0 && turn.Length > Stopped + tick;
-            Vector3D over = turns ? turn / turn.Length : along;
-            push = pull + (over * (2.5 * resistance));
-            Vector3D rate = push - (along * (3.5 * mu * pressing));
-            Vector3D drive = along * (2.5 * mu * pressing);
-            Vector3D turnRate = drive - (over * (2.5 * resistance));
-            SimTime end = SimTime.Min(EndOfTurning(key.Time, slip, along, push, Vector3D.Dot(along, rate)), EndOfPivoting(key.Time, pivot, slowing));
-            if (turns && TryTicks(key.Time, SecondsOfTurning(turn, over, drive, Vector3D.Dot(over, turnRate)), out SimDuration until))
-            {
-                end = SimTime.Min(end, key.Time + until);
-            }
-
-            along = Midway(slip, along, rate, key.Time, end);
-            over = turns ? Midway(turn, over, turnRate, key.Time, end) : along;
-            Vector3D held = along * (mu * pressing);
-            Vector3D turning = (Vector3D.Cross(n, held - (over * resistance)) * (2.5 / spec.Radius)) - slowing;
-            Append(
-                slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, end, position, velocity, (pull - held).WithoutNegativeZero(), supports, crowding),
-                default, spin: new Spin(spin, turning));
-            return;
+            Vector3D over = at.Resistance > 0 && at.Turn.Length > Stopped + tick ? at.Turn / at.Turn.Length : along;
+            OpenSlipping(slot, key, at, slip, along, over);
         }
-
-        if (!moves && pull.Length <= resistance)
+        else if (!moves && pull.Length <= at.Resistance)
         {
-            SimTime still = EndOfPivoting(key.Time, pivot, slowing);
-            if (left > SimDuration.Zero)
-            {
-                // Until the bounces that are left out would have been over; what has stopped turning by then stops with them.
-                slowing = still < key.Time + left ? pivot * (1 / left.ToSeconds()) : slowing;
-                Append(
-                    slot, key, new MotionSegment(MotionLaw.Sliding, key.Time, key.Time + left, position, Vector3D.Zero, Vector3D.Zero, supports, crowding),
-                    default, spin: new Spin(pivot, -slowing));
-                return;
-            }
+            OpenStill(slot, key, at, left);
+        }
+        else
+        {
+            OpenRolling(slot, key, at, moves ? velocity : Vector3D.Zero, heading);
+        }
+    }
 
-            Append(
-                slot, key, slowing == Vector3D.Zero ? MotionSegment.AtRest(key.Time, position, supports).WithCrowding(crowding)
-                    : new MotionSegment(MotionLaw.Rolling, key.Time, still, position, Vector3D.Zero, Vector3D.Zero, supports, crowding),
-                default, spin: new Spin(pivot, -slowing));
-            return;
+    /// <summary>Opens a piece of slipping in one direction and turning in another.</summary>
+    private void OpenSlipping(int slot, in EventKey key, in Rubbing at, in Vector3D slip, Vector3D along, Vector3D over)
+    {
+        Vector3D push = at.Pull + (over * (2.5 * at.Resistance)), rate = push - (along * (3.5 * at.Grip)), drive = along * (2.5 * at.Grip);
+        SimTime end = SimTime.Min(EndOfTurning(key.Time, slip, along, push, Vector3D.Dot(along, rate)), EndOfPivoting(key.Time, at.Pivot, at.Slowing));
+        if (!over.Equals(along))
+        {
+            end = SimTime.Min(end, EndOfFollowing(key.Time, at.Turn, over, drive, 2.5 * at.Resistance));
+            over = Following(at.Turn, drive, key.Time, end);
         }
 
-        Vector3D start = moves ? velocity : Vector3D.Zero;
-        Vector3D change = (pull - (heading * resistance)) * (5.0 / 7);
-        SimTime stop = SimTime.Min(EndOfTurning(key.Time, start, heading, pull, Vector3D.Dot(heading, change)), EndOfPivoting(key.Time, pivot, slowing));
+        along = Midway(slip, along, rate, key.Time, end);
+        Vector3D held = along * at.Grip;
+        Vector3D turning = (Vector3D.Cross(at.Normal, held - (over * at.Resistance)) * (2.5 / at.Radius)) - at.Slowing;
+        MotionSegment path = new(MotionLaw.Sliding, key.Time, end, at.Position, at.Velocity, (at.Pull - held).WithoutNegativeZero(), at.Supports, at.Crowding);
+        Append(slot, key, path, default, spin: new Spin(at.Spin, turning));
+    }
+
+    /// <summary>Opens a piece of staying where it is, turning on the spot or not, or bouncing by less than counts for so long.</summary>
+    private void OpenStill(int slot, in EventKey key, in Rubbing at, SimDuration left)
+    {
+        SimTime still = EndOfPivoting(key.Time, at.Pivot, at.Slowing);
+        bool turns = at.Slowing != Vector3D.Zero;
+        Vector3D slowing = at.Slowing;
+        MotionSegment path;
+        if (left > SimDuration.Zero)
+        {
+            // What has stopped turning before the bounces that are left out would have been over stops with them.
+            slowing = still < key.Time + left ? at.Pivot * (1 / left.ToSeconds()) : slowing;
+            path = new MotionSegment(MotionLaw.Sliding, key.Time, key.Time + left, at.Position, Vector3D.Zero, Vector3D.Zero, at.Supports, at.Crowding);
+        }
+        else
+        {
+            path = turns ? new MotionSegment(MotionLaw.Rolling, key.Time, still, at.Position, Vector3D.Zero, Vector3D.Zero, at.Supports, at.Crowding)
+                : MotionSegment.AtRest(key.Time, at.Position, at.Supports).WithCrowding(at.Crowding);
+        }
+
+        Append(slot, key, path, default, spin: new Spin(at.Pivot, -slowing));
+    }
+
+    /// <summary>Opens a piece of rolling in one direction.</summary>
+    private void OpenRolling(int slot, in EventKey key, in Rubbing at, in Vector3D start, Vector3D heading)
+    {
+        Vector3D change = (at.Pull - (heading * at.Resistance)) * (5.0 / 7);
+        SimTime stop = SimTime.Min(EndOfTurning(key.Time, start, heading, at.Pull, Vector3D.Dot(heading, change)), EndOfPivoting(key.Time, at.Pivot, at.Slowing));
         heading = Midway(start, heading, change, key.Time, stop);
-        change = ((pull - (heading * resistance)) * (5.0 / 7)).WithoutNegativeZero();
+        change = ((at.Pull - (heading * at.Resistance)) * (5.0 / 7)).WithoutNegativeZero();
+        MotionSegment path = new(MotionLaw.Rolling, key.Time, stop, at.Position, start, change, at.Supports, at.Crowding);
         Append(
-            slot, key, new MotionSegment(MotionLaw.Rolling, key.Time, stop, position, start, change, supports, crowding), default,
-            spin: new Spin((Vector3D.Cross(n, start) / spec.Radius) + pivot, (Vector3D.Cross(n, change) / spec.Radius) - slowing));
+            slot, key, path, default,
+            spin: new Spin((Vector3D.Cross(at.Normal, start) / at.Radius) + at.Pivot, (Vector3D.Cross(at.Normal, change) / at.Radius) - at.Slowing));
+    }
+
+    /// <summary>A sphere on a plane with friction.</summary>
+    private struct Rubbing
+    {
+        internal Vector3D Position;
+        internal Vector3D Velocity;
+        internal Vector3D Spin;
+        internal double Radius;
+        internal Vector3D Normal;
+        internal Vector3D Pull; // of gravity, along the plane
+        internal double Grip; // mu times what gravity has across it
+        internal double Resistance; // and the coefficient of rolling resistance times that
+        internal Vector3D Turn; // as fast as it would have to move to roll
+        internal Vector3D Pivot; // what turns about the normal
+        internal Vector3D Slowing; // and what resistance takes from that
+        internal SupportSet Supports;
+        internal int Crowding;
     }
 
     /// <summary>
@@ -154,6 +197,38 @@ public sealed partial class Simulation
     {
         double slow = 100 * Math.Sqrt(2 * Scene.Resolution * pull.Length);
         return speed < slow ? Math.Min(0.5, MostTurn * Math.Sqrt(Math.Sqrt(slow / speed))) : MostTurn;
+    }
+
+    /// <summary>
+    /// When something that slips and turns with that surface speed has stopped turning, or a new piece is due because the direction in which it turns follows that
+    /// of the slip, at the rate of what drives it by the speed.
+    /// </summary>
+    /// <remarks>
+    /// From where less is left of that than may turn in a piece the rest of it fades away within some speed / drive, of which a piece is at most a quarter, but
+    /// not below 2^-8 s: <see cref="Following"/> bears any. What is slow follows in no time, and as little as resistance lets it gain it stays slow.
+    /// </remarks>
+    private SimTime EndOfFollowing(SimTime from, in Vector3D turn, in Vector3D over, in Vector3D drive, double resistance)
+    {
+        double rate = Vector3D.Dot(over, drive) - resistance;
+        double aslant = Vector3D.Cross(over, drive).Length;
+        double most = Turn(turn.Length, drive);
+        bool follows = Vector3D.Dot(over, drive) > 0 && aslant <= most * drive.Length;
+        double seconds = rate < 0 ? -turn.Length / rate : double.PositiveInfinity;
+        seconds = follows ? Math.Min(seconds, Math.Max(0.25 * turn.Length / drive.Length, 1.0 / 256)) : Math.Min(seconds, most * turn.Length / aslant);
+        return TryTicks(from, seconds, out SimDuration turns) ? from + turns : SimTime.MaxValue;
+    }
+
+    /// <summary>
+    /// The direction in which something turns in a piece, if that which drives it does so throughout: the one at its middle, which makes it right to the second
+    /// order; or where that is long against speed / drive, the one at its end, which bears any length.
+    /// </summary>
+    private static Vector3D Following(in Vector3D turn, in Vector3D drive, SimTime from, SimTime end)
+    {
+        double seconds = end == SimTime.MaxValue ? double.PositiveInfinity : end.SecondsSince(from);
+        double part = seconds * drive.Length > 2 * turn.Length ? seconds : 0.5 * seconds;
+        Vector3D then = double.IsPositiveInfinity(part) ? drive : turn + (drive * part);
+        double length = then.Length;
+        return length > 0 ? then / length : turn / turn.Length;
     }
 
     /// <summary>The direction at the middle of a piece, which makes it right to the second order; as it was where it does not turn.</summary>

@@ -28,9 +28,12 @@ internal sealed partial class RollingCase
 
         foreach (bool isSlope in new[] { false, true })
         {
-            foreach (HardRow row in Aslant(context, isSlope, 0.2))
+            foreach (double c in context.Sizes([0.2], [0.2, 0.3999, 0.4]))
             {
-                yield return row;
+                foreach (HardRow row in Aslant(context, isSlope, c, c))
+                {
+                    yield return row;
+                }
             }
         }
 
@@ -56,7 +59,7 @@ internal sealed partial class RollingCase
             yield return row with { Note = More };
         }
 
-        foreach (HardRow row in InSteps(context, 0.3, 0.1, 2, 0, 0).Concat(Aslant(context, false, 0)))
+        foreach (HardRow row in InSteps(context, 0.3, 0.1, 2, 0, 0).Concat(Aslant(context, false, 0.2, 0)))
         {
             yield return row with { Note = None };
         }
@@ -128,9 +131,9 @@ internal sealed partial class RollingCase
     }
 
     /// <summary>Slipping and turning aslant to each other, on a floor or a slope, where both directions turn.</summary>
-    private IEnumerable<HardRow> Aslant(HardContext context, bool isSlope, double actual)
+    private IEnumerable<HardRow> Aslant(HardContext context, bool isSlope, double c, double actual)
     {
-        const double mu = 0.4, c = 0.2, piece = 1.0 / 128;
+        const double mu = 0.4, piece = 1.0 / 128;
         Vector3D normal = isSlope ? V(-0.6, 0.8) : V(0, 1), pull = isSlope ? V(-0.8, -0.6) * (0.6 * Gravity) : Vector3D.Zero;
         Vector3D v = V(0, 0, 3), q = isSlope ? V(0.8, 0.6) * 4 : V(4), x = normal * Radius;
         double pressing = normal.Y * Gravity, seconds = SimTime.FromSeconds(0.9 * (v - q).Length / (pull.Length + (((3.5 * mu) + (2.5 * c)) * pressing))).ToSeconds();

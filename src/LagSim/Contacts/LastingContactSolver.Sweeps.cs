@@ -131,12 +131,17 @@ internal sealed partial class LastingContactSolver
         PushAlong(c, more, velocities);
 
         Vector3D slip = ImpactFriction.Slip(c, radii, velocities, spins);
-        // Gently: a ball that slips on a floor is pressed to a wall, which lifts it off the floor again, by mu² of what pressed it there. To follow that at once would be to go to and fro for ever.
-        rub.Allowed += ((rub.Friction * c.Impulse) - rub.Allowed) / (1 + (rub.Friction * rub.Friction));
-        Vector3D across = Within(rub.Push - (slip * (Relaxation / (ImpactFriction.SlipPerImpulse * inverse))), rub.Allowed) - rub.Push;
-        rub.Push += across;
+        // Gently: a ball that slips on a floor is pressed to a wall, which lifts it off the floor again, by mu² of what pressed it there. To follow that at once
+        // would be to go to and fro for ever. What is not followed yet counts as change, or a strong friction would never be followed to its end.
+        double lagging = ((rub.Friction * c.Impulse) - rub.Allowed) / (1 + (rub.Friction * rub.Friction));
+        rub.Allowed += lagging;
+        Vector3D wantedPush = rub.Push - (slip * (Relaxation / (ImpactFriction.SlipPerImpulse * inverse)));
+        Vector3D push = Within(wantedPush, rub.Allowed);
+        Vector3D across = push - rub.Push;
+        rub.Push = push;
         PushAcross(c, across, velocities, spins);
-        double most = Math.Max(Math.Abs(more), across.Length) * inverse;
+        bool slips = wantedPush.LengthSquared > rub.Allowed * rub.Allowed;
+        double most = Math.Max(Math.Max(Math.Abs(more), across.Length), slips ? rub.Friction * rub.Friction * Math.Abs(lagging) : 0) * inverse;
 
         if (rub.Lever > 0)
         {
