@@ -22,7 +22,7 @@ internal static class Program
     {
         Console.OutputEncoding = new UTF8Encoding(encoderShouldEmitUTF8Identifier: false); // tables and curves are not in every code page
         using Interruption interruption = new();
-        int code = Run(arguments, StandardOutput.Open(), Console.Error, interruption.Token);
+        int code = Run(arguments, StandardOutput.Open(), Console.Error, interruption.Token, () => interruption.ExitCode);
         return code == ExitCode.CheckFailed ? code : interruption.ExitCode ?? code; // a check that failed is told however it ended
     }
 
@@ -50,25 +50,31 @@ internal static class Program
     };
 
     /// <summary>One call of the tool, results to one writer, progress and errors to the other, until it is done or asked to stop.</summary>
-    internal static int Run(string[] arguments, TextWriter output, TextWriter error, CancellationToken stop)
+    /// <param name="arguments">The command line.</param>
+    /// <param name="output">Takes the results.</param>
+    /// <param name="error">Takes progress and errors.</param>
+    /// <param name="stop">Asks for an end.</param>
+    /// <param name="signal">The exit code that tells what asked for it; null for that of an interrupt.</param>
+    internal static int Run(string[] arguments, TextWriter output, TextWriter error, CancellationToken stop, Func<int?>? signal = null)
     {
         Command root = Root(new ToolConsole(output, error, stop));
         ParseResult parsed = root.Parse(arguments);
         if (parsed.Errors.Count > 0)
         {
-            foreach (ParseError problem in parsed.Errors)
+            Command asked = parsed.CommandResult.Command;
+            string[] problems = Problems(parsed, isOfRoot: asked == root);
+            foreach (string problem in problems)
             {
-                error.WriteLine(Sentence.Printable(problem.Message));
+                error.WriteLine(Sentence.Printable(problem));
             }
 
-            Command asked = parsed.CommandResult.Command;
             error.WriteLine(asked == root ? "Try 'lagsim --help'." : $"Try 'lagsim {asked.Name} --help'.");
-            return Failure.Tell(output, parsed, string.Join(" ", parsed.Errors.Select(problem => problem.Message)), ExitCode.Usage);
+            return Failure.Tell(output, parsed, string.Join(" ", problems), ExitCode.Usage);
         }
 
         if (MistakenOption(parsed) is string option)
         {
-            string sentence = $"There is no option '{option}'; what is no option and begins so stands behind '--'.";
+            string sentence = OtherName(parsed, option) ?? $"There is no option '{option}'; what is no option and begins so stands behind '--'.";
             error.WriteLine(Sentence.Printable(sentence));
             error.WriteLine($"Try 'lagsim {parsed.CommandResult.Command.Name} --help'.");
             return Failure.Tell(output, parsed, sentence, ExitCode.Usage);
@@ -82,7 +88,9 @@ internal static class Program
         }
         catch (OperationCanceledException) when (stop.IsCancellationRequested)
         {
-            return ExitCode.Interrupted;
+            int code = signal?.Invoke() ?? ExitCode.Interrupted;
+            error.WriteLine("Interrupted before there was a result.");
+            return Failure.Tell(output, parsed, "interrupted", code);
         }
         catch (IOException failure) when (StandardOutput.IsClosedPipe(failure))
         {
@@ -99,6 +107,23 @@ internal static class Program
             error.WriteLine(Sentence.Printable(Sentence.Of(failure)));
             return Failure.Tell(output, parsed, Sentence.Of(failure), ExitCode.Input);
         }
+    }
+
+    /// <summary>What is wrong with a command line, a sentence each: of a word that is no command only that, and not that there is none.</summary>
+    private static string[] Problems(ParseResult parsed, bool isOfRoot)
+    {
+        string[] all = [.. parsed.Errors.Select(problem => problem.Message)];
+        string[] ofWords = [.. all.Where(message => parsed.UnmatchedTokens.Any(word => message.Contains($"'{word}'", StringComparison.Ordinal)))];
+        string[] problems = isOfRoot && ofWords.Length > 0 ? ofWords : all;
+        return [.. problems, .. parsed.UnmatchedTokens.Select(word => OtherName(parsed, word)).OfType<string>()];
+    }
+
+    /// <summary>How long a command goes on has another name where there is a session; whoever takes one for the other is told. Null if it is not that.</summary>
+    private static string? OtherName(ParseResult parsed, string word)
+    {
+        string? other = word == "--for-s" ? "--until-s" : word == "--until-s" ? "--for-s" : null;
+        Command command = parsed.CommandResult.Command;
+        return command.Options.Any(option => option.Name == other) ? $"{command.Name} has no option '{word}'; here it is {other}." : null;
     }
 
     /// <summary>A word that was taken for an argument, and is an option's name with a slip in it; null for none.</summary>

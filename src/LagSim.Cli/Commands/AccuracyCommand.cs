@@ -75,7 +75,12 @@ internal static class AccuracyCommand
         }
 
         string title = scenes.Count == 1 ? $"accuracy {scenes[0].Name}" : "accuracy";
-        WorkReport work = console.WithProgress(title, 1, progress => WorkSweep.Run(scenes, methods, options, progress, console.Stop));
+        WorkReport work = console.WithProgress(title, 1, progress => WorkSweep.Run(scenes, methods, options, progress, console.Stop, console.Begin));
+        if (work is { StoppedAt: not null, Points.Count: 0 })
+        {
+            throw new OperationCanceledException(console.Stop);
+        }
+
         AccuracyReport report = new(scenes, work, options == WorkOptions.Quick, seed);
         if (folder is not null)
         {
@@ -91,6 +96,6 @@ internal static class AccuracyCommand
             AccuracyTables.Write(console, report, folder);
         }
 
-        return ExitCode.Done;
+        return work.StoppedAt is null ? ExitCode.Done : ExitCode.Interrupted;
     }
 }

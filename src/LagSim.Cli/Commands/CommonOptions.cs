@@ -32,7 +32,7 @@ internal sealed class CommonOptions
         CustomParser = ParseSeed,
     };
 
-    internal Option<string?> Out { get; } = Folder("--out", "A folder for CSV and SVG files and a report.html that shows them.");
+    internal Option<string?> Out { get; } = Folder("--out", "A folder for CSV and SVG files and a report.html that shows them; files there that have the same names are replaced.");
 
     internal Option<bool> Json { get; } = new(JsonName) { Description = "Print one JSON document and nothing else on stdout." };
 

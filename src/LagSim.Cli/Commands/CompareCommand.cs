@@ -88,7 +88,11 @@ internal static class CompareCommand
             progress =>
             {
                 WarmUp(options, progress);
-                return options.Select((run, n) => CompareTest.Run(run, done => progress((n * each) + done.ToSeconds()))).ToList();
+                return options.Select((run, n) =>
+                {
+                    console.Begin($"{run.Link.Name}, {run.Strategy}");
+                    return CompareTest.Run(run, done => progress((n * each) + done.ToSeconds()));
+                }).ToList();
             });
         if (folder is not null)
         {

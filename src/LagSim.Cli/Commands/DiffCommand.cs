@@ -22,7 +22,7 @@ internal static class DiffCommand
         command.SetAction(parsed =>
         {
             string[] files = [parsed.GetValue(first)!, parsed.GetValue(second)!];
-            Recording[] recordings = [Recording.Read(files[0]), Recording.Read(files[1])];
+            Recording[] recordings = [RecordingFile.Read(files[0]), RecordingFile.Read(files[1])];
             RecordingComparison found = RecordingComparison.Of(recordings[0], recordings[1], console.Stop);
             if (recordings[0].Header is null || recordings[1].Header is null)
             {

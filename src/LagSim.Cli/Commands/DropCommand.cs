@@ -82,7 +82,11 @@ internal static class DropCommand
         List<DropRun> strategies = console.WithProgress(
             "every strategy, virtual time",
             each * compared.Length,
-            progress => compared.Select((other, n) => DropTest.Run(other, done => progress((n * each) + done.ToSeconds()))[0]).ToList());
+            progress => compared.Select((other, n) =>
+            {
+                console.Begin(other.Strategy);
+                return DropTest.Run(other, done => progress((n * each) + done.ToSeconds()))[0];
+            }).ToList());
         List<DropRun> reported = [.. runs, .. allStrategies ? strategies : []];
         if (folder is not null)
         {

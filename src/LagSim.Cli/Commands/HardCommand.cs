@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.CommandLine;
 using System.Diagnostics;
@@ -52,11 +53,18 @@ internal static class HardCommand
         }
 
         long began = Stopwatch.GetTimestamp();
+        string? at = null;
         IReadOnlyList<HardRow> rows = console.WithProgress(
             cases.Count == 1 ? $"hard {cases[0].Name}" : "hard",
             cases.Count,
-            progress => HardCases.Run(cases, scale, seed, areControls, (done, _) => progress(done), console.Stop));
-        HardReport report = new(rows, scale, areControls, seed, Stopwatch.GetElapsedTime(began).TotalSeconds);
+            progress => HardCases.Run(cases, scale, seed, areControls, Tell(progress), console.Stop));
+        bool isStopped = console.Stop.IsCancellationRequested && rows.All(row => row.Case != cases[^1].Name);
+        if (isStopped && rows.Count == 0)
+        {
+            throw new OperationCanceledException(console.Stop);
+        }
+
+        HardReport report = new(rows, scale, areControls, seed, Stopwatch.GetElapsedTime(began).TotalSeconds) { StoppedAt = isStopped ? at : null };
         if (folder is not null)
         {
             HardFiles.Write(folder, report);
@@ -71,6 +79,16 @@ internal static class HardCommand
             HardTables.Write(console, report, folder);
         }
 
-        return ExitCodeOf(report);
+        return ExitCodeOf(report) is int code and not ExitCode.Done ? code : isStopped ? ExitCode.Interrupted : ExitCode.Done;
+
+        Action<double, string> Tell(Action<double> progress) => (done, name) =>
+        {
+            if (name != at)
+            {
+                console.Begin(at = name);
+            }
+
+            progress(done);
+        };
     }
 }

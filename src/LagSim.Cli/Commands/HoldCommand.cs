@@ -97,7 +97,13 @@ internal static class HoldCommand
             ? $"hold, {motion.Name} motion, virtual time"
             : string.Create(CultureInfo.InvariantCulture, $"hold, {motion.Name} motion, {each:0} s in real time over udp, {options[0].Link.Name} alone");
         List<HoldRun> runs = console.WithProgress(
-            title, each * options.Length, progress => options.Select((run, n) => HoldTest.Run(run, done => progress((n * each) + done.ToSeconds()))).ToList());
+            title,
+            each * options.Length,
+            progress => options.Select((run, n) =>
+            {
+                console.Begin(run.Link.Name);
+                return HoldTest.Run(run, done => progress((n * each) + done.ToSeconds()));
+            }).ToList());
         IReadOnlyList<double> horizons = PredictionTest.DefaultHorizonsMilliseconds;
         List<PredictionError> errors = console.WithProgress(
             $"hold, predicting {motion.Name} motion",

@@ -17,7 +17,7 @@ internal static class ReplayCommand
         command.SetAction(parsed =>
         {
             string name = parsed.GetValue(file)!;
-            Recording recording = Recording.Read(name);
+            Recording recording = RecordingFile.Read(name);
             RecordingReplay found = console.WithProgress($"replay {name}", 1, _ => RecordingReplay.Run(recording, console.Stop));
             if (found.Outcome == ReplayOutcome.CannotRun)
             {

@@ -32,7 +32,8 @@ internal static class RunCommand
         Option<string?> events = CommonOptions.File("--events", "Write every event to this CSV file; - is stdout.");
         Option<string?> samples = CommonOptions.File("--samples", "Write the state of all bodies, every so often, to this CSV file; - is stdout.");
         Option<double> every = CommonOptions.Number("--every-s", "The time between samples", 0.01, 1e-9, 1e6);
-        Option<int> repeat = CommonOptions.Whole("--repeat", "Run so many times more, after a warm-up; wall_s is the least of them", 1, 1, 1_000_000);
+        Option<int> repeat = CommonOptions.Whole("--repeat", "The scene is run once for what is written, then so many times again to be timed, with one before them as a"
+            + " warm-up where the first took less than a second; wall_s is the least. With 0 nothing runs again, and wall_s is that of the run that was written", 1, 0, 1_000_000);
         Command command = new("run", "Runs one scene in virtual time.") { scene, until, motion, events, samples, every, repeat };
         common.AddTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
@@ -127,14 +128,14 @@ internal static class RunCommand
         double picture = request.Folder is null ? 0 : once;
         return console.WithProgress($"run {scene.Name}", once + timing + picture, progress =>
         {
-            double start = SceneRun.Energy(new Simulation(scene, new SimulationOptions(cancellation: console.Stop)), SimTime.Zero);
+            double start = SceneEnergy.Of(new Simulation(scene, new SimulationOptions(cancellation: console.Stop)), SimTime.Zero);
             long began = Stopwatch.GetTimestamp();
             Simulation end = Write(console, request, done => progress(done.ToSeconds()));
             double written = Lap(ref began);
-            double wall = request.Timed == 0 ? double.NaN : SceneRun.LeastSeconds(
+            double wall = request.Timed == 0 ? written : SceneRun.LeastSeconds(
                 scene, length, request.Timed, done => progress(once + done), isWarm: written > LongEnoughToWarmUp, console.Stop);
             double timed = Lap(ref began);
-            RunSummary summary = new(end, SimTime.Zero + length, start, SceneRun.Energy(end, SimTime.Zero + length), wall)
+            RunSummary summary = new(end, SimTime.Zero + length, start, SceneEnergy.Of(end, SimTime.Zero + length), wall)
             {
                 Timed = request.Timed,
                 WritingSeconds = written,
@@ -164,29 +165,37 @@ internal static class RunCommand
         using ResultFile? sampleOutput = ResultFile.Open(console, "--samples", request.SampleFile);
         CsvFile? eventCsv = eventOutput is null ? null : new CsvFile(
             eventOutput.Writer, "time_s", "kind", "body", "other", "x_m", "y_m", "z_m", "vx_m_per_s", "vy_m_per_s", "vz_m_per_s");
+        bool canTurn = RunOutput.CanTurn(scene);
         CsvFile? sampleCsv = sampleOutput is null ? null : new CsvFile(
-            sampleOutput.Writer, "time_s", "body", "x_m", "y_m", "z_m", "vx_m_per_s", "vy_m_per_s", "vz_m_per_s", "motion");
+            sampleOutput.Writer,
+            [
+                "time_s", "body", "x_m", "y_m", "z_m", "vx_m_per_s", "vy_m_per_s", "vz_m_per_s", "motion",
+                .. canTurn ? ["spin_x_rad_per_s", "spin_y_rad_per_s", "spin_z_rad_per_s"] : Array.Empty<string>(),
+            ]);
         return new SceneRun(scene)
         {
             Cancellation = console.Stop,
             SampleEverySeconds = request.Every,
             OnEvent = eventCsv is null ? null : e => eventCsv.WriteRow(
                 [e.Key.Time.ToSeconds(), e.Kind, scene.Bodies[e.Body.Index].Name, e.Other, .. Numbers(e.State)]),
-            OnSample = sampleCsv is null ? null : (time, simulation) => Sample(sampleCsv, scene, simulation, time),
+            OnSample = sampleCsv is null ? null : (time, simulation) => Sample(sampleCsv, scene, simulation, time, canTurn),
         }.Run(request.Length, progress);
     }
 
-    private static void Sample(CsvFile csv, Scene scene, Simulation simulation, SimTime time)
+    private static void Sample(CsvFile csv, Scene scene, Simulation simulation, SimTime time, bool canTurn)
     {
         for (int body = 0; body < scene.Bodies.Count; body++)
         {
             simulation.TryRead(BodyId.OfScene(body), time, out BodyState state);
-            csv.WriteRow([time.ToSeconds(), scene.Bodies[body].Name, .. Numbers(state), MotionNames.Of(state.Motion)]);
+            csv.WriteRow(
+                [time.ToSeconds(), scene.Bodies[body].Name, .. Numbers(state), MotionNames.Of(state.Motion), .. canTurn ? Spin(state) : []]);
         }
     }
 
     private static IEnumerable<object?> Numbers(BodyState state) =>
         [state.Position.X, state.Position.Y, state.Position.Z, state.Velocity.X, state.Velocity.Y, state.Velocity.Z];
+
+    private static IEnumerable<object?> Spin(BodyState state) => [state.Spin.X, state.Spin.Y, state.Spin.Z];
 
     /// <summary>What is asked for; timed so many times, 0 for a run that only streams.</summary>
     private sealed record Request(

@@ -42,6 +42,8 @@ internal static class AccuracyJson
             Sentences("findings", WorkFindings.Sentences(report.Work.Points));
             Sentences("left_out", report.Work.LeftOut);
             json.WriteString("caution", WorkFindings.Caution);
+            json.WriteBoolean("stopped_early", report.Work.StoppedAt is not null);
+            json.WriteString("stopped_at", report.Work.StoppedAt);
 
             void Sentences(string key, System.Collections.Generic.IReadOnlyList<string> sentences)
             {

@@ -10,6 +10,7 @@ namespace LagSim.Cli.Output;
 internal static class CompareChart
 {
     private const double ErrorFloor = 1e-9;
+    private const double LargestFloor = 1e-3; // the largest errors of a run lie in a decade or two: what is below is agreement to the eye
     private const double LatenessFloor = 0.01;
     private const double PanelHeight = 96;
 
@@ -63,8 +64,8 @@ internal static class CompareChart
                     ])
                 {
                     Scale = ChartScale.Log10,
-                    LogFloor = ErrorFloor,
-                    Reaches = [ErrorFloor, .. all],
+                    LogFloor = LargestFloor,
+                    Reaches = [LargestFloor, .. all],
                     PlotHeight = PanelHeight,
                 };
             }).ToArray())

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Harness.Charts;
@@ -10,9 +11,14 @@ internal static class DropChart
 {
     private const double ErrorFloor = 1e-12;
 
-    internal static LineChart Of(DropRun run)
+    /// <summary>How much of the case before it a picture begins with, so that what marks the lift does not lie on the frame.</summary>
+    private const double LeadSeconds = 0.5;
+
+    /// <param name="run">What is shown.</param>
+    /// <param name="before">The case before it in the same run, of which the end is shown too; null for none.</param>
+    internal static LineChart Of(DropRun run, DropRun? before = null)
     {
-        DropTrace trace = run.Trace;
+        DropTrace trace = before is null ? run.Trace : WithLead(run.Trace, before.Trace);
         List<ChartMarker> markers = trace.Impacts.Select(at => new ChartMarker(at, "impact", MarkerKind.Tick)).ToList();
         List<ChartMarker> lift = Known(run);
         ChartSeries[] heights = trace.Heights
@@ -59,6 +65,21 @@ internal static class DropChart
         {
             XLabel = "shared time since the start of the scene (s)",
         };
+    }
+
+    private static DropTrace WithLead(DropTrace trace, DropTrace before)
+    {
+        int from = Array.FindIndex(before.Seconds, seconds => seconds >= trace.Seconds[0] - LeadSeconds);
+        return from < 0 ? trace : trace with
+        {
+            Seconds = Joined(before.Seconds, trace.Seconds),
+            Heights = [.. trace.Heights.Select((heights, peer) => Joined(before.Heights[peer], heights))],
+            SeenError = Joined(before.SeenError, trace.SeenError),
+            SeenTrueTimeError = Joined(before.SeenTrueTimeError, trace.SeenTrueTimeError),
+            SettledError = Joined(before.SettledError, trace.SettledError),
+        };
+
+        double[] Joined(double[] earlier, double[] own) => [.. earlier[from..], .. own];
     }
 
     /// <summary>When the ball was lifted, and when the last peer showed it; none where it was not.</summary>

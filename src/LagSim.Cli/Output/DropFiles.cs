@@ -20,10 +20,11 @@ internal static class DropFiles
             $"{options.Peers} peers in {DropNames.Time(options)} time, strategy {options.Strategy}, motion {MotionNames.Of(options.Motion)}, link"
                 + $" {options.Link.Name}.",
             new ReportFooter("lagsim", ToolVersion.Text, options.Seed, JsonDocumentWriter.Hash(runs[0].SceneHash)));
-        foreach (DropRun run in runs)
+        for (int n = 0; n < runs.Count; n++)
         {
+            DropRun run = runs[n];
             string name = DropNames.Case(run.Case);
-            LineChart chart = DropChart.Of(run);
+            LineChart chart = DropChart.Of(run, n == 0 ? null : runs[n - 1]);
             chart.Save(Path.Combine(folder, $"drop-{name}.svg"));
             Samples(Path.Combine(folder, $"drop-{name}.csv"), run);
             report.AddHeading(name).AddChart(chart).AddTable(ErrorTable.Of("Height error between peers, in metres", run));

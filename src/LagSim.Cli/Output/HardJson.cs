@@ -32,5 +32,7 @@ internal static class HardJson
         }
 
         json.WriteEndArray();
+        json.WriteBoolean("stopped_early", report.StoppedAt is not null);
+        json.WriteString("stopped_at", report.StoppedAt);
     });
 }

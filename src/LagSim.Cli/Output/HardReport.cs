@@ -12,6 +12,9 @@ namespace LagSim.Cli.Output;
 /// <param name="WallSeconds">How long it took.</param>
 internal sealed record HardReport(IReadOnlyList<HardRow> Rows, HardScale Scale, bool AreControls, ulong Seed, double WallSeconds)
 {
+    /// <summary>The case at which it was interrupted, which has no rows, nor have those after it; null if it went through.</summary>
+    internal string? StoppedAt { get; init; }
+
     /// <summary>How many rows came out as they should: passed, or for a wrong method failed.</summary>
     internal int AsItShouldBe => Rows.Count(row => row.Passed != AreControls);
 

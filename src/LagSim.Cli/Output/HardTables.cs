@@ -47,6 +47,11 @@ internal static class HardTables
 
     internal static IEnumerable<string> Footnotes(HardReport report)
     {
+        if (report.StoppedAt is string stopped)
+        {
+            yield return $"stopped early, at {stopped}: it and what comes after it has no rows";
+        }
+
         int all = report.Rows.Count, right = report.AsItShouldBe;
         string outcome = !report.AreControls ? all == 1 ? $"{right} of 1 row within its bound" : $"{right} of {all} rows within their bound"
             : right == all ? $"All {all} checks of wrong methods failed, as they must: none was taken for right"

@@ -1,7 +1,9 @@
 using System.Globalization;
 using System.IO;
+using System.Linq;
 using System.Text.Json;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Runs;
 using LagSim.Harness.Scenes;
 using LagSim.Scenes;
 using Spectre.Console;
@@ -26,6 +28,8 @@ internal static class RunOutput
             json.WriteNumber("start", run.StartEnergy);
             json.WriteNumber("end", run.EndEnergy);
             json.WriteEndObject();
+            json.WriteString("energy_without_potential", SceneEnergy.WithoutPotential(scene));
+            bool canTurn = CanTurn(scene);
             json.WriteStartArray("bodies");
             for (int body = 0; body < scene.Bodies.Count; body++)
             {
@@ -35,6 +39,11 @@ internal static class RunOutput
                 Vector(json, "position_m", state.Position);
                 Vector(json, "velocity_m_per_s", state.Velocity);
                 json.WriteString("motion", MotionNames.Of(state.Motion));
+                if (canTurn)
+                {
+                    Vector(json, "spin_rad_per_s", state.Spin);
+                }
+
                 json.WriteEndObject();
             }
 
@@ -52,21 +61,38 @@ internal static class RunOutput
             $"{run.Until.ToSeconds():0.#########} s, {NumberText.Count(run.End.EventsProcessed, "event")},"
                 + $" {NumberText.Count(run.End.ImpactsProcessed, "impact")}; "
             + $"energy {NumberText.Short(run.StartEnergy)} J at the start, {NumberText.Short(run.EndEnergy)} J at the end"));
+        if (SceneEnergy.WithoutPotential(scene) is string clauses)
+        {
+            console.Rich.WriteLine($"of energy: {clauses}");
+        }
+
         console.Rich.WriteLine(Times(run));
-        Table table = new Table { Border = TableBorder.Rounded }.AddColumns("body", "position (m)", "velocity (m/s)", "motion");
+        bool canTurn = CanTurn(scene);
+        Table table = new Table { Border = TableBorder.Rounded }.AddColumns(
+            ["body", "position (m)", "velocity (m/s)", "motion", .. canTurn ? ["spin (rad/s)"] : System.Array.Empty<string>()]);
         for (int body = 0; body < scene.Bodies.Count; body++)
         {
             run.End.TryRead(BodyId.OfScene(body), run.Until, out BodyState state);
             table.AddRow(
-                Markup.Escape(scene.Bodies[body].Name), Text(state.Position), Text(state.Velocity), MotionNames.Of(state.Motion));
+                [Markup.Escape(scene.Bodies[body].Name), Text(state.Position), Text(state.Velocity), MotionNames.Of(state.Motion),
+                    .. canTurn ? [Text(state.Spin)] : System.Array.Empty<string>()]);
         }
 
         console.Write(table);
     }
 
+    /// <summary>Whether anything of the scene can turn: it was given a spin, or friction may give it one.</summary>
+    internal static bool CanTurn(Scene scene) => scene.Bodies.Any(body => body.Spin != Vector3D.Zero || body.Spec.Friction > 0);
+
     /// <summary>What the time went into: the simulation alone, and all that was done for the report.</summary>
     private static string Times(RunSummary run)
     {
+        if (run.Timed == 0)
+        {
+            string drawn = run.PictureSeconds > 0 ? $", and picture {NumberText.Short(run.PictureSeconds)} s" : "";
+            return $"{NumberText.Short(run.WallSeconds)} s for the run and its files, not timed apart{drawn}";
+        }
+
         string least = run.Timed == 1 ? "timed once" : $"the least of {NumberText.Count(run.Timed, "run")}";
         string picture = run.PictureSeconds > 0 ? $", picture {NumberText.Short(run.PictureSeconds)} s" : "";
         double all = run.WritingSeconds + run.TimingSeconds + run.PictureSeconds;

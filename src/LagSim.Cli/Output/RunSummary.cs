@@ -7,7 +7,7 @@ namespace LagSim.Cli.Output;
 /// <param name="Until">The end.</param>
 /// <param name="StartEnergy">Energy at the start, in joules.</param>
 /// <param name="EndEnergy">Energy at the end, in joules.</param>
-/// <param name="WallSeconds">The least time that the simulation alone took.</param>
+/// <param name="WallSeconds">The least time that the simulation alone took; if none was timed, what the one that was written took.</param>
 internal sealed record RunSummary(Simulation End, SimTime Until, double StartEnergy, double EndEnergy, double WallSeconds)
 {
     /// <summary>How many runs were timed, after the one that was written; 0 for none.</summary>

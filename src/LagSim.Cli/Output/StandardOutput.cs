@@ -35,5 +35,5 @@ internal static class StandardOutput
         }
     }
 
-    private static StreamWriter Writer(Stream stream) => new(stream, new UTF8Encoding(encoderShouldEmitUTF8Identifier: false));
+    private static StreamWriter Writer(Stream stream) => new(new NamedStream("stdout", stream), new UTF8Encoding(encoderShouldEmitUTF8Identifier: false));
 }

@@ -13,6 +13,8 @@ internal sealed class ToolConsole
     private const int WidthOfAFile = 150;
     private const int UsualWidth = 80;
 
+    private Action<string> tellPart = _ => { };
+
     internal ToolConsole(TextWriter output, TextWriter error, CancellationToken stop)
     {
         Stop = stop;
@@ -79,7 +81,7 @@ internal sealed class ToolConsole
         return new Rows(parts);
     }
 
-    /// <summary>Runs something long, with a bar on the error stream where that is a terminal, else a line at the start.</summary>
+    /// <summary>Runs something long, with a bar on the error stream where that is a terminal, else a line at the start and one for each part that it names.</summary>
     /// <param name="title">What runs.</param>
     /// <param name="length">How much there is to do, in simulated seconds.</param>
     /// <param name="work">Does it, and says from time to time how much is done.</param>
@@ -90,6 +92,7 @@ internal sealed class ToolConsole
         if (!isBarShown || !ReferenceEquals(Error, Console.Error) || Console.IsErrorRedirected)
         {
             Error.WriteLine($"{title} ...");
+            tellPart = part => Error.WriteLine($"  {part}");
             return work(_ => Pause());
         }
 
@@ -98,15 +101,20 @@ internal sealed class ToolConsole
             .Start(progress =>
             {
                 ProgressTask task = progress.AddTask(Markup.Escape(title), maxValue: length);
+                tellPart = part => task.Description = Markup.Escape($"{title}: {part}");
                 T result = work(done =>
                 {
                     Pause();
                     task.Value = done;
                 });
-                task.Value = task.MaxValue;
+                task.Description = Markup.Escape(title);
+                task.Value = Stop.IsCancellationRequested ? task.Value : task.MaxValue;
                 return result;
             });
     }
+
+    /// <summary>Names the part of what runs that begins now: on the bar, or as a line of the error stream where there is none.</summary>
+    internal void Begin(string part) => tellPart(part);
 
     /// <summary>Puts back what a progress bar hides.</summary>
     internal static void ShowCursor()

@@ -16,10 +16,11 @@ public static class WorkSweep
     /// <param name="methods">The methods; those that are missing or do not suit a scene are left out with a sentence.</param>
     /// <param name="options">How thoroughly.</param>
     /// <param name="progress">Is told which part of all points is done, 0 to 1.</param>
-    /// <param name="cancellation">Ends it between two steps or instants of a run, by an <see cref="OperationCanceledException"/>.</param>
+    /// <param name="cancellation">Ends it between two steps or instants of a run, with the points of the methods that were done by then.</param>
+    /// <param name="begin">Is told a scene and a method before they run, as words.</param>
     public static WorkReport Run(
         IReadOnlyList<WorkScene> scenes, IReadOnlyList<IWorkMethod> methods, WorkOptions options, Action<double>? progress = null,
-            CancellationToken cancellation = default)
+            CancellationToken cancellation = default, Action<string>? begin = null)
     {
         ArgumentNullException.ThrowIfNull(scenes);
         ArgumentNullException.ThrowIfNull(methods);
@@ -40,7 +41,18 @@ public static class WorkSweep
             }
 
             int done = n;
-            List<WorkPoint> swept = Sweep(scene, method, options, leftOut, part => progress?.Invoke((done + part) / sweeps.Length), cancellation);
+            string at = $"{scene.Name}: {method.Name}";
+            List<WorkPoint> swept;
+            try
+            {
+                begin?.Invoke(at);
+                swept = Sweep(scene, method, options, leftOut, part => progress?.Invoke((done + part) / sweeps.Length), cancellation);
+            }
+            catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
+            {
+                return new WorkReport(points, orders, leftOut) { StoppedAt = at };
+            }
+
             points.AddRange(swept);
             if (WorkOrder.Of(scene, swept.Where(point => point.ErrorKind == scene.ErrorKinds[0])) is WorkOrder order)
             {

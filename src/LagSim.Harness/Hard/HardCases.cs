@@ -57,7 +57,7 @@ public static class HardCases
     /// <param name="seed">The luck of what is drawn.</param>
     /// <param name="areControls">Whether to run the deliberately wrong methods in place of the engine.</param>
     /// <param name="progress">Is told how many cases are done, with the part of the one at hand, and its name.</param>
-    /// <param name="cancellation">Ends it early, by an <see cref="OperationCanceledException"/>.</param>
+    /// <param name="cancellation">Ends it early, with the rows of the cases that were done by then; the one in progress is given up.</param>
     /// <returns>The rows in the order of the cases.</returns>
     public static IReadOnlyList<HardRow> Run(
         IReadOnlyList<IHardCase> cases, HardScale scale, ulong seed, bool areControls = false, Action<double, string>? progress = null,
@@ -69,9 +69,16 @@ public static class HardCases
         {
             IHardCase one = cases[n];
             int done = n;
-            progress?.Invoke(done, one.Name);
-            HardContext context = new(scale, seed, part => progress?.Invoke(done + part, one.Name), cancellation);
-            rows.AddRange(areControls ? one.Controls(context) : one.Rows(context));
+            try
+            {
+                progress?.Invoke(done, one.Name);
+                HardContext context = new(scale, seed, part => progress?.Invoke(done + part, one.Name), cancellation);
+                rows.AddRange([.. areControls ? one.Controls(context) : one.Rows(context)]);
+            }
+            catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
+            {
+                break; // what was done is reported
+            }
         }
 
         return rows;

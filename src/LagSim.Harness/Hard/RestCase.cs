@@ -112,17 +112,17 @@ internal sealed class RestCase : IHardCase
             .AddBody("left", Ball(e: 0.5), V(-half, 0.5)).AddBody("right", Ball(e: 0.5), V(half, 0.5)).AddBody("top", Ball(e: 0.5), V(0, up)).Build();
     }
 
-    private static double Energy(Scene scene) => SceneRun.Energy(new Simulation(scene), SimTime.Zero);
+    private static double Energy(Scene scene) => SceneEnergy.Of(new Simulation(scene), SimTime.Zero);
 
     private static (double Drift, double Gain, long Events) Watch(HardContext context, Scene scene, double seconds)
     {
         Simulation simulation = context.Simulate(scene);
-        double start = SceneRun.Energy(simulation, SimTime.Zero), drift = 0, gain = 0;
+        double start = SceneEnergy.Of(simulation, SimTime.Zero), drift = 0, gain = 0;
         for (int n = 1; n <= 400; n++)
         {
             SimTime at = SimTime.FromSeconds(seconds * n / 400);
             simulation.AdvanceTo(at);
-            gain = Math.Max(gain, SceneRun.Energy(simulation, at) - start);
+            gain = Math.Max(gain, SceneEnergy.Of(simulation, at) - start);
             for (int body = 0; body < scene.Bodies.Count; body++)
             {
                 drift = Math.Max(drift, (Read(simulation, BodyId.OfScene(body), at).Position - scene.Bodies[body].Position).Length);

@@ -112,24 +112,6 @@ public sealed class SceneRun
         return least;
     }
 
-    /// <summary>Kinetic energy and that in uniform gravity, in joules; zero at the origin's height.</summary>
-    public static double Energy(Simulation simulation, SimTime time)
-    {
-        ArgumentNullException.ThrowIfNull(simulation);
-        double energy = 0;
-        for (int n = 0; n < simulation.BodyCount; n++)
-        {
-            BodyId body = simulation.BodyAt(n);
-            if (simulation.TryRead(body, time, out BodyState state))
-            {
-                double mass = simulation.SpecOf(body).Mass;
-                energy += mass * ((0.5 * state.Velocity.LengthSquared) - Vector3D.Dot(simulation.Scene.Gravity, state.Position));
-            }
-        }
-
-        return energy;
-    }
-
     private void Report(Simulation simulation, SimTime after, SimTime upTo)
     {
         if (OnEvent is null)

@@ -58,8 +58,7 @@ internal ref struct SceneDecoder
         SceneBuilder builder = new(WireText.Read(ref reader));
         builder.WithGravity(reader.ReadVector());
         builder.WithResolution(reader.ReadDouble());
-        double smallest = reader.ReadDouble();
-        builder.WithSmallestRadius(smallest);
+        builder.WithSmallestRadius(reader.ReadDouble());
         builder.WithSpawners(PeerSet.FromMask(reader.ReadUInt16()));
         ReadForces(builder);
         ReadPlanes(builder);
@@ -72,7 +71,7 @@ internal ref struct SceneDecoder
         }
 
         Scene scene = builder.Build();
-        return IsTheOneForm(scene, smallest) ? scene : null;
+        return IsTheOneForm(scene) ? scene : null;
     }
 
     private void ReadForces(SceneBuilder builder)
@@ -251,7 +250,7 @@ internal ref struct SceneDecoder
     }
 
     /// <summary>Refuses what the builder put right: every scene has one form on the wire.</summary>
-    private bool IsTheOneForm(Scene scene, double smallest)
+    private bool IsTheOneForm(Scene scene)
     {
         for (int i = 0; i < normals.Count; i++)
         {
@@ -259,12 +258,6 @@ internal ref struct SceneDecoder
             {
                 Refuse($"The normal of plane '{scene.Planes[i].Name}' is {normals[i]}; on the wire it has unit length.");
             }
-        }
-
-        if (scene.SmallestRadius != smallest)
-        {
-            Refuse(FormattableString.Invariant(
-                $"The smallest radius is {smallest:R} m, and a body has a radius of {scene.SmallestRadius:R} m; on the wire none is smaller."));
         }
 
         return error is null;

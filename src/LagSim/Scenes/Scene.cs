@@ -79,8 +79,10 @@ public sealed class Scene
 
     /// <summary>The identity of the body of that name, case-sensitive. Cost: the number of bodies; ask once and keep it.</summary>
     /// <exception cref="ArgumentException">No body of the scene has that name.</exception>
+    /// <exception cref="ArgumentNullException">There is no name.</exception>
     public BodyId BodyNamed(string name)
     {
+        ThrowIfNull(name);
         for (int i = 0; i < BodyArray.Length; i++)
         {
             if (string.Equals(BodyArray[i].Name, name, StringComparison.Ordinal))
@@ -94,8 +96,10 @@ public sealed class Scene
 
     /// <summary>The set of the force of that name alone.</summary>
     /// <exception cref="ArgumentException">No force of the scene has that name.</exception>
+    /// <exception cref="ArgumentNullException">There is no name.</exception>
     public ForceSet ForceNamed(string name)
     {
+        ThrowIfNull(name);
         for (int i = 0; i < ForceArray.Length; i++)
         {
             if (string.Equals(ForceArray[i].Name, name, StringComparison.Ordinal))
@@ -110,6 +114,14 @@ public sealed class Scene
     /// <summary>The same world with its static geometry and forces only.</summary>
     internal Scene WithoutBodies() =>
         new(Name, Gravity, Resolution, PlaneArray, SphereArray, Array.Empty<SceneBody>(), ForceArray, SmallestRadius, Spawners, Box);
+
+    private static void ThrowIfNull(string name)
+    {
+        if (name is null)
+        {
+            throw new ArgumentNullException(nameof(name));
+        }
+    }
 
     private static List<IAcceleration> Supplied(Force[] forces)
     {

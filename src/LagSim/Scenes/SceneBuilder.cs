@@ -56,8 +56,8 @@ public sealed class SceneBuilder
     }
 
     /// <summary>
-    /// Promises that no body smaller than this, in metres, 1e-9 to 1e9, is spawned; what is smaller is refused. Default: the smallest body of the scene. With
-    /// the bodies' radii it bounds the speed that may be given: a tenth of the smallest radius in a tick, 1.1e11 m/s times that radius in metres.
+    /// Promises that no body smaller than this, in metres, 1e-9 to 1e9, is in the scene or is spawned; what is smaller is refused, by <see cref="Build"/> or when it
+    /// is to be spawned. Default: the smallest body of the scene. It bounds the speed that may be given: a tenth of it in a tick, 1.1e11 m/s times that radius in metres.
     /// </summary>
     public SceneBuilder WithSmallestRadius(double metres)
     {
@@ -222,13 +222,19 @@ public sealed class SceneBuilder
 
     private double Smallest()
     {
-        double smallest = smallestSpawn ?? double.MaxValue;
+        double smallest = double.MaxValue;
         foreach (SceneBody body in bodies)
         {
+            if (body.Spec.Radius < smallestSpawn)
+            {
+                throw new SceneException($"The radius of {Whose(body)} is {Limits.Text(body.Spec.Radius)} m; the smallest radius of the"
+                    + $" scene is {Limits.Text(smallestSpawn.Value)} m, and must be at most that of every body.");
+            }
+
             smallest = Math.Min(smallest, body.Spec.Radius);
         }
 
-        return smallest == double.MaxValue ? Limits.MaxRadius : smallest;
+        return smallestSpawn ?? (smallest == double.MaxValue ? Limits.MaxRadius : smallest);
     }
 
     /// <summary>The normal at unit length. One that has it but for rounding stays as it is, so that a plane read back has the same bits.</summary>

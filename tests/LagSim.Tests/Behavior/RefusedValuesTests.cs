@@ -147,4 +147,13 @@ public sealed class RefusedValuesTests
 
     private static SceneBuilder Good() => new SceneBuilder("good").AddPlane("floor", Vector3D.Up, V(0), 0.5).AddStaticSphere("dome", V(10, 0), 1)
         .AddBody("ball", Ball(), V(0, 1.5));
+
+    [Fact]
+    public void Name_ThatIsNull_IsAnArgumentNullException()
+    {
+        Scene scene = new SceneBuilder("named").AddBody("ball", new BodySpec(0.5, 1, 0.5), default).Build();
+        Assert.Equal("name", Assert.Throws<ArgumentNullException>(() => scene.BodyNamed(null!)).ParamName);
+        Assert.Equal("name", Assert.Throws<ArgumentNullException>(() => scene.ForceNamed(null!)).ParamName);
+        Assert.Throws<ArgumentException>(() => scene.BodyNamed("cube"));
+    }
 }

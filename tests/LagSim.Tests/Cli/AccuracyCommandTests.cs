@@ -17,7 +17,7 @@ public sealed class AccuracyCommandTests
         JsonElement root = document.RootElement;
         Assert.Equal(
             ["tool", "version", "command", "seed", "scene", "scene_hash", "state_hash", "quick", "clock", "points", "orders", "findings", "left_out",
-                "caution"],
+                "caution", "stopped_early", "stopped_at"],
             root.EnumerateObject().Select(p => p.Name));
         JsonElement[] points = [.. root.GetProperty("points").EnumerateArray()];
         Assert.Equal(15, points.Length); // three settings of five methods

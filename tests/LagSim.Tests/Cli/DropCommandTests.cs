@@ -8,6 +8,7 @@ using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
 using LagSim.Harness.Drop;
 using LagSim.Harness.Links;
+using LagSim.Net.Strategies;
 using LagSim.Scenes;
 using Xunit;
 
@@ -132,7 +133,7 @@ public sealed class DropCommandTests
         int ours = Array.FindIndex(lines, line => line.Contains("as seen, after", StringComparison.Ordinal));
         Assert.Matches(@"thesis, after\s+0\.084\s+0\.022\s+0\.029", lines[ours + 1]);
         Assert.DoesNotContain("\u001b", tool.Output + tool.Error, StringComparison.Ordinal); // no colours where no terminal is
-        Assert.Equal(["drop, virtual time ...", "every strategy, virtual time ..."], tool.Error.Split(Environment.NewLine, StringSplitOptions.RemoveEmptyEntries));
+        Assert.Equal(["drop, virtual time ...", "every strategy, virtual time ...", .. LateEventStrategies.Names.Select(name => $"  {name}")], tool.Error.Split(Environment.NewLine, StringSplitOptions.RemoveEmptyEntries));
     }
 
     [Fact]

@@ -17,7 +17,7 @@ public sealed class HardCommandTests
         using JsonDocument document = JsonDocument.Parse(Tool.Run("hard", "mass-chain", "--scale", "small", "--json").Done().Output);
         JsonElement root = document.RootElement;
         Assert.Equal(
-            ["tool", "version", "command", "seed", "scene", "scene_hash", "state_hash", "scale", "controls", "wall_s", "rows", "rows_passed", "cases"],
+            ["tool", "version", "command", "seed", "scene", "scene_hash", "state_hash", "scale", "controls", "wall_s", "rows", "rows_passed", "cases", "stopped_early", "stopped_at"],
             root.EnumerateObject().Select(p => p.Name));
         JsonElement[] cases = [.. root.GetProperty("cases").EnumerateArray()];
         Assert.All(cases, c => Assert.Equal(

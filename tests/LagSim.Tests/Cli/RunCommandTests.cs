@@ -47,6 +47,58 @@ public sealed class RunCommandTests
         Assert.Equal(0, document.GetProperty("picture_wall_s").GetDouble());
     }
 
+    [Fact]
+    public void Repeat_Zero_RunsOnceAndSaysSo()
+    {
+        Assert.Matches(@"(?m)^[0-9.e-]+ s for the run and its files, not timed apart\s*$", Tool.Run("run", "drop", "--repeat", "0").Done().Output);
+        JsonElement document = Json("run", "drop", "--repeat", "0", "--json");
+        Assert.Equal(document.GetProperty("written_run_wall_s").GetDouble(), document.GetProperty("wall_s").GetDouble());
+        Assert.InRange(document.GetProperty("timed_runs_wall_s").GetDouble(), 0, 1e-3); // between two looks at the clock
+    }
+
+    [Fact]
+    public void Energy_OfASpringAndAPull_HasTheirPotentials()
+    {
+        using TemporaryFolder folder = new();
+        string scene = folder["pulled.json"];
+        File.WriteAllText(scene, """
+            {"format": "lagsim-scene-1", "name": "pulled", "gravity_m_per_s2": [0, 0, 0],
+             "forces": [{"name": "spring", "kind": "spring", "anchor_m": [0, 0, 0], "stiffness_n_per_m": 100},
+                        {"name": "sun", "kind": "central", "centre_m": [100, 0, 0], "strength_m_per_s2": 8, "power": -2}],
+             "bodies": [{"name": "hung", "radius_m": 0.1, "mass_kg": 1, "restitution": 1, "position_m": [1, 0, 0], "forces": ["spring"]},
+                        {"name": "planet", "radius_m": 0.1, "mass_kg": 3, "restitution": 1, "position_m": [102, 0, 0], "velocity_m_per_s": [0, 1.5, 0], "forces": ["sun"]}]}
+            """);
+        JsonElement document = Json("run", scene, "--until-s", "0.15707963267948966", "--repeat", "0", "--json"), energy = document.GetProperty("energy_j");
+        Assert.Equal(50 + (3 * (1.125 - 4)), energy.GetProperty("start").GetDouble(), 1e-12);
+        Assert.Equal(energy.GetProperty("start").GetDouble(), energy.GetProperty("end").GetDouble(), 1e-9);
+        Assert.InRange(document.GetProperty("bodies")[0].GetProperty("position_m")[0].GetDouble(), -1e-9, 1e-9); // else nothing became of the spring's energy
+        Assert.Equal(JsonValueKind.Null, document.GetProperty("energy_without_potential").ValueKind);
+
+        // The control: what has no potential is named.
+        File.WriteAllText(scene, File.ReadAllText(scene).Replace("\"stiffness_n_per_m\": 100", "\"stiffness_n_per_m\": 100, \"damping_kg_per_s\": 1", StringComparison.Ordinal));
+        Assert.Equal("the damper of spring 'spring' takes energy", Text(Json("run", scene, "--repeat", "0", "--json"), "energy_without_potential"));
+        Assert.Contains("of energy: the damper of spring 'spring' takes energy", Tool.Run("run", scene, "--repeat", "0").Done().Output, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Spin_WhereSomethingCanTurn_IsInTableJsonAndSamples()
+    {
+        using TemporaryFolder folder = new();
+        string scene = folder["roll.json"];
+        File.WriteAllText(scene, """
+            {"format": "lagsim-scene-1", "name": "roll", "planes": [{"name": "floor", "normal": [0, 1, 0], "offset_m": 0}],
+             "bodies": [{"name": "ball", "radius_m": 0.5, "mass_kg": 1, "restitution": 0, "friction": 0.5, "position_m": [0, 0.5, 0], "velocity_m_per_s": [7, 0, 0]}]}
+            """);
+        JsonElement spin = Json("run", scene, "--until-s", "2", "--repeat", "0", "--json").GetProperty("bodies")[0].GetProperty("spin_rad_per_s");
+        Assert.Equal(-10, spin[2].GetDouble(), 1e-6); // it rolls with five sevenths of its speed
+        Assert.Contains("spin (rad/s)", Tool.Run("run", scene, "--repeat", "0").Done().Output, StringComparison.Ordinal);
+        string[][] rows = Csv(
+            Tool.Run("run", scene, "--until-s", "2", "--every-s", "1", "--samples", "-").Done().Output,
+            SampleColumns + ",spin_x_rad_per_s,spin_y_rad_per_s,spin_z_rad_per_s");
+        Assert.Equal(spin[2].GetDouble(), Number(rows[^1][11]));
+        Assert.DoesNotContain("spin", Tool.Run("run", "drop", "--repeat", "0").Done().Output, StringComparison.Ordinal);
+    }
+
     [Theory]
     [InlineData("crowd-007", "N is written without leading zeros: crowd-7")]
     [InlineData("crowd-0", "N is a whole number from 1 to 100000, such as crowd-200")]

@@ -4,6 +4,7 @@ using System.IO;
 using System.IO.Pipes;
 using System.Linq;
 using System.Text;
+using System.Text.Json;
 using System.Threading;
 using LagSim.Cli;
 using LagSim.Cli.Output;
@@ -75,8 +76,50 @@ public sealed class StoppingTests
         using TemporaryFolder folder = new();
         using StringWriter output = new(), error = new();
         Assert.Equal(130, Program.Run([.. line.Split(' '), folder["new/one"]], output, error, new CancellationToken(canceled: true)));
-        Assert.Equal("", output.ToString());
+        Assert.EndsWith("Interrupted before there was a result." + Environment.NewLine, error.ToString(), StringComparison.Ordinal);
         Assert.Empty(Directory.GetFileSystemEntries(folder.Path));
+        if (!line.Contains("--json", StringComparison.Ordinal))
+        {
+            Assert.Equal("", output.ToString());
+            return;
+        }
+
+        using JsonDocument document = JsonDocument.Parse(output.ToString());
+        Assert.Equal(("interrupted", 130), (document.RootElement.GetProperty("error").GetString(), document.RootElement.GetProperty("exit_code").GetInt32()));
+    }
+
+    [Theory]
+    [InlineData("hard --scale small", "  spring", "cases", "spring")]
+    [InlineData("accuracy drop --quick --peers none", "  drop: LagSim RungeKutta4", "points", "drop: LagSim RungeKutta4")]
+    public void LongCommand_Interrupted_ReportsTheRowsSoFar(string line, string when, string rows, string at)
+    {
+        using CancellationTokenSource stop = new();
+        using StringWriter output = new();
+        using StoppingErrors error = new(when, stop);
+        Assert.Equal(130, Program.Run([.. line.Split(' '), "--json"], output, error, stop.Token));
+        using JsonDocument document = JsonDocument.Parse(output.ToString());
+        Assert.True(document.RootElement.GetProperty("stopped_early").GetBoolean());
+        Assert.Equal(at, document.RootElement.GetProperty("stopped_at").GetString());
+        JsonElement[] told = [.. document.RootElement.GetProperty(rows).EnumerateArray()];
+        Assert.NotEmpty(told);
+        Assert.DoesNotContain(told, row => row.TryGetProperty("case", out JsonElement name) ? name.GetString() == at : row.GetProperty("method").GetString() == "LagSim RungeKutta4");
+    }
+
+    [Fact]
+    public void Command_AskedToTerminate_SaysSoInItsDocument()
+    {
+        using StringWriter output = new(), error = new();
+        Assert.Equal(143, Program.Run(["hard", "--scale", "small", "--json"], output, error, new CancellationToken(canceled: true), () => 143));
+        using JsonDocument document = JsonDocument.Parse(output.ToString());
+        Assert.Equal(143, document.RootElement.GetProperty("exit_code").GetInt32());
+    }
+
+    [Fact]
+    public void Stdout_ThatIsFull_IsNamed()
+    {
+        using FullStream failing = new();
+        IOException failure = Assert.Throws<IOException>(() => new NamedStream("stdout", failing).Write("x"u8));
+        Assert.Equal("stdout cannot be written: no room.", failure.Message);
     }
 
     [Fact]
@@ -110,6 +153,25 @@ public sealed class StoppingTests
         run.Run(SimDuration.FromSeconds(900_000), _ => steps++);
         Assert.InRange(steps, 40, 60); // it rests after 12.53 s, looked at every 0.25 s
         Assert.Equal(53, events);
+    }
+
+    /// <summary>An error stream whose reader presses Ctrl-C at a certain line.</summary>
+    private sealed class StoppingErrors(string when, CancellationTokenSource stop) : StringWriter
+    {
+        public override void WriteLine(string? value)
+        {
+            base.WriteLine(value);
+            if (value == when)
+            {
+                stop.Cancel();
+            }
+        }
+    }
+
+    /// <summary>A stream on which there is no room.</summary>
+    private sealed class FullStream : MemoryStream
+    {
+        public override void Write(ReadOnlySpan<byte> buffer) => throw new IOException("no room", NoSpace);
     }
 
     /// <summary>An output that takes some text and then fails, as a pipe does once its reader has what it wanted.</summary>

@@ -90,6 +90,27 @@ public sealed class UsageTests
         Tool.Refuses(Usage, command == "run" ? [command, "drop", option, value, "--json"] : [command, option, value, "--json"], says);
 
     [Fact]
+    public void WordThatIsNoCommand_IsSaidToBeNoneAndNothingElse()
+    {
+        Tool tool = Tool.Run("foo");
+        Assert.Equal(Usage, tool.ExitCode);
+        Assert.Equal(["Unrecognized command or argument 'foo'.", "Try 'lagsim --help'."], tool.Error.Split(Environment.NewLine, StringSplitOptions.RemoveEmptyEntries));
+        Assert.StartsWith("Required command was not provided.", Tool.Run().Error, StringComparison.Ordinal);
+    }
+
+    [Theory]
+    [InlineData("run pair --for-s 3", "run has no option '--for-s'; here it is --until-s.")]
+    [InlineData("host --scene pair --until-s 3", "host has no option '--until-s'; here it is --for-s.")]
+    public void LengthByTheOtherName_IsToldTheRightOne(string line, string says) => Tool.Refuses(Usage, line.Split(' '), says);
+
+    [Fact]
+    public void RecordingThatIsNotThere_IsToldInTheToolsOwnWords()
+    {
+        Tool.Refuses(3, ["diff", "no-such-a", "no-such-b"], "'no-such-a' cannot be read as a recording: there is no such file.");
+        Tool.Refuses(3, ["replay", "no-such-a", "--json"], "'no-such-a' cannot be read as a recording: there is no such file.");
+    }
+
+    [Fact]
     public void Json_OfAnInputThatIsNone_HasTheSeedThatWasGiven()
     {
         Tool tool = Tool.Run("run", "no-such-scene", "--json", "--seed", "7");
@@ -133,8 +154,8 @@ public sealed class UsageTests
     [InlineData("--every-s", "0", "and 1000000")]
     [InlineData("--every-s", "-0.01", "and 1000000")]
     [InlineData("--every-s", "1e-10", "and 1000000")]
-    [InlineData("--repeat", "0", "between 1 and 1000000")]
-    [InlineData("--repeat", "x", "between 1 and 1000000")]
+    [InlineData("--repeat", "-1", "between 0 and 1000000")]
+    [InlineData("--repeat", "x", "between 0 and 1000000")]
     [InlineData("--seed", "one", "between 0 and")]
     public void Run_NumberOutOfRange_IsRefusedWithOptionValueAndRange(string option, string value, string range) =>
         Tool.Refuses(Usage, ["run", "drop", option, value], option, $"'{value}'", range);

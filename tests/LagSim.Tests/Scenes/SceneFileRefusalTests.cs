@@ -33,6 +33,7 @@ public sealed class SceneFileRefusalTests
     [InlineData("\"resolution_m\": 1", "resolution_m", "must lie between 1E-15 and 0.001 m")]
     [InlineData("\"resolution_m\": {}", "resolution_m", "it is an object; it must be a number")]
     [InlineData("\"smallest_radius_m\": 1e-10", "smallest_radius_m", "must lie between 1E-09 and 1000000000 m")]
+    [InlineData("\"smallest_radius_m\": 0.51, \"bodies\": [" + SceneText.Ball + "]", "", "is 0.5 m; the smallest radius of the scene is 0.51 m, and must be at most that of every body")]
     [InlineData("\"periodic_box_m\": [0, 10, 10]", "periodic_box_m", "The periodic box of scene 's' is (0, 10, 10) m; every side must be above zero")]
     [InlineData("\"periodic_box_m\": [10, 10, 10]", "", "has a periodic box, gravity (0, -9.81, 0) m/s^2, ")]
     [InlineData("\"planes\": [1]", "planes[0]", "it is 1; it must be an object")]

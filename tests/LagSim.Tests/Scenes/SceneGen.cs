@@ -102,7 +102,7 @@ internal static class SceneGen
         double least = bodies.Select(b => b.Spec.Radius).Append(smallest > 0 ? smallest : 1e9).Min();
         if (smallest > 0)
         {
-            builder.WithSmallestRadius(smallest);
+            builder.WithSmallestRadius(least);
         }
 
         for (int i = 0; i < forces.Length; i++)

@@ -179,7 +179,7 @@ public sealed class SceneFormatTests
     {
         Refused(WithInt64(StepAt, 0), "In body 1 of the scene a number is not finite, a step is zero");
         Refused(With(NormalAt + 8, 2), "The normal of plane 'p' is (0, 2, 0); on the wire it has unit length.");
-        Refused(With(SmallestAt, 1), "The smallest radius is 1 m, and a body has a radius of 0.5 m;");
+        Refused(With(SmallestAt, 1), "The radius of body 'b' is 0.5 m; the smallest radius of the scene is 1 m, and must be at most that of every body.");
     }
 
     [Theory]

@@ -1,0 +1,31 @@
+using System;
+using System.IO;
+using LagSim.Cli.Output;
+using LagSim.Net.Recordings;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary>A recording that a command was given by name.</summary>
+internal static class RecordingFile
+{
+    /// <exception cref="InputException">It cannot be opened; the sentence names it and the cause.</exception>
+    internal static Recording Read(string name)
+    {
+        try
+        {
+            return Recording.Read(name);
+        }
+        catch (Exception failure) when (failure is IOException or UnauthorizedAccessException or ArgumentException)
+        {
+            throw new InputException($"'{name}' cannot be read as a recording: {Cause(name, failure)}");
+        }
+    }
+
+    private static string Cause(string name, Exception failure) => failure switch
+    {
+        FileNotFoundException or DirectoryNotFoundException => "there is no such file.",
+        UnauthorizedAccessException when Directory.Exists(name) => "it is a folder.",
+        UnauthorizedAccessException => "permission to read it is denied.",
+        _ => Sentence.Of(failure),
+    };
+}
