@@ -13,7 +13,10 @@ public sealed partial class Simulation
 {
     /// <summary>Where a body is at any instant from <see cref="HistoryEdge"/> to <see cref="Horizon"/>, after all events of that tick.</summary>
     /// <returns>False, and a state that is <see cref="MotionLaw.Absent"/>, if the body is unknown or not there at that time.</returns>
-    /// <remarks>Opens no segment and changes nothing. Cost: the number of the body's segments after that time.</remarks>
+    /// <remarks>
+    /// Opens no segment and changes nothing. Cost: the number of the body's segments after that time. A time that is not simulated is a mistake of the caller,
+    /// who advances this world himself, and so an exception; a <see cref="Hosting.Picture"/>, which another thread makes, returns false there.
+    /// </remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="HistoryEdge"/> or after <see cref="Horizon"/>: advance first.</exception>
     /// <exception cref="InvalidOperationException">The simulation ended by an exception.</exception>
     public bool TryRead(BodyId body, SimTime time, out BodyState state)

@@ -65,7 +65,7 @@ internal static class CompareChart
                 {
                     Scale = ChartScale.Log10,
                     LogFloor = LargestFloor,
-                    Reaches = [LargestFloor, .. all],
+                    Reaches = [LargestFloor, Math.Max(LargestFloor, Largest(all))],
                     PlotHeight = PanelHeight,
                 };
             }).ToArray())

@@ -42,6 +42,9 @@ public sealed class Picture
 
     /// <summary>Where a body is at an instant that the picture covers.</summary>
     /// <returns>False if the instant is not covered, or the body is unknown or not there; the state is then the default.</returns>
+    /// <remarks>
+    /// An instant that is not covered is no mistake of a reader: the thread that makes pictures may be late. <see cref="Simulation.TryRead"/> throws there.
+    /// </remarks>
     public bool TryRead(BodyId body, SimTime time, out BodyState state)
     {
         int at = Covers(time) ? Array.BinarySearch(identities, 0, BodyCount, body.Packed) : -1;
