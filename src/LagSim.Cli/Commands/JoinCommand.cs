@@ -21,8 +21,8 @@ internal static class JoinCommand
         Command command = new(
             "join",
             "Joins a session; the host gives the scene. Ends with 0 when the host ends the session after --for-s, or without it at any time, and with 3"
-                + " before, or if a --do was refused or not done. Below each T line: by how much this clock is off the host's, how far off that may be at most, and how"
-                + " long a datagram takes one way.")
+                + " before, or if a --do was refused or not done. Below each T line: the host's clock minus this one's, by how much that may be wrong"
+                + " at most, and half a round trip.")
         {
             host,
         };
