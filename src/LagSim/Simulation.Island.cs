@@ -287,6 +287,12 @@ public sealed partial class Simulation
                 continue;
             }
 
+            double tooStiff = island.TooStiff(n);
+            if (tooStiff > 0)
+            {
+                throw TooStiff(slot, key.Time, PlaceOf(party, carry), partyVelocities[party], partySpins[party], tooStiff);
+            }
+
             int crowding = key.Kind == EventKind.Impact ? CrowdingAt(slot, key.Time) : 0;
             MotionSegment path = island.PathOf(n, key.Time, crowding, out DenseOutput dense, out Spin spin);
             CheckState(slot, key, path.Position, path.Velocity);

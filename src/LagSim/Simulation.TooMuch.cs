@@ -1,4 +1,5 @@
 using System.Text;
+using LagSim.Contacts;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -35,9 +36,8 @@ public sealed partial class Simulation
         if (!isFinite || (tooStiff == 0 && tooLarge == 0))
         {
             return new SimulationException(
-                $"In the step from {from.ToShortString()}, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the acceleration of {Whose(slot)} became NaN or"
-                    + " infinite; what the forces"
-                + $" {spec.Forces.NamesAmong(Scene.ForceArray)} give must be finite.");
+                $"In the step from {from.ToShortString()}, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the acceleration of {Whose(slot)} became NaN or "
+                + $"infinite; what the forces {spec.Forces.NamesAmong(Scene.ForceArray)} give must be finite.");
         }
 
         string rates = RatesOn(slot, x, v, spin);
@@ -50,21 +50,30 @@ public sealed partial class Simulation
             }
 
             double most = (spec.Flight == MotionLaw.RungeKutta4 ? RungeKutta4.MaxRateTimesStep : DormandPrince54.MaxRateTimesStep) / shortest.ToSeconds();
-            double here = forces.FixedStepRateAt(spec, x, v, spin);
-            string what = here > most ? $"act at a rate of {Limits.Short(here)} 1/s" : $"lead in a step to where they act at a rate of"
-                + $" {Limits.Short(tooStiff)} 1/s";
+            string what = ActTooFast(forces.FixedStepRateAt(spec, x, v, spin), tooStiff, most);
             return new SimulationException(
-                $"{where} {what}: there {rates}. {spec.Flight} with fixed steps follows at most {Limits.Short(most)} 1/s, by steps halved to"
-                    + $" {Limits.Short(shortest.ToSeconds())} s. Make"
-                + " them weaker, or use Automatic.");
+                $"{where} {what}: there {rates}. {spec.Flight} with fixed steps follows at most {Limits.Short(most)} 1/s, by steps halved to "
+                + $"{Limits.Short(shortest.ToSeconds())} s. Make them weaker, or use Automatic.");
         }
 
         return new SimulationException(
-            $"{where} change so fast that a step of {Limits.Short(StepSize.Shortest.ToSeconds())} s, the shortest there is, still has"
-                + $" {Limits.Short(tooLarge)} times the"
-            + $" error of the tolerance, {Limits.Text(spec.Tolerance)}: there {rates}. Allow a larger error, make them weaker, or keep it out of the"
-            + $" singularity, if there is one.{Jumps(spec)}");
+            $"{where} change so fast that a step of {Limits.Short(StepSize.Shortest.ToSeconds())} s, the shortest there is, still has "
+            + $"{Limits.Short(tooLarge)} times the error of the tolerance, {Limits.Text(spec.Tolerance)}: there {rates}. "
+            + $"Allow a larger error, make them weaker, or keep it out of the singularity, if there is one.{Jumps(spec)}");
     }
+
+    /// <summary>Why no step of an island can be used, in which the body has a state at its start and forces act too fast for it there or at its end.</summary>
+    private SimulationException TooStiff(int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, double rate)
+    {
+        double most = IslandStep.MostRate;
+        return new SimulationException(
+            $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {Whose(slot)}, which touches something, "
+            + $"{ActTooFast(forces.FixedStepRateAt(bodies[slot].Spec, x, v, spin), rate, most)}: there {RatesOn(slot, x, v, spin)}. What is in lasting contact "
+            + $"moves by steps that follow at most {Limits.Short(most)} 1/s, halved to {Limits.Short(1 / most)} s. Make them weaker, or the body heavier.");
+    }
+
+    private static string ActTooFast(double here, double met, double most) =>
+        here > most ? $"act at a rate of {Limits.Short(here)} 1/s" : $"lead in a step to where they act at a rate of {Limits.Short(met)} 1/s";
 
     /// <summary>What error control cannot follow and nobody but the program's author can see; a sentence that follows another.</summary>
     private string Jumps(in BodySpec spec)
@@ -73,9 +82,8 @@ public sealed partial class Simulation
         {
             if (force.Kind == ForceKind.Supplied && spec.Flight == MotionLaw.DormandPrince54 && spec.Tolerance > 0)
             {
-                return $" If '{force.Name}' jumps, between two places or at a change of sign, error control takes the shortest steps there are at the jump:"
-                    + " take"
-                    + " fixed steps, with a tolerance of 0, or make it continuous.";
+                return $" If '{force.Name}' jumps, between two places or at a change of sign, error control takes the shortest steps there are at the jump: "
+                    + "take fixed steps, with a tolerance of 0, or make it continuous.";
             }
         }
 

@@ -13,6 +13,9 @@ internal sealed partial class IslandStep
     /// <summary>So often at most the normals' turning is taken in anew; each time it is right to two orders more.</summary>
     private const int MostRefinements = 8;
 
+    /// <summary>So often at most a force is asked anew for the velocity that it leaves: what is off gets half as large each time, or far less.</summary>
+    private const int MostIterations = 64;
+
     /// <summary>What of a length in parts of what touches is rounding.</summary>
     private const double Rounding = 1e-13;
 
@@ -137,8 +140,7 @@ internal sealed partial class IslandStep
         for (int b = 0; b < BodyCount; b++)
         {
             ref Member m = ref members[b];
-            Vector3D a = m.Spec.Forces.IsEmpty ? scene.Gravity
-                : forces.At(m.Spec, time, h, m.End, m.Middle + (m.Acceleration * (0.5 * h)), m.MiddleSpin);
+            Vector3D a = m.Spec.Forces.IsEmpty ? scene.Gravity : EndAcceleration(m, time, h);
             velocities[b] = m.Middle + (a * (0.5 * h));
             spins[b] = m.MiddleSpin;
         }
@@ -174,6 +176,33 @@ internal sealed partial class IslandStep
         }
 
         StopTurning();
+    }
+
+    /// <summary>
+    /// What forces do at the end of the step, at the velocity that they and the contacts leave there. The trapezoidal rule: under a magnetic force it makes and
+    /// takes no speed, where the same at a velocity of one's own guess makes some with each step. Contacts are taken to do in this half what they did in the
+    /// first: at the velocity that gravity alone would give, a force across the velocity would drive away what lies still.
+    /// </summary>
+    private Vector3D EndAcceleration(in Member m, SimTime time, double h)
+    {
+        Vector3D without = m.Middle + (m.Middle - m.Velocity) - (m.Acceleration * (0.5 * h));
+        Vector3D velocity = without + (m.Acceleration * (0.5 * h));
+        Vector3D a = forces.At(m.Spec, time, h, m.End, velocity, m.MiddleSpin);
+        double last = double.PositiveInfinity;
+        for (int n = 0; n < MostIterations; n++)
+        {
+            Vector3D next = without + (a * (0.5 * h));
+            double change = (next - velocity).Length;
+            if (!(change < last) || change == 0)
+            {
+                break; // rounding, or a program's own force that jumps or is too stiff
+            }
+
+            (velocity, last) = (next, change);
+            a = forces.At(m.Spec, time, h, m.End, velocity, m.MiddleSpin);
+        }
+
+        return a;
     }
 
     /// <summary>
