@@ -46,7 +46,7 @@ public sealed partial class Simulation
         openedCount = 0;
         if (threads > 1 && (count > 1 || IsOtherMoving(opened[0])))
         {
-            stepsAhead ??= new StepsAhead(threads - 1, () => new IslandStep(Scene, forces), otherThread) { TakesAnyState = UsesStepsOfTouched };
+            stepsAhead ??= new StepsAhead(threads - 1, () => new IslandStep(Scene, forces) { MayBeDeep = MayBeDeep }, otherThread) { TakesAnyState = UsesStepsOfTouched };
             for (int i = 0; i < count; i++)
             {
                 TakeStepAhead(opened[i]);

@@ -33,9 +33,10 @@ public sealed partial class Simulation
     /// <summary>Takes no contact for one that lasts: only a test's negative control sets it.</summary>
     internal bool IgnoresIslands { get; set; }
 
-    /// <summary>Takes no step of an island anew, however deep bodies get on the way: only a test's negative control sets it, of one thread.</summary>
+    /// <summary>Takes no step of an island anew, however deep bodies get on the way: only a test's negative control sets it, before it advances.</summary>
     internal bool MayBeDeep
     {
+        get => island.MayBeDeep;
         set => island.MayBeDeep = value;
     }
 

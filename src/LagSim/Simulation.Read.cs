@@ -115,9 +115,9 @@ public sealed partial class Simulation
         for (int at = slot < 0 ? TimelineStore.None : timelines.Last(slot); at != TimelineStore.None; at = timelines.Previous(at))
         {
             ref readonly EventKey key = ref timelines.Key(at);
-            if (key.Kind == external.Kind && key.Peer == external.Peer && key.Sequence == external.Sequence && key.Time >= external.Time)
+            if (key.Kind == external.Kind && key.Peer == external.Peer && key.Sequence == external.Sequence)
             {
-                return key.Time <= SimulatedTo;
+                return key.Time <= SimulatedTo; // what stands ahead of it is of before the heal at hand
             }
         }
 

@@ -39,7 +39,8 @@ internal static class HoldCommand
         Option<double?> hold = new("--hold-s")
         {
             Description = FormattableString.Invariant(
-                $"How many seconds of the motion the ball is held ({HoldOptions.ShortestSeconds} to {HoldOptions.LongestSeconds}); default all, up to {HoldOptions.LongestSeconds} in virtual time, {HoldOptions.RealSeconds} in real."),
+                $"How many seconds of the motion the ball is held ({HoldOptions.ShortestSeconds} to {HoldOptions.LongestSeconds}); ")
+                + FormattableString.Invariant($"default all, up to {HoldOptions.LongestSeconds} in virtual time, {HoldOptions.RealSeconds} in real."),
             HelpName = "NUMBER",
             CustomParser = result => CommonOptions.ParseNumber(result, "--hold-s", HoldOptions.ShortestSeconds, HoldOptions.LongestSeconds),
         };

@@ -136,8 +136,8 @@ internal sealed class CheckCase
         {
             if (indices[i] < 0 || indices[i] >= count || (i > 0 && indices[i] <= indices[i - 1]))
             {
-                throw new ArgumentException($"The {what} '{string.Join(',', indices)}' must be ascending numbers from 0 to {count - 1}: session {seed} has"
-                    + $" {count}.");
+                throw new ArgumentException(
+                    $"The {what} '{string.Join(',', indices)}' must be ascending numbers from 0 to {count - 1}: session {seed} has {count}.");
             }
         }
     }

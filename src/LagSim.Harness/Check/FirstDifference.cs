@@ -41,8 +41,9 @@ public sealed record FirstDifference(
             return $"expected {Event(should)}, {After(Expected)}; there is none";
         }
 
-        return should == there ? $"after {Event(should)}: {States()}" : $"{Events(should, there)}; right after"
-            + $" {(should.Time == there.Time ? "it" : "each")}: {States()}";
+        return should == there
+            ? $"after {Event(should)}: {States()}"
+            : $"{Events(should, there)}; right after {(should.Time == there.Time ? "it" : "each")}: {States()}";
     }
 
     private string Events(in EventKey should, in EventKey there)

@@ -4,10 +4,13 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Check;
 
-/// <summary>Heaps of balls with friction on an open floor, one or two: pyramids of five, which are islands from the first moment on. A few balls lie beside them, to which most is done.</summary>
+/// <summary>
+/// Heaps of balls with friction on an open floor, one or two: pyramids of five, which are islands from the first moment on. A few balls lie beside them, to
+/// which most is done.
+/// </summary>
 /// <remarks>
-/// Each step of an island is an event in every world, some five hundred a second. So rolling resistance soon ends what moves, and what is done is done in the first seconds. Masses are alike: of heaps with a heavy ball
-/// every other creeps without an end.
+/// Each step of an island is an event in every world, some five hundred a second. So rolling resistance soon ends what moves, and what is done is done in the
+/// first seconds. No ball is heavier than four others.
 /// </remarks>
 internal sealed class HeapScene : CheckScene
 {

@@ -235,7 +235,8 @@ internal sealed class HeapCase : IHardCase
         yield return new HardRow(Name, size, drift, "drift_m", SceneBuilder.DefaultResolution, "the scene's resolution: what is nearer to equilibrium stands", "nothing moves; NaN where no steps were taken");
         yield return new HardRow(
             Name, size, momentum, "momentum_s", SceneBuilder.DefaultResolution / Step, "the resolution in a step: what carries is that near to the weight", "forces that sum to the weight leave no momentum");
-        yield return new HardRow(Name, size, gain, "energy_gain_relative_standing", 512 * Rounding.Unit * 4 * 30, "a rounding of each of 30 balls in each"
-            + " step of 4 s", "the energy at the start");
+        yield return new HardRow(
+            Name, size, gain, "energy_gain_relative_standing", 512 * Rounding.Unit * 4 * 30,
+            "a rounding of each of 30 balls in each step of 4 s", "the energy at the start");
     }
 }

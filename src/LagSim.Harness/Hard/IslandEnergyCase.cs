@@ -21,8 +21,8 @@ internal sealed class IslandEnergyCase : IHardCase
 
     public string Name => "island-energy";
 
-    public string Title => "three balls pressed together swing over a floor as one island, for long: the energy neither grows nor falls, and the contacts"
-        + " stay closed";
+    public string Title =>
+        "three balls pressed together swing over a floor as one island, for long: the energy neither grows nor falls, and the contacts stay closed";
 
     public IEnumerable<HardRow> Rows(HardContext context)
     {
@@ -100,9 +100,11 @@ internal sealed class IslandEnergyCase : IHardCase
     {
         string size = FormattableString.Invariant($"{seconds} s, {seconds * Omega / (2 * Math.PI):0} swings");
         yield return new HardRow(
-            Name, size, energy, "energy_relative", 0.75 * Omega * Step * Omega * Step, "(omega h)^2/4, which Verlet's energy is off at the ends of steps, and (omega h)^2/2, which the cubic between them adds, however long it swings", "the energy at the start; NaN where they were no island");
+            Name, size, energy, "energy_relative", 0.75 * Omega * Step * Omega * Step,
+            "(omega h)^2/4, which Verlet's energy is off at the ends of steps, and (omega h)^2/2, which the cubic between them adds, however long it swings",
+            "the energy at the start; NaN where they were no island");
         yield return new HardRow(
-            Name, size, apart, "distance_m", 1000 * SceneBuilder.DefaultResolution, "a thousand resolutions, within which a contact lasts; no drift is added"
-                + " from step to step", "the radii");
+            Name, size, apart, "distance_m", 1000 * SceneBuilder.DefaultResolution,
+            "a thousand resolutions, within which a contact lasts; no drift is added from step to step", "the radii");
     }
 }

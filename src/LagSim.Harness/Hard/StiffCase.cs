@@ -6,17 +6,23 @@ using static LagSim.Harness.Hard.HardWorlds;
 namespace LagSim.Harness.Hard;
 
 /// <summary>
-/// A damped body whose step is as long as its decay: theory's factor where the method is stable, and beyond that a refusal or smaller steps, never a silent
-/// explosion.
+/// A damped body whose step is as long as its decay, in flight and on a floor: theory's factor where the method is stable, and beyond that a refusal or smaller
+/// steps, never a silent explosion.
 /// </summary>
 internal sealed class StiffCase : IHardCase
 {
     private const double Step = 1.0 / 64;
     private const int Steps = 50;
 
+    /// <summary>The shortest step of what is in lasting contact, and how many are taken: after more of them it is so slow that it rests.</summary>
+    private const double ShortestOnFloor = 1.0 / (1 << 20);
+    private const int StepsOnFloor = 5;
+
+    private const string OnFloor = ", on a floor";
+
     public string Name => "stiff";
 
-    public string Title => "strong damping on Runge-Kutta steps: theory's decay up to k h = 2.785, beyond it a refusal or smaller steps";
+    public string Title => "strong damping on Runge-Kutta steps: theory's decay up to k h = 2.785, beyond it a refusal or smaller steps; on a floor alike";
 
     public IEnumerable<HardRow> Rows(HardContext context)
     {
@@ -27,7 +33,17 @@ internal sealed class StiffCase : IHardCase
 
         foreach (double z in context.Sizes([3.0], [3, 10, 100]))
         {
-            yield return StableRow(context, z);
+            yield return StableRow(z, Steps, () => Speed(context, z));
+        }
+
+        foreach (double z in context.Sizes([0.25, 0.9], [0.1, 0.25, 0.5, 0.9]))
+        {
+            yield return DecayRowOnFloor(z, SpeedOnFloor(context, Force.LinearDrag("damping", z / ShortestOnFloor)));
+        }
+
+        foreach (double z in context.Sizes([3.0], [3, 10, 1000]))
+        {
+            yield return StableRow(z, StepsOnFloor, () => SpeedOnFloor(context, Force.QuadraticDrag("air", z / (2 * ShortestOnFloor)))) with { Size = FormattableString.Invariant($"k h = {z}, {StepsOnFloor} steps{OnFloor}") };
         }
     }
 
@@ -36,8 +52,12 @@ internal sealed class StiffCase : IHardCase
         (_, Vector3D v) = Euler(0.5);
         yield return DecayRow(0.5, v.X) with { Note = "explicit Euler" };
         (_, v) = Euler(3);
-        yield return GrowthRow(3, v.X) with { Note = "explicit Euler" };
+        yield return GrowthRow(3, Steps, v.X) with { Note = "explicit Euler" };
+        yield return DecayRowOnFloor(1, Heun(1)) with { Note = "half kicks, the second at the velocity that the first foretells" };
+        yield return GrowthRow(3, StepsOnFloor, Heun(3)) with { Note = "half kicks, the second at the velocity that the first foretells" };
     }
+
+    private static double Heun(double z) => Math.Pow(1 - z + (z * z / 2), StepsOnFloor);
 
     private static (Vector3D X, Vector3D V) Euler(double z) => ClassicalRungeKutta.Run(
         (f, t, x, v, h) => (x + (v * h), v + (f(t, x, v) * h)), ClassicalRungeKutta.Of(Damping(z)), default, V(1), Step, Steps);
@@ -48,6 +68,24 @@ internal sealed class StiffCase : IHardCase
     {
         Scene scene = Floating("damped").AddForce(Damping(z)).AddBody("ball", HardFlight.Steps(Step).Ball(), default, V(1)).Build();
         return Read(context.Run(scene, Steps * Step), 0, Steps * Step).Velocity.X;
+    }
+
+    private static double SpeedOnFloor(HardContext context, Force force)
+    {
+        Scene scene = new SceneBuilder("on a floor").AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0).AddForce(force)
+            .AddBody("ball", new BodySpec(0.5, 1, 0, forces: ForceSet.Of(0)), V(0, 0.5), V(1)).Build();
+        return Read(context.Run(scene, StepsOnFloor * ShortestOnFloor), 0, StepsOnFloor * ShortestOnFloor).Velocity.X;
+    }
+
+    /// <summary>The trapezoidal rule's.</summary>
+    private HardRow DecayRowOnFloor(double z, double speed)
+    {
+        double factor = (1 - (z / 2)) / (1 + (z / 2));
+        return new HardRow(
+            Name, FormattableString.Invariant($"k h = {z}, {StepsOnFloor} steps{OnFloor}"), Math.Abs((speed / Math.Pow(factor, StepsOnFloor)) - 1), "speed_relative",
+            40 * (1 + z) / factor * StepsOnFloor * Rounding.Unit,
+            "a rounding a step of the size of the two kicks, 1 + z, magnified by 40 for the cubic's coefficients and the rest, over the factor",
+            "factor (1 - z/2) / (1 + z/2) a step of 2^-20 s");
     }
 
     private HardRow DecayRow(double z, double speed)
@@ -62,25 +100,25 @@ internal sealed class StiffCase : IHardCase
             "factor 1 - z + z^2/2 - z^3/6 + z^4/24 a step");
     }
 
-    private HardRow StableRow(HardContext context, double z)
+    private HardRow StableRow(double z, int steps, Func<double> speed)
     {
         try
         {
-            return GrowthRow(z, Speed(context, z));
+            return GrowthRow(z, steps, speed());
         }
         catch (SceneException refusal)
         {
-            return GrowthRow(z, 0) with { Note = "refused: " + refusal.Message };
+            return GrowthRow(z, steps, 0) with { Note = "refused: " + refusal.Message };
         }
         catch (SimulationException end)
         {
             // To be stopped by the limit of all speeds is no refusal: the sentence has to name the step.
-            bool isRefusal = end.Message.Contains("step of", StringComparison.Ordinal);
-            return GrowthRow(z, isRefusal ? 0 : double.PositiveInfinity) with { Note = (isRefusal ? "refused: " : "blew up: ") + end.Message };
+            bool isRefusal = end.Message.Contains("step of", StringComparison.Ordinal) || end.Message.Contains("steps that follow", StringComparison.Ordinal);
+            return GrowthRow(z, steps, isRefusal ? 0 : double.PositiveInfinity) with { Note = (isRefusal ? "refused: " : "blew up: ") + end.Message };
         }
     }
 
-    private HardRow GrowthRow(double z, double speed) => new(
-        Name, FormattableString.Invariant($"k h = {z}, {Steps} steps"), Math.Abs(speed), "speed_over_start", 1,
+    private HardRow GrowthRow(double z, int steps, double speed) => new(
+        Name, FormattableString.Invariant($"k h = {z}, {steps} steps"), Math.Abs(speed), "speed_over_start", 1,
         "damping alone never makes a body faster than it was; a refusal that says so counts as 0", "exp(-k t), which is below 1");
 }

@@ -97,7 +97,7 @@ internal sealed partial class IslandStep
     /// <summary>
     /// How much deeper in each other than at the start two get between the two ends, at most, of those that last: nobody looks for an impact of theirs. Where a
     /// contact is closed at both ends, but opens at the later one, for what pressed it has ceased to, the cubic has it closed on the way: by 4/27 of that speed
-    /// times the step, at 2/3 of it; by as much at 1/3 where it closes from the start on.
+    /// times the step, at 2/3 of it. From the start on none of them closes any more.
     /// </summary>
     private double Depth(double closing)
     {
@@ -109,7 +109,7 @@ internal sealed partial class IslandStep
             double opening = Vector3D.Dot(Normal(t, atEnd: false), members[t.First].Velocity - other);
             if (Math.Abs(opening) <= closing)
             {
-                most = Math.Max(most, Math.Min(0, t.Gap) - Math.Min(Gap(t, 1.0 / 3), Gap(t, 2.0 / 3)));
+                most = Math.Max(most, Math.Min(0, t.Gap) - Gap(t, 2.0 / 3));
             }
         }
 

@@ -48,9 +48,8 @@ internal static class Limits
         if (spec.Forces.UpTo > forces.Length)
         {
             throw new SceneException(
-                $"{Capital($"{whose}")} names force {spec.Forces.UpTo - 1}, counted from 0, but the scene has {Forces(forces.Length)}. A ForceSet holds"
-                    + " numbers, of the"
-                + " scene whose AddForce gave it: take one of this scene.");
+                $"{Capital($"{whose}")} names force {spec.Forces.UpTo - 1}, counted from 0, but the scene has {Forces(forces.Length)}. A ForceSet holds "
+                + "numbers, of the scene whose AddForce gave it: take one of this scene.");
         }
 
         if (!spec.Forces.IsEmpty && spec.Flight == MotionLaw.Ballistic)

@@ -59,6 +59,21 @@ public sealed class ExternalEventTests
     }
 
     [Fact]
+    public void TookEffect_WhileAHealIsUnderWay_IsNotKnownAheadOfIt()
+    {
+        Simulation simulation = new(Space, KeepAll) { DefersAgain = true };
+        ExternalEvent push = ExternalEvent.Impulse(At(1), 1, 1, First, V(0, 2));
+        simulation.Submit(push);
+        simulation.AdvanceTo(At(2));
+        Assert.True(simulation.TookEffect(push)); // the control
+        simulation.Submit(ExternalEvent.Spawn(At(0.5), 1, 9, Ball(), V(0, 5), V(0)));
+        Assert.True(simulation.SimulatedTo < At(1));
+        Assert.False(simulation.TookEffect(push));
+        simulation.AdvanceTo(At(2));
+        Assert.True(simulation.TookEffect(push));
+    }
+
+    [Fact]
     public void TookEffect_OfAForwardedEvent_IsOfItsArrival()
     {
         Simulation simulation = Run(Space, 1);

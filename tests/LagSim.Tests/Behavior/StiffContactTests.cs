@@ -1,0 +1,148 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Scenes;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Behavior;
+
+/// <summary>
+/// What a force does to a ball that lies, slips or rolls on a floor: it is followed by steps that are short enough, or refused by a sentence that names the body,
+/// the force and the number; at no event is the ball faster than energy lets it be.
+/// </summary>
+public sealed class StiffContactTests
+{
+    private const double Fast = 10;
+
+    /// <summary>By kind: the force of a strength on a ball of a gram, and the most speed that it may have.</summary>
+    private static readonly Dictionary<string, (Func<double, Force> Force, Func<double, double> Most)> Kinds = new()
+    {
+        ["linear drag"] = (c => Force.LinearDrag("it", c), _ => Fast),
+        ["quadratic drag"] = (k => Force.QuadraticDrag("it", k), _ => Fast),
+        ["damper"] = (c => Force.Spring("it", V(0, 0.1), 1e-3, c), _ => Fast + 1),
+        ["spring"] = (k => Force.Spring("it", V(0, 0.1), k), k => 1.2 * Math.Sqrt((Fast * Fast) + (1e3 * k))), // where omega h is 1, Verlet's is off by 1.155
+        ["magnetic"] = (q => Force.Magnetic("it", V(0, 0.6, 0.8), q), _ => Fast * 1.001), // aslant, what presses changes in a step
+        ["Magnus"] = (s => Force.Magnus("it", s), _ => Fast),
+        ["pull"] = (g => Force.Central("it", V(0, 0.1), g, 2), g => 1.2 * Math.Sqrt((Fast * Fast) + g)),
+    };
+
+    public static TheoryData<string, double, double> Strengths
+    {
+        get
+        {
+            TheoryData<string, double, double> data = [];
+            foreach (string kind in Kinds.Keys)
+            {
+                foreach (double strength in new[] { 1e-3, 1, 30, 1e3, 1e4, 1e9, 1e20 })
+                {
+                    data.Add(kind, strength, 0);
+                    data.Add(kind, strength, 1);
+                }
+            }
+
+            return data;
+        }
+    }
+
+    [Theory]
+    [MemberData(nameof(Strengths))]
+    public void Force_OnWhatLiesOnAFloor_IsFollowedOrNamed(string kind, double strength, double friction)
+    {
+        (Func<double, Force> force, Func<double, double> most) = Kinds[kind];
+        Simulation? simulation = null;
+        Exception? refusal = Record.Exception(() => Advance(simulation = new(On(force(strength), 1e-3, friction), KeepAll), 1e-3));
+        if (refusal is null)
+        {
+            Assert.InRange(simulation!.Timeline(First).Max(entry => entry.State.Velocity.Length), 0, most(strength) * (1 + 1e-9));
+            Assert.True(strength < 1e9 || kind == "pull", "followed"); // the control: what is strong is not
+            return;
+        }
+
+        Assert.Contains("'ball'", refusal.Message, StringComparison.Ordinal);
+        Assert.Contains("'it'", refusal.Message, StringComparison.Ordinal);
+        Assert.True(strength >= 30, refusal.Message); // the control: what is weak is followed
+        if (refusal is SimulationException)
+        {
+            Assert.Contains("follow at most 1048580 1/s", refusal.Message, StringComparison.Ordinal);
+        }
+        else
+        {
+            Assert.IsType<SceneException>(refusal); // what is too strong at any speed
+        }
+    }
+
+    /// <summary>A force that gets too strong on the way is named where it does, and until then all is finite.</summary>
+    [Fact]
+    public void Force_ThatGetsTooStrong_IsNamedThere()
+    {
+        Simulation simulation = new(On(Force.Magnus("swerve", 0.1), 1e-6, 1), KeepAll); // friction has it turn ever faster
+        double fastest = 0;
+        SimulationException failure = Assert.Throws<SimulationException>(() =>
+        {
+            for (int n = 1; n < 100; n++)
+            {
+                simulation.AdvanceTo(At(n * 1e-6));
+                fastest = Math.Max(fastest, Read(simulation, First, n * 1e-6).Velocity.Length);
+            }
+        });
+        Assert.InRange(fastest, 9, Fast * 1.01);
+        Assert.Contains("'swerve' (Magnus) acts at ", failure.Message, StringComparison.Ordinal);
+        Assert.Contains("follow at most 1048580 1/s", failure.Message, StringComparison.Ordinal);
+        Assert.Throws<InvalidOperationException>(() => simulation.TryRead(First, At(0), out _)); // as after any other failure
+        Assert.Null(Record.Exception(() => Advance(new(On(Force.Magnus("swerve", 0.1), 1e-2, 1), KeepAll), 1e-2))); // the control: a heavier ball
+    }
+
+    [Fact]
+    public void StrongForce_HeardOfLate_HealsToTheSameBits()
+    {
+        Scene scene = On(Force.LinearDrag("oil", 300), 1e-3, 1); // 0.29 of what a step follows
+        ExternalEvent push = ExternalEvent.SetVelocity(At(1e-4), 1, 1, First, V(0, 0, 3));
+        Simulation inTime = new(scene, KeepAll), late = new(scene, KeepAll);
+        inTime.Submit(push);
+        inTime.AdvanceTo(At(1e-3));
+        late.AdvanceTo(At(5e-4));
+        late.Submit(push);
+        late.AdvanceTo(At(1e-3));
+        Assert.Equal(inTime.StateHash(At(1e-3)), late.StateHash(At(1e-3)));
+        Assert.Equal(inTime.EventHash(At(1e-3)), late.EventHash(At(1e-3)));
+        Assert.InRange(inTime.EventsProcessed, 100, 2000); // it was steps that were healed
+    }
+
+    /// <summary>A magnetic field along the floor presses and lifts what rolls across it, and does nothing else; it drives away nothing that lies still.</summary>
+    [Theory]
+    [InlineData(0.05)]
+    [InlineData(0.001)]
+    public void MagneticField_AlongTheFloor_DrivesNothing(double speed)
+    {
+        foreach (double strength in new[] { 0.1, 10, 100 })
+        {
+            Assert.Equal(V(speed), Turned(V(0, 0, 1), strength, speed, out _));
+            Vector3D turned = Turned(V(0, 1, 0), strength, speed, out double angle); // the control: upright it turns what moves
+            Assert.Equal(speed, turned.Length, 1e-12 * speed);
+            Assert.InRange(Math.Abs(Math.Atan2(turned.Z, turned.X) - Math.IEEERemainder(angle, 2 * Math.PI)), 0, 1e-9 + (angle / 12 / 256)); // z^2/12 of it, z at most 1/16
+        }
+    }
+
+    /// <summary>How a ball of a kilogram moves after half a second; the angle is by how much it should have turned.</summary>
+    private static Vector3D Turned(Vector3D field, double strength, double speed, out double angle)
+    {
+        Scene scene = new SceneBuilder("coil").WithSmallestRadius(0.1).AddForce(Force.Magnetic("coil", field, strength)).AddPlane("floor", Vector3D.Up, 0.0, 0)
+            .AddBody("ball", new BodySpec(0.1, 1, 0, forces: ForceSet.Of(0)), V(0, 0.1), V(speed)).Build();
+        BodyState state = Read(Run(scene, 0.5), First, 0.5);
+        Assert.Equal(MotionLaw.Constrained, state.Motion);
+        angle = strength * 0.5; // v x B turns x to z where B is up
+        return state.Velocity;
+    }
+
+    private static Scene On(Force force, double mass, double friction) => new SceneBuilder("floor").WithSmallestRadius(0.1).AddForce(force)
+        .AddPlane("floor", Vector3D.Up, 0.0, 0, friction)
+        .AddBody("ball", new BodySpec(0.1, mass, 0, forces: ForceSet.Of(0), tolerance: 1e-5, friction: friction), V(0, 0.1), V(Fast), spin: V(0, friction)).Build();
+
+    private static void Advance(Simulation simulation, double seconds)
+    {
+        long events = 20_000;
+        Assert.True(simulation.TryAdvanceTo(At(seconds), ref events));
+    }
+}
