@@ -1,4 +1,5 @@
 using System;
+using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
@@ -18,9 +19,6 @@ namespace LagSim;
 /// </remarks>
 public sealed partial class Simulation
 {
-    /// <summary>Slower than this, in m/s, is what rounding times and states leave of zero.</summary>
-    private const double Stopped = 1e-10;
-
     /// <summary>By how much a direction of slip or rolling may turn in one piece of path, in radians, where gravity pulls aslant.</summary>
     private const double MostTurn = 1.0 / 128;
 
@@ -52,18 +50,18 @@ public sealed partial class Simulation
         // What a tick changes of a speed: times are rounded to ticks.
         double tick = SimDuration.OneTick.ToSeconds() * (pull.Length + (3.5 * at.Grip) + (2.5 * at.Resistance));
         at.Pivot = n * Vector3D.Dot(n, spin);
-        at.Slowing = Slowing(ref at.Pivot, 2.5 * at.Resistance / spec.Radius, Stopped / spec.Radius);
+        at.Slowing = Slowing(ref at.Pivot, 2.5 * at.Resistance / spec.Radius, IslandStep.RoundingSpeed / spec.Radius);
         Vector3D slip = velocity - at.Turn;
         slip -= n * Vector3D.Dot(n, slip);
-        bool slips = slip.Length > Stopped + (1e-12 * velocity.Length) + tick;
-        bool moves = velocity.Length > Stopped + tick;
+        bool slips = slip.Length > IslandStep.RoundingSpeed + (1e-12 * velocity.Length) + tick;
+        bool moves = velocity.Length > IslandStep.RoundingSpeed + tick;
         Vector3D heading = moves ? velocity / velocity.Length : pull.Length > at.Resistance ? pull / pull.Length : Vector3D.Zero;
         bool holds = ((pull * (2.0 / 7)) + (heading * (5.0 / 7 * at.Resistance))).Length <= at.Grip;
         if (slips || !holds)
         {
             Vector3D push = pull + (heading * (2.5 * at.Resistance)); // what makes it slip if it does not yet
             Vector3D along = slips ? slip / slip.Length : push / push.Length;
-            Vector3D over = at.Resistance > 0 && at.Turn.Length > Stopped + tick ? at.Turn / at.Turn.Length : along;
+            Vector3D over = at.Resistance > 0 && at.Turn.Length > IslandStep.RoundingSpeed + tick ? at.Turn / at.Turn.Length : along;
             OpenSlipping(slot, key, at, slip, along, over);
         }
         else if (!moves && pull.Length <= at.Resistance)

@@ -288,10 +288,10 @@ public sealed partial class Simulation
                 continue;
             }
 
-            double tooStiff = island.TooStiff(n);
-            if (tooStiff > 0)
+            double rate = island.RateNotFollowed(n);
+            if (rate > 0)
             {
-                throw TooStiff(slot, key.Time, PlaceOf(party, carry), partyVelocities[party], partySpins[party], tooStiff);
+                throw TooStiff(slot, key.Time, PlaceOf(party, carry), partyVelocities[party], partySpins[party], rate);
             }
 
             int crowding = key.Kind == EventKind.Impact ? CrowdingAt(slot, key.Time) : 0;

@@ -6,9 +6,7 @@ namespace LagSim;
 /// <content>What friction drives together in an impact.</content>
 public sealed partial class Simulation
 {
-    /// <summary>What an impact leaves of closing below this, in m/s, or below <see cref="SettledPart"/> of the largest speed, is its rounding.</summary>
-    private const double SettledSpeed = 1e-10;
-
+    /// <summary>What an impact leaves of closing below this part of the largest speed is its rounding.</summary>
     private const double SettledPart = 1e-12;
 
     private readonly LastingContactSolver settling = new();
@@ -39,7 +37,7 @@ public sealed partial class Simulation
         }
 
         bool closes = false;
-        double settled = Math.Max(SettledSpeed, SettledPart * most);
+        double settled = Math.Max(IslandStep.RoundingSpeed, SettledPart * most);
         for (int i = 0; i < contactCount && !isPushed; i++)
         {
             closes |= IsDriven(contacts[i], settled);

@@ -65,7 +65,7 @@ public sealed partial class Simulation
     /// <summary>Why no step of an island can be used, in which the body has a state at its start and forces act too fast for it there or at its end.</summary>
     private SimulationException TooStiff(int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, double rate)
     {
-        double most = IslandStep.MostRate;
+        double most = IslandStep.MostRateFollowed;
         return new SimulationException(
             $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {Whose(slot)}, which touches something, "
             + $"{ActTooFast(forces.FixedStepRateAt(bodies[slot].Spec, x, v, spin), rate, most)}: there {RatesOn(slot, x, v, spin)}. What is in lasting contact "

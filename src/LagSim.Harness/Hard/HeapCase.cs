@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using LagSim.Harness.Runs;
 using LagSim.Scenes;
 using LagSim.Time;
 using static LagSim.Harness.Hard.HardWorlds;
@@ -76,14 +77,17 @@ internal sealed class HeapCase : IHardCase
         }
     }
 
+    /// <summary>A floor with four walls, so far from its middle.</summary>
+    private static SceneBuilder Bin(SceneBuilder builder, double half, double friction) => builder.AddPlane("floor", Vector3D.Up, 0.0, 0, friction)
+        .AddPlane("west", V(1), -half, 0, friction).AddPlane("east", V(-1), -half, 0, friction)
+        .AddPlane("north", V(0, 0, 1), -half, 0, friction).AddPlane("south", V(0, 0, -1), -half, 0, friction);
+
     /// <summary>Balls on a loose grid above a floor with four walls, all as rough as each other.</summary>
     private static Scene Box(int balls, double friction, ulong seed)
     {
         Links.SeededRandom random = new(seed);
         const double half = 0.8;
-        SceneBuilder builder = new SceneBuilder("box").AddPlane("floor", Vector3D.Up, 0.0, 0, friction)
-            .AddPlane("west", V(1), -half, 0, friction).AddPlane("east", V(-1), -half, 0, friction)
-            .AddPlane("north", V(0, 0, 1), -half, 0, friction).AddPlane("south", V(0, 0, -1), -half, 0, friction);
+        SceneBuilder builder = Bin(new SceneBuilder("box"), half, friction);
         for (int n = 0; n < balls; n++)
         {
             double radius = random.NextDouble(0.2, 0.35);
@@ -98,10 +102,8 @@ internal sealed class HeapCase : IHardCase
     /// <summary>A square pyramid in a bin that is as wide as its base. A program's own force is its weight: of that nobody knows what it will do, so nothing ever rests.</summary>
     private static Scene Pyramid(double friction, double width)
     {
-        SceneBuilder builder = new SceneBuilder("pyramid").WithGravity(Vector3D.Zero).AddForce(Force.Supplied(new SuppliedWeight()))
-            .AddPlane("floor", Vector3D.Up, 0.0, 0, friction)
-            .AddPlane("west", V(1), -width / 2, 0, friction).AddPlane("east", V(-1), -width / 2, 0, friction)
-            .AddPlane("north", V(0, 0, 1), -width / 2, 0, friction).AddPlane("south", V(0, 0, -1), -width / 2, 0, friction);
+        SceneBuilder builder = new SceneBuilder("pyramid").WithGravity(Vector3D.Zero).AddForce(Force.Supplied(new SuppliedWeight()));
+        Bin(builder, width / 2, friction);
         for (int layer = 0; layer < Edge; layer++)
         {
             int side = Edge - layer;
@@ -118,14 +120,14 @@ internal sealed class HeapCase : IHardCase
     /// <summary>The largest gain of energy, turning included, over all that went before, as part of the energy at the start; and how deep anything was in anything.</summary>
     private static double Largest(HardContext context, Simulation simulation, double seconds, out double depth)
     {
-        double least = Energy(simulation, 0), start = least, gain = 0;
+        double least = SceneEnergy.Of(simulation, SimTime.Zero), start = least, gain = 0;
         depth = 0;
         const int Samples = 600;
         for (int n = 1; n <= Samples; n++)
         {
             double at = seconds * n / Samples;
             simulation.AdvanceTo(SimTime.FromSeconds(at));
-            double energy = Energy(simulation, at);
+            double energy = SceneEnergy.Of(simulation, SimTime.FromSeconds(at));
             gain = double.IsNaN(energy) ? double.NaN : Math.Max(gain, energy - least);
             least = Math.Min(least, energy);
             depth = Math.Max(depth, Deepest(simulation, at));
@@ -150,14 +152,6 @@ internal sealed class HeapCase : IHardCase
 
         return depth;
     }
-
-    /// <summary>Of solid spheres, in J.</summary>
-    private static double Energy(Simulation simulation, double at) => Enumerable.Range(0, simulation.BodyCount).Sum(n =>
-    {
-        BodyState state = Read(simulation, n, at);
-        BodySpec spec = simulation.SpecOf(BodyId.OfScene(n));
-        return spec.Mass * ((0.5 * state.Velocity.LengthSquared) + (0.2 * spec.Radius * spec.Radius * state.Spin.LengthSquared) + (Gravity * state.Position.Y));
-    });
 
     /// <summary>With friction, which the solver may leave unsettled where much is pressed together, nothing tighter is known than at the speed of the deepest fall.</summary>
     private HardRow Gain(string size, double gain, double friction)
@@ -217,14 +211,14 @@ internal sealed class HeapCase : IHardCase
     {
         Scene pyramid = Pyramid(friction, width);
         Simulation simulation = context.Simulate(pyramid);
-        double drift = 0, momentum = 0, gain = 0, weight = Gravity * pyramid.Bodies.Count, start = Energy(simulation, 0);
+        double drift = 0, momentum = 0, gain = 0, weight = Gravity * pyramid.Bodies.Count, start = Energy(0);
         int samples = (int)(seconds * 100);
         for (int n = 1; n <= samples; n++)
         {
             double at = seconds * n / samples;
             simulation.AdvanceTo(SimTime.FromSeconds(at));
             momentum = Math.Max(momentum, Momentum(simulation, at).Length / weight);
-            gain = Math.Max(gain, (Energy(simulation, at) - start) / start);
+            gain = Math.Max(gain, (Energy(at) - start) / start);
             drift = Math.Max(drift, Enumerable.Range(0, pyramid.Bodies.Count).Max(body => (Read(simulation, body, at).Position - pyramid.Bodies[body].Position).Length));
             context.Report(n / (double)samples);
         }
@@ -238,5 +232,9 @@ internal sealed class HeapCase : IHardCase
         yield return new HardRow(
             Name, size, gain, "energy_gain_relative_standing", 512 * Rounding.Unit * 4 * 30,
             "a rounding of each of 30 balls in each step of 4 s", "the energy at the start");
+
+        // The weight is a program's own force, of whose potential nobody knows.
+        double Energy(double at) => SceneEnergy.Of(simulation, SimTime.FromSeconds(at))
+            + Enumerable.Range(0, pyramid.Bodies.Count).Sum(n => Gravity * pyramid.Bodies[n].Spec.Mass * Read(simulation, n, at).Position.Y);
     }
 }

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using LagSim.Harness.Runs;
 using LagSim.Scenes;
 using LagSim.Time;
 using static LagSim.Harness.Hard.HardWorlds;
@@ -29,14 +30,14 @@ internal sealed class IslandEnergyCase : IHardCase
         foreach (double seconds in context.Sizes([10.0], [10, 100, 1000]))
         {
             Simulation simulation = context.Simulate(Scene());
-            double start = Energy(simulation, SimTime.Zero), worst = 0, apart = 0;
+            double start = SceneEnergy.Of(simulation, SimTime.Zero), worst = 0, apart = 0;
             bool isIsland = true;
             int samples = (int)(seconds * 20);
             for (int n = 1; n <= samples; n++)
             {
                 SimTime at = SimTime.FromSeconds(seconds * n / samples);
                 simulation.AdvanceTo(at);
-                worst = Math.Max(worst, Math.Abs(Energy(simulation, at) - start));
+                worst = Math.Max(worst, Math.Abs(SceneEnergy.Of(simulation, at) - start));
                 for (int body = 0; body < 3; body++)
                 {
                     BodyState state = Read(simulation, BodyId.OfScene(body), at);
@@ -82,19 +83,6 @@ internal sealed class IslandEnergyCase : IHardCase
         .AddBody("left", Body(), V(-1, 0.5), V(0, 0, Swing)).AddBody("middle", Body(), V(0, 0.5), V(0, 0, Swing)).AddBody("right", Body(), V(1, 0.5), V(0, 0, Swing)).Build();
 
     private static BodySpec Body() => new(0.5, 1, 0, MotionLaw.Automatic, forces: ForceSet.Of(0));
-
-    /// <summary>Kinetic, under gravity, and of the springs.</summary>
-    private static double Energy(Simulation simulation, SimTime time)
-    {
-        double energy = 0;
-        for (int body = 0; body < 3; body++)
-        {
-            BodyState state = Read(simulation, BodyId.OfScene(body), time);
-            energy += (0.5 * state.Velocity.LengthSquared) + (Gravity * state.Position.Y) + (0.5 * Omega * Omega * (state.Position - V(0, 0.5)).LengthSquared);
-        }
-
-        return energy;
-    }
 
     private IEnumerable<HardRow> Rows(double seconds, double energy, double apart)
     {

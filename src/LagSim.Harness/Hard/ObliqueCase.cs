@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using LagSim.Harness.Links;
+using LagSim.Harness.Runs;
 using LagSim.Scenes;
 using LagSim.Time;
 using static LagSim.Harness.Hard.HardWorlds;
@@ -119,11 +120,11 @@ internal sealed class ObliqueCase : IHardCase
             }
 
             Simulation simulation = context.Simulate(builder.Build());
-            double before = Total(simulation, 0), start = before;
+            double before = SceneEnergy.Of(simulation, SimTime.Zero), start = before;
             for (int k = 1; k <= 30; k++)
             {
                 simulation.AdvanceTo(SimTime.FromSeconds(0.1 * k));
-                double now = Total(simulation, 0.1 * k);
+                double now = SceneEnergy.Of(simulation, SimTime.FromSeconds(0.1 * k));
                 worst = Math.Max(worst, sign * (now - before) / start);
                 before = now;
             }
@@ -137,18 +138,4 @@ internal sealed class ObliqueCase : IHardCase
     }
 
     private static Vector3D Any(SeededRandom random) => V(random.NextGaussian(), random.NextGaussian(), random.NextGaussian());
-
-    private static double Total(Simulation simulation, double seconds)
-    {
-        double energy = 0;
-        for (int body = 0; body < simulation.BodyCount; body++)
-        {
-            BodyState state = Read(simulation, body, seconds);
-            BodySpec spec = simulation.SpecOf(BodyId.OfScene(body));
-            double turning = spec.Radius * spec.Radius * state.Spin.LengthSquared;
-            energy += spec.Mass * ((0.5 * state.Velocity.LengthSquared) + (0.2 * turning) + (Gravity * state.Position.Y));
-        }
-
-        return energy;
-    }
 }

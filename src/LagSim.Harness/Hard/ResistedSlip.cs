@@ -1,5 +1,7 @@
 using System;
 using LagSim.Scenes;
+using MathNet.Numerics.LinearAlgebra;
+using MathNet.Numerics.OdeSolvers;
 using static LagSim.Harness.Hard.HardWorlds;
 
 namespace LagSim.Harness.Hard;
@@ -48,28 +50,19 @@ internal static class ResistedSlip
         return new OnALine(v, q, way, rolls);
     }
 
-    /// <summary>On a plane, where v and q need not be on one line, by so many classical Runge-Kutta steps; while it slips and turns.</summary>
+    /// <summary>On a plane, where v and q need not be on one line, by so many steps of MathNet's Runge-Kutta method of order four; while it slips and turns.</summary>
     internal static (Vector3D X, Vector3D V, Vector3D Q) After(double seconds, int steps, double mu, double c, double pressing, Vector3D pull, Vector3D v, Vector3D q)
     {
-        Vector3D x = default;
-        double h = seconds / steps;
-        for (int n = 0; n < steps; n++)
-        {
-            (Vector3D a1, Vector3D b1) = Rate(v, q);
-            (Vector3D a2, Vector3D b2) = Rate(v + (a1 * (h / 2)), q + (b1 * (h / 2)));
-            (Vector3D a3, Vector3D b3) = Rate(v + (a2 * (h / 2)), q + (b2 * (h / 2)));
-            (Vector3D a4, Vector3D b4) = Rate(v + (a3 * h), q + (b3 * h));
-            x += (v * h) + ((a1 + a2 + a3) * (h * h / 6));
-            v += (a1 + (a2 * 2) + (a3 * 2) + a4) * (h / 6);
-            q += (b1 + (b2 * 2) + (b3 * 2) + b4) * (h / 6);
-        }
+        Vector<double> start = Vector<double>.Build.Dense([0, 0, 0, v.X, v.Y, v.Z, q.X, q.Y, q.Z]);
+        Vector<double> end = RungeKutta.FourthOrder(start, 0, seconds, steps + 1, (_, state) => Rate(At(state, 3), At(state, 6)))[^1];
+        return (At(end, 0), At(end, 3), At(end, 6));
 
-        return (x, v, q);
+        static Vector3D At(Vector<double> state, int first) => V(state[first], state[first + 1], state[first + 2]);
 
-        (Vector3D A, Vector3D B) Rate(Vector3D v, Vector3D q)
+        Vector<double> Rate(in Vector3D v, in Vector3D q)
         {
-            Vector3D rub = (v - q) * (mu * pressing / (v - q).Length);
-            return (pull - rub, (rub - (q * (c * pressing / q.Length))) * 2.5);
+            Vector3D rub = (v - q) * (mu * pressing / (v - q).Length), a = pull - rub, b = (rub - (q * (c * pressing / q.Length))) * 2.5;
+            return Vector<double>.Build.Dense([v.X, v.Y, v.Z, a.X, a.Y, a.Z, b.X, b.Y, b.Z]);
         }
     }
 }

@@ -107,8 +107,8 @@ internal sealed class RestCase : IHardCase
     {
         const double half = 0.55;
         double up = 0.5 + Math.Sqrt(1 - (half * half));
-        return new SceneBuilder("pile").AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0.5).AddPlane("west", V(1), -half - 0.5, 0.5).AddPlane("east", V(-1),
-            -half - 0.5, 0.5)
+        return new SceneBuilder("pile").AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0.5)
+            .AddPlane("west", V(1), -half - 0.5, 0.5).AddPlane("east", V(-1), -half - 0.5, 0.5)
             .AddBody("left", Ball(e: 0.5), V(-half, 0.5)).AddBody("right", Ball(e: 0.5), V(half, 0.5)).AddBody("top", Ball(e: 0.5), V(0, up)).Build();
     }
 

@@ -7,8 +7,8 @@ namespace LagSim.Contacts;
 /// <content>The two halves of a step, and what is settled before them.</content>
 internal sealed partial class IslandStep
 {
-    /// <summary>What closes, or turns on its surface, slower than this, in m/s, is rounding.</summary>
-    private const double Still = 1e-10;
+    /// <summary>What closes, slips, or moves or turns on a surface slower than this, in m/s, is what rounding leaves of nothing.</summary>
+    internal const double RoundingSpeed = 1e-10;
 
     /// <summary>So often at most the normals' turning is taken in anew; each time it is right to two orders more.</summary>
     private const int MostRefinements = 8;
@@ -45,7 +45,7 @@ internal sealed partial class IslandStep
             {
                 points[count] = point;
                 rubs[count++] = new Rub { Friction = t.Friction };
-                closes |= opening < -Still;
+                closes |= opening < -RoundingSpeed;
             }
         }
 
@@ -86,7 +86,7 @@ internal sealed partial class IslandStep
             for (int i = 0; i < ContactCount; i++)
             {
                 ref readonly Touch t = ref touches[i];
-                points[i].Target = (fromRest ? 0 : (Math.Min(0, t.Gap) - t.Gap) / h) - t.Bend;
+                points[i].Target = ((Math.Min(0, t.Gap) - t.Gap) / h) - t.Bend;
                 points[i].Restored = points[i].Target;
             }
 
@@ -230,7 +230,7 @@ internal sealed partial class IslandStep
     private bool IsStopped(int body, double taken)
     {
         double spin = members[body].EndSpin.Length;
-        return spin * radii[body] <= Still && spin * masses[body] * radii[body] * radii[body] <= ImpactFriction.TurnPerImpulse * taken;
+        return spin * radii[body] <= RoundingSpeed && spin * masses[body] * radii[body] * radii[body] <= ImpactFriction.TurnPerImpulse * taken;
     }
 
     private void Solve(int count, LastingContactSolver.Start start, bool isPatient) => solver.Solve(

@@ -125,13 +125,12 @@ internal sealed partial class IslandStep
     /// At which rate in 1/s the forces on a body act, where even the shortest step does not follow that: the step is then not to be used. Else zero. What has no
     /// number is infinite.
     /// </summary>
-    internal double TooStiff(int body) => IsTooStiff(body, out double rate) ? (double.IsNaN(rate) ? double.PositiveInfinity : rate) : 0;
+    internal double RateNotFollowed(int body) => IsTooStiff(body, out double rate) ? (double.IsNaN(rate) ? double.PositiveInfinity : rate) : 0;
 
     /// <summary>The fastest rate, in 1/s, that the shortest steps follow.</summary>
-    internal static double MostRate => StableRateTimesStep / SimDuration.FromTicks(Shortest).ToSeconds();
+    internal static double MostRateFollowed => StableRateTimesStep / SimDuration.FromTicks(Shortest).ToSeconds();
 
     /// <summary>Takes the step as if nobody moved.</summary>
-    /// <remarks>What is apart by less than the scene resolves touches then, and nothing sinks into that.</remarks>
     internal void TakeFromRest(SimTime time) => TakeWith(time, fromRest: true);
 
     private void TakeWith(SimTime time, bool fromRest)

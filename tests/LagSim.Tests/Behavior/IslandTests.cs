@@ -77,27 +77,6 @@ public sealed class IslandTests
         Near(turning / 2, Read(world, First, 2 * equal).Spin.Y, 1e-6);
     }
 
-    /// <summary>A heap whose balls roll and turn against a resistance comes to rest in full; without it there is something that turns for ever.</summary>
-    [Theory]
-    [InlineData(0.05, true)]
-    [InlineData(0, false)]
-    public void Heap_ComesToRest_IfSomethingResistsRolling(double resistance, bool rests)
-    {
-        SceneBuilder scene = new SceneBuilder("heap").AddPlane("floor", Vector3D.Up, 0.0).AddPlane("west", V(1), -1.1).AddPlane("east", V(-1), -1.1)
-            .AddPlane("back", V(0, 0, 1), -1.1).AddPlane("front", V(0, 0, -1), -1.1);
-        Random random = new(5);
-        for (int i = 0; i < 7; i++)
-        {
-            scene.AddBody($"ball {i}", new BodySpec(R, 1, 0.3, friction: 0.4, rollingResistance: resistance),
-                V((((i % 2) - 0.5) * 1.1) + (0.02 * random.NextDouble()), 0.6 + (i / 4 * 1.1), (((i / 2 % 2) - 0.5) * 1.1) + (0.02 * random.NextDouble())), spin: V(0, random.Next(-5, 6)));
-        }
-
-        Simulation world = new(scene.Build());
-        world.AdvanceTo(At(8));
-        Assert.Equal(rests, Bodies(world).All(body => Read(world, body, 8).Motion == MotionLaw.Resting && Read(world, body, 8).Spin == Vector3D.Zero));
-        Assert.Equal(!rests, Bodies(world).Any(body => Read(world, body, 8).Spin.Length > 0.1));
-    }
-
     /// <summary>In steps that never end what turns against a resistance comes to stand to the last bit, in a groove as on a floor; without it, it turns on.</summary>
     [Theory]
     [InlineData(0.02, false)]

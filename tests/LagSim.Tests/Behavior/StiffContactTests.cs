@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Scenes;
+using LagSim.Timelines;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 
@@ -94,6 +95,20 @@ public sealed class StiffContactTests
         Assert.Null(Record.Exception(() => Advance(new(On(Force.Magnus("swerve", 0.1), 1e-2, 1), KeepAll), 1e-2))); // the control: a heavier ball
     }
 
+    /// <summary>At the start of the first step nothing turns, so nothing tells how strong the Magnus force will be at its end: the step is taken anew, shorter.</summary>
+    [Fact]
+    public void Force_ThatGetsStrongWithinAStep_IsFollowedByAShorterOne()
+    {
+        Simulation simulation = new(On(Force.Magnus("swerve", 0.1), 2e-5, 1, isStill: true), KeepAll);
+        Advance(simulation, 1e-3);
+        TimelineEntry[] steps = [.. simulation.Timeline(First).Where(entry => entry.State.Motion == MotionLaw.Constrained)];
+        Assert.InRange(steps[1].Key.Time.SecondsSince(steps[0].Key.Time), 1e-6, 0.9 / 512);
+        simulation = new(On(Force.Magnus("swerve", 0.1), 1, 1, isStill: true), KeepAll); // the control: a heavy ball, which a whole step follows
+        Advance(simulation, 5e-3);
+        steps = [.. simulation.Timeline(First).Where(entry => entry.State.Motion == MotionLaw.Constrained)];
+        Assert.Equal(1.0 / 512, steps[1].Key.Time.SecondsSince(steps[0].Key.Time));
+    }
+
     [Fact]
     public void StrongForce_HeardOfLate_HealsToTheSameBits()
     {
@@ -136,9 +151,9 @@ public sealed class StiffContactTests
         return state.Velocity;
     }
 
-    private static Scene On(Force force, double mass, double friction) => new SceneBuilder("floor").WithSmallestRadius(0.1).AddForce(force)
+    private static Scene On(Force force, double mass, double friction, bool isStill = false) => new SceneBuilder("floor").WithSmallestRadius(0.1).AddForce(force)
         .AddPlane("floor", Vector3D.Up, 0.0, 0, friction)
-        .AddBody("ball", new BodySpec(0.1, mass, 0, forces: ForceSet.Of(0), tolerance: 1e-5, friction: friction), V(0, 0.1), V(Fast), spin: V(0, friction)).Build();
+        .AddBody("ball", new BodySpec(0.1, mass, 0, forces: ForceSet.Of(0), tolerance: 1e-5, friction: friction), V(0, 0.1), V(Fast), spin: V(0, isStill ? 0 : friction)).Build();
 
     private static void Advance(Simulation simulation, double seconds)
     {
