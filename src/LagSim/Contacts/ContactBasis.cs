@@ -75,15 +75,13 @@ internal sealed class ContactBasis
         }
 
         TakeAway(mine, shares, row, masses);
-        for (int b = 0; b < bodies; b++)
+        TakeAway(mine, shares, row, masses);
+        if (Cut(mine))
         {
-            if (mine[b].Length <= Cancelled * size[b])
-            {
-                mine[b] = Vector3D.Zero; // a part this small that counts, at a light body between heavy ones, comes back in the second pass
-            }
+            // What the rows before need of it, as at a light body between heavy ones, comes back. That changes no share: they are those of the contact as it is.
+            TakeAway(mine, Span<double>.Empty, row, masses);
         }
 
-        TakeAway(mine, shares, row, masses);
         weight[row] = Product(mine, mine, masses);
         for (int b = 0; b < bodies; b++)
         {
@@ -93,13 +91,33 @@ internal sealed class ContactBasis
         return weight[row] > 0;
     }
 
+    /// <summary>Makes nothing of the parts that have cancelled; whether there were any.</summary>
+    private bool Cut(Span<Vector3D> mine)
+    {
+        bool has = false;
+        for (int b = 0; b < bodies; b++)
+        {
+            if (mine[b] != Vector3D.Zero && mine[b].Length <= Cancelled * size[b])
+            {
+                mine[b] = Vector3D.Zero;
+                has = true;
+            }
+        }
+
+        return has;
+    }
+
     private void TakeAway(Span<Vector3D> mine, Span<double> shares, int rows, Span<double> masses)
     {
         for (int k = 0; k < rows; k++)
         {
             Span<Vector3D> theirs = basis.AsSpan(k * bodies, bodies);
             double part = Product(mine, theirs, masses) / weight[k];
-            shares[k] += part;
+            if (!shares.IsEmpty)
+            {
+                shares[k] += part;
+            }
+
             for (int b = 0; b < bodies && part != 0; b++)
             {
                 double length = extent[(k * bodies) + b];
