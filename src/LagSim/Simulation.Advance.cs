@@ -203,7 +203,7 @@ public sealed partial class Simulation
         {
             OpenFlight(slot, key, PositionAt(last, key.Time), segment.Velocity, spin: timelines.SpinOf(last).AtEpoch);
         }
-        else if (segment.Supports.Count == 1 && FrictionOn(slot, segment.Supports[0]) > 0)
+        else if (segment.Supports.Count == 1 && FrictionOn(slot, segment.Supports[0]) > 0 && !IsAtEndOfRange(segment))
         {
             // It has stopped slipping, or rolling, or turned a little.
             double seconds = segment.End.SecondsSince(segment.Epoch);
@@ -224,6 +224,10 @@ public sealed partial class Simulation
             Append(slot, key, MotionSegment.AtRest(key.Time, segment.Position, segment.Supports), default, spin: timelines.SpinOf(last));
         }
     }
+
+    /// <summary>Whether a piece ended because its body would become too fast.</summary>
+    private bool IsAtEndOfRange(in MotionSegment segment) =>
+        segment.Acceleration != Vector3D.Zero && segment.End == EndOfRange(segment.Epoch, segment.Velocity, segment.Acceleration);
 
     private void Append(int slot, in EventKey key, in MotionSegment segment, in DenseOutput dense, in Hold hold = default, in Spin spin = default)
     {

@@ -88,7 +88,9 @@ public sealed partial class Simulation
         along = Midway(slip, along, rate, key.Time, end);
         Vector3D held = along * at.Grip;
         Vector3D turning = (Vector3D.Cross(at.Normal, held - (over * at.Resistance)) * (2.5 / at.Radius)) - at.Slowing;
-        MotionSegment path = new(MotionLaw.Sliding, key.Time, end, at.Position, at.Velocity, (at.Pull - held).WithoutNegativeZero(), at.Supports, at.Crowding);
+        Vector3D acceleration = (at.Pull - held).WithoutNegativeZero();
+        end = SimTime.Min(end, EndOfRange(key.Time, at.Velocity, acceleration));
+        MotionSegment path = new(MotionLaw.Sliding, key.Time, end, at.Position, at.Velocity, acceleration, at.Supports, at.Crowding);
         Append(slot, key, path, default, spin: new Spin(at.Spin, turning));
     }
 
@@ -121,6 +123,7 @@ public sealed partial class Simulation
         SimTime stop = SimTime.Min(EndOfTurning(key.Time, start, heading, at.Pull, Vector3D.Dot(heading, change)), EndOfPivoting(key.Time, at.Pivot, at.Slowing));
         heading = Midway(start, heading, change, key.Time, stop);
         change = ((at.Pull - (heading * at.Resistance)) * (5.0 / 7)).WithoutNegativeZero();
+        stop = SimTime.Min(stop, EndOfRange(key.Time, start, change));
         MotionSegment path = new(MotionLaw.Rolling, key.Time, stop, at.Position, start, change, at.Supports, at.Crowding);
         Append(
             slot, key, path, default,
@@ -169,7 +172,7 @@ public sealed partial class Simulation
     /// When something that slips or rolls with that velocity has stopped doing so, or has turned so far that a new piece is due; never, if neither comes.
     /// </summary>
     private SimTime EndOfTurning(SimTime from, in Vector3D velocity, in Vector3D along, in Vector3D pull, double rate) =>
-        TryTicks(from, SecondsOfTurning(velocity, along, pull, rate), out SimDuration turns) ? from + turns : EndOfRange(from, velocity, pull);
+        TryTicks(from, SecondsOfTurning(velocity, along, pull, rate), out SimDuration turns) ? from + turns : SimTime.MaxValue;
 
     private double SecondsOfTurning(in Vector3D velocity, in Vector3D along, in Vector3D pull, double rate)
     {

@@ -130,13 +130,13 @@ public sealed partial class Simulation
         Vector3D tangential = PlaneSupport.Tangential(velocity, supports, Scene.PlaneArray);
         Vector3D start = OntoSupports(slot, supports, position + (tangential * carry));
         tangential = (tangential + (acceleration * carry)).WithoutNegativeZero();
+        CheckState(slot, key, start, tangential);
         if (supports.Count == 1 && FrictionOn(slot, supports[0]) > 0)
         {
             OpenRubbing(slot, key, start, tangential, spin, supports, acceleration, crowding, left);
             return true;
         }
 
-        CheckState(slot, key, start, tangential);
         bool rests = tangential == Vector3D.Zero && acceleration == Vector3D.Zero;
         if (rests && left == SimDuration.Zero)
         {

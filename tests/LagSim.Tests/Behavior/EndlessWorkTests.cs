@@ -111,6 +111,34 @@ public sealed class EndlessWorkTests
         Assert.Throws<SimulationException>(() => Run(scene, 100));
     }
 
+    [Theory]
+    [InlineData(0.05, 0, 9.81 * (0.6 - (0.05 * 0.8)))] // slips
+    [InlineData(0.5, 0, 9.81 * 0.6 * 5 / 7)] // rolls
+    [InlineData(0.5, 0.001, 9.81 * (0.6 - (0.001 * 0.8)) * 5 / 7)] // against resistance
+    public void DescentWithFriction_ThatBecomesTooFast_EndsAtThatVeryInstant(double friction, double resistance, double acceleration)
+    {
+        Simulation world = new(Slope(friction, resistance, V(0)), KeepAll);
+        double limit = 0.2 * 1e-9 * (1L << 40), t = limit / acceleration;
+        world.AdvanceTo(At(t - 1e-6));
+        Assert.InRange(Read(world, First, t - 1e-6).Velocity.Length, limit * (1 - 1e-6), limit);
+        SimulationException failure = Assert.Throws<SimulationException>(() => world.AdvanceTo(At(t + 1e-6)));
+        Assert.Contains("falls without end", failure.Message, StringComparison.Ordinal);
+    }
+
+    [Theory]
+    [InlineData(0.05)]
+    [InlineData(0.5)]
+    public void DescentWithFriction_AslantOfThePull_EndsToo(double friction)
+    {
+        // It turns as it goes, so that each of its pieces ends for that; none is any the slower for it.
+        Simulation world = new(Slope(friction, 0, V(0, 0, 1)), KeepAll);
+        SimulationException failure = Assert.Throws<SimulationException>(() => world.AdvanceTo(At(1000)));
+        Assert.Contains("falls without end", failure.Message, StringComparison.Ordinal);
+    }
+
+    private static Scene Slope(double friction, double resistance, Vector3D velocity) => new SceneBuilder("slope").WithSmallestRadius(1e-9)
+        .AddPlane("slope", V(0.6, 0.8), V(0), 0).AddBody("ball", new BodySpec(0.5, 1, 0, friction: friction, rollingResistance: resistance), V(0.3, 0.4), velocity).Build();
+
     [Fact]
     public void Fall_OfAnOrdinaryBall_HasNoEnd()
     {
