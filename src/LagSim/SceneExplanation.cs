@@ -12,7 +12,8 @@ namespace LagSim;
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class SceneExplanation
 {
-    private const int MostBodiesInText = 10;
+    private const int MostGroupsInText = 10;
+    private const int MostNamesInText = 3;
 
     private SceneExplanation(IReadOnlyList<BodyExplanation> bodies, IReadOnlyList<FeatureExplanation> features)
     {
@@ -27,19 +28,42 @@ public sealed class SceneExplanation
     public IReadOnlyList<FeatureExplanation> Features { get; }
 
     /// <summary>
-    /// A line for each of the first ten bodies, how many more there are, and a line for each thing that can be modelled; lines end with LF everywhere.
+    /// A line for all bodies that have the same law for the same reason at the same cost, in the order of the first of them, of at most ten such groups, and a
+    /// line for each thing that can be modelled; lines end with LF everywhere.
     /// </summary>
     public override string ToString()
     {
-        StringBuilder text = new();
-        for (int i = 0; i < Bodies.Count && i < MostBodiesInText; i++)
+        List<(string Line, List<string> Names)> groups = new();
+        int untold = 0;
+        foreach (BodyExplanation body in Bodies)
         {
-            text.Append(Bodies[i].ToString()).Append('\n');
+            string line = body.ToString().Substring(body.Body.Length);
+            int group = groups.FindIndex(g => g.Line == line);
+            if (group >= 0)
+            {
+                groups[group].Names.Add(body.Body);
+            }
+            else if (groups.Count < MostGroupsInText)
+            {
+                groups.Add((line, new List<string> { body.Body }));
+            }
+            else
+            {
+                untold++;
+            }
         }
 
-        if (Bodies.Count > MostBodiesInText)
+        StringBuilder text = new();
+        foreach ((string line, List<string> names) in groups)
         {
-            text.Append("and ").Append(Count(Bodies.Count - MostBodiesInText, "more body", "more bodies")).Append('\n');
+            int named = names.Count <= MostNamesInText + 1 ? names.Count : MostNamesInText; // "and 1 more" is as long as a name
+            text.Append(string.Join(", ", names.GetRange(0, named)));
+            text.Append(named < names.Count ? $" and {names.Count - named} more" : "").Append(line).Append('\n');
+        }
+
+        if (untold > 0)
+        {
+            text.Append("and ").Append(Count(untold, "more body", "more bodies")).Append('\n');
         }
 
         for (int i = 0; i < Features.Count; i++)

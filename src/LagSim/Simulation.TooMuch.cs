@@ -17,7 +17,7 @@ public sealed partial class Simulation
     /// <param name="v">The velocity then.</param>
     /// <param name="spin">How it turns.</param>
     /// <param name="tooStiff">The rate in 1/s that was met by fixed steps; zero if that is not why.</param>
-    /// <param name="tooLarge">How many times the tolerance the error of the shortest step is; zero if that is not why.</param>
+    /// <param name="tooLarge">How many times the tolerance the error of the shortest step is, infinite if it has no number; zero if that is not why.</param>
     /// <param name="isFinite">Whether the acceleration at the state is.</param>
     private SimulationException TooMuch(
         int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, double tooStiff, double tooLarge, bool isFinite)
@@ -33,7 +33,7 @@ public sealed partial class Simulation
             }
         }
 
-        if (!isFinite || (tooStiff == 0 && tooLarge == 0))
+        if (!isFinite || (double.IsPositiveInfinity(tooLarge) && forces.HasSupplied(spec)) || (tooStiff == 0 && tooLarge == 0))
         {
             return new SimulationException(
                 $"In the step from {from.ToShortString()}, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the acceleration of {Whose(slot)} became NaN or "

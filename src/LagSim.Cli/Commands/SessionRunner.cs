@@ -100,6 +100,7 @@ internal sealed class SessionRunner : IDisposable
     /// <summary>Takes part until the end.</summary>
     /// <returns>The exit code.</returns>
     /// <exception cref="UsageException">Something is to be done to a body that the scene has not.</exception>
+    /// <exception cref="OperationCanceledException">It was asked to stop before there was a session.</exception>
     internal int Run()
     {
         thread.Start();
@@ -139,7 +140,11 @@ internal sealed class SessionRunner : IDisposable
         {
             printer.Summary(session, port, recorder?.Failure);
         }
-        else if (!isInterrupted)
+        else if (isInterrupted)
+        {
+            throw new OperationCanceledException(stop); // as of any command that has no result yet
+        }
+        else
         {
             printer.Failed(session.EndReason ?? "There was no session.", code);
         }

@@ -110,6 +110,21 @@ public sealed class StiffForceTests
             .AddBody("ball", new BodySpec(0.1, 1, 1, MotionLaw.DormandPrince54, BodySpec.DefaultStep, brake, tolerance), V(0), V(1)).Build();
     }
 
+    /// <summary>It is no jump that a smaller step would follow; whose force it is, and that it has no number, is told under every law.</summary>
+    [Theory]
+    [InlineData(MotionLaw.Automatic, 1e-9)]
+    [InlineData(MotionLaw.DormandPrince54, 0)]
+    [InlineData(MotionLaw.RungeKutta4, 0)]
+    public void ForceOfTheProgram_ThatIsNoNumberFromSomeTimeOn_IsSaidToBeNone(MotionLaw law, double tolerance)
+    {
+        Force broken = Force.Supplied(new FunctionForce((t, _, _) => V(t > 0.5 ? double.NaN : 1)));
+        Scene scene = new SceneBuilder("broken").AddForce(broken, out ForceSet own)
+            .AddBody("ball", new BodySpec(0.5, 1, 1, law, BodySpec.DefaultStep, own, tolerance), V(0)).Build();
+        Simulation world = Run(scene, 0.4);
+        string message = Assert.Throws<SimulationException>(() => world.AdvanceTo(At(1))).Message;
+        Assert.Contains("the acceleration of body 'ball' (0.0.0) became NaN or infinite; what the forces 'test force' give must be finite", message, StringComparison.Ordinal);
+    }
+
     private sealed class Brake : IAcceleration
     {
         public string Name => "brake";

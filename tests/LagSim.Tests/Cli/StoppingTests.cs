@@ -68,6 +68,17 @@ public sealed class StoppingTests
         Assert.All(lines.SkipLast(1), line => Assert.Equal(9, line.Split(',').Length));
     }
 
+    [Fact]
+    public void Join_InterruptedWhileItConnects_SaysSo()
+    {
+        using StringWriter output = new(), error = new();
+        Assert.Equal(130, Program.Run(["join", "127.0.0.1:9", "--json"], output, error, new CancellationToken(canceled: true))); // nobody answers there
+        Assert.EndsWith("Interrupted before there was a result." + Environment.NewLine, error.ToString(), StringComparison.Ordinal);
+        using JsonDocument document = JsonDocument.Parse(output.ToString());
+        Assert.Equal("interrupted", document.RootElement.GetProperty("error").GetString());
+        Assert.Equal(130, document.RootElement.GetProperty("exit_code").GetInt32());
+    }
+
     [Theory]
     [InlineData("drop --time virtual --out")]
     [InlineData("drop --time virtual --case same-start --json --out")]
