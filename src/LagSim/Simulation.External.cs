@@ -10,11 +10,15 @@ namespace LagSim;
 /// <content>External events: submitting, taking back, applying.</content>
 public sealed partial class Simulation
 {
-    /// <summary>Adds an event at its own time. Should that be simulated already, all timelines are cut at its key and simulated again.</summary>
+    /// <summary>
+    /// Adds an event at its own time. Should that be simulated already, what it can have touched is taken back from there on (<see
+    /// cref="SimulationOptions.Healing"/> says what that is), <see cref="SimulatedTo"/> lies before it, and the next <see cref="AdvanceTo"/> simulates it again;
+    /// <see cref="Healed"/> tells what that took.
+    /// </summary>
     /// <returns>What became of it. <see cref="SubmitResult.TooOld"/> means that nothing changed.</returns>
     /// <remarks>
     /// That it is there does not mean that it has an effect: that depends on what it meets when its time comes, and <see cref="TookEffect"/> tells. Cost: O(1) in
-    /// the bodies if it lies ahead; else that of everything since its time.
+    /// the bodies if it lies ahead; else, with the next advance, that of the events since its time of the bodies it can have touched, or of all with a full rollback.
     /// </remarks>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     /// <exception cref="SimulationException">Simulating again led out of the permitted range.</exception>

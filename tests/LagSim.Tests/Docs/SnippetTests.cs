@@ -6,6 +6,7 @@ using System.Linq;
 using System.Text.RegularExpressions;
 using LagSim.Cli;
 using LagSim.Cli.Output;
+using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Harness.Peers;
 using LagSim.Net.Carriers;
@@ -24,7 +25,7 @@ public sealed partial class SnippetTests
         + Read("tests/LagSim.Tests/Docs/LiteNetLibSnippets.cs");
 
     [Theory]
-    [InlineData("README.md", 6)]
+    [InlineData("README.md", 7)]
     [InlineData("src/LagSim/README.md", 1)]
     [InlineData("src/LagSim.Net/README.md", 1)]
     [InlineData("src/LagSim.Net.LiteNetLib/README.md", 1)]
@@ -45,6 +46,18 @@ public sealed partial class SnippetTests
         snippets.Bounce();
         snippets.Contacts();
         Assert.All(shown, place => Assert.True(place.Y is > 3 and <= 4, $"{place}")); // nothing has fallen far yet
+    }
+
+    [Fact]
+    public void HearLate_Runs_AndIsWhatTheWorldOnTimeIs()
+    {
+        Scene scene = Drop(3.5, 0.7);
+        BodyId ball = BodyId.OfScene(0);
+        Simulation late = new Snippets(scene, _ => { }).HearLate(ball), onTime = new(scene, KeepAll), without = Run(scene, 3);
+        Assert.Equal(SubmitResult.Queued, onTime.Submit(PlayerAction.Impulse(ball, V(0, 6)).Stamp(At(2.2), peer: 1, sequence: 1)));
+        onTime.AdvanceTo(At(3));
+        Assert.Equal(onTime.StateHash(At(3)), late.StateHash(At(3)));
+        Assert.NotEqual(without.StateHash(At(3)), late.StateHash(At(3))); // the control
     }
 
     [Fact]
