@@ -24,7 +24,7 @@ internal sealed class NamedStream(string name, Stream inner) : Stream
         {
             inner.Write(buffer);
         }
-        catch (IOException failure) when (!StandardOutput.IsClosedPipe(failure))
+        catch (Exception failure) when (failure is UnauthorizedAccessException || (failure is IOException wrong && !StandardOutput.IsClosedPipe(wrong)))
         {
             throw new IOException($"{name} cannot be written: {failure.Message.TrimEnd('.')}.", failure);
         }
