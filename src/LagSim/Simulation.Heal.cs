@@ -180,7 +180,7 @@ public sealed partial class Simulation
             (int body, EventKey from) = cuts.Pop();
             for (int seen = witnesses.Newest(body); seen != WitnessLog.None && EventKey.Compare(witnesses.Key(seen), from) >= 0; seen = witnesses.Older(seen))
             {
-                if (StillHappens(seen))
+                if (StillHappens(seen) && !Has(HealingFault.LeavesWhoLooked))
                 {
                     cuts.Push((timelines.Owner(witnesses.Segment(seen)), witnesses.Key(seen)));
                 }
@@ -296,7 +296,7 @@ public sealed partial class Simulation
         for (int seen = witnesses.Newest(other); seen != WitnessLog.None && EventKey.Compare(witnesses.Key(seen), clock) > 0; seen = witnesses.Older(seen))
         {
             EventKey key = witnesses.Key(seen);
-            if (key.Time <= end && StillHappens(seen, oldSerial))
+            if (key.Time <= end && StillHappens(seen, oldSerial) && !Has(HealingFault.OverlooksLooks))
             {
                 int then = timelines.Before(other, key);
                 if (then != TimelineStore.None && timelines.Segment(then).IsPresent && Gap(slot, mine, other, then, key.Time) <= NearGap)

@@ -35,4 +35,10 @@ internal enum HealingFault
 
     /// <summary>What a late event does to one of an island leaves the others on their paths, as if they were not in touch with it.</summary>
     LeavesMates = 128,
+
+    /// <summary>What happens to a body leaves the impacts that looked at it, being near, and in which it then took no part.</summary>
+    LeavesWhoLooked = 256,
+
+    /// <summary>Who comes near to a body is not held against the impacts that looked at that one, and in which it took no part.</summary>
+    OverlooksLooks = 512,
 }
