@@ -44,6 +44,13 @@ internal static class CheckJson
             json.WriteNumber("magnus", report.SessionsThatMet(m => m.Magnus));
             json.WriteNumber("force_in_contact", report.SessionsThatMet(m => m.ForceInContact));
             json.WriteNumber("steps_ahead", report.SessionsThatMet(m => m.StepsAhead));
+            json.WriteNumber("periodic_box", report.SessionsThatMet(m => m.PeriodicBox));
+            json.WriteNumber("closed_orbit", report.SessionsThatMet(m => m.ClosedOrbit));
+            json.WriteNumber("other_pull", report.SessionsThatMet(m => m.OtherPull));
+            json.WriteNumber("wind", report.SessionsThatMet(m => m.Wind));
+            json.WriteNumber("fixed_steps", report.SessionsThatMet(m => m.FixedSteps));
+            json.WriteNumber("force_on_sphere", report.SessionsThatMet(m => m.ForceOnSphere));
+            json.WriteNumber("force_with_rolling", report.SessionsThatMet(m => m.ForceWithRolling));
             json.WriteEndObject();
             json.WriteString("profile", options.Profile?.Name ?? "all");
             json.WriteString("strategy", options.Strategy);

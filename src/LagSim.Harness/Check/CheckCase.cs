@@ -26,12 +26,14 @@ internal sealed class CheckCase
     /// <summary>Who needs longer than this for a round trip is there from the start as a rule: to get in takes several.</summary>
     private const double SlowMilliseconds = 500;
 
-    private const double HeapPercent = 4;
+    private const double HeapPercent = 7;
+    private const double BoxPercent = 4;
+    private const double OrbitPercent = 6;
 
     /// <summary>Of heaps each step is an event in every world, so they take few peers.</summary>
     private const int MostPeersOfHeap = 3;
 
-    private const ulong HeapStream = 3;
+    private const ulong SortStream = 3;
     private const ulong FirstRoom = 100;
     private const ulong FirstHands = 1000;
     private const ulong MostAttempts = 20;
@@ -54,14 +56,18 @@ internal sealed class CheckCase
     {
         Seed = seed;
         SeededRandom random = new(seed);
-        isHeap = random.Fork(HeapStream).IsLucky(HeapPercent); // a stream of its own: all other sessions are what they would be without
+        double sort = random.Fork(SortStream).NextDouble() * 100; // a stream of its own: all other sessions are what they would be without
+        isHeap = sort < HeapPercent;
         DrawPlayers(random.Fork(1), options);
         SeededRandom rest = random.Fork(2);
         long budget = rest.IsLucky(HeavyPercent) ? HeavyEvents : UsualEvents;
         for (ulong attempt = 0; ; attempt++)
         {
             SeededRandom things = random.Fork(FirstRoom + (2 * attempt));
-            room = isHeap ? new HeapScene(things) : new RoomScene(things);
+            room = isHeap ? new HeapScene(things)
+                : sort < HeapPercent + BoxPercent ? new BoxScene(things)
+                : sort < HeapPercent + BoxPercent + OrbitPercent ? new OrbitScene(things)
+                : new RoomScene(things);
             DrawDeeds(random.Fork(FirstRoom + (2 * attempt) + 1));
             DrawHands(random.Fork(FirstHands + attempt));
             if (attempt == MostAttempts || IsWithin(room.MostEvents ?? budget, cancellation))
@@ -248,13 +254,13 @@ internal sealed class CheckCase
     {
         List<CheckDeed> all = [.. deeds];
         int[] spawns = [.. Enumerable.Range(0, deeds.Count).Where(i => deeds[i].Kind == EventKind.Spawn)];
-        int hands = random.NextInt(room.MostHands + 1);
+        int hands = room.FewestHands + random.NextInt(room.MostHands - room.FewestHands + 1);
         CheckDeed? before = null;
         for (int hand = 0; hand < hands; hand++)
         {
             int spawn = spawns.Length > 0 && random.IsLucky(20) ? random.Pick(spawns) : -1;
-            int body = spawn >= 0 ? -1 : random.NextInt(room.BodyCount);
-            double at = random.NextDouble(spawn >= 0 ? deeds[spawn].AtSeconds : 0, room.BusySeconds);
+            int body = spawn >= 0 ? -1 : room.DrawHeld(random);
+            double at = spawn >= 0 ? random.NextDouble(deeds[spawn].AtSeconds, room.BusySeconds) : random.NextDouble(0, room.GraspSeconds);
             if (before is not null && random.IsLucky(50))
             {
                 (spawn, body) = (before.Spawn, before.Body);

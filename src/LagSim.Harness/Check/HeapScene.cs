@@ -25,6 +25,8 @@ internal sealed class HeapScene : CheckScene
     private readonly double friction;
     private readonly double rolling;
     private readonly double forcedPercent;
+    private readonly Vector3D wind;
+    private readonly bool hasPeg;
     private readonly double[] centres;
 
     internal HeapScene(SeededRandom random)
@@ -32,7 +34,9 @@ internal sealed class HeapScene : CheckScene
         this.random = random;
         friction = random.Pick(0.5, 1);
         rolling = random.Pick(0.2, 0.4);
-        forcedPercent = random.IsLucky(50) ? 40 : 0;
+        forcedPercent = random.IsLucky(70) ? 40 : 0;
+        wind = random.IsLucky(30) ? DrawWind(random) * 0.25 : Vector3D.Zero; // less than friction holds
+        hasPeg = random.IsLucky(25);
         centres = random.IsLucky(50) ? [-Apart, Apart] : [0];
         foreach (double centre in centres)
         {
@@ -45,9 +49,15 @@ internal sealed class HeapScene : CheckScene
         }
     }
 
-    internal override long? MostEvents => 600 * centres.Length * (forcedPercent > 0 ? 3 : 2) / 2; // else two heaps and forces would seldom be within it
+    internal override long? MostEvents => 1_000 * centres.Length * (forcedPercent > 0 ? 3 : 2) / 2; // else two heaps and forces would seldom be within it
 
     internal override double BusySeconds => 4;
+
+    internal override int FewestHands => 1;
+
+    internal override double GraspSeconds => 0.8; // while there still are heaps
+
+    internal override int DrawHeld(SeededRandom from) => from.IsLucky(75) ? from.NextInt(OfHeap * centres.Length) : base.DrawHeld(from);
 
     internal override BodySpec DrawSpec() => DrawSpec(ForceSet.None);
 
@@ -84,7 +94,11 @@ internal sealed class HeapScene : CheckScene
     protected override void AddSurroundings(SceneBuilder builder)
     {
         builder.AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0.3);
-        AddForces(builder, 2);
+        AddForces(builder, 2, wind);
+        for (int n = 0; n < centres.Length && hasPeg; n++)
+        {
+            builder.AddStaticSphere($"peg {n}", new Vector3D(centres[n], Side, 0), (Side * Math.Sqrt(2)) - Radius - 1e-8, 0.3); // touches all five
+        }
     }
 
     /// <summary>Four balls in a square, and on them one more.</summary>

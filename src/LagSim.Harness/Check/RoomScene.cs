@@ -22,6 +22,7 @@ internal sealed class RoomScene : CheckScene
     private readonly int forcedPercent;
     private readonly int roughPercent;
     private readonly double rolling;
+    private readonly Vector3D wind;
     private readonly double[] masses;
     private readonly double[] restitutions;
     private readonly double half;
@@ -39,13 +40,14 @@ internal sealed class RoomScene : CheckScene
         this.random = random;
         flights = random.Fork(1);
         spins = random.Fork(2);
+        wind = DrawWind(random.Fork(3));
         bool isForced = flights.IsLucky(45);
         roughPercent = flights.IsLucky(30) ? 70 : 0;
         rolling = flights.Pick(0, 0.01, 0.05);
         masses = random.IsLucky(20) ? ExtremeMasses : Masses;
         isCalm = random.IsLucky(10);
         hasGravity = random.IsLucky(35) || isCalm;
-        forcedPercent = isForced && !hasGravity ? 30 : 0; // what a force presses on a floor hops on it a thousand times a second
+        forcedPercent = !isForced ? 0 : hasGravity ? 15 : 30; // what comes to lie on a floor under a force takes five hundred steps a second
         restitutions = isCalm ? CalmRestitutions : random.IsLucky(hasGravity ? 85 : 30) ? [0.9, 1, 1] : Restitutions; // what falls and loses speed piles up
         half = random.NextDouble(1.6, 2.1);
         isFlat = random.IsLucky(60) && !isCalm; // there they would lie on top of each other
@@ -71,14 +73,8 @@ internal sealed class RoomScene : CheckScene
 
     protected override void AddSurroundings(SceneBuilder builder)
     {
-        builder
-            .AddPlane("floor", Vector3D.Up, Vector3D.Zero, floor)
-            .AddPlane("west", new Vector3D(1, 0, 0), new Vector3D(-half, 0, 0), wall)
-            .AddPlane("east", new Vector3D(-1, 0, 0), new Vector3D(half, 0, 0), wall)
-            .AddPlane("north", new Vector3D(0, 0, 1), new Vector3D(0, 0, -half), wall)
-            .AddPlane("south", new Vector3D(0, 0, -1), new Vector3D(0, 0, half), wall)
-            .AddPlane("ceiling", new Vector3D(0, -1, 0), new Vector3D(0, 2 * half, 0), wall);
-        AddForces(builder, half);
+        AddWalls(builder.AddPlane("floor", Vector3D.Up, Vector3D.Zero, floor), half, half, wall);
+        AddForces(builder, half, wind);
         if (!hasGravity)
         {
             builder.WithGravity(Vector3D.Zero);
@@ -117,8 +113,11 @@ internal sealed class RoomScene : CheckScene
         }
 
         MotionLaw law = flights.Pick(MotionLaw.Automatic, MotionLaw.Automatic, MotionLaw.Automatic, MotionLaw.RungeKutta4, MotionLaw.DormandPrince54);
+        double tolerance = law == MotionLaw.DormandPrince54 ? flights.Pick(1e-3, 1e-5, 0) : flights.Pick(1e-3, 1e-5); // 0: by fixed steps
+        double friction = flights.IsLucky(roughPercent) ? 0.3 : 0;
         return new BodySpec(
-            spec.Radius, spec.Mass, spec.Restitution, law, SimDuration.FromSeconds(flights.Pick(0.03125, 0.05)), set, flights.Pick(1e-3, 1e-5), flights.IsLucky(roughPercent) ? 0.3 : 0);
+            spec.Radius, spec.Mass, spec.Restitution, law, SimDuration.FromSeconds(flights.Pick(0.03125, 0.05)), set, tolerance, friction,
+            friction > 0 ? rolling : 0);
     }
 
     internal override Vector3D DrawPosition() => new(

@@ -1,4 +1,5 @@
 using System.Collections.Generic;
+using System.Linq;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -15,6 +16,27 @@ namespace LagSim.Harness.Check;
 /// <param name="StepsAhead">A step of one island could be taken while another's was.</param>
 public readonly record struct SceneFeatures(bool LargeIsland, bool HandInIsland, bool RemovalFromIsland, bool Magnus, bool ForceInContact, bool StepsAhead)
 {
+    /// <summary>The world was a periodic box.</summary>
+    public bool PeriodicBox { get; init; }
+
+    /// <summary>A body flew by the closed form of an inverse-square pull.</summary>
+    public bool ClosedOrbit { get; init; }
+
+    /// <summary>A body flew under a pull whose power is below zero, and that has no closed form.</summary>
+    public bool OtherPull { get; init; }
+
+    /// <summary>A drag acted on a body whose medium moves.</summary>
+    public bool Wind { get; init; }
+
+    /// <summary>A body flew by <see cref="MotionLaw.DormandPrince54"/> with fixed steps.</summary>
+    public bool FixedSteps { get; init; }
+
+    /// <summary>A body on which a force acts besides gravity was in lasting contact with a static sphere.</summary>
+    public bool ForceOnSphere { get; init; }
+
+    /// <summary>A body on which a force acts besides gravity was in lasting contact with resistance to rolling.</summary>
+    public bool ForceWithRolling { get; init; }
+
     private const int Large = 5;
     private const double Touching = 1e-6; // metres
 
@@ -23,13 +45,17 @@ public readonly record struct SceneFeatures(bool LargeIsland, bool HandInIsland,
     /// <param name="stepsAhead">How many steps could be taken ahead.</param>
     internal static SceneFeatures Of(Simulation alone, IReadOnlyList<ExternalEvent> accepted, long stepsAhead)
     {
-        SceneFeatures met = new() { StepsAhead = stepsAhead > 0 };
+        SceneFeatures met = new() { StepsAhead = stepsAhead > 0, PeriodicBox = alone.Scene.Box.Exists };
         List<(BodyId Body, BodySpec Spec, BodyState State)> there = [];
         Dictionary<EventKey, int> steps = [];
         for (int n = 0; n < alone.BodyCount; n++)
         {
             BodyId body = alone.BodyAt(n);
-            ForceSet forces = alone.SpecOf(body).Forces;
+            BodySpec spec = alone.SpecOf(body);
+            ForceSet forces = spec.Forces;
+            Force[] acting = [.. Enumerable.Range(0, alone.Scene.Forces.Count).Where(forces.Contains).Select(i => alone.Scene.Forces[i])];
+            bool isPulled = acting.Any(f => f.Kind == ForceKind.Central && f.Power < 0);
+            bool isBlownAt = acting.Any(f => f.Kind is ForceKind.LinearDrag or ForceKind.QuadraticDrag && f.Vector != Vector3D.Zero);
             foreach (TimelineEntry entry in alone.Timeline(body))
             {
                 BodyState state = entry.State;
@@ -40,6 +66,12 @@ public readonly record struct SceneFeatures(bool LargeIsland, bool HandInIsland,
                     {
                         Magnus = met.Magnus || (!isInContact && forces.Contains(CheckScene.Magnus) && Vector3D.Cross(state.Spin, state.Velocity) != Vector3D.Zero),
                         ForceInContact = met.ForceInContact || (isInContact && alone.Scene.Gravity != Vector3D.Zero),
+                        ClosedOrbit = met.ClosedOrbit || (isPulled && state.Motion == MotionLaw.ClosedForm),
+                        OtherPull = met.OtherPull || (isPulled && state.Motion is (MotionLaw.DormandPrince54 or MotionLaw.RungeKutta4)),
+                        Wind = met.Wind || isBlownAt,
+                        FixedSteps = met.FixedSteps || (state.Motion == MotionLaw.DormandPrince54 && spec.Tolerance == 0),
+                        ForceOnSphere = met.ForceOnSphere || (isInContact && alone.Scene.StaticSpheres.Any(s => IsOn(s, state, spec))),
+                        ForceWithRolling = met.ForceWithRolling || (isInContact && spec.RollingResistance > 0),
                     };
                 }
 
@@ -73,6 +105,9 @@ public readonly record struct SceneFeatures(bool LargeIsland, bool HandInIsland,
 
         return met;
     }
+
+    private static bool IsOn(in StaticSphere sphere, in BodyState state, in BodySpec spec) =>
+        (state.Position - sphere.Centre).Length - sphere.Radius - spec.Radius <= Touching;
 
     private static void Read(Simulation alone, SimTime time, List<(BodyId Body, BodySpec Spec, BodyState State)> there)
     {
