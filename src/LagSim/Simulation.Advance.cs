@@ -89,8 +89,8 @@ public sealed partial class Simulation
         }
         catch (Exception failure)
         {
-            // What a scene's own code threw, as a rule: it too ends the simulation, in the one way that callers know.
-            fault = new SimulationException($"The simulation failed at or after {SimulatedTo.ToShortString()}: {failure.Message}", failure);
+            // Nothing that is known of: it too ends the simulation, in the one way that callers know.
+            fault = new SimulationException($"The simulation failed at or after {reached.ToShortString()}: {failure.Message}", failure);
             throw fault;
         }
 

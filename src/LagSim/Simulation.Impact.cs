@@ -237,7 +237,7 @@ public sealed partial class Simulation
         for (int i = 0; i < partyCount; i++)
         {
             partyTrial[i] = double.IsPositiveInfinity(partyMasses[i]) ? partyAccelerations[i]
-                : forces.At(bodies[parties[i]].Spec, clock.Time, 0, partyPositions[i], partyVelocities[i], partySpins[i]);
+                : forces.On(bodies[parties[i]].Id).At(bodies[parties[i]].Spec, clock.Time, 0, partyPositions[i], partyVelocities[i], partySpins[i]);
         }
 
         int gathered = contactCount;

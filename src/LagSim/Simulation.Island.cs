@@ -231,7 +231,8 @@ public sealed partial class Simulation
             if (group[i] == least)
             {
                 numbers[i] = step.AddBody(
-                    bodies[parties[i]].Spec, PlaceOf(i, carry), partyVelocities[i].WithoutNegativeZero(), partySpins[i].WithoutNegativeZero());
+                    bodies[parties[i]].Id, bodies[parties[i]].Spec, PlaceOf(i, carry), partyVelocities[i].WithoutNegativeZero(),
+                    partySpins[i].WithoutNegativeZero());
                 fellows[numbers[i]] = i;
             }
         }

@@ -30,7 +30,7 @@ public sealed partial class Simulation
         Vector3D v = velocity;
         if (carry != 0)
         {
-            Vector3D a = forces.At(bodies[slot].Spec, key.Time, -carry, position, velocity, spin);
+            Vector3D a = forces.On(bodies[slot].Id).At(bodies[slot].Spec, key.Time, -carry, position, velocity, spin);
             x += (v + (a * (0.5 * carry))) * carry;
             v += a * carry;
         }
@@ -62,12 +62,13 @@ public sealed partial class Simulation
         ref readonly BodySpec spec = ref bodies[slot].Spec;
         double tooStiff = 0;
         double tooLarge = 0;
+        Forces on = forces.On(bodies[slot].Id);
         MotionSegment piece = spec.Flight switch
         {
-            MotionLaw.RungeKutta4 => RungeKutta4.Step(forces, spec, from, x, v, spin, out dense, out tooStiff),
-            MotionLaw.ClosedForm when FlightLaws.AreLinear(spec, Scene.ForceArray) => new LinearFlight(Scene, spec, spin).Piece(forces, from, x, v, out dense),
+            MotionLaw.RungeKutta4 => RungeKutta4.Step(on, spec, from, x, v, spin, out dense, out tooStiff),
+            MotionLaw.ClosedForm when FlightLaws.AreLinear(spec, Scene.ForceArray) => new LinearFlight(Scene, spec, spin).Piece(on, from, x, v, out dense),
             MotionLaw.ClosedForm => new KeplerFlight(Scene, spec).Piece(from, x, v, out dense, out tooLarge),
-            _ => DormandPrince54.Step(forces, spec, from, x, v, spin, StepToTry(slot), out dense, out tooLarge, out tooStiff),
+            _ => DormandPrince54.Step(on, spec, from, x, v, spin, StepToTry(slot), out dense, out tooLarge, out tooStiff),
         };
         if (!piece.Acceleration.IsFinite || !dense.IsFinite || tooStiff > 0 || tooLarge > 0)
         {

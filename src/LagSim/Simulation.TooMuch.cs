@@ -90,12 +90,7 @@ public sealed partial class Simulation
         return "";
     }
 
-    /// <summary>A body in words: the name that a scene gives it, and its identity.</summary>
-    private string Whose(int slot)
-    {
-        BodyId id = bodies[slot].Id;
-        return id.Peer == 0 && id.Sequence == 0 ? $"body '{Scene.BodyArray[id.Index].Name}' ({id})" : $"body {id}";
-    }
+    private string Whose(int slot) => Scene.Whose(bodies[slot].Id);
 
     /// <summary>What forces act on a body at a state, and at which rates.</summary>
     private string RatesOn(int slot, in Vector3D x, in Vector3D v, in Vector3D spin)

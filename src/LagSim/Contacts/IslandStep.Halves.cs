@@ -187,7 +187,7 @@ internal sealed partial class IslandStep
     {
         Vector3D without = m.Middle + (m.Middle - m.Velocity) - (m.Acceleration * (0.5 * h));
         Vector3D velocity = without + (m.Acceleration * (0.5 * h));
-        Vector3D a = forces.At(m.Spec, time, h, m.End, velocity, m.MiddleSpin);
+        Vector3D a = forces.On(m.Id).At(m.Spec, time, h, m.End, velocity, m.MiddleSpin);
         double last = double.PositiveInfinity;
         for (int n = 0; n < MostIterations; n++)
         {
@@ -199,7 +199,7 @@ internal sealed partial class IslandStep
             }
 
             (velocity, last) = (next, change);
-            a = forces.At(m.Spec, time, h, m.End, velocity, m.MiddleSpin);
+            a = forces.On(m.Id).At(m.Spec, time, h, m.End, velocity, m.MiddleSpin);
         }
 
         return a;

@@ -66,7 +66,7 @@ internal sealed partial class IslandStep
     }
 
     /// <summary>Adds a body; returns its number.</summary>
-    internal int AddBody(in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D spin)
+    internal int AddBody(BodyId id, in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         if (BodyCount == members.Length)
         {
@@ -78,7 +78,7 @@ internal sealed partial class IslandStep
             Array.Resize(ref spins, size);
         }
 
-        members[BodyCount] = new Member { Spec = spec, Start = position, GivenVelocity = velocity, GivenSpin = spin };
+        members[BodyCount] = new Member { Id = id, Spec = spec, Start = position, GivenVelocity = velocity, GivenSpin = spin };
         masses[BodyCount] = spec.Mass;
         radii[BodyCount] = spec.Radius;
         return BodyCount++;
@@ -139,7 +139,7 @@ internal sealed partial class IslandStep
         {
             ref Member m = ref members[b];
             m.Velocity = fromRest ? Vector3D.Zero : m.StartVelocity;
-            m.Acceleration = forces.At(m.Spec, time, 0, m.Start, m.Velocity, m.StartSpin);
+            m.Acceleration = forces.On(m.Id).At(m.Spec, time, 0, m.Start, m.Velocity, m.StartSpin);
         }
 
         TakeFor(time, SimDuration.FromTicks(Ticks()), fromRest);
@@ -223,6 +223,7 @@ internal sealed partial class IslandStep
     /// <summary>One body in the step.</summary>
     private struct Member
     {
+        internal BodyId Id; // for what is told of an error
         internal BodySpec Spec;
         internal Vector3D Start;
         internal Vector3D GivenVelocity;

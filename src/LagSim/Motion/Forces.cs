@@ -9,12 +9,22 @@ internal readonly struct Forces
 {
     private readonly Scene scene;
     private readonly SimTime start;
+    private readonly BodyId body;
 
     internal Forces(Scene scene, SimTime start)
+        : this(scene, start, default)
+    {
+    }
+
+    private Forces(Scene scene, SimTime start, BodyId body)
     {
         this.scene = scene;
         this.start = start;
+        this.body = body;
     }
+
+    /// <summary>The same forces, of which an error names this body.</summary>
+    internal Forces On(BodyId whom) => new(scene, start, whom);
 
     /// <summary>The acceleration in m/s², so many seconds after an epoch. Forces are added in the scene's order.</summary>
     internal Vector3D At(in BodySpec spec, SimTime epoch, double seconds, in Vector3D position, in Vector3D velocity, in Vector3D spin)
@@ -22,10 +32,31 @@ internal readonly struct Forces
         Vector3D sum = scene.Gravity;
         foreach (Force force in spec.Forces.Among(scene.ForceArray))
         {
-            sum += force.At(spec.Mass, epoch.SecondsSince(start) + seconds, position, velocity, spin);
+            double at = epoch.SecondsSince(start) + seconds;
+            sum += force.Kind == ForceKind.Supplied
+                ? Supplied(force, at, epoch, seconds, position, velocity)
+                : force.At(spec.Mass, at, position, velocity, spin);
         }
 
         return sum;
+    }
+
+    /// <summary>What a program's own force adds; what that throws is told as what it is.</summary>
+    /// <exception cref="SimulationException">The program's code threw.</exception>
+    private Vector3D Supplied(Force force, double at, SimTime epoch, double seconds, in Vector3D position, in Vector3D velocity)
+    {
+        try
+        {
+            return force.Acceleration!.At(at, position, velocity);
+        }
+        catch (Exception failure)
+        {
+            throw new SimulationException(
+                $"At {(epoch + SimDuration.FromSeconds(seconds)).ToShortString()}, {Limits.Short(at)} s after the scene's start, force '{force.Name}', version"
+                + $" {force.Acceleration!.Version}, which the program supplies, threw for {scene.Whose(body)}, at {Limits.Short(position)} m and"
+                + $" {Limits.Short(velocity)} m/s: {failure.GetType().Name}: {failure.Message}",
+                failure);
+        }
     }
 
     /// <summary>

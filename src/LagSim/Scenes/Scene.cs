@@ -69,6 +69,9 @@ public sealed class Scene
     /// <summary>Those of the forces that are a program's own, which a peer must have to share the scene.</summary>
     public IReadOnlyList<IAcceleration> Accelerations { get; }
 
+    /// <summary>A body in words: the name that the scene gives it, and its identity.</summary>
+    internal string Whose(BodyId id) => id.Peer == 0 && id.Sequence == 0 ? $"body '{BodyArray[id.Index].Name}' ({id})" : $"body {id}";
+
     internal StaticPlane[] PlaneArray { get; }
 
     internal StaticSphere[] SphereArray { get; }

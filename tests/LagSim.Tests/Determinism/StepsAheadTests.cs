@@ -63,7 +63,7 @@ public sealed class StepsAheadTests
     private static void Fill(IslandStep step, double speed)
     {
         step.Clear();
-        step.AddBody(new BodySpec(0.5, 1, 0), V(0, 1.5), V(speed), V(0));
+        step.AddBody(First, new BodySpec(0.5, 1, 0), V(0, 1.5), V(speed), V(0));
         step.AddContact(0, ContactPoint.Static, 0, 0, 0);
     }
 
