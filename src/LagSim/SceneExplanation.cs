@@ -105,7 +105,7 @@ public sealed class SceneExplanation
 
     private static string Why(Scene scene, in BodySpec spec)
     {
-        BodySpec free = spec.With(MotionLaw.Automatic, spec.Step);
+        BodySpec free = spec.With(MotionLaw.Automatic);
         MotionLaw cheapest = FlightLaws.Chosen(free, scene.Gravity, scene.ForceArray);
         string exact = cheapest switch
         {

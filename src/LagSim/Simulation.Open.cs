@@ -89,7 +89,7 @@ public sealed partial class Simulation
     private BodySpec Chosen(in BodySpec spec)
     {
         MotionLaw law = FlightLaws.Chosen(spec, Scene.Gravity, Scene.ForceArray);
-        return law == spec.Flight ? spec : spec.With(law, spec.Step);
+        return law == spec.Flight ? spec : spec.With(law);
     }
 
     /// <summary>

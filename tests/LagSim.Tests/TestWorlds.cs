@@ -31,7 +31,7 @@ internal static class TestWorlds
 
     internal static BodySpec Ball(
         double radius = 0.5, double mass = 1, double e = 1, MotionLaw flight = MotionLaw.Ballistic, double step = 0, int force = 0) =>
-        new(radius, mass, e, flight, step == 0 ? default : SimDuration.FromSeconds(step), force == 0 ? ForceSet.None : ForceSet.Of(force - 1));
+        new(radius, mass, e, flight, step == 0 ? null : SimDuration.FromSeconds(step), force == 0 ? ForceSet.None : ForceSet.Of(force - 1));
 
     /// <summary>One ball of radius 0.5 m, its lowest point this high above a floor.</summary>
     internal static Scene Drop(double height, double e, MotionLaw flight = MotionLaw.Ballistic) =>

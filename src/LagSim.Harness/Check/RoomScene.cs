@@ -91,7 +91,7 @@ internal sealed class RoomScene : CheckScene
         bool isIntegrated = random.IsLucky(integratedPercent);
         BodySpec spec = new(
             random.Pick(0.2, 0.2, 0.25, 0.3), random.Pick(masses), random.Pick(restitutions), isIntegrated ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic,
-            isIntegrated ? SimDuration.FromSeconds(random.Pick(0.03125, 0.05)) : default, isIntegrated && hasForce ? ForceSet.Of(0) : ForceSet.None);
+            isIntegrated ? SimDuration.FromSeconds(random.Pick(0.03125, 0.05)) : null, isIntegrated && hasForce ? ForceSet.Of(0) : ForceSet.None);
         return masses != Masses ? spec : flights.IsLucky(forcedPercent) ? Forced(spec) : flights.IsLucky(roughPercent) ? Rough(spec) : spec;
     }
 

@@ -14,6 +14,7 @@ namespace LagSim.Harness.Hard;
 internal sealed class BadInputCase : IHardCase
 {
     private const double Apart = 10; // metres that the ball falls, at least
+    private const double Swing = 100; // rad/s of a spring that tells one step from another
 
     private static readonly double[] Values =
     [
@@ -38,7 +39,7 @@ internal sealed class BadInputCase : IHardCase
         ("tolerance of Dormand-Prince", t => Pulled(MotionLaw.DormandPrince54, t, Force.QuadraticDrag("air", 0)), _ => -Gravity / 2),
         ("tolerance of the closed form", t => Pulled(MotionLaw.ClosedForm, t, Force.LinearDrag("oil", 0)), _ => -Gravity / 2),
         ("tolerance at rest", t => Pulled(MotionLaw.DormandPrince54, t, Force.Supplied(new SuppliedForce(Force.Spring("spring", default, 1)))).WithGravity(default), _ => 0),
-        ("step", h => Ball(new BodySpec(0.5, 1, 0.5, MotionLaw.RungeKutta4, SimDuration.FromSeconds(h))), _ => -Gravity / 2),
+        ("step under a spring", h => Stepped(SimDuration.FromSeconds(h)), StepsOf),
         ("gravity", g => Ball(new BodySpec(0.5, 1, 0.5), floor: -1e7).WithGravity(V(0, g)), g => g / 2),
         ("resolution", r => Ball(new BodySpec(0.5, 1, 0.5)).WithResolution(r), _ => -Gravity / 2),
         ("smallest radius", r => Ball(new BodySpec(0.5, 1, 0.5)).WithSmallestRadius(r), _ => -Gravity / 2),
@@ -72,6 +73,10 @@ internal sealed class BadInputCase : IHardCase
         {
             Note = "masses clamped in silence, and gravity off by a millionth",
         };
+        yield return Row(context, "step under a spring", h => Stepped(SimDuration.FromSeconds(Math.Abs(h) < 1e-12 ? 0.005 : h)), StepsOf) with
+        {
+            Note = "steps below a tick taken for the default in silence",
+        };
         yield return Row(context, "mass", _ => throw new SceneException("This cannot be."), _ => -Gravity / 2) with { Note = "a refusal that says nothing" };
     }
 
@@ -80,6 +85,21 @@ internal sealed class BadInputCase : IHardCase
 
     private static SceneBuilder Pulled(MotionLaw law, double tolerance, Force force) =>
         new SceneBuilder("bad").AddForce(force).AddBody("ball", new BodySpec(0.5, 1, 0.5, law, default, ForceSet.Of(0), tolerance), default);
+
+    private static SceneBuilder Stepped(SimDuration step) => new SceneBuilder("bad").AddForce(Force.Spring("spring", default, Swing * Swing))
+        .AddBody("ball", new BodySpec(0.5, 1, 0.5, MotionLaw.RungeKutta4, step, ForceSet.Of(0)), default);
+
+    /// <summary>
+    /// Where the classical Runge-Kutta method with steps h takes what starts at rest at the anchor of a spring of w² N/m: (Re R(i w h)^(1/h) - 1) g / w², with
+    /// R(z) = 1 + z + z²/2 + z³/6 + z⁴/24. Null where w h is so large that the method follows nothing; what is too short to be a step would be as good as none.
+    /// </summary>
+    private static double? StepsOf(double h)
+    {
+        double z = Swing * h, re = 1 - (z * z / 2) + (z * z * z * z / 24), im = z - (z * z * z / 6);
+        double length = Math.Pow((re * re) + (im * im), 0.5 / h), angle = Math.Atan2(im, re) / h;
+        return h is >= 1e-6 and <= 5e-3 ? ((length * Math.Cos(angle)) - 1) * Gravity / (Swing * Swing)
+            : h > 5e-3 ? null : (Math.Cos(Swing) - 1) * Gravity / (Swing * Swing);
+    }
 
     /// <summary>How far what starts at rest has fallen after a second, against c of linear drag on 1 kg: g (1 + (exp(-c) - 1) / c) / c.</summary>
     private static double? Dragged(double c) =>

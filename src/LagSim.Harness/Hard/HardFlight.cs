@@ -37,7 +37,7 @@ internal readonly record struct HardFlight(MotionLaw Law, double Step, double To
 
     /// <summary>A ball that flies so.</summary>
     internal BodySpec Ball(double radius = 0.5, double e = 1) =>
-        new(radius, 1, e, Law, Step > 0 ? SimDuration.FromSeconds(Step) : default, ForceSet.Of(0), Tolerance);
+        new(radius, 1, e, Law, Step > 0 ? SimDuration.FromSeconds(Step) : null, ForceSet.Of(0), Tolerance);
 
     /// <summary>
     /// How far, in metres and m/s each, so many pieces may leave a path in all, before what the motion makes of it: under error control the tolerance each, as

@@ -18,7 +18,7 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
     /// <param name="restitution">0 (stays) to 1 (elastic). Of two things that meet, the lesser counts.</param>
     /// <param name="flight">The law of free flight; by default <see cref="MotionLaw.Automatic"/>, the cheapest that is exact for the forces.</param>
     /// <param name="step">
-    /// The step of an integrating law, 1 microsecond to 1 s; zero means <see cref="DefaultStep"/>. Ignored by closed forms and under error control.
+    /// The step of an integrating law, 1 microsecond to 1 s; default <see cref="DefaultStep"/>. Ignored by closed forms and under error control.
     /// </param>
     /// <param name="forces">Those of the scene's forces that act on it besides gravity.</param>
     /// <param name="tolerance">
@@ -39,7 +39,7 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
         double mass,
         double restitution,
         MotionLaw flight = MotionLaw.Automatic,
-        SimDuration step = default,
+        SimDuration? step = null,
         ForceSet forces = default,
         double tolerance = DefaultTolerance,
         double friction = 0,
@@ -49,7 +49,7 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
         Mass = mass;
         Restitution = restitution;
         Flight = flight == MotionLaw.Automatic && forces.IsEmpty ? MotionLaw.Ballistic : flight;
-        Step = step == SimDuration.Zero ? DefaultStep : step;
+        Step = step ?? DefaultStep;
         Forces = forces;
         Tolerance = tolerance;
         Friction = friction;
@@ -87,10 +87,10 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
 
     /// <summary>The same body on another law of flight.</summary>
     /// <param name="flight">The law.</param>
-    /// <param name="step">See the constructor.</param>
+    /// <param name="step">See the constructor; by default what it is.</param>
     /// <param name="tolerance">See the constructor; by default what it is.</param>
-    public BodySpec With(MotionLaw flight, SimDuration step = default, double? tolerance = null) =>
-        new(Radius, Mass, Restitution, flight, step, Forces, tolerance ?? Tolerance, Friction, RollingResistance);
+    public BodySpec With(MotionLaw flight, SimDuration? step = null, double? tolerance = null) =>
+        new(Radius, Mass, Restitution, flight, step ?? Step, Forces, tolerance ?? Tolerance, Friction, RollingResistance);
 
     /// <inheritdoc/>
     public bool Equals(BodySpec other) =>

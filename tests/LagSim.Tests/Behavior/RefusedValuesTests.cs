@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Scenes;
+using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 
@@ -23,6 +24,8 @@ public sealed class RefusedValuesTests
         ["restitution"] = (b => b.AddBody("x", Ball(e: 1.5), V(0, 9)), ["restitution", "'x'", "1.5"]),
         ["law"] = (b => b.AddBody("x", Ball(flight: MotionLaw.Resting), V(0, 9)), ["motion law", "'x'", "Resting"]),
         ["step"] = (b => b.AddBody("x", Ball(flight: MotionLaw.RungeKutta4, step: 2), V(0, 9)), ["step", "'x'", "2s"]),
+        ["step below a tick"] = (b => b.AddBody("x", Ball(flight: MotionLaw.RungeKutta4, step: 1e-13), V(0, 9)), ["step", "'x'", "0s", "1 microsecond"]),
+        ["step of the least number"] = (b => b.AddBody("x", Ball(flight: MotionLaw.RungeKutta4, step: double.Epsilon), V(0, 9)), ["step", "'x'", "0s", "1 microsecond"]),
         ["no such force"] = (b => b.AddBody("x", Ball(flight: MotionLaw.RungeKutta4, force: 3), V(0, 9)), ["'x'", "force 2", "has none"]),
         ["force on ballistic"] = (
             b => b.AddForce(Force.Supplied(new FunctionForce((_, _, _) => default))).AddBody("x", Ball(force: 1), V(0, 9)), ["'x'", "Ballistic", "RungeKutta4"]),
@@ -104,6 +107,15 @@ public sealed class RefusedValuesTests
         Assert.Equal(before, simulation.StateHash(At(2)));
         Assert.Equal(1, simulation.BodyCount);
         simulation.AdvanceTo(At(3)); // and it is not faulted
+    }
+
+    [Fact]
+    public void Step_ThatIsNotGiven_IsTheDefaultAndIsKept()
+    {
+        Assert.Equal(BodySpec.DefaultStep, new BodySpec(0.5, 1, 1, MotionLaw.RungeKutta4).Step);
+        SimDuration step = SimDuration.FromSeconds(0.25);
+        BodySpec slow = new BodySpec(0.5, 1, 1).With(MotionLaw.RungeKutta4, step);
+        Assert.Equal((step, step), (slow.Step, slow.With(MotionLaw.Ballistic).Step));
     }
 
     [Fact]

@@ -200,7 +200,7 @@ public sealed class ClosedFormTests
         MotionLaw law = MotionLaw.Automatic,
         double step = 0)
     {
-        BodySpec spec = new(0.1, mass, 1, law, step == 0 ? default : SimDuration.FromSeconds(step), ForceSet.Of(0), tolerance);
+        BodySpec spec = new(0.1, mass, 1, law, step == 0 ? null : SimDuration.FromSeconds(step), ForceSet.Of(0), tolerance);
         Simulation world = new(new SceneBuilder("flight").WithGravity(gravity).AddForce(force).AddBody("ball", spec, position, velocity).Build(), KeepAll);
         world.AdvanceTo(At(seconds));
         pieces = world.Timeline(First).Count;

@@ -97,7 +97,7 @@ public sealed class BuiltInScenesTests
     public void WithMotion_ToAndFro_IsTheSameWorld() =>
         Assert.Equal(
             BuiltInScenes.Pair().Hash,
-            BuiltInScenes.WithMotion(BuiltInScenes.Pair(MotionLaw.RungeKutta4), MotionLaw.Ballistic, SimDuration.Zero).Hash);
+            BuiltInScenes.WithMotion(BuiltInScenes.Pair(MotionLaw.RungeKutta4), MotionLaw.Ballistic, BodySpec.DefaultStep).Hash);
 
     [Fact]
     public void WithMotion_SlopeOfOddBits_KeepsEveryOtherBit()
