@@ -58,7 +58,7 @@ public static class SceneFile
     }
 
     /// <summary>The scene as the text of a file, ready to edit; it reads back as a scene with the same hash.</summary>
-    /// <exception cref="SceneFileException">It supplies accelerations written in C#, or something in it has a name that no file may have.</exception>
+    /// <exception cref="SceneFileException">It supplies accelerations written in C#.</exception>
     public static string ToJson(Scene scene)
     {
         ArgumentNullException.ThrowIfNull(scene);
@@ -91,39 +91,10 @@ public static class SceneFile
                 file, "", 0, $"the scene supplies accelerations written in C#, the first is '{first}'; a JSON file cannot hold code");
         }
 
-        CheckName(file, "name", scene.Name);
-        for (int i = 0; i < scene.Forces.Count; i++)
-        {
-            CheckName(file, $"forces[{i}].name", scene.Forces[i].Name);
-        }
-
-        for (int i = 0; i < scene.Planes.Count; i++)
-        {
-            CheckName(file, $"planes[{i}].name", scene.Planes[i].Name);
-        }
-
-        for (int i = 0; i < scene.StaticSpheres.Count; i++)
-        {
-            CheckName(file, $"static_spheres[{i}].name", scene.StaticSpheres[i].Name);
-        }
-
-        for (int i = 0; i < scene.Bodies.Count; i++)
-        {
-            CheckName(file, $"bodies[{i}].name", scene.Bodies[i].Name);
-        }
-
         ArrayBufferWriter<byte> buffer = new();
         SceneJsonWriter.Write(scene, buffer);
         buffer.Write("\n"u8);
         return buffer.WrittenCount <= MaxBytes ? buffer.WrittenSpan.ToArray() : throw TooLarge(file);
-    }
-
-    private static void CheckName(string file, string path, string name)
-    {
-        if (PartName.Problem(name) is string problem)
-        {
-            throw new SceneFileException(file, path, 0, problem);
-        }
     }
 
     private static void Locate(ReadOnlySpan<byte> json, string file, string scene)

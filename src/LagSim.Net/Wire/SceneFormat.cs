@@ -36,8 +36,8 @@ public static class SceneFormat
 
     /// <summary>A scene as bytes. Cost: O(n) in its parts.</summary>
     /// <exception cref="ArgumentException">
-    /// It cannot travel: it has more than <see cref="MaxBodies"/> bodies, more than <see cref="MaxStaticParts"/> planes or static spheres, or a
-    /// name of more than 255 bytes in UTF-8 or with half a surrogate pair. The sentence says which.
+    /// It cannot travel: it has more than <see cref="MaxBodies"/> bodies, more than <see cref="MaxStaticParts"/> planes or static spheres. The
+    /// sentence says which.
     /// </exception>
     public static byte[] Encode(Scene scene)
     {

@@ -32,6 +32,7 @@ public sealed class SceneBuilder
     private int? threads;
 
     /// <summary>Starts a scene of that name with default gravity and nothing in it. The name is for people, no part of <see cref="Scene.Hash"/>.</summary>
+    /// <param name="name">1 to 64 characters, no control characters and no half of a surrogate pair.</param>
     /// <exception cref="ArgumentNullException">There is no name.</exception>
     public SceneBuilder(string name) => this.name = name ?? throw new ArgumentNullException(nameof(name));
 
@@ -77,7 +78,7 @@ public sealed class SceneBuilder
     }
 
     /// <summary>Adds a plane through a point. It is infinite and never moves; bodies live on one side of it.</summary>
-    /// <param name="planeName">1 to 64 characters, and no other part's.</param>
+    /// <param name="planeName">1 to 64 characters, no control characters among them, and no other part's.</param>
     /// <param name="normal">Points to the side where bodies are; of any length between 1e-150 and 1e150.</param>
     /// <param name="point">Any point of the plane, in metres.</param>
     /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the body.</param>
@@ -94,7 +95,7 @@ public sealed class SceneBuilder
     }
 
     /// <summary>Adds the plane of the points p with n . p = <paramref name="offset"/>, n the normal at unit length, towards the bodies.</summary>
-    /// <param name="planeName">1 to 64 characters, and no other part's.</param>
+    /// <param name="planeName">1 to 64 characters, no control characters among them, and no other part's.</param>
     /// <param name="normal">Points to the side where bodies are; of any length between 1e-150 and 1e150.</param>
     /// <param name="offset">The signed distance of the plane from the origin along the normal, in metres, within 1e12.</param>
     /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the body.</param>
@@ -107,7 +108,7 @@ public sealed class SceneBuilder
     }
 
     /// <summary>Adds a sphere that never moves; bodies live outside of it.</summary>
-    /// <param name="sphereName">1 to 64 characters, and no other part's.</param>
+    /// <param name="sphereName">1 to 64 characters, no control characters among them, and no other part's.</param>
     /// <param name="centre">In metres, each component within 1e12.</param>
     /// <param name="radius">In metres, 1e-9 to 1e9.</param>
     /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the body.</param>
@@ -119,7 +120,7 @@ public sealed class SceneBuilder
     }
 
     /// <summary>Adds a body; the n-th added, counted from 0, has the identity (0, 0, n).</summary>
-    /// <param name="bodyName">1 to 64 characters, and no other part's.</param>
+    /// <param name="bodyName">1 to 64 characters, no control characters among them, and no other part's.</param>
     /// <param name="spec">Size, mass, material and flight.</param>
     /// <param name="position">Where its centre starts, in metres, each component within 1e12. Bodies start apart or touching, not inside of anything.</param>
     /// <param name="velocity">In m/s; default none. At most a tenth of the smallest radius in a tick, 1.1e11 m/s times that radius in metres.</param>
@@ -253,6 +254,11 @@ public sealed class SceneBuilder
 
     private void CheckWhole()
     {
+        if (PartName.Problem(name) is string problem)
+        {
+            throw new SceneException($"'{PartName.Shown(name)}' is no name for a scene: {problem}.");
+        }
+
         Limits.Components(gravity, 1e6, $"scene '{name}'", "gravity", "m/s^2");
         Limits.InRange(resolution, 1e-15, 1e-3, $"scene '{name}'", "resolution", "m");
         if (smallestSpawn is double least)
@@ -343,9 +349,9 @@ public sealed class SceneBuilder
         names.Sort(StringComparer.Ordinal);
         for (int i = 0; i < names.Count; i++)
         {
-            if (string.IsNullOrEmpty(names[i]) || names[i].Length > 64)
+            if (PartName.Problem(names[i]) is string problem)
             {
-                throw new SceneException($"'{names[i]}' is no name for a part of scene '{name}'; a name has 1 to 64 characters.");
+                throw new SceneException($"'{PartName.Shown(names[i])}' is no name for a part of scene '{name}': {problem}.");
             }
 
             if (i > 0 && string.Equals(names[i], names[i - 1], StringComparison.Ordinal))

@@ -53,6 +53,14 @@ public sealed class RefusedValuesTests
         ["overlap of two"] = (b => b.AddBody("x", Ball(), V(0, 9)).AddBody("y", Ball(), V(0, 9.5)), ["'y'", "'x'", "0.5"]),
         ["same name"] = (b => b.AddBody("floor", Ball(), V(0, 9)), ["'floor'", "unique"]),
         ["no name"] = (b => b.AddBody("", Ball(), V(0, 9)), ["''", "name"]),
+        ["null name"] = (b => b.AddBody(null!, Ball(), V(0, 9)), ["''", "0 characters; a name has 1 to 64"]),
+        ["long name"] = (b => b.AddPlane(new string('x', 65), V(1), V(-99)), ["'xxx", "xxx...'", "65 characters; a name has 1 to 64"]),
+        ["name of two lines"] = (b => b.AddBody("a\nb", Ball(), V(0, 9)), ["'a\uFFFDb'", "the control character U+000A"]),
+        ["name of a zero"] = (b => b.AddForce(Force.LinearDrag("\0", 1)), ["'\uFFFD'", "the control character U+0000"]),
+        ["name of half a pair"] = (b => b.AddStaticSphere("\ud800x", V(-90), 1), ["'\uFFFDx'", "half of a surrogate pair"]),
+        ["scene without name"] = (_ => new SceneBuilder(""), ["'' is no name for a scene", "0 characters; a name has 1 to 64"]),
+        ["scene of two lines"] = (_ => new SceneBuilder("a\nb"), ["'a\uFFFDb' is no name for a scene", "the control character U+000A"]),
+        ["scene of half a pair"] = (_ => new SceneBuilder("x\udc00"), ["'x\uFFFD' is no name for a scene", "half of a surrogate pair"]),
         ["gravity"] = (b => b.WithGravity(V(0, double.NaN)), ["gravity", "NaN"]),
         ["resolution"] = (b => b.WithResolution(0), ["resolution", "0"]),
         ["smallest radius"] = (b => b.WithSmallestRadius(-1), ["smallest radius", "-1"]),
@@ -107,6 +115,13 @@ public sealed class RefusedValuesTests
         Assert.Equal(before, simulation.StateHash(At(2)));
         Assert.Equal(1, simulation.BodyCount);
         simulation.AdvanceTo(At(3)); // and it is not faulted
+    }
+
+    [Fact]
+    public void Build_NamesOfAnyScript_AreKept()
+    {
+        Scene scene = new SceneBuilder("\u6e96\ud83c\udfb1").AddBody("\ud83c\udfb1 l'\u00e9toile", Ball(), V(0)).Build();
+        Assert.Equal(("\u6e96\ud83c\udfb1", "\ud83c\udfb1 l'\u00e9toile"), (scene.Name, scene.Bodies[0].Name));
     }
 
     [Fact]

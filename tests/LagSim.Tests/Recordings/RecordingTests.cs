@@ -212,7 +212,8 @@ public sealed class RecordingTests
         Assert.Throws<ArgumentNullException>(() => new RecordingWriter(null!, 0, Recorded.Scene, Start));
         Assert.Throws<ArgumentNullException>(() => new RecordingWriter(Stream.Null, 0, null!, Start));
         Assert.Throws<ArgumentException>(() => new RecordingWriter(Stream.Null, 0, Recorded.Scene, SimTime.MinValue));
-        Assert.Throws<ArgumentException>(() => new RecordingWriter(Stream.Null, 0, new SceneBuilder(new string('x', 300)).Build(), Start));
+        SceneBuilder tooMany = Enumerable.Range(0, SceneFormat.MaxBodies + 1).Aggregate(new SceneBuilder("row"), (row, n) => row.AddBody($"{n}", Ball(), V(2 * n)));
+        Assert.Throws<ArgumentException>(() => new RecordingWriter(Stream.Null, 0, tooMany.Build(), Start));
         Assert.Throws<ArgumentException>(() => new RecordingWriter(Stream.Null, 0, Recorded.Scene, Start + SimDuration.OneTick, Joined(1, 1)));
         Assert.Throws<ArgumentOutOfRangeException>(() => new JoinedState(0, null));
         Assert.Throws<ArgumentException>(() => new JoinedState(1, new WorldSnapshot(Start, Start, 0, [])));
