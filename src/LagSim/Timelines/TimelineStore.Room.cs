@@ -13,6 +13,9 @@ internal sealed partial class TimelineStore
 
     private const int FirstRoom = 4;
 
+    /// <summary>By what was opened in one part in so many of the window it is told how much will be in a whole one.</summary>
+    private const ulong RecentPart = 8;
+
     /// <summary>If all that can be dropped is less than one part in so many, it would soon be looked for again.</summary>
     private const int LittleRoom = 32;
 
@@ -37,18 +40,26 @@ internal sealed partial class TimelineStore
     /// <summary>Drops what lies behind the window; and makes room for more if that was little, else it would soon be looked for again.</summary>
     private void DropAll(SimTime now)
     {
+        int recent = 0;
+        SimTime late = SinceWhen(now);
+
         // From the end, so that what is freed is given out from the beginning: whoever opens segments goes through memory in one direction.
         for (int at = used - 1; at >= 0; at--)
         {
-            if (links[at].Closed < edge)
+            SimTime closed = links[at].Closed;
+            if (closed < edge)
             {
                 Drop(at);
+            }
+            else if (closed > late && closed <= now)
+            {
+                recent++;
             }
         }
 
         if (Alive > used - (used / LittleRoom) && used < Most)
         {
-            Grow(now);
+            Grow(now, recent);
         }
     }
 
@@ -79,9 +90,11 @@ internal sealed partial class TimelineStore
         Alive--;
     }
 
-    private void Grow(SimTime now)
+    /// <param name="now">When there is no room left.</param>
+    /// <param name="recent">How many segments were closed in the last part of the window.</param>
+    private void Grow(SimTime now, int recent)
     {
-        int size = pieces.Length < Large ? pieces.Length * 2 : Math.Max(pieces.Length + (pieces.Length / Growth), Expected(now));
+        int size = pieces.Length < Large ? pieces.Length * 2 : Math.Max(pieces.Length + (pieces.Length / Growth), Expected(now, recent));
         Array.Resize(ref pieces, size);
         Array.Resize(ref links, size);
         if (dense.Length > 0)
@@ -100,21 +113,25 @@ internal sealed partial class TimelineStore
         }
     }
 
+    /// <summary>When the last part of what is kept began. The span since the edge may exceed the range of a long; as an unsigned difference it never does.</summary>
+    private SimTime SinceWhen(SimTime now) =>
+        now <= edge ? now : SimTime.FromTicks(now.Ticks - (long)(((ulong)now.Ticks - (ulong)edge.Ticks) / RecentPart));
+
     /// <summary>
-    /// For how many segments room will be needed, as far as can be told before a whole history has gone by: if as many are opened for the rest of it, from an
-    /// eighth of it on. No more than a quarter above what there is, for what begins need not go on. To grow by little until then would be to copy everything
-    /// some hundred times.
+    /// For how many segments room will be needed, as far as can be told. Once a whole history has gone by: if as many are opened as in the last part of what is
+    /// kept, less two standard deviations of such a number: where it goes on evenly that is not more than there is. Before: if as many are opened for the rest of it, from an eighth of it on. No more than a quarter above what there is, for what begins need not go
+    /// on. To grow by little where more and more are opened would be to copy everything some hundred times.
     /// </summary>
-    private int Expected(SimTime now)
+    private int Expected(SimTime now, int recent)
     {
-        double passed = now.SecondsSince(origin);
-        double whole = history.ToSeconds();
-        if (!(passed > whole / 8 && passed < whole))
+        double opened = (recent - (2 * Math.Sqrt(recent))) * RecentPart;
+        if (edge <= origin)
         {
-            return 0;
+            double passed = now.SecondsSince(origin);
+            double whole = history.ToSeconds();
+            opened = passed > whole / 8 && passed < whole ? (used - first.Length) * (whole / passed) : 0;
         }
 
-        double opened = (used - first.Length) * (whole / passed);
         return (int)Math.Min(first.Length + opened, pieces.Length * 1.25);
     }
 }

@@ -12,7 +12,7 @@ namespace LagSim.Timelines;
 /// <para>Segments live in flat arrays, linked per body; nothing is overwritten, a segment is only appended, cut off at the end, or dropped
 /// behind the window. Allocates only when more segments are alive than ever before. Old segments of all bodies are dropped together, in one pass through memory
 /// when there is no room left: to look for them one by one, each long out of the cache, cost a quarter of an impact in a dense fluid. The arrays grow if that
-/// frees less than one part in 32, by a sixty-fourth once they are large: so a world takes little more than its window needs.</para>
+/// frees less than one part in 32, by a sixty-fourth once they are large, or to what is foretold: so a world takes little more than its window needs.</para>
 /// <para>It keeps a running hash of all events: the sum (modulo 2^64) of one hash a segment, so that appending and cutting are O(1) and the
 /// order in which the news came leaves no trace.</para>
 /// </remarks>
@@ -163,7 +163,7 @@ internal sealed partial class TimelineStore
             at = used++;
             if (at == pieces.Length)
             {
-                Grow(key.Time);
+                Grow(key.Time, recent: 0);
             }
         }
 

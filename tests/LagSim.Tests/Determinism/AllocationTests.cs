@@ -37,6 +37,21 @@ public sealed class AllocationTests
         Assert.Equal(0, least);
     }
 
+    /// <summary>With friction, whose impacts turn bodies, and with islands: balls that slide over a floor under a spring, and a row of them in a groove.</summary>
+    [Theory]
+    [InlineData("rough")]
+    [InlineData("springs")]
+    [InlineData("rough springs")]
+    [InlineData("row")]
+    public void AdvanceTo_FrictionAndIslandsAfterWarmUp_AllocatesNothing(string name)
+    {
+        Scene scene = name switch { "rough" => Rough(), "row" => Row(), _ => OnSprings(name == "springs" ? 0 : 0.3) };
+        Simulation simulation = new(scene, new SimulationOptions(default, SimDuration.FromSeconds(0.25), threads: 1));
+        long least = Enumerable.Range(0, 8).Select(_ => Measure(simulation, 1_000).Bytes).Skip(4).Min();
+        Assert.Equal(0, least);
+        Assert.Equal(name != "rough", Enumerable.Range(0, scene.Bodies.Count).Any(n => Read(simulation, BodyId.OfScene(n), simulation.SimulatedTo.ToSeconds()).Motion == MotionLaw.Constrained));
+    }
+
     [Fact]
     public void Measure_ForceThatAllocates_IsSeen()
     {
@@ -51,11 +66,11 @@ public sealed class AllocationTests
         return Measure(simulation);
     }
 
-    private static (long Bytes, long Events) Measure(Simulation simulation)
+    private static (long Bytes, long Events) Measure(Simulation simulation, long events = Events)
     {
         long eventsBefore = simulation.EventsProcessed;
         long before = GC.GetAllocatedBytesForCurrentThread();
-        Advance(simulation, Events);
+        Advance(simulation, events);
         return (GC.GetAllocatedBytesForCurrentThread() - before, simulation.EventsProcessed - eventsBefore);
     }
 
@@ -73,6 +88,45 @@ public sealed class AllocationTests
         .AddPlane("floor", Vector3D.Up, V(0)).AddPlane("west", V(1), V(-1)).AddPlane("east", V(-1), V(1))
         .AddBody("a", new BodySpec(0.25, 1, 1, flight, forces: oil | spring | coil), V(-0.5, 1), V(10))
         .AddBody("b", new BodySpec(0.25, 2, 1, flight, forces: spring), V(0.5, 0.9), V(-7)).Build();
+
+    /// <summary>Elastic balls with friction between walls.</summary>
+    private static Scene Rough()
+    {
+        SceneBuilder builder = new SceneBuilder("rough").AddPlane("floor", Vector3D.Up, V(0)).AddPlane("ceiling", V(0, -1), V(0, 4))
+            .AddPlane("west", V(1), V(-2)).AddPlane("east", V(-1), V(2)).AddPlane("north", V(0, 0, 1), V(0, 0, -2)).AddPlane("south", V(0, 0, -1), V(0, 0, 2));
+        for (int i = 0; i < 12; i++)
+        {
+            builder.AddBody($"ball {i}", new BodySpec(0.2, 1 + i, 1, friction: 0.3), V((i % 4) - 1.5, 0.5 + (i / 4)), V(3 + i, 2, 1 - i), spin: V(i, 3, -i));
+        }
+
+        return builder.Build();
+    }
+
+    /// <summary>Balls that slide, or roll, to and fro on a floor, each in an island of its own.</summary>
+    private static Scene OnSprings(double friction)
+    {
+        SceneBuilder builder = new SceneBuilder("springs").AddForce(Force.Spring("spring", V(0, 1), 30), out ForceSet spring).AddPlane("floor", Vector3D.Up, V(0));
+        for (int i = 0; i < 4; i++)
+        {
+            builder.AddBody($"ball {i}", new BodySpec(0.2, 1, 0, forces: spring, friction: friction), V(0.5 + i, 0.2), V(0, 0, 1));
+        }
+
+        return builder.Build();
+    }
+
+    /// <summary>A row of balls that lean on each other and slide along a groove for ever, one island.</summary>
+    private static Scene Row()
+    {
+        double half = Math.Sqrt(0.5);
+        SceneBuilder builder = new SceneBuilder("row").AddForce(Force.Spring("spring", V(0), 30), out ForceSet spring)
+            .AddPlane("left", V(half, half), 0.0, 0).AddPlane("right", V(-half, half), 0.0, 0);
+        for (int i = 0; i < 3; i++)
+        {
+            builder.AddBody($"ball {i}", new BodySpec(0.5, 1, 0, forces: spring), V(0, half, i), V(0, 0, 1));
+        }
+
+        return builder.Build();
+    }
 
     /// <summary>Two balls between walls, elastic: each hits the other, the floor and a wall again and again.</summary>
     private static Scene Pair(MotionLaw flight, byte force) => new SceneBuilder("pair")

@@ -8,6 +8,7 @@ using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
 using Xunit;
+using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Determinism;
 
@@ -41,6 +42,48 @@ public sealed class TimelineStoreTests
         Assert.InRange(steps, 1, 60);
         Assert.InRange(room, 1, 1.1);
         Assert.True(Growth(SimDuration.FromSeconds(100)).Steps > 80);
+    }
+
+    /// <summary>
+    /// Where more and more is opened after a whole history has gone by, as by balls that fall on a heap, room grows by as much as the last part of what is kept
+    /// tells: else everything is copied some hundred times. The control is a history that never goes by, of which nothing is told.
+    /// </summary>
+    [Fact]
+    public void Room_OfBallsThatBecomeAHeap_IsCopiedFewTimes()
+    {
+        (double copied, double room) = Copied(SimDuration.FromSeconds(0.25));
+        Assert.InRange(copied, 1, 16);
+        Assert.InRange(room, 1, 1.3);
+        Assert.InRange(Copied(SimDuration.FromSeconds(1000)).Times, 32, double.PositiveInfinity);
+
+        static (double Times, double RoomForEach) Copied(SimDuration history)
+        {
+            Simulation world = new(Heap(), new SimulationOptions(default, history, threads: 1));
+            long copied = 0;
+            int most = 0;
+            for (int n = 1; n <= 1000; n++)
+            {
+                int before = world.Timelines.Room;
+                world.AdvanceTo(SimTime.FromSeconds(n * 2e-3));
+                copied += world.Timelines.Room > before ? before : 0;
+                most = Math.Max(most, world.Timelines.Alive);
+            }
+
+            return (copied / (double)world.Timelines.Room, world.Timelines.Room / (double)most);
+        }
+
+        static Scene Heap()
+        {
+            SceneBuilder builder = new SceneBuilder("heap").AddPlane("floor", V(0, 1), 0.0)
+                .AddPlane("west", V(1), -1.1).AddPlane("east", V(-1), -1.1).AddPlane("north", V(0, 0, 1), -1.1).AddPlane("south", V(0, 0, -1), -1.1);
+            for (int i = 0; i < 12; i++)
+            {
+                Vector3D place = V(((i % 2) - 0.5) * 1.05, 2.6 + (i / 4 * 1.1), ((i / 2 % 2) - 0.5) * 1.05);
+                builder.AddBody($"ball {i}", new BodySpec(0.5, 1, 0.3, friction: 0.4), place + V(0.001 * i), spin: V(0, i));
+            }
+
+            return builder.Build();
+        }
     }
 
     private static (int Steps, double RoomForEach) Growth(SimDuration history)
