@@ -43,17 +43,11 @@ public sealed partial class Simulation
         string rates = RatesOn(slot, x, v, spin);
         if (tooStiff > 0)
         {
-            SimDuration shortest = spec.Step;
-            while (shortest.Ticks >= 2 * Limits.MinStep.Ticks)
-            {
-                shortest = SimDuration.FromTicks(shortest.Ticks / 2);
-            }
-
-            double most = (spec.Flight == MotionLaw.RungeKutta4 ? RungeKutta4.MaxRateTimesStep : DormandPrince54.MaxRateTimesStep) / shortest.ToSeconds();
+            double most = FlightLaws.MostRateFollowed(spec);
             string what = ActTooFast(forces.FixedStepRateAt(spec, x, v, spin), tooStiff, most);
             return new SimulationException(
                 $"{where} {what}: there {rates}. {spec.Flight} with fixed steps follows at most {Limits.Short(most)} 1/s, by steps halved to "
-                + $"{Limits.Short(shortest.ToSeconds())} s. Make them weaker, or use Automatic.");
+                + $"{Limits.Short(FlightLaws.ShortestStep(spec).ToSeconds())} s. Make them weaker, or use Automatic.");
         }
 
         return new SimulationException(

@@ -24,7 +24,7 @@ internal static class DormandPrince54
     /// The largest product of rate and step of fixed steps: the end of the stability interval on the imaginary axis, which is less than a third of that on the
     /// negative real one.
     /// </summary>
-    internal const double MaxRateTimesStep = 1;
+    internal const double MaxRateTimesStep = FlightLaws.RateTimesStepOfDormandPrince54;
 
     /// <summary>What an estimate cannot be below, in parts of what it was subtracted from.</summary>
     private const double Rounding = 4 * 2.220446049250313e-16;

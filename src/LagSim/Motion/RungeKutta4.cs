@@ -17,7 +17,7 @@ internal static class RungeKutta4
     /// <summary>
     /// The largest product of rate and step: the end of the stability interval on the negative real axis, a little below that on the imaginary one.
     /// </summary>
-    internal const double MaxRateTimesStep = 2.785;
+    internal const double MaxRateTimesStep = FlightLaws.RateTimesStepOfRungeKutta4;
 
     /// <summary>One step from a state, of the body's step or so many halvings of it as its forces need.</summary>
     /// <param name="forces">The accelerations.</param>

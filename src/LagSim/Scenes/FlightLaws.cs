@@ -1,8 +1,16 @@
+using LagSim.Time;
+
 namespace LagSim.Scenes;
 
 /// <summary>Which laws of flight are exact for a body's forces, and which of them is the cheapest.</summary>
 internal static class FlightLaws
 {
+    /// <summary>The largest product of rate and step that the method of this name follows, which tells where it is from.</summary>
+    internal const double RateTimesStepOfRungeKutta4 = 2.785;
+
+    /// <inheritdoc cref="RateTimesStepOfRungeKutta4"/>
+    internal const double RateTimesStepOfDormandPrince54 = 1;
+
     /// <summary>
     /// What a body flies by: what it asks for, or the cheapest law that is exact for its forces, or, where none is, the one under error control.
     /// </summary>
@@ -42,4 +50,24 @@ internal static class FlightLaws
 
         return centres == 1 && gravity == Vector3D.Zero;
     }
+
+    /// <summary>Whether a body flies by steps whose length does not go by an estimate of their error.</summary>
+    internal static bool HasFixedSteps(in BodySpec spec) =>
+        spec.Flight == MotionLaw.RungeKutta4 || (spec.Flight == MotionLaw.DormandPrince54 && spec.Tolerance == 0);
+
+    /// <summary>To what fixed steps are halved, at the most.</summary>
+    internal static SimDuration ShortestStep(in BodySpec spec)
+    {
+        SimDuration shortest = spec.Step;
+        while (shortest.Ticks >= 2 * Limits.MinStep.Ticks)
+        {
+            shortest = SimDuration.FromTicks(shortest.Ticks / 2);
+        }
+
+        return shortest;
+    }
+
+    /// <summary>The fastest rate, in 1/s, that a body's fixed steps follow.</summary>
+    internal static double MostRateFollowed(in BodySpec spec) =>
+        (spec.Flight == MotionLaw.RungeKutta4 ? RateTimesStepOfRungeKutta4 : RateTimesStepOfDormandPrince54) / ShortestStep(spec).ToSeconds();
 }

@@ -120,10 +120,12 @@ internal static class Limits
     }
 
     /// <summary>
-    /// Forces whose rate does not depend on where the body is are not too stiff for its mass, nor is quadratic drag at the speed that gravity keeps up.
+    /// Forces whose rate does not depend on where the body is are not too stiff for its mass, nor is quadratic drag at the speed that gravity keeps up; and what
+    /// is moved by fixed steps has no more of them together than those follow.
     /// </summary>
     private static void CheckRate<T>(in BodySpec spec, T whose, in Vector3D gravity, Force[] forces)
     {
+        double sum = 0;
         foreach (Force force in spec.Forces.Among(forces))
         {
             double rate = force.Kind switch
@@ -138,6 +140,17 @@ internal static class Limits
                     $"On {whose}, of {Text(spec.Mass)} kg, force '{force.Name}', of strength {Text(force.Strength)} and damping {Text(force.Damping)}, acts at"
                     + $" a rate of {Above(rate, MaxRate)} 1/s; at most {Text(MaxRate)} 1/s is allowed.");
             }
+
+            sum += force.Kind == ForceKind.QuadraticDrag ? 0 : rate; // which is not that where the body starts
+        }
+
+        if (FlightLaws.HasFixedSteps(spec) && sum > FlightLaws.MostRateFollowed(spec))
+        {
+            double most = FlightLaws.MostRateFollowed(spec);
+            throw new SceneException(
+                $"On {whose}, of {Text(spec.Mass)} kg, the forces {spec.Forces.NamesAmong(forces)} act together at a rate of {Above(sum, most)} 1/s; at most"
+                + $" {Short(most)} 1/s is allowed under {spec.Flight} with fixed steps, which are halved to {Short(FlightLaws.ShortestStep(spec).ToSeconds())} s. Make"
+                + " them weaker, or use Automatic.");
         }
     }
 

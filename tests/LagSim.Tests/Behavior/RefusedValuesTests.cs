@@ -38,6 +38,11 @@ public sealed class RefusedValuesTests
         ["hardly too stiff"] = (
             b => b.AddForce(Force.Spring("steel", V(0), 1.0000000000001e12), out ForceSet steel).AddBody("x", new BodySpec(0.5, 1, 1, forces: steel), V(0, 9)),
             ["'x'", "at a rate of just above 1000000 1/s; at most 1000000 1/s"]),
+        ["too stiff together"] = (
+            b => Stiff(b, 9e5, MotionLaw.RungeKutta4, BodySpec.DefaultTolerance),
+            ["'x'", "'one', 'two'", "together at a rate of 1800000 1/s; at most 1465790 1/s is allowed under RungeKutta4 with fixed steps"]),
+        ["too stiff for fixed steps"] = (
+            b => Stiff(b, 3e5, MotionLaw.DormandPrince54, 0), ["'x'", "at a rate of 600000 1/s; at most 526316 1/s is allowed under DormandPrince54 with fixed steps"]),
         ["forces of another scene"] = (
             b => b.AddForce(Force.LinearDrag("oil", 1)).AddBody("x", new BodySpec(0.5, 1, 1, forces: ForceSet.Of(2)), V(0, 9)),
             ["'x'", "names force 2, counted from 0, but the scene has 1, number 0. A ForceSet holds numbers, of the scene whose AddForce gave it"]),
@@ -117,6 +122,15 @@ public sealed class RefusedValuesTests
         simulation.AdvanceTo(At(3)); // and it is not faulted
     }
 
+    /// <summary>What is refused by its sum is what no step could begin, and no more than that.</summary>
+    [Theory]
+    [InlineData(MotionLaw.RungeKutta4, 1e-9, 7.3e5)]
+    [InlineData(MotionLaw.DormandPrince54, 0, 2.6e5)]
+    [InlineData(MotionLaw.DormandPrince54, 1e-9, 9e5)]
+    [InlineData(MotionLaw.Automatic, 1e-9, 9e5)]
+    public void Build_ForcesThatStepsFollowTogether_ArePermitted(MotionLaw flight, double tolerance, double rate) =>
+        Assert.Equal(2, new Simulation(Stiff(Good(), rate, flight, tolerance).Build()).BodyCount);
+
     [Fact]
     public void Build_NamesOfAnyScript_AreKept()
     {
@@ -171,6 +185,10 @@ public sealed class RefusedValuesTests
         Assert.Throws<ArgumentOutOfRangeException>(() => simulation.AdvanceTo(At(0.5)));
         simulation.AdvanceTo(At(2));
     }
+
+    private static SceneBuilder Stiff(SceneBuilder scene, double rate, MotionLaw flight, double tolerance) => scene
+        .AddForce(Force.LinearDrag("one", rate), out ForceSet one).AddForce(Force.LinearDrag("two", rate), out ForceSet two)
+        .AddBody("x", new BodySpec(0.5, 1, 1, flight, SimDuration.FromSeconds(1.9e-6), one | two, tolerance), V(0, 9));
 
     private static SceneBuilder Good() => new SceneBuilder("good").AddPlane("floor", Vector3D.Up, V(0), 0.5).AddStaticSphere("dome", V(10, 0), 1)
         .AddBody("ball", Ball(), V(0, 1.5));
