@@ -22,15 +22,16 @@ public sealed class BodyExplanation
     /// <summary>Its law of flight.</summary>
     public MotionLaw Motion { get; }
 
-    /// <summary>Why that law, in a sentence.</summary>
+    /// <summary>Why that law, in a sentence; and, if it is so, why it cannot take a first step.</summary>
     public string Why { get; }
 
     /// <summary>
-    /// How many pieces its path has in a simulated second where it starts, besides those that impacts open; 0: one piece from impact to impact.
+    /// How many pieces its path has in a simulated second where it starts, besides those that impacts open; 0: one piece from impact to impact. No number
+    /// (<see cref="double.NaN"/>) if it cannot take a first step.
     /// </summary>
     public double SegmentsPerSecond { get; }
 
-    /// <summary>How often its forces are evaluated in a simulated second where it starts.</summary>
+    /// <summary>How often its forces are evaluated in a simulated second where it starts; no number if it cannot take a first step.</summary>
     public double EvaluationsPerSecond { get; }
 
     /// <summary>
@@ -38,7 +39,7 @@ public sealed class BodyExplanation
     /// exact.</c>
     /// </summary>
     public override string ToString() =>
-        SegmentsPerSecond == 0
+        SegmentsPerSecond == 0 || double.IsNaN(SegmentsPerSecond)
             ? $"{Body}: {Motion}. {Why}"
             : string.Format(
                 CultureInfo.InvariantCulture, "{0}: {1}, {2:G3} pieces/s, {3:G3} force calls/s. {4}", Body, Motion, SegmentsPerSecond, EvaluationsPerSecond, Why);

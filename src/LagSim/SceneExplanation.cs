@@ -15,10 +15,11 @@ public sealed class SceneExplanation
     private const int MostGroupsInText = 10;
     private const int MostNamesInText = 3;
 
-    private SceneExplanation(IReadOnlyList<BodyExplanation> bodies, IReadOnlyList<FeatureExplanation> features)
+    private SceneExplanation(IReadOnlyList<BodyExplanation> bodies, IReadOnlyList<FeatureExplanation> features, string? cannotBegin)
     {
         Bodies = bodies;
         Features = features;
+        CannotBegin = cannotBegin;
     }
 
     /// <summary>The bodies, in the order of the scene.</summary>
@@ -27,9 +28,12 @@ public sealed class SceneExplanation
     /// <summary>What can be modelled, always the same in the same order.</summary>
     public IReadOnlyList<FeatureExplanation> Features { get; }
 
+    /// <summary>Why no world of the scene can begin, as <see cref="Simulation"/> tells it; null: one can.</summary>
+    public string? CannotBegin { get; }
+
     /// <summary>
-    /// A line for all bodies that have the same law for the same reason at the same cost, in the order of the first of them, of at most ten such groups, and a
-    /// line for each thing that can be modelled; lines end with LF everywhere.
+    /// A line for all bodies that have the same law for the same reason at the same cost, in the order of the first of them, of at most ten such groups, a
+    /// line for each thing that can be modelled, and why no world can begin, if none can; lines end with LF everywhere.
     /// </summary>
     public override string ToString()
     {
@@ -71,19 +75,35 @@ public sealed class SceneExplanation
             text.Append(Features[i].ToString()).Append(i + 1 < Features.Count ? "\n" : "");
         }
 
-        return text.ToString();
+        return CannotBegin is null ? text.ToString() : text.Append("\nno world can begin: ").Append(CannotBegin).ToString();
     }
 
     internal static SceneExplanation Of(Scene scene)
     {
-        Simulation start = new(scene, new SimulationOptions());
+        string?[] obstacles = new string?[scene.BodyArray.Length];
+        string? cannotBegin = null;
+        Simulation start;
+        try
+        {
+            start = new Simulation(scene);
+        }
+        catch (SimulationException failure)
+        {
+            cannotBegin = failure.Message;
+            start = Simulation.OfFlightsAlone(scene, obstacles);
+        }
+
         List<BodyExplanation> bodies = new();
         for (int i = 0; i < scene.BodyArray.Length; i++)
         {
-            bodies.Add(OfBody(scene, scene.BodyArray[i], start, start.Timelines.Last(start.SlotNamed(BodyId.OfScene(i)))));
+            ref readonly SceneBody body = ref scene.BodyArray[i];
+            bodies.Add(
+                obstacles[i] is string obstacle
+                    ? new BodyExplanation(body.Name, body.Spec.Flight, $"{Why(scene, body.Spec)} Its first step cannot be taken. {obstacle}", double.NaN, double.NaN)
+                    : OfBody(scene, body, start, start.Timelines.Last(start.SlotNamed(BodyId.OfScene(i)))));
         }
 
-        return new SceneExplanation(bodies, FeaturesOf(scene));
+        return new SceneExplanation(bodies, FeaturesOf(scene), cannotBegin);
     }
 
     private static BodyExplanation OfBody(Scene scene, in SceneBody body, Simulation start, int piece)
@@ -92,7 +112,8 @@ public sealed class SceneExplanation
         ref readonly MotionSegment first = ref start.Timelines.Segment(piece);
         SimDuration next = start.Timelines.Dense(piece).NextStep; // under error control the first step is but a try
         double length = next == SimDuration.Zero ? first.End.SecondsSince(first.Epoch) : next.ToSeconds();
-        double perSecond = first.IsDense ? 1 / length : 0;
+        bool isInPieces = first.IsDense || (scene.Box.Exists && first.End != SimTime.MaxValue);
+        double perSecond = isInPieces ? 1 / length : 0;
         int evaluations = spec.Flight switch
         {
             MotionLaw.RungeKutta4 => 5,
@@ -185,7 +206,9 @@ public sealed class SceneExplanation
             Islands(scene, used != 0),
             new FeatureExplanation(
                 "static geometry", scene.PlaneArray.Length + scene.SphereArray.Length > 0,
-                $"{Count(scene.PlaneArray.Length, "plane")}, {Count(scene.SphereArray.Length, "static sphere")}: each is asked for every piece of path."),
+                scene.PlaneArray.Length + scene.SphereArray.Length > 0
+                    ? $"{Count(scene.PlaneArray.Length, "plane")}, {Count(scene.SphereArray.Length, "static sphere")}: each is asked for every piece of path."
+                    : "There is none."),
             new FeatureExplanation(
                 "contacts of bodies", bodies > 1 || scene.Spawners != PeerSet.Nobody,
                 hasIndex

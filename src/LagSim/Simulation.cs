@@ -52,15 +52,36 @@ public sealed partial class Simulation
     {
         for (int i = 0; i < scene.BodyArray.Length; i++)
         {
-            ref readonly SceneBody body = ref scene.BodyArray[i];
-            int slot = AddBody(BodyId.OfScene(i), body.Spec);
-            EventKey key = new(Start, 0, EventKind.Start, bodies[slot].Id, bodies[slot].Id, 0, 0);
-            OpenFlight(slot, key, body.Position, body.Velocity, spin: body.Spin);
+            Begin(i);
         }
 
         PredictAll();
         AdvanceTo(Start);
         twin = healing == HealingMode.SyncTest ? new Simulation(scene, options.FullyRolledBack()) : null;
+    }
+
+    /// <summary>
+    /// A scene's bodies on the first pieces of their flights, of which none meets anything: only to be read, where a world of the scene cannot begin.
+    /// </summary>
+    /// <param name="scene">The scene.</param>
+    /// <param name="obstacles">Of each body why it cannot take a step; null where it can.</param>
+    internal static Simulation OfFlightsAlone(Scene scene, string?[] obstacles)
+    {
+        SimulationOptions options = new();
+        Simulation flights = new(scene, options, options.Start, options.Start, scene.BodyArray.Length);
+        for (int i = 0; i < scene.BodyArray.Length; i++)
+        {
+            try
+            {
+                flights.Begin(i);
+            }
+            catch (SimulationException failure)
+            {
+                obstacles[i] = failure.Message;
+            }
+        }
+
+        return flights;
     }
 
     /// <summary>A world without bodies, with room for as many as are expected; what none of them may need is made when one does.</summary>
@@ -122,6 +143,15 @@ public sealed partial class Simulation
     /// <summary>The identity of the n-th body in canonical order, 0 &lt;= n &lt; <see cref="BodyCount"/>. Later spawns may shift n.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no n-th.</exception>
     public BodyId BodyAt(int n) => bodies[order[n]].Id;
+
+    /// <summary>Adds a body of the scene, on the first piece of its flight.</summary>
+    private void Begin(int n)
+    {
+        ref readonly SceneBody body = ref Scene.BodyArray[n];
+        int slot = AddBody(BodyId.OfScene(n), body.Spec);
+        EventKey key = new(Start, 0, EventKind.Start, bodies[slot].Id, bodies[slot].Id, 0, 0);
+        OpenFlight(slot, key, body.Position, body.Velocity, spin: body.Spin);
+    }
 
     private void PredictAll()
     {

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
+using System.Text.Json;
 using LagSim.Harness.Reports;
 using LagSim.Harness.Scenes;
 using LagSim.Scenes;
@@ -22,7 +23,7 @@ internal static class ExplainOutput
         console.Output.WriteLine($"lagsim {ToolVersion.Text}   explain   scene {scene.Name} {JsonDocumentWriter.Hash(scene.Hash)}");
         Table bodies = NewTable("how each body moves", ["bodies", "motion", "pieces/s", "force calls/s", "why"]);
         foreach (IGrouping<(MotionLaw Motion, string Why, string Pieces, string Calls), BodyExplanation> alike in explanation.Bodies.GroupBy(
-            body => (body.Motion, body.Why, NumberText.Short(body.SegmentsPerSecond), NumberText.Short(body.EvaluationsPerSecond))))
+            body => (body.Motion, body.Why, Rate(body.SegmentsPerSecond), Rate(body.EvaluationsPerSecond))))
         {
             bodies.AddRow(
                 Markup.Escape(Names(alike.ToArray())), MotionNames.Of(alike.Key.Motion), alike.Key.Pieces, alike.Key.Calls, Markup.Escape(alike.Key.Why));
@@ -42,6 +43,10 @@ internal static class ExplainOutput
         console.Write(features);
         console.Output.WriteLine("pieces/s: pieces of path in a simulated second where the body starts, besides those that impacts open; 0: one from impact"
             + " to impact.");
+        if (explanation.CannotBegin is string why)
+        {
+            console.Output.WriteLine($"No world of this scene can begin. {Sentence.Printable(why)}");
+        }
     }
 
     internal static void WriteJson(TextWriter output, Scene scene, SceneExplanation explanation, ulong seed) =>
@@ -54,8 +59,8 @@ internal static class ExplainOutput
                 json.WriteString("name", body.Body);
                 json.WriteString("motion", MotionNames.Of(body.Motion));
                 json.WriteString("why", body.Why);
-                json.WriteNumber("segments_per_s", body.SegmentsPerSecond);
-                json.WriteNumber("force_evaluations_per_s", body.EvaluationsPerSecond);
+                WriteRate(json, "segments_per_s", body.SegmentsPerSecond);
+                WriteRate(json, "force_evaluations_per_s", body.EvaluationsPerSecond);
                 json.WriteEndObject();
             }
 
@@ -71,7 +76,22 @@ internal static class ExplainOutput
             }
 
             json.WriteEndArray();
+            json.WriteString("cannot_begin", explanation.CannotBegin);
         });
+
+    private static string Rate(double perSecond) => double.IsNaN(perSecond) ? "-" : NumberText.Short(perSecond);
+
+    private static void WriteRate(Utf8JsonWriter json, string name, double perSecond)
+    {
+        if (double.IsNaN(perSecond))
+        {
+            json.WriteNull(name);
+        }
+        else
+        {
+            json.WriteNumber(name, perSecond);
+        }
+    }
 
     /// <summary>A table whose last column is a sentence: it alone is broken into lines.</summary>
     private static Table NewTable(string title, string[] columns)

@@ -46,6 +46,25 @@ public sealed class ExplainCommandTests
     }
 
     [Fact]
+    public void Explain_SceneThatCannotBegin_IsExplained()
+    {
+        using TemporaryFolder folder = new();
+        string scene = folder["storm.json"];
+        File.WriteAllText(scene, """
+            {"format": "lagsim-scene-1", "name": "storm", "forces": [{"name": "wind", "kind": "quadratic_drag", "coefficient_kg_per_m": 0.1, "medium_m_per_s": [1e12, 0, 0]}],
+             "bodies": [{"name": "b", "radius_m": 0.5, "mass_kg": 1, "restitution": 1, "position_m": [0, 0, 0], "forces": ["wind"]}]}
+            """);
+        (int code, string output, string error) = Run("explain", scene);
+        Assert.Equal((0, ""), (code, error));
+        Assert.Matches("b +dp54 +- +- +Gravity, wind", output);
+        Assert.Contains("No world of this scene can begin. From 0s on", output, StringComparison.Ordinal);
+        using JsonDocument json = JsonDocument.Parse(Run("explain", scene, "--json").Output);
+        Assert.Equal(JsonValueKind.Null, json.RootElement.GetProperty("bodies")[0].GetProperty("segments_per_s").ValueKind);
+        Assert.StartsWith("From 0s on", json.RootElement.GetProperty("cannot_begin").GetString(), StringComparison.Ordinal);
+        Assert.DoesNotContain("can begin", Run("explain", "billiards").Output, StringComparison.Ordinal);
+    }
+
+    [Fact]
     public void Explain_LongNamesWithoutATerminal_KeepsTo160Columns()
     {
         using TemporaryFolder folder = new();

@@ -105,6 +105,40 @@ public sealed class ExplainTests
         static (bool, string) Told(FeatureExplanation feature) => (feature.IsModelled, feature.Why);
     }
 
+    /// <summary>A wind of 1e12 m/s is allowed, and no step can be taken in it: the others are explained all the same.</summary>
+    [Fact]
+    public void Explain_BodyThatCannotTakeAStep_SaysWhy()
+    {
+        Scene storm = Storm(1e12);
+        string why = Assert.Throws<SimulationException>(() => new Simulation(storm)).Message;
+        SceneExplanation explanation = storm.Explain();
+        Assert.Equal(why, explanation.CannotBegin);
+        Assert.EndsWith($"Its first step cannot be taken. {why}", explanation.Bodies[1].Why, StringComparison.Ordinal);
+        Assert.Equal([0, double.NaN], explanation.Bodies.Select(b => b.SegmentsPerSecond));
+        Assert.EndsWith($"\nno world can begin: {why}", explanation.ToString(), StringComparison.Ordinal);
+
+        // The control: a wind in which one can.
+        SceneExplanation calm = Storm(10).Explain();
+        Assert.Null(calm.CannotBegin);
+        Assert.True(calm.Bodies[1].SegmentsPerSecond > 1);
+        Assert.DoesNotContain("cannot", calm.ToString(), StringComparison.Ordinal);
+
+        static Scene Storm(double wind) => new SceneBuilder("storm").AddForce(Force.QuadraticDrag("wind", 0.1, V(wind)), out ForceSet force)
+            .AddBody("falls", Ball(), V(0)).AddBody("flies", new BodySpec(0.1, 1, 1, forces: force), V(3)).Build();
+    }
+
+    /// <summary>In a periodic box a flight comes in pieces, what lies still does not.</summary>
+    [Fact]
+    public void Explain_PeriodicBox_SaysHowOftenFlightsAreOpenedAnew()
+    {
+        Scene scene = new SceneBuilder("box").WithGravity(Floating).WithPeriodicBox(V(10, 10, 10)).AddBody("flies", Ball(0.1), V(1, 1, 1), V(1)).AddBody("lies", Ball(0.1), V(5, 5, 5)).Build();
+        SceneExplanation explanation = scene.Explain();
+        Assert.Equal(1 / 1.25, explanation.Bodies[0].SegmentsPerSecond, 1e-9);
+        Assert.Equal((0.0, 0.0), (explanation.Bodies[1].SegmentsPerSecond, explanation.Bodies[0].EvaluationsPerSecond));
+        Assert.Equal(80, Run(scene, 100.5).Timeline(First).Count - 1);
+        Assert.Equal("static geometry: no. There is none.", explanation.Features.Single(f => f.Name == "static geometry").ToString());
+    }
+
     [Fact]
     public void Explain_ManyBodies_SaysThatThereIsAnIndex()
     {
