@@ -21,6 +21,9 @@ public sealed partial class Simulation
     private int openedCount;
     private int lastOpened = -1; // and of one that an event before has
 
+    /// <summary>How many threads at most may be at work for it.</summary>
+    internal int Threads => threads;
+
     /// <summary>How many steps of islands another thread has taken in time: it depends on the machine, and nothing on it.</summary>
     internal long StepsUsedAhead => stepsAhead?.Used ?? 0;
 

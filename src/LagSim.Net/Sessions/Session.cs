@@ -254,7 +254,8 @@ public abstract partial class Session
 
     // The session itself decides what is forgotten, by the watermark; the simulation's own limit would go by its look-ahead.
     private SimulationOptions WorldOptions(SimTime start) =>
-        new(start, SimDuration.MaxValue, Options.MaxSegments, interruption.Token, Options.SyncTest ? HealingMode.SyncTest : strategy.Mode);
+        new(
+            start, SimDuration.MaxValue, Options.MaxSegments, interruption.Token, Options.SyncTest ? HealingMode.SyncTest : strategy.Mode, Options.Threads);
 
     /// <summary>
     /// Whether one end of a link has not heard of the other when it should have. They then write as if something were unacknowledged: else a

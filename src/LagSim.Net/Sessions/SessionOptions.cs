@@ -77,6 +77,12 @@ public sealed class SessionOptions
     /// </summary>
     public int MaxSegments { get; set; } = SimulationOptions.DefaultMaxSegments;
 
+    /// <summary>
+    /// How many threads at most may be at work for this peer's world at once, as <see cref="SimulationOptions.Threads"/>: 1 to
+    /// <see cref="SceneBuilder.MaxThreads"/>; null, the default, for its default. Each peer's own: no bit depends on it.
+    /// </summary>
+    public int? Threads { get; set; }
+
     /// <summary>How much longer timelines are kept than events may be late, 0 to 60 s; default 0. For those who compare settled states.</summary>
     public SimDuration ExtraHistory { get; set; }
 
@@ -156,6 +162,11 @@ public sealed class SessionOptions
         if (MaxSegments < 1)
         {
             throw new ArgumentOutOfRangeException(nameof(MaxSegments), MaxSegments, "The timelines must be allowed one segment at least.");
+        }
+
+        if (Threads is < 1 or > SceneBuilder.MaxThreads)
+        {
+            throw new ArgumentOutOfRangeException(nameof(Threads), Threads, $"One thread is at work at least, and {SceneBuilder.MaxThreads} at most.");
         }
 
         Range(CommitInterval, 0.1, 60, nameof(CommitInterval));

@@ -28,13 +28,18 @@ public sealed class SimulationHost : IDisposable
     /// <param name="clock">Tells the time; usually a <see cref="StopwatchClock"/>.</param>
     /// <param name="lookAhead">How far ahead of the clock the world is simulated; default two frames.</param>
     /// <param name="contacts">What tells of contacts, of this world alone; null, the default, for nobody. They are confirmed after 2 s.</param>
+    /// <param name="threads">How many threads at most may be at work for the world at once; as in <see cref="SimulationOptions"/>.</param>
     /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
-    public SimulationHost(Scene scene, IClock clock, SimDuration? lookAhead = null, ContactNotices? contacts = null)
+    /// <exception cref="ArgumentOutOfRangeException">The threads are not from 1 to 64.</exception>
+    public SimulationHost(Scene scene, IClock clock, SimDuration? lookAhead = null, ContactNotices? contacts = null, int? threads = null)
     {
         this.clock = clock ?? throw new ArgumentNullException(nameof(clock));
-        world = new LiveWorld(scene, new SimulationOptions(clock.Now, SimDuration.FromSeconds(2), cancellation: stop.Token), lookAhead, contacts: contacts);
+        SimulationOptions options = new(clock.Now, SimDuration.FromSeconds(2), cancellation: stop.Token, threads: threads);
+        world = new LiveWorld(scene, options, lookAhead, contacts: contacts);
         thread = new WorldThread("LagSim world", Step, stop.Cancel);
     }
+
+    internal LiveWorld World => world;
 
     /// <summary>The clock's time: what to read the picture at. From any thread, if the clock can be read so, as a <see cref="StopwatchClock"/> can.</summary>
     public SimTime Now => clock.Now;

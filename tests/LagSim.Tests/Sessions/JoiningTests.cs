@@ -1,6 +1,7 @@
 using System;
 using System.Linq;
 using LagSim.Harness.Links;
+using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
@@ -159,6 +160,20 @@ public sealed class JoiningTests
             () => new HostSession(Deeds.Box(), port, new VirtualClock(), options, 1));
         Assert.Equal(named, refused.ParamName);
         Assert.Contains("must lie between", refused.Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Threads_OfASessionOrAHost_AreThoseOfItsWorld()
+    {
+        SessionGroup group = new SessionGroup(Deeds.Box(), 3, LinkProfiles.PureDelay(5), options: peer => new SessionOptions { Threads = peer == 0 ? null : 10 + peer }).Connect();
+        Assert.Equal([new SimulationOptions().Threads, 11, 12], group.Sessions.Select(s => s.World!.Simulation.Threads));
+        using SimulationHost host = new(Deeds.Box(), new VirtualClock(), threads: 13);
+        Assert.Equal(13, host.World.Simulation.Threads);
+
+        using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
+        ArgumentOutOfRangeException refused = Assert.Throws<ArgumentOutOfRangeException>(
+            () => new HostSession(Deeds.Box(), port, new VirtualClock(), new SessionOptions { Threads = 65 }, 1));
+        Assert.Equal(("Threads", 65), (refused.ParamName, refused.ActualValue));
     }
 
     [Fact]
