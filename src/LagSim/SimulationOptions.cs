@@ -13,7 +13,7 @@ public sealed class SimulationOptions
     /// <summary>The history where nothing else is said: 1 s.</summary>
     public static readonly SimDuration DefaultHistory = SimDuration.FromSeconds(1);
 
-    /// <summary>The most segments where nothing else is said: 8,388,608, some 2 GB.</summary>
+    /// <summary>The most segments where nothing else is said: 8,388,608, of 1.5 to 3 GB.</summary>
     public const int DefaultMaxSegments = 1 << 23;
 
     /// <summary>Above this an index of the paths costs less than to look at everybody.</summary>
@@ -26,8 +26,8 @@ public sealed class SimulationOptions
     /// <see cref="SimDuration.MaxValue"/> keeps everything.
     /// </param>
     /// <param name="maxSegments">
-    /// How many pieces of path all timelines together may hold, at least one; default <see cref="DefaultMaxSegments"/>. Each takes some 250
-    /// bytes. A simulation that would need more ends with a <see cref="TimelinesFullException"/>, which tells whose path they are.
+    /// How many pieces of path all timelines together may hold, at least one; default <see cref="DefaultMaxSegments"/>. Each takes 184 to
+    /// 356 bytes (<see cref="Timelines.LatencyCompensationWindow"/>). A simulation that would need more ends with a <see cref="TimelinesFullException"/>, which tells whose path they are.
     /// </param>
     /// <param name="cancellation">
     /// Ends whatever the simulation is at, from any thread, between two instants, with an <see cref="OperationCanceledException"/>.
@@ -80,7 +80,7 @@ public sealed class SimulationOptions
     public SimDuration History { get; }
 
     /// <summary>
-    /// How many pieces of path all timelines together may hold, each of some 250 bytes; more end with a <see cref="TimelinesFullException"/>.
+    /// How many pieces of path all timelines together may hold, each of 184 to 356 bytes; more end with a <see cref="TimelinesFullException"/>.
     /// </summary>
     public int MaxSegments { get; }
 

@@ -84,7 +84,7 @@ internal static class AccuracyTables
             yield return $"Stopped early, at {stopped}: it and what comes after it has no rows.";
         }
 
-        yield return $"Speed is by {ThreadClock.Name}, the least of several runs after a warm-up, building the world included. A method without steps counts"
+        yield return $"Speed is by {ThreadClock.Name}, the least of several runs after a warm-up, making the world of a scene that is there included. A method without steps counts"
             + " events, any other its steps.";
         yield return "order: slope of error against step, logarithmic, least squares over the finest four points, or three if there are no more, above a"
             + " hundred times rounding and below a tenth of the scene's size.";

@@ -103,7 +103,7 @@ public static class WorkSweep
         return points;
     }
 
-    /// <summary>The least of several runs, building the world included and reading nothing.</summary>
+    /// <summary>The least of several runs, making the world of the scene included, and neither the scene nor what is freed afterwards; nothing is read.</summary>
     private static (double Seconds, int Runs) Time(WorkScene scene, IWorkMethod method, WorkSetting setting, WorkOptions options,
         CancellationToken cancellation)
     {
