@@ -13,7 +13,7 @@ public sealed class SimulationOptions
     /// <summary>The history where nothing else is said: 1 s.</summary>
     public static readonly SimDuration DefaultHistory = SimDuration.FromSeconds(1);
 
-    /// <summary>The most segments where nothing else is said: 8,388,608, of 1.5 to 3 GB.</summary>
+    /// <summary>The most segments where nothing else is said: 8,388,608, of 1.5 to 3 GB, and as much again while they grow.</summary>
     public const int DefaultMaxSegments = 1 << 23;
 
     /// <summary>Above this an index of the paths costs less than to look at everybody.</summary>

@@ -16,11 +16,17 @@ internal sealed partial class TimelineStore
     /// <summary>By what was opened in one part in so many of the window it is told how much will be in a whole one.</summary>
     private const ulong RecentPart = 8;
 
+    /// <summary>So many segments of each body tell how it goes on, however short the time.</summary>
+    private const int Many = 64;
+
     /// <summary>If all that can be dropped is less than one part in so many, it would soon be looked for again.</summary>
     private const int LittleRoom = 32;
 
     /// <summary>For how many segments there is room without more memory.</summary>
     internal int Room => pieces.Length;
+
+    /// <summary>Foretells nothing: only a test's negative control sets it.</summary>
+    internal bool GrowsByLittle { get; set; }
 
     /// <summary>Instants before this are asked for no more; what only they need is dropped when room is needed.</summary>
     internal void ForgetBefore(SimTime time) => edge = SimTime.Max(edge, time);
@@ -94,7 +100,7 @@ internal sealed partial class TimelineStore
     /// <param name="recent">How many segments were closed in the last part of the window.</param>
     private void Grow(SimTime now, int recent)
     {
-        int size = pieces.Length < Large ? pieces.Length * 2 : Math.Max(pieces.Length + (pieces.Length / Growth), Expected(now, recent));
+        int size = pieces.Length < Large ? pieces.Length * 2 : Math.Max(pieces.Length + (pieces.Length / Growth), GrowsByLittle ? 0 : Expected(now, recent));
         Array.Resize(ref pieces, size);
         Array.Resize(ref links, size);
         if (dense.Length > 0)
@@ -119,17 +125,19 @@ internal sealed partial class TimelineStore
 
     /// <summary>
     /// For how many segments room will be needed, as far as can be told. Once a whole history has gone by: if as many are opened as in the last part of what is
-    /// kept, less two standard deviations of such a number: where it goes on evenly that is not more than there is. Before: if as many are opened for the rest of it, from an eighth of it on. No more than a quarter above what there is, for what begins need not go
-    /// on. To grow by little where more and more are opened would be to copy everything some hundred times.
+    /// kept, less two standard deviations of such a number, so that where it goes on evenly that is no more than there is. Before: if as many are opened for the
+    /// rest of it, from an eighth of it on, or from where each body has many. No more than a quarter above what there is, for what begins need not go on. To
+    /// grow by little where more and more are opened would be to copy everything some hundred times.
     /// </summary>
     private int Expected(SimTime now, int recent)
     {
         double opened = (recent - (2 * Math.Sqrt(recent))) * RecentPart;
         if (edge <= origin)
         {
-            double passed = now.SecondsSince(origin);
-            double whole = history.ToSeconds();
-            opened = passed > whole / 8 && passed < whole ? (used - first.Length) * (whole / passed) : 0;
+            double passed = now.SecondsSince(origin), whole = history.ToSeconds();
+            int soFar = used - first.Length;
+            bool tells = passed < whole && (passed > whole / 8 || soFar > Many * first.Length);
+            opened = tells ? soFar * (whole / passed) : 0; // infinite at the very beginning
         }
 
         return (int)Math.Min(first.Length + opened, pieces.Length * 1.25);
