@@ -24,14 +24,13 @@ internal sealed class PlayerLimits
         sentence = "";
         if (external.Kind == EventKind.Spawn && external.Velocity.Length <= options.MaxGivenSpeed && SurfaceSpeed(external) <= options.MaxGivenSpeed)
         {
-            byte player = external.Peer;
             ForgetBefore(now - options.Window.History);
-            if (spawned.Count < options.MaxSpawned || spawned.Count(s => s.Key.Peer == player && s.Value.Removed > now) < options.MaxSpawned)
+            if (spawned.Count < options.MaxSpawned || CountOf(external.Peer, now) < options.MaxSpawned)
             {
                 return Verdict.Accepted;
             }
 
-            sentence = $"Peer {player} has spawned {options.MaxSpawned} {(options.MaxSpawned == 1 ? "body that is" : "bodies that are")} still there, and no"
+            sentence = $"Peer {external.Peer} has spawned {options.MaxSpawned} {(options.MaxSpawned == 1 ? "body that is" : "bodies that are")} still there, and no"
                 + " player may have more at a time; some have to be"
                 + " removed first.";
             return Verdict.NoRight;
@@ -50,6 +49,9 @@ internal sealed class PlayerLimits
             + FormattableString.Invariant($" in this session a player may give {options.MaxGivenSpeed:R} m/s at most.");
         return Verdict.Invalid;
     }
+
+    /// <summary>How many bodies that a player has spawned are there. By itself, for what a lambda needs is allocated where its method begins.</summary>
+    private int CountOf(byte player, SimTime now) => spawned.Count(s => s.Key.Peer == player && s.Value.Removed > now);
 
     /// <summary>Keeps what was accepted, or done here and not refused yet.</summary>
     internal void Note(in ExternalEvent external)
