@@ -1,3 +1,4 @@
+using System;
 using System.IO;
 using System.Linq;
 using System.Text.Json;
@@ -38,19 +39,11 @@ internal static class CheckJson
             json.WriteNumber("late_joiners", report.Outcomes.Sum(o => (long)o.LateJoiners));
             json.WriteNumber("leavers", report.Outcomes.Sum(o => (long)o.Leavers));
             json.WriteStartObject("sessions_that_met");
-            json.WriteNumber("large_island", report.SessionsThatMet(m => m.LargeIsland));
-            json.WriteNumber("hand_in_island", report.SessionsThatMet(m => m.HandInIsland));
-            json.WriteNumber("removal_from_island", report.SessionsThatMet(m => m.RemovalFromIsland));
-            json.WriteNumber("magnus", report.SessionsThatMet(m => m.Magnus));
-            json.WriteNumber("force_in_contact", report.SessionsThatMet(m => m.ForceInContact));
-            json.WriteNumber("steps_ahead", report.SessionsThatMet(m => m.StepsAhead));
-            json.WriteNumber("periodic_box", report.SessionsThatMet(m => m.PeriodicBox));
-            json.WriteNumber("closed_orbit", report.SessionsThatMet(m => m.ClosedOrbit));
-            json.WriteNumber("other_pull", report.SessionsThatMet(m => m.OtherPull));
-            json.WriteNumber("wind", report.SessionsThatMet(m => m.Wind));
-            json.WriteNumber("fixed_steps", report.SessionsThatMet(m => m.FixedSteps));
-            json.WriteNumber("force_on_sphere", report.SessionsThatMet(m => m.ForceOnSphere));
-            json.WriteNumber("force_with_rolling", report.SessionsThatMet(m => m.ForceWithRolling));
+            foreach ((string name, Func<SceneFeatures, bool> isMet) in SceneFeatures.All)
+            {
+                json.WriteNumber(name, report.SessionsThatMet(isMet));
+            }
+
             json.WriteEndObject();
             json.WriteString("profile", options.Profile?.Name ?? "all");
             json.WriteString("strategy", options.Strategy);

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
@@ -8,14 +9,38 @@ using LagSim.Timelines;
 namespace LagSim.Harness.Check;
 
 /// <summary>What a session met of what is rarely drawn: seen in the world that had all on time, at every event and right before those of players.</summary>
-/// <param name="LargeIsland">Five bodies or more that touched moved by common steps.</param>
-/// <param name="HandInIsland">A hand took a body of an island of two or more, moving or at rest.</param>
-/// <param name="RemovalFromIsland">One of such an island was removed.</param>
-/// <param name="Magnus">The Magnus force bent the path of a body that flew.</param>
-/// <param name="ForceInContact">A body on which a force acts besides gravity was in lasting contact under both.</param>
-/// <param name="StepsAhead">A step of one island could be taken while another's was.</param>
-public readonly record struct SceneFeatures(bool LargeIsland, bool HandInIsland, bool RemovalFromIsland, bool Magnus, bool ForceInContact, bool StepsAhead)
+public readonly record struct SceneFeatures
 {
+    private const int Large = 5;
+    private const double Touching = 1e-6; // metres
+
+    /// <summary>Each by the name that scripts know it by, in their order.</summary>
+    public static IReadOnlyList<(string Name, Func<SceneFeatures, bool> IsMet)> All { get; } =
+    [
+        ("large_island", met => met.LargeIsland), ("hand_in_island", met => met.HandInIsland), ("removal_from_island", met => met.RemovalFromIsland),
+        ("magnus", met => met.Magnus), ("force_in_contact", met => met.ForceInContact), ("steps_ahead", met => met.StepsAhead),
+        ("periodic_box", met => met.PeriodicBox), ("closed_orbit", met => met.ClosedOrbit), ("other_pull", met => met.OtherPull), ("wind", met => met.Wind),
+        ("fixed_steps", met => met.FixedSteps), ("force_on_sphere", met => met.ForceOnSphere), ("force_with_rolling", met => met.ForceWithRolling),
+    ];
+
+    /// <summary>Five bodies or more that touched moved by common steps.</summary>
+    public bool LargeIsland { get; init; }
+
+    /// <summary>A hand took a body of an island of two or more, moving or at rest.</summary>
+    public bool HandInIsland { get; init; }
+
+    /// <summary>One of such an island was removed.</summary>
+    public bool RemovalFromIsland { get; init; }
+
+    /// <summary>The Magnus force bent the path of a body that flew.</summary>
+    public bool Magnus { get; init; }
+
+    /// <summary>A body on which a force acts besides gravity was in lasting contact under both.</summary>
+    public bool ForceInContact { get; init; }
+
+    /// <summary>A step of one island could be taken while another's was.</summary>
+    public bool StepsAhead { get; init; }
+
     /// <summary>The world was a periodic box.</summary>
     public bool PeriodicBox { get; init; }
 
@@ -36,9 +61,6 @@ public readonly record struct SceneFeatures(bool LargeIsland, bool HandInIsland,
 
     /// <summary>A body on which a force acts besides gravity was in lasting contact with resistance to rolling.</summary>
     public bool ForceWithRolling { get; init; }
-
-    private const int Large = 5;
-    private const double Touching = 1e-6; // metres
 
     /// <param name="alone">The world, advanced to its end, with a history without end.</param>
     /// <param name="accepted">What players did in it.</param>

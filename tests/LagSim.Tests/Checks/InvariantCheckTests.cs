@@ -34,14 +34,8 @@ public sealed class InvariantCheckTests
         Assert.Superset(Enumerable.Range(2, 7).ToHashSet(), report.Outcomes.Select(o => o.Peers).ToHashSet());
 
         // What is rare is met all the same.
-        int[] met =
-        [
-            report.SessionsThatMet(m => m.LargeIsland), report.SessionsThatMet(m => m.HandInIsland), report.SessionsThatMet(m => m.RemovalFromIsland),
-            report.SessionsThatMet(m => m.Magnus), report.SessionsThatMet(m => m.ForceInContact), report.SessionsThatMet(m => m.StepsAhead),
-            report.SessionsThatMet(m => m.PeriodicBox), report.SessionsThatMet(m => m.ClosedOrbit), report.SessionsThatMet(m => m.OtherPull),
-            report.SessionsThatMet(m => m.Wind), report.SessionsThatMet(m => m.FixedSteps), report.SessionsThatMet(m => m.ForceOnSphere),
-            report.SessionsThatMet(m => m.ForceWithRolling),
-        ];
+        int[] met = [.. SceneFeatures.All.Select(feature => report.SessionsThatMet(feature.IsMet))];
+        Assert.Equal(13, met.Length);
         Assert.True(met.Zip([5, 4, 2, 10, 5, 2, 3, 4, 4, 10, 4, 4, 6]).All(pair => pair.First >= pair.Second), string.Join(' ', met));
     }
 
