@@ -25,6 +25,7 @@ internal static class Program
         ["heaps"] = HeapTable.Print,
         ["large"] = LargeTable.Print,
         ["build"] = BuildTable.Print,
+        ["way"] = EventWayTable.Print,
     };
 
     /// <summary>Benchmarks, or with the name of a table that table; <c>brief</c> after it for a run of seconds whose figures say little; <c>tables</c> for all but traffic.</summary>
@@ -34,6 +35,11 @@ internal static class Program
         {
             BenchmarkSwitcher.FromAssembly(typeof(Program).Assembly).Run(arguments);
             return 0;
+        }
+
+        if (arguments.Length == 3 && arguments[0] == EventWayTable.RunName)
+        {
+            return EventWayTable.RunOne(arguments);
         }
 
         Action<bool>[] named = Tables.Where(t => t.Key == arguments[0] || (arguments[0] == All && t.Key != "traffic")).Select(t => t.Value).ToArray();

@@ -33,11 +33,13 @@ public class SessionBenchmark
         byte[] bytes = new byte[WireFormat.MaxBytes];
         Feed(bytes.AsSpan(0, new KnockDatagram(1).Encode(bytes)));
         ChallengeDatagram.TryDecode(port.LastSent, out ChallengeDatagram challenge, out _);
-        Feed(bytes.AsSpan(0, new JoinDatagram(1, challenge.Cookie, JoinCookies.Prove("", 1, challenge.Cookie), 0).Encode(bytes)));
+        Feed(bytes.AsSpan(0, new JoinDatagram(1, challenge.Cookie, JoinCookies.Prove("", 1, challenge.Cookie), 0, (uint)Simulation.FoldVersion).Encode(bytes)));
         WelcomeDatagram.TryDecode(port.LastSent, out WelcomeDatagram welcome, out _);
         update.SessionId = welcome.SessionId;
-        update.Peer = welcome.Peer;
         update.Ready = true;
+        Feed(old.AsSpan(0, Next(0, old)));
+        SeatDatagram.TryDecode(port.LastSent, out SeatDatagram seat, out _);
+        update.Peer = seat.Peer;
         oldLength = Next(0, old);
         Feed(old.AsSpan(0, oldLength));
         new Random(1).NextBytes(noise);

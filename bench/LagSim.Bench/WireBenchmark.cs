@@ -22,7 +22,7 @@ public class WireBenchmark
     [GlobalSetup]
     public void Fill()
     {
-        outgoing = new UpdateDatagram { SessionId = 1, Peer = 1, Number = 7, Sent = SimTime.FromSeconds(3), EchoSent = SimTime.FromSeconds(2), EchoReceived = SimTime.FromSeconds(2.5), FirstIndex = 1 };
+        outgoing = new UpdateDatagram { SessionId = 1, Peer = 1, Number = 7, Sent = SimTime.FromSeconds(3), EchoNumber = 6, EchoReceived = SimTime.FromSeconds(2.5), FirstIndex = 1 };
         for (uint n = 1; n <= Events; n++)
         {
             outgoing.TryAdd(Verdict.Pending, ExternalEvent.Teleport(SimTime.FromSeconds(3), 1, n, BodyId.OfScene(0), new Vector3D(1, 2, 3), new Vector3D(4, 5, 6)));

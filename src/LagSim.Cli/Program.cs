@@ -35,6 +35,7 @@ internal static class Program
         CheckCommand.Create(console),
         DropCommand.Create(console),
         CompareCommand.Create(console),
+        SweepCommand.Create(console),
         HoldCommand.Create(console),
         AccuracyCommand.Create(console),
         HardCommand.Create(console),

@@ -38,6 +38,15 @@ public sealed partial class Simulation
     private int slotCount;
     private Exception? fault;
 
+    /// <summary>Which fold this library computes, from 1 on: builds of one version give one scene and events the same states and hashes, to the bit.</summary>
+    /// <remarks>
+    /// <para>It is raised by one whenever a pinned hash or one of the corpus moves; a test holds it to that. It says nothing of layouts, which the versions of wire and
+    /// recordings count, nor of a program's own forces, which have their author's.</para>
+    /// <para>Peers of other versions would each compute a world of its own, and a recording of another version gives other hashes than stand in it.</para>
+    /// <para>Not a <see langword="const"/>: that would be copied into whatever is built against the library, and tell of another build than the one that runs.</para>
+    /// </remarks>
+    public static int FoldVersion => 1;
+
     /// <summary>A world at the start of its scene, with all that happens at that instant. Cost: the bodies, and which of them can meet.</summary>
     /// <param name="scene">What is simulated.</param>
     /// <param name="options">How; null for the defaults.</param>

@@ -51,13 +51,13 @@ public static class CorpusCheck
         return $"{name} {RuntimeInformation.ProcessArchitecture} ({version}), library {(world == net ? world : $"{world} and {net}")}";
     }
 
-    /// <summary>Runs one recording again. Of a damaged one what stands before the damage may well agree; that is not enough here.</summary>
+    /// <summary>Runs one recording again. Of one that is not whole what it holds may well agree; that is not enough here.</summary>
     private static string Verdict(Recording recording, string name, out bool agrees)
     {
         agrees = false;
-        if (recording.Damage is RecordingDamage damage)
+        if (!recording.IsWhole)
         {
-            return $"CANNOT {name} {damage}";
+            return $"CANNOT {name} It {recording.Extent}";
         }
 
         RecordingReplay replay = RecordingReplay.Run(recording);

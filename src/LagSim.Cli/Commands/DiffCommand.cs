@@ -12,9 +12,9 @@ internal static class DiffCommand
         CommonOptions common = new();
         Argument<string> first = new("A") { Description = "A recording." };
         Argument<string> second = new("B") { Description = "Another peer's of the same session." };
-        Command command = new("diff", "Compares two recordings and names the first thing that differs: 0 they agree in at least one committed state, 1 they"
-            + " do not or hold none in common, 3 one "
-            + "cannot be read. A damaged one counts up to its damage, which is told.")
+        Command command = new("diff", "Compares two recordings and names the first thing that differs, or up to where they agree: 0 they agree in at least"
+            + " one committed state, 1 they do not or hold none in common, 3 one cannot be read. One that is damaged or has no end record counts as far"
+            + " as it holds, which is told ('whole' in JSON).")
         {
             first, second,
         };
@@ -29,6 +29,8 @@ internal static class DiffCommand
                 throw new InputException(found.Message);
             }
 
+            RecordingOutput.WarnUnlessWhole(console.Error, files[0], recordings[0]);
+            RecordingOutput.WarnUnlessWhole(console.Error, files[1], recordings[1]);
             if (parsed.GetValue(common.Json))
             {
                 RecordingOutput.WriteJson(console.Output, parsed.GetValue(common.Seed), files, recordings, found);

@@ -28,9 +28,11 @@ internal static class HostCommand
         };
         Option<int> joiners = CommonOptions.Whole("--joiners", "Start once so many have joined; further ones may come at any time", 0, 0, SessionOptions.MaxJoiners);
         Option<double> history = CommonOptions.Number("--history-s", "How late an event may come and still be accepted", 1, 0.05, 5);
+        Option<int> perAddress = CommonOptions.Whole(
+            "--per-address", "How many may join from one address; 0 for half of the places, or --joiners if that is more", 0, 0, SessionOptions.MaxJoiners);
         Command command = new("host", "Opens a session that others join over UDP, and takes part in it. Ctrl-C ends it for everyone.")
         {
-            scene, port, address, joiners, history,
+            scene, port, address, joiners, history, perAddress,
         };
         shared.AddTo(command);
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
@@ -46,6 +48,11 @@ internal static class HostCommand
 
             request.Options.ExpectedJoiners = parsed.GetValue(joiners);
             request.Options.Window = request.Options.Window.WithHistory(SimDuration.FromSeconds(parsed.GetValue(history)));
+            if (parsed.GetValue(perAddress) is int most and > 0)
+            {
+                request.Options.MaxJoinersPerAddress = most;
+            }
+
             using UdpPort carrier = new(new IPEndPoint(local, parsed.GetValue(port)));
             HostSession session = Open(loaded, carrier, request.Options);
             bool json = parsed.GetValue(common.Json);

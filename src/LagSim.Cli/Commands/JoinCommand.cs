@@ -1,4 +1,6 @@
+using System;
 using System.CommandLine;
+using System.IO;
 using System.Net;
 using LagSim.Cli.Output;
 using LagSim.Hosting;
@@ -18,27 +20,53 @@ internal static class JoinCommand
         {
             Description = "Where the host is: 192.168.0.7:5000, [::1]:5000, or some.name:5000, of which IPv4 is taken where it has both.",
         };
+        Option<string?> pass = CommonOptions.File(
+            "--pass", "Come back as the same player after a restart: the file keeps what shows it, and is made if it is missing. Whoever has it can take the player's place.");
         Command command = new(
             "join",
             "Joins a session; the host gives the scene. Ends with 0 when the host ends the session after --for-s, or without it at any time, and with 3"
                 + " before, or if a --do was refused or not done. Below each T line: the host's clock minus this one's, by how much that may be wrong"
                 + " at most, and half a round trip.")
         {
-            host,
+            host, pass,
         };
         shared.AddTo(command);
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {
             SessionRequest request = shared.Read(parsed);
+            string? passFile = parsed.GetValue(pass);
+            if (passFile is not null)
+            {
+                request.Options.Pass = PassFile.Read(passFile);
+            }
+
             IPEndPoint there = EndPointText.Resolve(parsed.GetValue(host)!, "join", console.Stop);
             using UdpPort carrier = new(UdpDestination.Facing(there.Address));
             JoinerSession session = new(
                 null, carrier, new StopwatchClock(), request.Options, PeerAddress.From(there), Session.DrawNumber());
+            if (passFile is not null)
+            {
+                session.Begun += () => Keep(console, passFile, session);
+                session.Renewed += _ => Keep(console, passFile, session);
+            }
+
             SessionPrinter printer = new(console, parsed.GetValue(common.Json), "join", parsed.GetValue(common.Seed), request);
             using SessionRunner runner = new(session, carrier, request, printer, console.Stop);
             return runner.Run();
         });
         return command;
+    }
+
+    private static void Keep(ToolConsole console, string file, JoinerSession session)
+    {
+        try
+        {
+            PassFile.Write(file, session.Pass!.Value);
+        }
+        catch (Exception failure) when (failure is IOException or UnauthorizedAccessException)
+        {
+            console.Error.WriteLine($"The player's pass was not kept: {failure.Message}"); // the session goes on without
+        }
     }
 }

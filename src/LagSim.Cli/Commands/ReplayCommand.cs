@@ -11,8 +11,8 @@ internal static class ReplayCommand
     {
         CommonOptions common = new();
         Argument<string> file = new("FILE") { Description = "A recording." };
-        Command command = new("replay", "Runs a recording again; it must give its hashes: 0 it does, 1 it does not or has none, 3 it cannot be run. A"
-            + " damaged one counts up to its damage, which is told.") { file };
+        Command command = new("replay", "Runs a recording again; it must give its hashes: 0 it does, 1 it does not or has none, 3 it cannot be run,"
+            + " as one of another fold version. One that is damaged or has no end record counts as far as it holds, which is told ('whole' in JSON).") { file };
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {
@@ -24,11 +24,7 @@ internal static class ReplayCommand
                 throw new InputException($"{name}: {found.Message}");
             }
 
-            if (recording.Damage is RecordingDamage damage)
-            {
-                console.Error.WriteLine($"{damage} What stands before is run.");
-            }
-
+            RecordingOutput.WarnUnlessWhole(console.Error, name, recording);
             if (parsed.GetValue(common.Json))
             {
                 RecordingOutput.WriteJson(console.Output, parsed.GetValue(common.Seed), name, recording, found);

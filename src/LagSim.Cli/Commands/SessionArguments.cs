@@ -15,6 +15,7 @@ internal sealed class SessionArguments
     internal const double LeastLength = 0.1;
 
     private const double DefaultTimeoutSeconds = 10;
+    private const double DefaultRejoinSeconds = 120;
     private const double MostKeepAliveSeconds = 2;
 
     private readonly Option<string?> key = new("--key")
@@ -29,6 +30,9 @@ internal sealed class SessionArguments
         + " replaced.");
     private readonly Option<double> timeout = CommonOptions.Number(
         "--timeout-s", "After how much silence another peer is given up; to be the same everywhere", DefaultTimeoutSeconds, 0.5, 600);
+
+    private readonly Option<double> rejoin = CommonOptions.Number(
+        "--rejoin-s", "How long one that lost the other asks to be let in again, and how long a host keeps its number for it", DefaultRejoinSeconds, 0, 3600);
 
     internal SessionArguments()
     {
@@ -62,6 +66,7 @@ internal sealed class SessionArguments
         command.Options.Add(length);
         command.Options.Add(record);
         command.Options.Add(timeout);
+        command.Options.Add(rejoin);
     }
 
     /// <summary>What they say.</summary>
@@ -93,6 +98,7 @@ internal sealed class SessionArguments
         {
             ConnectKey = parsed.GetValue(key) ?? "",
             Timeout = SimDuration.FromSeconds(silence),
+            RejoinTime = SimDuration.FromSeconds(parsed.GetValue(rejoin)),
             KeepAlive = SimDuration.FromSeconds(Math.Min(MostKeepAliveSeconds, silence / 4)),
         };
         return new SessionRequest(options, ordered, seconds, file);

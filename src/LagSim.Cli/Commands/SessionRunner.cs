@@ -75,6 +75,9 @@ internal sealed class SessionRunner : IDisposable
         if (session is JoinerSession joiner)
         {
             joiner.Diverged += _ => TellDifference();
+            joiner.Interrupted += why => Tell(() => printer.Problem($"{why} Asking to be let in again."));
+            joiner.Regained += () => Tell(() => printer.Problem("The host is there again; all goes on."));
+            joiner.Renewed += _ => Tell(() => printer.Problem($"In again as player {joiner.Peer}, with a fresh copy of the world."));
         }
 
         if (request.RecordFile is string file)

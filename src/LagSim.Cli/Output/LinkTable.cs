@@ -59,7 +59,8 @@ internal sealed class LinkRow
 
     internal byte Peer => first.Peer;
 
-    internal PeerAddress Address => first.Address;
+    /// <summary>Where it was last.</summary>
+    internal PeerAddress Address => Last.Address;
 
     internal bool IsPresent { get; set; } = true;
 
@@ -72,7 +73,8 @@ internal sealed class LinkRow
     /// <summary>The same of what came.</summary>
     internal double ReceivedPerSecond => PerSecond(Last.BytesReceived - first.BytesReceived);
 
-    internal bool Is(LinkTraffic link) => link.Peer == Peer && link.Address == Address;
+    /// <summary>Whether a link is this one: to the same peer, wherever that is now, and with all that went over it before.</summary>
+    internal bool Is(LinkTraffic link) => link.Peer == Peer && link.BytesSent >= Last.BytesSent && link.BytesReceived >= Last.BytesReceived;
 
     internal void LookAt(LinkTraffic link, long at)
     {

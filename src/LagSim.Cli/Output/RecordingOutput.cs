@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
@@ -10,6 +11,19 @@ namespace LagSim.Cli.Output;
 /// <summary>Comparisons and replays of recordings as JSON.</summary>
 internal static class RecordingOutput
 {
+    /// <summary>Says on stderr of a recording that is not whole what it lacks, and up to where it counts; of any other nothing.</summary>
+    internal static void WarnUnlessWhole(TextWriter error, string file, Recording recording)
+    {
+        if (!recording.IsWhole)
+        {
+            string lacks = recording.Damage is RecordingDamage damage ? FormattableString.Invariant($"is damaged at byte {damage.Offset}") : "has no end record";
+            string counts = Since(recording, recording.HoldsUpTo) is double until
+                ? FormattableString.Invariant($"what it holds counts, up to T {until} s")
+                : "it holds no committed state before that";
+            error.WriteLine($"'{file}' {lacks}; {counts}.");
+        }
+    }
+
     internal static void WriteJson(TextWriter output, ulong seed, IReadOnlyList<string> files, IReadOnlyList<Recording> recordings, RecordingComparison found)
     {
         bool isSameScene = recordings[0].Header!.SceneHash == recordings[1].Header!.SceneHash;
@@ -21,6 +35,7 @@ internal static class RecordingOutput
                 ComparisonOutcome.Agrees => "agrees",
                 ComparisonOutcome.SceneDiffers => "scene-differs",
                 ComparisonOutcome.StartDiffers => "start-differs",
+                ComparisonOutcome.FoldVersionDiffers => "fold-version-differs",
                 ComparisonOutcome.EventDiffers => "event-differs",
                 ComparisonOutcome.StateDiffers => "state-differs",
                 _ => "nothing-in-common",
@@ -28,6 +43,8 @@ internal static class RecordingOutput
             json.WriteString("message", found.Message);
             json.WriteNumber("entries_compared", found.EntriesCompared);
             json.WriteNumber("states_compared", found.StatesCompared);
+            JsonDocumentWriter.Number(json, "agreed_up_to_s", Since(recordings[0], found.AgreedUpTo));
+            json.WriteBoolean("whole", recordings.All(recording => recording.IsWhole));
             JsonDocumentWriter.Number(json, "differs_at_entry", found.FirstEntry?.Index);
             JsonDocumentWriter.Number(json, "differs_at_s", Since(recordings[0], found.FirstState?.Time));
             json.WriteStartArray("recordings");
@@ -55,6 +72,8 @@ internal static class RecordingOutput
             json.WriteString("message", found.Message);
             json.WriteNumber("events_applied", found.EventsApplied);
             json.WriteNumber("states_checked", found.StatesChecked);
+            JsonDocumentWriter.Number(json, "agreed_up_to_s", Since(recording, found.AgreedUpTo));
+            json.WriteBoolean("whole", recording.IsWhole);
             JsonDocumentWriter.Number(json, "committed_s", Since(recording, found.Actual?.Time));
             json.WriteString("event_hash", JsonDocumentWriter.Hash(found.Actual?.EventHash));
             json.WriteString("recorded_state_hash", JsonDocumentWriter.Hash(found.Expected?.StateHash));
@@ -69,9 +88,12 @@ internal static class RecordingOutput
         json.WriteString("file", file);
         JsonDocumentWriter.Number(json, "peer", recording.Header?.Peer);
         json.WriteString("library_version", recording.Header?.LibraryVersion);
+        JsonDocumentWriter.Number(json, "fold_version", recording.Header?.FoldVersion);
         JsonDocumentWriter.Number(json, "joined_s", Since(recording, recording.Joined?.Time));
         json.WriteNumber("entries", recording.Entries.Count);
         json.WriteNumber("states", recording.Committed.Count);
+        JsonDocumentWriter.Number(json, "holds_up_to_s", Since(recording, recording.HoldsUpTo));
+        json.WriteBoolean("whole", recording.IsWhole);
         json.WriteString("end_reason", recording.EndReason);
         JsonDocumentWriter.Number(json, "damaged_at_byte", recording.Damage?.Offset);
         json.WriteString("damage", recording.Damage?.Reason);

@@ -120,7 +120,7 @@ internal sealed class SessionPrinter
         ("datagrams_sent", counters.DatagramsSent), ("datagrams_received", counters.DatagramsReceived), ("datagrams_malformed", counters.DatagramsMalformed),
         ("datagrams_ignored", counters.DatagramsIgnored), ("datagrams_dropped", port.Dropped), ("send_failures", port.SendFailures),
         ("receive_failures", port.ReceiveFailures), ("events_forged", counters.EventsForged), ("events_deferred", counters.EventsDeferred),
-        ("events_lost", counters.EventsLost),
+        ("events_lost", counters.EventsLost), ("events_unanswered", counters.EventsUnanswered), ("renewals", counters.Renewals),
     ];
 
     private void Progress(string text)
@@ -237,6 +237,7 @@ internal sealed class SessionPrinter
         SessionEnd.Refused => "refused",
         SessionEnd.HostSilent => "host-silent",
         SessionEnd.LetGo => "let-go",
+        SessionEnd.LinkTooSlow => "link-too-slow",
         _ => "failed",
     };
 }

@@ -176,6 +176,18 @@ internal sealed class CheckSession
             member.Heals = new HealImpacts(simulation, report => report.From < session.SharedTime.Now);
         };
         session.StateCommitted += member.Committed.Add;
+        if (session is JoinerSession joiner)
+        {
+            joiner.Interrupted += _ =>
+            {
+                // What is repaired still counts: the world as it was is held against the one that never had a delay.
+                if (joiner.Counters.StatesDiffered > 0)
+                {
+                    member.Wrong.Add(joiner.World!.Simulation);
+                }
+            };
+        }
+
         if (address == 0)
         {
             session.Logged += Log;
@@ -315,6 +327,11 @@ internal sealed class CheckSession
             member.Committed.ForEach(state => comparison.Take(member.Peer, state));
         }
 
+        foreach (Member member in members)
+        {
+            member.Wrong.ForEach(world => comparison.Take(member.Peer, world));
+        }
+
         foreach (Member member in there)
         {
             comparison.Take(member.Peer, member.Session.World!.Simulation);
@@ -368,6 +385,9 @@ internal sealed class CheckSession
         internal HealImpacts? Heals { get; set; }
 
         internal List<CommittedState> Committed { get; } = [];
+
+        /// <summary>Its worlds that turned out to differ, and were replaced.</summary>
+        internal List<Simulation> Wrong { get; } = [];
 
         internal bool HasGone { get; set; }
     }

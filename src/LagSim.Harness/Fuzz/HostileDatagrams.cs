@@ -125,22 +125,30 @@ public sealed class HostileDatagrams
     /// <summary>A true form with values drawn, the session's number sometimes that of a datagram seen.</summary>
     private byte[] MadeUp()
     {
-        int length = Below(9) switch
+        int length = Below(11) switch
         {
             0 => new KnockDatagram(random.NextUInt64()).Encode(buffer),
             1 => new ChallengeDatagram(random.NextUInt64(), Token()).Encode(buffer),
-            2 => new JoinDatagram(random.NextUInt64(), Token(), Token(), random.NextUInt64()).Encode(buffer),
+            2 => Join().Encode(buffer),
             3 => new FetchDatagram(Session(), (byte)Below(10), (uint)Below(100), (uint)Below(100), random.NextUInt64()).Encode(buffer),
             4 => new LeaveDatagram(random.NextUInt64(), (byte)Below(10), (LeaveReason)(1 + Below(6))).Encode(buffer),
             5 => new WelcomeDatagram(
-                random.NextUInt64(), Session(), (byte)(1 + Below(9)), (uint)Below(9), SimDuration.FromSeconds(1), 1 + Below(WorldCopy.MaxBytes),
-                random.NextUInt64(), (uint)Below(9)).Encode(buffer),
+                random.NextUInt64(), Session(), SimDuration.FromSeconds(1), 1 + Below(WorldCopy.MaxBytes), random.NextUInt64(), (uint)Below(9)).Encode(buffer),
             6 => new DoubtDatagram(
                 Session(), (byte)Below(10), (uint)Below(100), SimTime.FromSeconds(Below(20)), SimTime.FromSeconds(20 + Below(20)), (uint)Below(70)).Encode(buffer),
             7 => Evidence().Encode(buffer),
+            8 => new SeatDatagram(Session(), (byte)(1 + Below(9)), (uint)Below(9), Token()).Encode(buffer),
+            9 => new MoveDatagram(Session(), (byte)Below(10), Token()).Encode(buffer),
             _ => Update().Encode(buffer),
         };
         return buffer.AsSpan(0, length).ToArray();
+    }
+
+    private JoinDatagram Join()
+    {
+        byte player = (byte)Below(10);
+        return new JoinDatagram(
+            random.NextUInt64(), Token(), Token(), random.NextUInt64(), (uint)(Simulation.FoldVersion + Below(2)), player, player == 0 ? default : Token());
     }
 
     private EvidenceDatagram Evidence() => Below(4) == 0
@@ -181,6 +189,9 @@ public sealed class HostileDatagrams
             Peer = (byte)Below(10),
             Number = (uint)random.NextUInt64(),
             Sent = Time(),
+            EchoNumber = 1 + (uint)Below(200),
+            EchoBits = (uint)random.NextUInt64(),
+            EchoReceived = Time(),
             EventsReceived = (uint)Below(2) * (uint)random.NextUInt64(),
             FirstIndex = (uint)Below(100),
             Ready = Below(2) == 0,

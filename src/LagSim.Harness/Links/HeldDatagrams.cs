@@ -15,8 +15,10 @@ internal sealed class HeldDatagrams
     private readonly Func<PeerAddress, LinkModel?> linkFrom;
     private readonly Dictionary<PeerAddress, LinkModel> links = [];
     private readonly PriorityQueue<(byte[] Datagram, PeerAddress From), (SimTime Due, long Sequence)> held = new();
+    private readonly List<LinkModel> deciding = []; // those that do not decide at once
     private readonly byte[] buffer = new byte[IDatagramPort.MaxDatagramBytes];
     private long sequence;
+    private int undecided;
 
     /// <summary>Nothing held yet.</summary>
     /// <param name="linkFrom">Called once for each sender; null refuses a datagram, and the sender is asked about again.</param>
@@ -28,7 +30,20 @@ internal sealed class HeldDatagrams
     /// <summary>How many came from a sender that has no link.</summary>
     internal long Refused { get; private set; }
 
-    internal SimTime? NextDue => held.TryPeek(out _, out (SimTime Due, long Sequence) first) ? first.Due : null;
+    /// <summary>When the next is due, or a queue decides on one; null when none is held.</summary>
+    internal SimTime? NextDue
+    {
+        get
+        {
+            SimTime? next = held.TryPeek(out _, out (SimTime Due, long Sequence) first) ? first.Due : null;
+            foreach (LinkModel link in deciding)
+            {
+                next = link.Queue!.NextDecision is SimTime decision && !(next <= decision) ? decision : next;
+            }
+
+            return next;
+        }
+    }
 
     /// <summary>A link maker that gives each sender the same leg and its own luck, in the order in which they are first heard of.</summary>
     internal static Func<PeerAddress, LinkModel> SameLegs(LinkLeg leg, ulong seed)
@@ -52,17 +67,23 @@ internal sealed class HeldDatagrams
                 continue;
             }
 
-            LinkDeliveries deliveries = link.Send(now);
-            if (deliveries.Count == 0 || held.Count + deliveries.Count > MaxHeld)
+            if (link.DecidesAtOnce)
+            {
+                Hold(link.Send(now, length), buffer.AsSpan(0, length), from);
+            }
+            else if (held.Count + undecided >= MaxHeld)
             {
                 Lost++;
-                continue;
             }
-
-            byte[] datagram = buffer.AsSpan(0, length).ToArray();
-            for (int i = 0; i < deliveries.Count; i++)
+            else
             {
-                held.Enqueue((datagram, from), (deliveries[i], sequence++));
+                byte[] datagram = buffer.AsSpan(0, length).ToArray();
+                undecided++;
+                link.Send(now, length, deliveries =>
+                {
+                    undecided--;
+                    Hold(deliveries, datagram, from);
+                });
             }
         }
 
@@ -72,6 +93,11 @@ internal sealed class HeldDatagrams
     /// <summary>The earliest datagram that is due by <paramref name="now"/>; of those due at one tick the one that came first.</summary>
     internal bool TryDequeueDue(SimTime now, out (byte[] Datagram, PeerAddress From) datagram)
     {
+        foreach (LinkModel link in deciding)
+        {
+            link.Queue!.DecideUntil(now);
+        }
+
         if (held.TryPeek(out datagram, out (SimTime Due, long Sequence) first) && first.Due <= now)
         {
             held.Dequeue();
@@ -82,6 +108,21 @@ internal sealed class HeldDatagrams
         return false;
     }
 
+    private void Hold(in LinkDeliveries deliveries, ReadOnlySpan<byte> datagram, PeerAddress from)
+    {
+        if (deliveries.Count == 0 || held.Count + deliveries.Count > MaxHeld)
+        {
+            Lost++;
+            return;
+        }
+
+        byte[] copy = datagram.ToArray();
+        for (int i = 0; i < deliveries.Count; i++)
+        {
+            held.Enqueue((copy, from), (deliveries[i], sequence++));
+        }
+    }
+
     private LinkModel? LinkFrom(PeerAddress sender)
     {
         if (!links.TryGetValue(sender, out LinkModel? link))
@@ -90,6 +131,10 @@ internal sealed class HeldDatagrams
             if (link is not null)
             {
                 links[sender] = link;
+                if (!link.DecidesAtOnce)
+                {
+                    deciding.Add(link);
+                }
             }
         }
 

@@ -108,6 +108,9 @@ public sealed class LinkLeg
     /// <summary>When it loses more than at other times; null, the default: never.</summary>
     public PeriodicOutage? Outage { get; init; }
 
+    /// <summary>Where it is narrowest: a rate, and a queue before it, through which a datagram goes before all else; null, the default: as wide as need be.</summary>
+    public Bottleneck? Bottleneck { get; init; }
+
     private static double InRange(double value, double low, double high, string parameter) =>
         value >= low && value <= high // false for NaN
             ? value

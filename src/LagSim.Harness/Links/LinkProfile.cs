@@ -47,6 +47,19 @@ public sealed class LinkProfile
     /// sets up the machines gives the player's a clock that far off.</summary>
     public SimDuration ReceiverClockOffset { get; }
 
+    /// <summary>
+    /// Whether a bulk TCP transfer towards the player goes through the same queues as all else, its acknowledgements the other way; default false.
+    /// <see cref="VirtualNetwork"/>, <see cref="UdpRelay"/> and peers in real time run one for each link of such a profile by themselves.
+    /// </summary>
+    /// <exception cref="ArgumentException">The way down has no <see cref="LinkLeg.Bottleneck"/>: nothing would hold the transfer back.</exception>
+    public bool HasBulkTransfer
+    {
+        get;
+        init => field = !value || FromHost.Bottleneck is not null
+            ? value
+            : throw new ArgumentException($"A bulk transfer over '{Name}' needs a bottleneck on the way down; nothing else would hold it back.", nameof(value));
+    }
+
     /// <summary>The usual round trip in milliseconds: the sum of the two delays, without what varies.</summary>
     public double RoundTripMilliseconds => ToHost.DelayMilliseconds + FromHost.DelayMilliseconds;
 

@@ -76,6 +76,25 @@ public static class LinkProfiles
     public static LinkProfile Blackout { get; } =
         new("blackout", new LinkLeg(40, 2) { Outage = new PeriodicOutage(periodSeconds: 20, lengthSeconds: 1.5) });
 
+    /// <summary>A slow ADSL line: 25 ms, jitter 2 ms; 256 kbit/s up and 2 Mbit/s down, with a queue of 500 ms each.</summary>
+    public static LinkProfile Dsl256K { get; } = new(
+        "dsl-256k",
+        toHost: new LinkLeg(25, 2) { Bottleneck = new Bottleneck(256_000, 500) },
+        fromHost: new LinkLeg(25, 2) { Bottleneck = new Bottleneck(2_000_000, 500) });
+
+    /// <summary>What a modem gave, or a phone at the edge of its cell gives: 60 ms, jitter 5 ms; 64 kbit/s each way, with a queue of 1 s.</summary>
+    public static LinkProfile Modem64K { get; } = new("modem-64k", new LinkLeg(60, 5) { Bottleneck = new Bottleneck(64_000, 1_000) });
+
+    /// <summary>A line whose queue is much too long, and somebody downloads over it: 20 ms, jitter 2 ms; 1 Mbit/s each way, with a queue of 2 s.</summary>
+    public static LinkProfile Bufferbloat { get; } =
+        new("bufferbloat", new LinkLeg(20, 2) { Bottleneck = new Bottleneck(1_000_000, 2_000) }) { HasBulkTransfer = true };
+
+    /// <summary>A line that gets narrow for 5 s every 30 s, both ways at once: 40 ms, jitter 2 ms; 512 kbit/s, then 100 kbit/s, with a queue of 1 s.</summary>
+    public static LinkProfile Dip { get; } = new("dip", new LinkLeg(40, 2)
+    {
+        Bottleneck = new Bottleneck(512_000, 1_000) { Dip = new PeriodicDip(periodSeconds: 30, lengthSeconds: 5, rateBitsPerSecond: 100_000) },
+    });
+
     /// <summary>Pure delays from nothing to 2 s: 0, 10, 20, 50, 100, 200, 500, 1000, 2000 ms one way.</summary>
     public static IReadOnlyList<LinkProfile> Ladder { get; } = Array.ConvertAll(LadderSteps, PureDelay);
 
@@ -83,6 +102,7 @@ public static class LinkProfiles
     public static IReadOnlyList<LinkProfile> All { get; } =
     [
         Loopback, Lan, SkewedClock, WifiGood, WifiBusy, FourG, ThreeG, FiveG, Starlink, Transatlantic, EuAustralia, Satellite, Awful, Blackout,
+        Dsl256K, Modem64K, Bufferbloat, Dip,
         .. Ladder,
     ];
 

@@ -18,6 +18,7 @@ internal sealed class RelayCore : IDisposable
     private readonly HeldDatagrams toHost;
     private readonly Dictionary<PeerAddress, Client> clients = [];
     private readonly object gate = new(); // six counters that belong together; taken only to replace or copy them
+    private SimTime polled;
     private RelayTraffic traffic;
     private long forwardedToHost;
     private long forwardedFromHost;
@@ -57,6 +58,7 @@ internal sealed class RelayCore : IDisposable
     /// <returns>When the next datagram is due; null when none is on its way.</returns>
     internal SimTime? Poll(SimTime now)
     {
+        polled = now;
         toHost.TakeFrom(front, now);
         while (toHost.TryDequeueDue(now, out (byte[] Datagram, PeerAddress From) up))
         {
@@ -100,9 +102,14 @@ internal sealed class RelayCore : IDisposable
 
         SeededRandom luck = random.Fork((ulong)clients.Count);
         SeededRandom path = luck.Fork(2);
-        LinkModel down = new(profile.FromHost, luck.Fork(1), path);
+        LinkModel down = new(profile.FromHost, luck.Fork(1), path), up = new(profile.ToHost, luck.Fork(0), path);
         clients.Add(client, new Client(client, port, new HeldDatagrams(from => from == host ? down : null)));
-        return new LinkModel(profile.ToHost, luck.Fork(0), path);
+        if (profile.HasBulkTransfer)
+        {
+            _ = new BulkTransfer(new LinkModel(profile.FromHost, luck.Fork(3), path, down.Queue), new LinkModel(profile.ToHost, luck.Fork(4), path, up.Queue), polled);
+        }
+
+        return up;
     }
 
     private void Count()

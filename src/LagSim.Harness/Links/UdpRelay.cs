@@ -18,7 +18,8 @@ namespace LagSim.Harness.Links;
 /// directions of a client's link at once. Datagrams are handed on as they are, whatever is in them.</para>
 /// <para>A thread of its own waits, without spinning, for the next datagram that comes in or falls due; it is late by the operating system's
 /// timer: about 1 ms on Linux and macOS, up to 16 ms on Windows. Which luck a datagram meets depends on the seed and the order of arrival;
-/// when it is due also on the clock. The profile's <see cref="LinkProfile.ReceiverClockOffset"/> is no matter of a relay.</para>
+/// when it is due also on the clock. The profile's <see cref="LinkProfile.ReceiverClockOffset"/> is no matter of a relay. A bulk transfer of
+/// the profile's is simulated beside what is real, from a client's first datagram on, for each client on a link of its own.</para>
 /// <para>Safe on any thread.</para>
 /// </remarks>
 public sealed class UdpRelay : IDisposable

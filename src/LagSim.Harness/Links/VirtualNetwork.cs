@@ -14,15 +14,19 @@ namespace LagSim.Harness.Links;
 public sealed class VirtualNetwork
 {
     private const ulong SharedByBothWays = ulong.MaxValue; // no generation gets there
+    private const ulong OfTransfers = ulong.MaxValue - 1;
 
     private readonly SeededRandom random;
     private readonly LinkProfile profile;
     private readonly Dictionary<PeerAddress, VirtualPort> ports = [];
     private readonly Dictionary<(int From, int To), LinkModel> links = [];
+    private readonly List<(int From, int To, BulkTransfer Transfer)> transfers = [];
     private readonly List<Func<int, int, ReadOnlyMemory<byte>, bool>> lossRules = [];
     private readonly PriorityQueue<Flight, (SimTime Time, long Sequence)> inFlight = new();
+    private readonly List<LinkQueue> undecided = []; // those that decide later; one that a link no longer has may still hold some
     private long sequence;
     private ulong linksMade;
+    private ulong transfersMade;
 
     /// <summary>A network without nodes.</summary>
     /// <param name="clock">True time. Who else moves it must not move it past <see cref="NextDelivery"/> without delivering.</param>
@@ -39,8 +43,8 @@ public sealed class VirtualNetwork
     /// <summary>True time.</summary>
     public VirtualClock Clock { get; }
 
-    /// <summary>When the next datagram arrives; null when none is in flight.</summary>
-    public SimTime? NextDelivery => inFlight.TryPeek(out _, out (SimTime Time, long Sequence) due) ? due.Time : null;
+    /// <summary>When the next datagram arrives, or a queue of CoDel decides on one; null when none is in flight.</summary>
+    public SimTime? NextDelivery => NextDecision is SimTime decision && !(NextArrival < decision) ? decision : NextArrival;
 
     /// <summary>How many datagrams did not arrive: lost by a link or a rule, or sent to nobody.</summary>
     public long DatagramsLost { get; private set; }
@@ -61,20 +65,80 @@ public sealed class VirtualNetwork
         return port;
     }
 
-    /// <summary>Joins a player and the host by a link of that profile, both ways.</summary>
-    public void Connect(int player, int host, LinkProfile link)
+    private SimTime? NextArrival => inFlight.TryPeek(out _, out (SimTime Time, long Sequence) due) ? due.Time : null;
+
+    private SimTime? NextDecision
     {
-        ArgumentNullException.ThrowIfNull(link);
-        SetLink(player, host, link.ToHost);
-        SetLink(host, player, link.FromHost);
+        get
+        {
+            SimTime? next = null;
+            foreach (LinkQueue queue in undecided)
+            {
+                next = queue.NextDecision is SimTime decision && !(next <= decision) ? decision : next;
+            }
+
+            return next;
+        }
     }
 
-    /// <summary>Says what the direction from one node to another does from now on; what is in flight arrives as it would have.</summary>
-    public void SetLink(int from, int to, LinkLeg leg)
+    /// <summary>Joins a player and the host by a link of that profile, both ways; with its <see cref="LinkProfile.HasBulkTransfer"/>, from now on.</summary>
+    /// <param name="player">The player's number.</param>
+    /// <param name="host">The host's.</param>
+    /// <param name="link">What the link does.</param>
+    /// <param name="up">A queue towards the host to share with other directions, as for <see cref="SetLink"/>.</param>
+    /// <param name="down">Likewise towards the player.</param>
+    public void Connect(int player, int host, LinkProfile link, LinkQueue? up = null, LinkQueue? down = null)
+    {
+        ArgumentNullException.ThrowIfNull(link);
+        SetLink(player, host, link.ToHost, up);
+        SetLink(host, player, link.FromHost, down);
+        if (link.HasBulkTransfer)
+        {
+            StartBulkTransfer(host, player);
+        }
+    }
+
+    /// <summary>Says what the direction from one node to another does from now on; what is in flight, or waits in a queue, arrives as it would have, and
+    /// bulk transfers between the two end.</summary>
+    /// <param name="from">The sender's number.</param>
+    /// <param name="to">The receiver's.</param>
+    /// <param name="leg">What the direction does.</param>
+    /// <param name="queue">A queue through which other directions go too, of this network or any at the same true time; it stands in place of the
+    /// leg's own <see cref="LinkLeg.Bottleneck"/>. Default: the leg's own, if it has one.</param>
+    public void SetLink(int from, int to, LinkLeg leg, LinkQueue? queue = null)
     {
         // A link made anew in the middle of a run must not repeat the luck of the one that it follows.
         ulong generation = links.ContainsKey((from, to)) ? ++linksMade : 0;
-        links[(from, to)] = new LinkModel(leg, Luck(from, to).Fork(generation), Luck(Math.Min(from, to), Math.Max(from, to)).Fork(SharedByBothWays));
+        LinkModel link = new(leg, Luck(from, to).Fork(generation), PathLuck(from, to), queue);
+        links[(from, to)] = link;
+        foreach ((int _, int _, BulkTransfer ended) in transfers.FindAll(t => IsPair(t.From, t.To, from, to)))
+        {
+            ended.Stop();
+        }
+
+        transfers.RemoveAll(t => IsPair(t.From, t.To, from, to));
+        if (!link.DecidesAtOnce && !undecided.Contains(link.Queue!))
+        {
+            undecided.Add(link.Queue!);
+        }
+    }
+
+    /// <summary>Begins a bulk TCP transfer from one node to another: competing traffic on the link between them, and on all that share its queues.</summary>
+    /// <remarks>It takes the links as they are; nodes at both ends are not needed, and hear nothing of it. It ends when one of the two directions is set anew.</remarks>
+    /// <exception cref="InvalidOperationException">The direction has no bottleneck: nothing would hold the transfer back.</exception>
+    public BulkTransfer StartBulkTransfer(int from, int to)
+    {
+        LinkModel there = Link(from, to), back = Link(to, from);
+        if (there.Queue is null)
+        {
+            throw new InvalidOperationException($"A bulk transfer from {from} to {to} needs a bottleneck on its way; nothing else would hold it back.");
+        }
+
+        SeededRandom luck = Luck(from, to).Fork(OfTransfers).Fork(transfersMade++), path = PathLuck(from, to);
+        BulkTransfer transfer = new(
+            new LinkModel(there.Leg, luck.Fork(0), path, there.Queue), new LinkModel(back.Leg, luck.Fork(1), path, back.Queue), Clock.Now);
+        transfers.Add((from, to, transfer));
+        return transfer;
     }
 
     /// <summary>Loses for good each datagram of which the rule says so; all rules given count.</summary>
@@ -95,7 +159,7 @@ public sealed class VirtualNetwork
     public int DeliverUntil(SimTime now)
     {
         int delivered = 0;
-        while (inFlight.TryPeek(out Flight flight, out (SimTime Time, long Sequence) due) && due.Time <= now)
+        while (DecideUntil(now) && inFlight.TryPeek(out Flight flight, out (SimTime Time, long Sequence) due) && due.Time <= now)
         {
             inFlight.Dequeue();
             Clock.Now = SimTime.Max(Clock.Now, due.Time);
@@ -110,6 +174,11 @@ public sealed class VirtualNetwork
         }
 
         Clock.Now = now;
+        foreach ((int _, int _, BulkTransfer transfer) in transfers)
+        {
+            transfer.RunUntil(now); // whatever goes through its queues finds it where it should be; who only reads its figures does so by this
+        }
+
         return delivered;
     }
 
@@ -122,15 +191,35 @@ public sealed class VirtualNetwork
             return;
         }
 
-        // The link is asked even for what a rule loses, so that a test which loses one datagram changes the luck of no other.
-        LinkDeliveries deliveries = Link(from.Number, receiver.Number).Send(Clock.Now);
-        bool lost = deliveries.Count == 0;
+        LinkModel link = Link(from.Number, receiver.Number);
+        PeerAddress sender = from.LocalAddress;
+        if (link.DecidesAtOnce)
+        {
+            // The link is asked even for what a rule loses, so that a test which loses one datagram changes the luck of no other.
+            LinkDeliveries deliveries = link.Send(Clock.Now, datagram.Length);
+            Fly(deliveries, IsLostByRule(from.Number, receiver.Number, datagram), new Flight(datagram, sender, to));
+        }
+        else
+        {
+            bool lost = IsLostByRule(from.Number, receiver.Number, datagram);
+            link.Send(Clock.Now, datagram.Length, deliveries => Fly(deliveries, lost, new Flight(datagram, sender, to)));
+        }
+    }
+
+    private bool IsLostByRule(int from, int to, byte[] datagram)
+    {
+        bool lost = false;
         foreach (Func<int, int, ReadOnlyMemory<byte>, bool> rule in lossRules)
         {
-            lost |= rule(from.Number, receiver.Number, datagram);
+            lost |= rule(from, to, datagram);
         }
 
-        if (lost)
+        return lost;
+    }
+
+    private void Fly(in LinkDeliveries deliveries, bool lostByRule, in Flight flight)
+    {
+        if (lostByRule || deliveries.Count == 0)
         {
             DatagramsLost++;
             return;
@@ -138,22 +227,48 @@ public sealed class VirtualNetwork
 
         for (int i = 0; i < deliveries.Count; i++)
         {
-            inFlight.Enqueue(new Flight(datagram, from.LocalAddress, to), (deliveries[i], sequence++));
+            inFlight.Enqueue(flight, (deliveries[i], sequence++));
         }
     }
 
+    /// <summary>Has the queues decide what is to be decided before anything else arrives.</summary>
+    private bool DecideUntil(SimTime now)
+    {
+        while (NextDecision is SimTime decision && decision <= now && !(NextArrival < decision))
+        {
+            foreach (LinkQueue queue in undecided)
+            {
+                queue.DecideUntil(decision);
+            }
+        }
+
+        return true;
+    }
+
     private SeededRandom Luck(int from, int to) => random.Fork(((ulong)(uint)from << 32) | (uint)to);
+
+    private SeededRandom PathLuck(int from, int to) => Luck(Math.Min(from, to), Math.Max(from, to)).Fork(SharedByBothWays);
 
     private LinkModel Link(int from, int to)
     {
         if (!links.TryGetValue((from, to), out LinkModel? link))
         {
-            SetLink(from, to, from < to ? profile.FromHost : profile.ToHost);
+            SetLink(from, to, Usual(from, to));
+            if (profile.HasBulkTransfer && !links.ContainsKey((to, from)))
+            {
+                SetLink(to, from, Usual(to, from));
+                StartBulkTransfer(Math.Min(from, to), Math.Max(from, to));
+            }
+
             link = links[(from, to)];
         }
 
         return link;
     }
+
+    private LinkLeg Usual(int from, int to) => from < to ? profile.FromHost : profile.ToHost;
+
+    private static bool IsPair(int from, int to, int one, int other) => (from == one && to == other) || (from == other && to == one);
 
     private readonly record struct Flight(byte[] Datagram, PeerAddress From, PeerAddress To);
 }

@@ -38,6 +38,7 @@ public sealed record PeerGroupOptions(
     /// <summary>The session options that all peers of a test use: history enough for every link, timelines kept for the whole run.</summary>
     internal Net.Sessions.SessionOptions ToSessionOptions() => new()
     {
+        RejoinTime = SimDuration.Zero, // a peer that drops out is told, not waited for
         Strategy = Strategy,
         DisplayDelay = DisplayDelay,
         StartLead = StartLead,

@@ -167,9 +167,20 @@ public sealed class RealPeers : PeerGroup
     {
         int joiner = receiver == 0 ? Array.FindIndex(ports, port => port?.LocalAddress == from) : receiver;
         SeededRandom luck = new SeededRandom(options.Seed).Fork((ulong)joiner);
-        return receiver == 0
-            ? new LinkModel(options.Link.ToHost, luck.Fork(0), luck.Fork(2))
-            : new LinkModel(options.Link.FromHost, luck.Fork(1), luck.Fork(2));
+        if (receiver == 0)
+        {
+            return new LinkModel(options.Link.ToHost, luck.Fork(0), luck.Fork(2));
+        }
+
+        LinkModel down = new(options.Link.FromHost, luck.Fork(1), luck.Fork(2));
+        if (options.Link.HasBulkTransfer)
+        {
+            // The way up is another thread's. So acknowledgements have a queue of their own: a twentieth of its rate that the session is not made to share.
+            LinkModel acks = new(options.Link.ToHost, luck.Fork(4), luck.Fork(2));
+            _ = new BulkTransfer(new LinkModel(options.Link.FromHost, luck.Fork(3), luck.Fork(2), down.Queue), acks, trueTime.Now);
+        }
+
+        return down;
     }
 
     private void Run(SimTime end, Session[] clocks, Action<SimDuration>? progress)

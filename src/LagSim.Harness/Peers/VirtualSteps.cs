@@ -96,7 +96,7 @@ public sealed class VirtualSteps
         }
     }
 
-    private static bool IsBehind(Session session) => session.State != SessionState.Ended && session.World?.IsBehind == true;
+    private static bool IsBehind(Session session) => session.State is not (SessionState.Ended or SessionState.Rejoining) && session.World?.IsBehind == true;
 
     /// <summary>Lets that much true time pass.</summary>
     public void RunFor(SimDuration span)

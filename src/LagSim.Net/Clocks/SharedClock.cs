@@ -24,6 +24,7 @@ public sealed class SharedClock : IClock
     private SimTime read; // own clock, when the remainder was last brought up to date
     private SimDuration remaining; // target minus offset
     private bool set;
+    private bool restarts; // the next estimate is taken at once
 
     /// <summary>A clock that is not set yet.</summary>
     /// <param name="own">This machine's own clock, which no one adjusts.</param>
@@ -104,12 +105,22 @@ public sealed class SharedClock : IClock
             if (set)
             {
                 AdvanceTo(now); // the time until now belongs to the estimate before this one
-                remaining = offset - CurrentOffset;
+                remaining = restarts ? SimDuration.Zero : offset - CurrentOffset;
             }
 
             set = true;
+            restarts = false;
             read = now;
             target = estimate;
+        }
+    }
+
+    /// <summary>Has the next estimate set the clock at once, as the first did: for a world that begins anew. Until then it runs on.</summary>
+    internal void Restart()
+    {
+        lock (gate)
+        {
+            restarts = true;
         }
     }
 

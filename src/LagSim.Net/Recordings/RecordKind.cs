@@ -18,6 +18,6 @@ internal enum RecordKind : byte
     /// <summary>The hashes of a committed state.</summary>
     Committed = 5,
 
-    /// <summary>Why the recording ends. The last record; missing where the process was killed.</summary>
+    /// <summary>Why the recording ends. The last record; missing where the process was killed or the file was cut.</summary>
     End = 6,
 }

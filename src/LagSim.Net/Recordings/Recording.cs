@@ -3,13 +3,15 @@ using System.Collections.Generic;
 using System.IO;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Time;
 
 namespace LagSim.Net.Recordings;
 
 /// <summary>What a peer wrote down of a session: the scene, the host's log, and the hashes of its committed states.</summary>
 /// <remarks>
 /// <para>A file that was cut or damaged is read up to the damage: what stands before is here, and <see cref="Damage"/> says where it ends and
-/// why. A file without damage and without <see cref="EndReason"/> is of a process that was killed, or still writes.</para>
+/// why. A file without damage and without <see cref="EndReason"/> is of a process that was killed or still writes, or was cut where a record ends. None of
+/// these <see cref="IsWhole"/>, and what is here of any of them counts.</para>
 /// <para>Immutable, safe on any thread.</para>
 /// </remarks>
 public sealed class Recording
@@ -62,6 +64,26 @@ public sealed class Recording
 
     /// <summary>Where the file can no longer be read; null when all of it was.</summary>
     public RecordingDamage? Damage { get; }
+
+    /// <summary>Whether nothing is missing: the file has its end record, and no damage.</summary>
+    public bool IsWhole => EndReason is not null && Damage is null;
+
+    /// <summary>The time of the last committed state, up to which the recording can be run again and compared; null when it has none.</summary>
+    public SimTime? HoldsUpTo => CommittedArray.Length > 0 ? CommittedArray[^1].Time : null;
+
+    /// <summary>How far it holds and what it lacks, as the rest of a sentence that begins with what it is called: <c>holds 3 log entries, and ...</c></summary>
+    public string Extent
+    {
+        get
+        {
+            string held = Header is null ? "nothing"
+                : HoldsUpTo is SimTime time ? $"{Words.Count(EntryArray.Length, "log entry")}, and {Words.Count(CommittedArray.Length, "committed state")} up to {Words.SinceStart(time, Header.Start)}"
+                : $"{Words.Count(EntryArray.Length, "log entry")} and no committed state";
+            return Damage is not null ? FormattableString.Invariant($"is damaged at byte {Damage.Offset}, and holds {held} before that: {Damage.Reason}")
+                : IsWhole ? $"holds {held}."
+                : $"has no end record: its writer was ended or still writes, or the file is cut; it holds {held}.";
+        }
+    }
 
     internal LogEntry[] EntryArray { get; }
 

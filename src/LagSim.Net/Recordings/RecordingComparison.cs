@@ -10,11 +10,12 @@ namespace LagSim.Net.Recordings;
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class RecordingComparison
 {
-    private RecordingComparison(ComparisonOutcome outcome, int entriesCompared, int statesCompared, string message)
+    private RecordingComparison(ComparisonOutcome outcome, int entriesCompared, int statesCompared, SimTime? agreedUpTo, string message)
     {
         Outcome = outcome;
         EntriesCompared = entriesCompared;
         StatesCompared = statesCompared;
+        AgreedUpTo = agreedUpTo;
         Message = message;
     }
 
@@ -24,8 +25,11 @@ public sealed class RecordingComparison
     /// <summary>How many entries of the log are the same in both.</summary>
     public int EntriesCompared { get; }
 
-    /// <summary>How many committed states are the same in both.</summary>
+    /// <summary>How many committed states are the same in both, up to the first that is not.</summary>
     public int StatesCompared { get; }
+
+    /// <summary>The time of the last of these; null for none.</summary>
+    public SimTime? AgreedUpTo { get; }
 
     /// <summary>Of <see cref="ComparisonOutcome.EventDiffers"/> the first recording's entry; else null.</summary>
     public LogEntry? FirstEntry { get; private set; }
@@ -45,11 +49,11 @@ public sealed class RecordingComparison
     /// <summary>Of <see cref="ComparisonOutcome.StateDiffers"/> the second recording run again up to that time; else null.</summary>
     public RecordingReplay? SecondReplay { get; private set; }
 
-    /// <summary>The result for people: one or several sentences.</summary>
+    /// <summary>The result for people: what was found, up to where they agree, and how far each of them holds.</summary>
     public string Message { get; }
 
     /// <summary>
-    /// Compares scenes, starts, the entries of the log that both hold, and the committed states of the times that both hold, in this order.
+    /// Compares scenes, starts, fold versions, the entries of the log that both hold, and the committed states of the times that both hold, in this order.
     /// Where a state differs, both are run again to see which departs from its own scene and events.
     /// </summary>
     /// <param name="first">One recording.</param>
@@ -65,41 +69,49 @@ public sealed class RecordingComparison
         if (first.Header is not RecordingHeader a || second.Header is not RecordingHeader b)
         {
             return new RecordingComparison(
-                ComparisonOutcome.NothingInCommon, 0, 0, "The recordings cannot be compared without both their headers." + Remarks(first, second));
+                ComparisonOutcome.NothingInCommon, 0, 0, null, "The recordings cannot be compared without both their headers." + Remarks(first, second));
         }
 
         if (a.SceneHash != b.SceneHash)
         {
             return new RecordingComparison(
-                ComparisonOutcome.SceneDiffers, 0, 0,
+                ComparisonOutcome.SceneDiffers, 0, 0, null,
                 $"The scenes differ: {Title(first)} in the first, {Title(second)} in the second." + Remarks(first, second));
         }
 
         if (a.Start != b.Start)
         {
             return new RecordingComparison(
-                ComparisonOutcome.StartDiffers, 0, 0,
+                ComparisonOutcome.StartDiffers, 0, 0, null,
                 $"The starts differ: the first session started at {a.Start.ToShortString()}, the second at"
                 + $" {b.Start.ToShortString()}." + Remarks(first, second));
         }
 
+        if (a.FoldVersion != b.FoldVersion)
+        {
+            return new RecordingComparison(
+                ComparisonOutcome.FoldVersionDiffers, 0, 0, null,
+                FormattableString.Invariant($"The fold versions differ: {a.FoldVersion} in the first, by the library {a.LibraryVersion}; {b.FoldVersion} in the second, by the library {b.LibraryVersion}.")
+                    + " They make different states of the same scene and events, so the hashes of one say nothing of the other's." + Remarks(first, second));
+        }
+
         int entries = SameEntries(first, second, out LogEntry? firstEntry, out LogEntry? secondEntry);
+        int states = SameStates(first, second, out SimTime? agreed, out CommittedState? firstState, out CommittedState? secondState);
         if (firstEntry is LogEntry one && secondEntry is LogEntry other)
         {
             return new RecordingComparison(
-                ComparisonOutcome.EventDiffers, entries, 0,
+                ComparisonOutcome.EventDiffers, entries, states, agreed,
                 FormattableString.Invariant($"Entry {one.Index} of the log differs, at {Words.SinceStart(one.Event.Time, a.Start)}. In the first it is {one}. In the second it is {other}.")
-                    + Remarks(first, second))
+                    + (agreed is SimTime time ? $" Their states agree up to {Words.SinceStart(time, a.Start)}." : " They have no state that agrees.") + Remarks(first, second))
             {
                 FirstEntry = one,
                 SecondEntry = other,
             };
         }
 
-        int states = SameStates(first, second, out CommittedState? firstState, out CommittedState? secondState);
         if (firstState is CommittedState mine && secondState is CommittedState theirs)
         {
-            return OfStates(first, second, entries, states, mine, theirs, cancellation);
+            return OfStates(first, second, entries, states, agreed, mine, theirs, cancellation);
         }
 
         // The same events say nothing of what a peer made of them: without a state that was compared there is no agreement.
@@ -107,11 +119,12 @@ public sealed class RecordingComparison
             + " committed time in common";
         return states == 0
             ? new RecordingComparison(
-                ComparisonOutcome.NothingInCommon, entries, 0,
+                ComparisonOutcome.NothingInCommon, entries, 0, null,
                 $"The recordings are of one scene and start, and have {log}: of the states nothing is known." + Remarks(first, second))
             : new RecordingComparison(
-                ComparisonOutcome.Agrees, entries, states,
-                $"The recordings agree in all that both hold: {Words.Count(entries, "log entry")} and {Words.Count(states, "committed state")}."
+                ComparisonOutcome.Agrees, entries, states, agreed,
+                $"The recordings agree in all that both hold: {Words.Count(entries, "log entry")} and {Words.Count(states, "committed state")}, up to"
+                    + $" {Words.SinceStart(agreed!.Value, a.Start)}."
                     + Remarks(first, second));
     }
 
@@ -120,6 +133,7 @@ public sealed class RecordingComparison
         Recording second,
         int entries,
         int states,
+        SimTime? agreed,
         in CommittedState mine,
         in CommittedState theirs,
         CancellationToken cancellation)
@@ -128,9 +142,9 @@ public sealed class RecordingComparison
         RecordingReplay secondReplay = RecordingReplay.Run(second, mine.Time, cancellation);
         string log = entries == 0 ? "The recordings have no log entry in common" : $"The log is the same in {Words.Count(entries, "common entry")}";
         return new RecordingComparison(
-            ComparisonOutcome.StateDiffers, entries, states,
+            ComparisonOutcome.StateDiffers, entries, states, agreed,
             $"{log}, and the committed state at {Words.SinceStart(mine.Time, first.Header!.Start)} differs: {mine} in the first; {theirs} in the second."
-                + FirstBody(firstReplay, secondReplay) + $" The first {Verdict(firstReplay, first)} The second"
+                + (agreed is SimTime time ? $" Up to {Words.SinceStart(time, first.Header.Start)} they agree." : "") + FirstBody(firstReplay, secondReplay) + $" The first {Verdict(firstReplay, first)} The second"
                     + $" {Verdict(secondReplay, second)}" + Remarks(first, second))
         {
             FirstState = mine,
@@ -169,9 +183,10 @@ public sealed class RecordingComparison
         return (int)Math.Max(0, end - begin + 1);
     }
 
-    /// <summary>How many committed states of the same time are equal, up to the first pair that is not.</summary>
-    private static int SameStates(Recording first, Recording second, out CommittedState? one, out CommittedState? other)
+    /// <summary>How many committed states of the same time are equal, up to the first pair that is not, and the time of the last of these.</summary>
+    private static int SameStates(Recording first, Recording second, out SimTime? last, out CommittedState? one, out CommittedState? other)
     {
+        last = null;
         one = other = null;
         CommittedState[] a = first.CommittedArray;
         CommittedState[] b = second.CommittedArray;
@@ -193,6 +208,7 @@ public sealed class RecordingComparison
                 return same;
             }
 
+            last = a[i].Time;
             same++;
             i++;
             j++;
@@ -241,9 +257,5 @@ public sealed class RecordingComparison
     private static string Title(Recording recording) =>
         recording.Scene is null ? $"{recording.Header!.SceneHash:x16}" : $"'{recording.Scene.Name}' ({recording.Header!.SceneHash:x16})";
 
-    private static string Remarks(Recording first, Recording second) => Remark("first", first) + Remark("second", second);
-
-    private static string Remark(string which, Recording recording) => recording.Damage is RecordingDamage damage
-        ? FormattableString.Invariant($" The {which} is damaged at byte {damage.Offset}, and counts up to there: {damage.Reason}")
-        : "";
+    private static string Remarks(Recording first, Recording second) => $" The first {first.Extent} The second {second.Extent}";
 }

@@ -11,7 +11,7 @@ public static class RecordingFormat
     public const string Extension = ".lagsim";
 
     /// <summary>The version of the records. Scene and events in them are in that of the wire, <see cref="WireFormat.Version"/>.</summary>
-    public const byte Version = 2;
+    public const byte Version = 3;
 
     /// <summary>The longest snapshot that a recording holds, that of a late joiner: 64 MiB.</summary>
     public const int MaxSnapshotBytes = 1 << 26;
@@ -20,7 +20,7 @@ public static class RecordingFormat
     public const int MaxReasonBytes = 4000;
 
     internal const int PrefixBytes = 10; // magic, version, version of the wire
-    internal const int HeaderBytes = 17; // peer, start, scene hash; then a text
+    internal const int HeaderBytes = 19; // peer, start, scene hash, fold version; then a text
     internal const int JoinedHeadBytes = 4; // first index; then the snapshot
     internal const int EntryHeadBytes = 5; // index, verdict; then the event
     internal const int CommittedBytes = 24;

@@ -6,11 +6,12 @@ namespace LagSim.Net.Recordings;
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class RecordingHeader
 {
-    internal RecordingHeader(byte peer, SimTime start, ulong sceneHash, string libraryVersion)
+    internal RecordingHeader(byte peer, SimTime start, ulong sceneHash, int foldVersion, string libraryVersion)
     {
         Peer = peer;
         Start = start;
         SceneHash = sceneHash;
+        FoldVersion = foldVersion;
         LibraryVersion = libraryVersion;
     }
 
@@ -22,6 +23,11 @@ public sealed class RecordingHeader
 
     /// <summary>The hash of the session's scene.</summary>
     public ulong SceneHash { get; }
+
+    /// <summary>
+    /// The <see cref="Simulation.FoldVersion"/> of the library that recorded, 1 to 65,535. A library of another one makes other states of the same scene and events.
+    /// </summary>
+    public int FoldVersion { get; }
 
     /// <summary>The version of the library that recorded.</summary>
     public string LibraryVersion { get; }

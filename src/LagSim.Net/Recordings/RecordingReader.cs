@@ -219,10 +219,12 @@ internal sealed class RecordingReader
         byte peer = reader.ReadByte();
         SimTime start = reader.ReadTime();
         ulong hash = reader.ReadUInt64();
+        int fold = reader.ReadUInt16();
+        reader.Require(fold > 0);
         string version = WireText.Read(ref reader);
         if (IsSound(ref reader, "The header"))
         {
-            header = new RecordingHeader(peer, start, hash, version);
+            header = new RecordingHeader(peer, start, hash, fold, version);
         }
     }
 

@@ -21,11 +21,12 @@ public sealed class RecordingReplay
     private const int MostNamed = 5;
 
     private RecordingReplay(
-        ReplayOutcome outcome, int eventsApplied, int statesChecked, CommittedState? expected, CommittedState? actual, string message)
+        ReplayOutcome outcome, int eventsApplied, int statesChecked, SimTime? agreedUpTo, CommittedState? expected, CommittedState? actual, string message)
     {
         Outcome = outcome;
         EventsApplied = eventsApplied;
         StatesChecked = statesChecked;
+        AgreedUpTo = agreedUpTo;
         Expected = expected;
         Actual = actual;
         Message = message;
@@ -40,20 +41,23 @@ public sealed class RecordingReplay
     /// <summary>How many committed states have the hashes that were recorded.</summary>
     public int StatesChecked { get; }
 
+    /// <summary>The time of the last committed state that has the hashes that were recorded; null for none.</summary>
+    public SimTime? AgreedUpTo { get; }
+
     /// <summary>The first committed state that differs, as it was recorded; else the last that was checked, or null for none.</summary>
     public CommittedState? Expected { get; }
 
     /// <summary>The same as the replay has it.</summary>
     public CommittedState? Actual { get; }
 
-    /// <summary>The result as a sentence for people.</summary>
+    /// <summary>The result for people: one or several sentences, and how far the recording holds if it was run.</summary>
     public string Message { get; }
 
     /// <summary>The world as it was left, at the time of <see cref="Actual"/> if that is not null; null if it could not be run.</summary>
     internal Simulation? World { get; private set; }
 
     /// <summary>Runs a recording again, up to its last committed state or to the first that differs.</summary>
-    /// <param name="recording">What to run. Of a damaged one that which stands before the damage is run.</param>
+    /// <param name="recording">What to run. Of one that is not whole that which it holds is run.</param>
     /// <param name="cancellation">Ends the run between two instants of the world.</param>
     /// <remarks>
     /// Events enter by time, each just before it happens, and what lies behind is forgotten: the memory is that of the world at one instant.
@@ -96,9 +100,10 @@ public sealed class RecordingReplay
                 if (!actual.Equals(expected))
                 {
                     return new RecordingReplay(
-                        ReplayOutcome.Differs, applied, agreed, expected, actual,
+                        ReplayOutcome.Differs, applied, agreed, last?.Time, expected, actual,
                         $"The replay differs at {Words.SinceStart(expected.Time, recording.Header!.Start)}: recorded {expected}; replayed {actual}."
-                            + WhoseDoing(simulation, recording, expected, actual, last?.Time ?? recording.Joined?.Time))
+                            + WhoseDoing(simulation, recording, expected, actual, last?.Time ?? recording.Joined?.Time)
+                            + Holds(recording))
                     {
                         World = simulation,
                     };
@@ -111,20 +116,23 @@ public sealed class RecordingReplay
         catch (Exception failure) when (failure is SceneException or SimulationException)
         {
             return new RecordingReplay(
-                ReplayOutcome.CannotRun, applied, agreed, last, last, $"The recording cannot be run again. {failure.Message}");
+                ReplayOutcome.CannotRun, applied, agreed, last?.Time, last, last, $"The recording cannot be run again. {failure.Message}");
         }
 
         return last is CommittedState end
             ? new RecordingReplay(
-                ReplayOutcome.Agrees, applied, agreed, end, end,
+                ReplayOutcome.Agrees, applied, agreed, end.Time, end, end,
                 $"The replay agrees: {Words.Count(agreed, "committed state")} up to {Words.SinceStart(end.Time, recording.Header!.Start)}, with"
-                + $" {Words.Count(applied, "accepted event")}; {end}.")
+                + $" {Words.Count(applied, "accepted event")}; {end}." + Holds(recording))
             {
                 World = simulation,
             }
             : new RecordingReplay(
-                ReplayOutcome.NothingToCheck, applied, agreed, null, null, "The recording holds no committed state that a replay could be checked against.");
+                ReplayOutcome.NothingToCheck, applied, agreed, null, null, null,
+                "The recording holds no committed state that a replay could be checked against." + Holds(recording));
     }
+
+    private static string Holds(Recording recording) => " The recording " + recording.Extent;
 
     /// <summary>
     /// Which bodies the difference can be of. Hashes do not tell, but up to the last state that agrees all was the same, so it came about in what has happened
@@ -154,6 +162,12 @@ public sealed class RecordingReplay
 
     private static Simulation Begin(Recording recording, CancellationToken cancellation)
     {
+        if (recording.Header is RecordingHeader { FoldVersion: int fold, LibraryVersion: string library } && fold != Simulation.FoldVersion)
+        {
+            throw new SceneException(FormattableString.Invariant(
+                $"Its states are of fold version {fold}, by the library {library}; this library computes fold version {Simulation.FoldVersion}, which gives other hashes."));
+        }
+
         if (recording.Header is not RecordingHeader header || recording.Scene is not Scene scene)
         {
             throw new SceneException(recording.SceneError ?? "It has no scene.");

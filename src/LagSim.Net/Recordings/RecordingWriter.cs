@@ -146,7 +146,7 @@ public sealed class RecordingWriter : IDisposable
         hasCommitted = true;
     }
 
-    /// <summary>Ends the recording and flushes. Without it a reader takes it that the process was killed.</summary>
+    /// <summary>Ends the recording and flushes. Without it readers tell that the recording is not whole: its writer was ended, or the file is cut.</summary>
     /// <param name="reason">Why, as a sentence for people; what is longer than <see cref="RecordingFormat.MaxReasonBytes"/> is cut.</param>
     /// <exception cref="InvalidOperationException">The recording has ended, or failed before.</exception>
     /// <exception cref="IOException">The stream cannot be written.</exception>
@@ -193,6 +193,7 @@ public sealed class RecordingWriter : IDisposable
         writer.WriteByte(peer);
         writer.WriteTime(start);
         writer.WriteUInt64(scene.Hash);
+        writer.WriteUInt16((ushort)Simulation.FoldVersion);
         WireText.Write(ref writer, version);
         return bytes;
     }

@@ -9,7 +9,8 @@ namespace LagSim.Net.Recordings;
 /// <summary>Records a session as one peer has it: its log, and the hashes of its committed states.</summary>
 /// <remarks>
 /// <para>It listens to the session and writes on the session's thread, to a file that is made once there is a world. A disk that fails
-/// does not end the session: the recording ends where it did, and <see cref="Failure"/> and <see cref="Failed"/> tell.</para>
+/// does not end the session: the recording ends where it did, and <see cref="Failure"/> and <see cref="Failed"/> tell. When a fresh copy takes the place of the
+/// world, the recording ends with that reason and another begins, in a file named after the first: of <c>game.lagsim</c>, <c>game.2.lagsim</c>.</para>
 /// <para>To be made before the session's first step, and disposed of on its thread or once that has stopped.</para>
 /// </remarks>
 public sealed class SessionRecorder : IDisposable
@@ -18,7 +19,8 @@ public sealed class SessionRecorder : IDisposable
     internal const int MaxWaiting = 1 << 16;
 
     private readonly Session session;
-    private readonly Func<Stream> open;
+    private readonly Func<int, Stream> open; // by which recording of the session it is, from 1
+    private int count;
     private readonly SimDuration length;
     private readonly List<LogEntry> waiting = new();
     private RecordingWriter? writer;
@@ -38,7 +40,7 @@ public sealed class SessionRecorder : IDisposable
     {
     }
 
-    internal SessionRecorder(Session session, Func<Stream> open, SimDuration? length = null)
+    internal SessionRecorder(Session session, Func<int, Stream> open, SimDuration? length = null)
     {
         this.session = session ?? throw new ArgumentNullException(nameof(session));
         this.open = open;
@@ -49,6 +51,7 @@ public sealed class SessionRecorder : IDisposable
         }
 
         session.Begun += OnBegun;
+        session.Renewed += OnRenewed;
         session.Logged += OnLogged;
         session.StateCommitted += OnCommitted;
     }
@@ -71,19 +74,28 @@ public sealed class SessionRecorder : IDisposable
 
         isDisposed = true;
         session.Begun -= OnBegun;
+        session.Renewed -= OnRenewed;
         session.Logged -= OnLogged;
         session.StateCommitted -= OnCommitted;
         Try(() => writer?.WriteEnd(session.EndReason ?? "The recording ended before the session."));
         Close();
     }
 
-    private static Func<Stream> Opener(string path) => () => new FileStream(path, FileMode.Create, FileAccess.Write, FileShare.Read);
+    private static Func<int, Stream> Opener(string path) => number => new FileStream(
+        number == 1 ? path : Path.ChangeExtension(path, FormattableString.Invariant($"{number}{Path.GetExtension(path)}")), FileMode.Create, FileAccess.Write, FileShare.Read);
+
+    private void OnRenewed(string why)
+    {
+        Try(() => writer?.WriteEnd($"A fresh copy took the place of the world; the recording goes on in another file. {why}"));
+        Close();
+        OnBegun();
+    }
 
     private void OnBegun() => Try(() =>
     {
         SimTime start = session.World!.Simulation.Start;
         JoinedState? joined = session.LogStart > 0 || session.BegunFrom is not null ? new JoinedState(session.LogStart + 1, session.BegunFrom) : null;
-        Stream stream = open();
+        Stream stream = open(++count);
         try
         {
             writer = new RecordingWriter(stream, session.Peer, session.Scene!, start, joined);

@@ -46,6 +46,17 @@ internal sealed class CommitSchedule
         return state;
     }
 
+    /// <summary>The hash of an instant that was hashed lately; false for one that was not, or longer ago.</summary>
+    internal bool TryGet(SimTime time, out ulong stateHash)
+    {
+        CommittedState? state = time > start ? own[Place(time)] : null;
+        stateHash = state?.StateHash ?? 0;
+        return state?.Time == time;
+    }
+
+    /// <summary>The time from one instant to the next.</summary>
+    internal SimDuration Interval => interval;
+
     /// <summary>Notes what the host says; true if it can be compared now, with the own state to compare it with.</summary>
     internal bool TryCompare(SimTime time, ulong stateHash, out CommittedState mine)
     {

@@ -16,9 +16,9 @@ public sealed partial class HostSession
 
     private void OnDoubt(in DoubtDatagram doubt, PeerAddress from)
     {
-        Joiner? joiner = JoinerAt(from);
+        Joiner? joiner = JoinerOf(doubt.SessionId);
         SimTime now = Clock.Now;
-        bool isItsTurn = joiner is not null && joiner.Link.SessionId == doubt.SessionId && joiner.Peer == doubt.Peer && doubt.Number > joiner.Doubted;
+        bool isItsTurn = joiner is not null && joiner.Link.Other == from && joiner.Peer == doubt.Peer && doubt.Number > joiner.Doubted;
         if (!isItsTurn || World is null || doubt.UpTo >= Watermark || !joiner!.Doubts.TrySpend(now))
         {
             Counters.DatagramsIgnored++; // what is not committed may still change

@@ -11,11 +11,14 @@ namespace LagSim.Net.Sessions;
 /// <content>Letting joiners in: cookie, key, number, and the copy of scene and world that they fetch.</content>
 public sealed partial class HostSession
 {
-    /// <summary>So many joins are remembered until their cookies are stale; until then no more come in.</summary>
-    private const int MaxRecentJoins = 1024;
+    /// <summary>So many may be coming in at a time. They hold no place: who is not in yet makes room for the next.</summary>
+    private const int MaxComing = 256;
 
-    /// <summary>So many joins of one machine are remembered: more than that a minute come from nobody honest.</summary>
-    private const int MaxRecentJoinsOfOne = 32;
+    /// <summary>So many of them from one address.</summary>
+    private const int MaxComingOfOne = 16;
+
+    /// <summary>Who comes in on the slowest link that is counted on gets so many bytes of its copy a second.</summary>
+    private const double SlowestCopy = 1_000;
 
     /// <summary>A joiner gets pieces of its copy at this rate, 2.3 MB/s, and after a pause four windows of them at once.</summary>
     private const double PiecesPerSecond = 2000;
@@ -25,18 +28,14 @@ public sealed partial class HostSession
     /// <summary>How often every piece of a copy can be asked for in the mean, before no more of it is given.</summary>
     private const int MostRepeats = 8;
 
-    /// <summary>A place that was asked for is given up after this long, or the timeout if that is shorter, if its joiner then says nothing.</summary>
+    /// <summary>Who was welcomed is given up after this long, or the timeout if that is shorter, if it then says nothing.</summary>
     private static readonly SimDuration SilentPlace = SimDuration.FromSeconds(5);
 
     /// <summary>A copy this fresh serves the next joiner too.</summary>
     private static readonly SimDuration CopyAge = SimDuration.FromSeconds(1);
 
-    private static readonly SimDuration CookieAge = SimDuration.FromSeconds(60);
-
     private readonly JoinCookies cookies;
     private readonly byte[] sceneCopy;
-    private readonly Queue<(ulong Nonce, PeerAddress From, SimTime At)> recentJoins = new();
-    private readonly RateLimit?[] eventLimits = new RateLimit?[SessionOptions.MaxJoiners + 1]; // by number: to come again starts none anew
     private Copy? newestCopy;
     private SimTime settledTo = SimTime.MinValue;
 
@@ -59,7 +58,7 @@ public sealed partial class HostSession
         SimTime now = Clock.Now;
         ulong nonce = join.Nonce;
         Joiner? known = joiners.Find(j => j.Link.Other == from && j.Nonce == nonce);
-        if (!cookies.IsGood(from, nonce, join.Cookie, now) || (known is null && IsPlayedAgain(nonce, from, now)))
+        if (!cookies.IsGood(from, nonce, join.Cookie, now))
         {
             Counters.DatagramsIgnored++; // whoever it is gets no answer: its address may not be its own
             return;
@@ -67,10 +66,12 @@ public sealed partial class HostSession
 
         if (known is null)
         {
-            RefusalReason? refusal = !TryNumber(join, from, out byte number) ? RefusalReason.WrongKey
+            PlayerPlaces.Place? claimed = places.Claimed(join);
+            byte keyed = NumberByKey(join);
+            RefusalReason? refusal = keyed == 0 && !JoinCookies.IsProof(Options.ConnectKey, join) ? RefusalReason.WrongKey
+                : join.FoldVersion != (uint)Simulation.FoldVersion ? RefusalReason.FoldDiffers
                 : join.SceneHash != 0 && join.SceneHash != Scene!.Hash ? RefusalReason.SceneDiffers
-                : number == 0 || HasJoinedTooOften(from) ? RefusalReason.Full
-                : null;
+                : WhyNoPlace(keyed, claimed, from, now);
             if (refusal is RefusalReason reason)
             {
                 Counters.DatagramsIgnored++;
@@ -94,42 +95,102 @@ public sealed partial class HostSession
                 return; // the world is being simulated again; the joiner asks once more
             }
 
-            LetGo(j => j.Link.Other == from); // the same address, shown by the cookie, under a new nonce: it started again
-            Replace(number);
-            recentJoins.Enqueue((nonce, from, now));
-            RateLimit events = eventLimits[number] ??= new RateLimit(Options.MaxEventsPerSecond, Options.MaxEventsPerSecond, now);
-            UpdateLink way = new(cookies.SessionId(sessionId, joins++), 0, number, from, now);
-            known = new Joiner(nonce, way, made, lastSequences[number], events, new RateLimit(PiecesPerSecond, PiecesAtOnce, now));
+            // The same address, shown by the cookie, under a new nonce: it started again. As the same player, if it has that one's pass.
+            LetGo(j => j.Link.Other == from, claimed is null ? LeaveReason.Left : LeaveReason.Replaced);
+            MakeRoom(from);
+            UpdateLink link = LinkTo(from, cookies.SessionId(sessionId, joins++), 0, made.LogIndex, now);
+            known = new Joiner(join, link, made, keyed, claimed, new RateLimit(PiecesPerSecond, PiecesAtOnce, now), now);
             joiners.Add(known);
-            JoinerCame?.Invoke(known.Link.Traffic);
         }
 
         if (known.Copy is Copy copy)
         {
             Span<byte> bytes = stackalloc byte[WireFormat.WelcomeBytes];
-            WelcomeDatagram welcome = new(
-                nonce, known.Link.SessionId, known.Peer, known.FirstSequence, Options.Window.History, copy.Bytes.Length, copy.Hash, copy.LogIndex);
+            WelcomeDatagram welcome = new(nonce, known.Link.SessionId, Options.Window.History, copy.Bytes.Length, copy.Hash, copy.LogIndex);
             Send(bytes.Slice(0, welcome.Encode(bytes)), known.Link);
         }
     }
 
-    /// <summary>Whether a join came before, from one who has left since: somebody plays it again.</summary>
-    private bool IsPlayedAgain(ulong nonce, PeerAddress from, SimTime now)
+    /// <summary>Why somebody can get no number now; null if it can.</summary>
+    private RefusalReason? WhyNoPlace(byte keyed, PlayerPlaces.Place? claimed, PeerAddress from, SimTime now)
     {
-        while (recentJoins.TryPeek(out (ulong Nonce, PeerAddress From, SimTime At) oldest) && now - oldest.At > CookieAge)
+        if (keyed > 0 || claimed is not null)
         {
-            recentJoins.Dequeue();
+            return null; // it has one
         }
 
-        foreach ((ulong Nonce, PeerAddress From, SimTime At) join in recentJoins)
+        PeerAddress address = from;
+        return joiners.Count(j => j.Peer > 0 && j.Link.Other != address && j.Link.Other.IsSameMachine(address)) >= Options.MaxJoinersPerAddress ? RefusalReason.TooManyFromOneAddress
+            : places.Free(now) == 0 && !joiners.Exists(j => j.Peer > 0 && j.Link.Other == address) ? RefusalReason.Full
+            : null;
+    }
+
+    /// <summary>Lets go of the oldest of those that are coming in, if there are too many, of that address or at all: of the address with the most.</summary>
+    private void MakeRoom(PeerAddress from)
+    {
+        List<Joiner> coming = joiners.FindAll(j => j.Peer == 0);
+        int ofOne = coming.Count(j => j.Link.Other.IsSameMachine(from));
+        if (ofOne >= MaxComingOfOne)
         {
-            if (join.Nonce == nonce && join.From == from)
+            joiners.Remove(coming.Find(j => j.Link.Other.IsSameMachine(from))!);
+        }
+        else if (coming.Count >= MaxComing)
+        {
+            joiners.Remove(coming.OrderByDescending(j => coming.Count(k => k.Link.Other.IsSameMachine(j.Link.Other))).First()); // stable: the oldest of them
+        }
+    }
+
+    /// <summary>Gives one that has its copy and its clock a number, and tells it; false if there is none, and it was told so.</summary>
+    private bool TrySeat(Joiner joiner, SimTime now)
+    {
+        PlayerPlaces.Place? claimed = joiner.Claimed is PlayerPlaces.Place former && former.Pass == joiner.ClaimedPass ? former : null; // nobody else got it since
+        PlayerPlaces.Place? place = joiner.Keyed > 0 ? places[joiner.Keyed] : claimed;
+        if (place is null)
+        {
+            if (WhyNoPlace(0, null, joiner.Link.Other, now) is RefusalReason reason)
             {
-                return true;
+                Refuse(joiner.Nonce, reason, joiner.Link.Other);
+                joiners.Remove(joiner);
+                return false;
             }
+
+            place = places[places.Free(now)];
         }
 
-        return false;
+        if (joiners.Find(j => j.Peer == place.Number) is Joiner before)
+        {
+            SayGoodbye(before.Link, LeaveReason.Replaced); // its player came in from elsewhere
+            LetGo(j => j == before, LeaveReason.Replaced);
+        }
+
+        joiner.Sit(place, now);
+        place.Take(isSamePlayer: claimed == place);
+        GiveSeat(joiner);
+        JoinerCame?.Invoke(joiner.Link.Traffic);
+        return true;
+    }
+
+    private void GiveSeat(Joiner joiner)
+    {
+        Span<byte> bytes = stackalloc byte[WireFormat.SeatBytes];
+        Send(bytes.Slice(0, new SeatDatagram(joiner.Link.SessionId, joiner.Peer, joiner.FirstSequence, places[joiner.Peer].Pass!.Value).Encode(bytes)), joiner.Link);
+    }
+
+    /// <summary>Somebody shows that it is at another address now.</summary>
+    private void OnMove(in MoveDatagram move, PeerAddress from)
+    {
+        SimTime now = Clock.Now;
+        if (JoinerOf(move.SessionId) is Joiner joiner && (joiner.Peer == move.Peer || move.Peer == 0) && cookies.IsGood(from, move.SessionId, move.Cookie, now))
+        {
+            joiner.Link.Other = from;
+            joiner.Link.CountReceived(WireFormat.MoveBytes);
+            joiner.Link.NoteHeard(now);
+            joiner.Link.Hasten(now);
+        }
+        else
+        {
+            Counters.DatagramsIgnored++;
+        }
     }
 
     private void Refuse(ulong nonce, RefusalReason reason, PeerAddress to)
@@ -138,58 +199,25 @@ public sealed partial class HostSession
         Send(bytes.Slice(0, new RefusalDatagram(nonce, reason).Encode(bytes)), to);
     }
 
-    /// <summary>Whether so many joins are remembered, of this machine or of all, that no more come in until their cookies are stale.</summary>
-    private bool HasJoinedTooOften(PeerAddress from) =>
-        recentJoins.Count >= MaxRecentJoins || recentJoins.Count(join => join.From.IsSameMachine(from)) >= MaxRecentJoinsOfOne;
-
-    /// <summary>
-    /// The number that a player's key gives, or for the connect key the least that is free, 0 if there is none; false if it is no key of ours.
-    /// </summary>
-    private bool TryNumber(in JoinDatagram join, PeerAddress from, out byte number)
+    /// <summary>The number that a player's key gives; 0 if it is none.</summary>
+    private byte NumberByKey(in JoinDatagram join)
     {
         foreach (KeyValuePair<byte, string> player in Options.PlayerKeys)
         {
             if (JoinCookies.IsProof(player.Value, join))
             {
-                number = player.Key;
-                return true;
-            }
-        }
-
-        number = FreeNumber(from);
-        return JoinCookies.IsProof(Options.ConnectKey, join);
-    }
-
-    /// <summary>The least number that neither another address nor a player with a key has; 0 if there is none.</summary>
-    private byte FreeNumber(PeerAddress from)
-    {
-        for (byte number = 1; number <= SessionOptions.MaxJoiners; number++)
-        {
-            bool isTaken = Options.PlayerKeys.ContainsKey(number) || joiners.Exists(j => j.Peer == number && j.Link.Other != from);
-            if (!isTaken && lastSequences[number] < uint.MaxValue)
-            {
-                return number;
+                return player.Key;
             }
         }
 
         return 0;
     }
 
-    /// <summary>Tells who has the number that its player came in from elsewhere.</summary>
-    private void Replace(byte number)
-    {
-        if (joiners.Find(j => j.Peer == number) is Joiner before)
-        {
-            SayGoodbye(before.Link, LeaveReason.Replaced);
-            LetGo(j => j == before);
-        }
-    }
-
     private void OnFetch(in FetchDatagram fetch, PeerAddress from)
     {
-        (ulong session, byte peer) = (fetch.SessionId, fetch.Peer);
-        Joiner? joiner = joiners.Find(j => j.Link.Other == from && j.Link.SessionId == session && j.Peer == peer);
-        if (joiner?.Copy is null || fetch.Number <= joiner.Fetches)
+        ulong session = fetch.SessionId;
+        Joiner? joiner = JoinerOf(session);
+        if (joiner is null || joiner.Link.Other != from || joiner.Copy is null || fetch.Number <= joiner.Fetches)
         {
             Counters.DatagramsIgnored++;
             return;

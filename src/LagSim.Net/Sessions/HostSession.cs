@@ -21,10 +21,12 @@ public sealed partial class HostSession : Session
 
     private readonly VerdictLog log = new();
     private readonly LogView logView;
-    private readonly List<Joiner> joiners = new();
-    private readonly uint[] lastSequences = new uint[SessionOptions.MaxJoiners + 1]; // by number: of the last event that bears it
+    private readonly List<Joiner> joiners = new(); // those that are still coming in among them
+    private readonly PlayerPlaces places;
     private readonly ulong sessionId;
     private ulong joins;
+    private SimTime tended; // own clock, when this host last looked after its joiners
+    private SimTime watermark = SimTime.MinValue;
     private uint lastUrgent; // of the log: the newest entry that nothing later makes up for
 
     /// <summary>Opens a session and waits for joiners.</summary>
@@ -40,6 +42,8 @@ public sealed partial class HostSession : Session
         : base(scene ?? throw new ArgumentNullException(nameof(scene)), port, clock, options)
     {
         this.sessionId = sessionId;
+        tended = clock.Now;
+        places = new PlayerPlaces(options, tended);
         logView = new LogView(log);
         cookies = new JoinCookies();
         sceneCopy = WorldCopy.Encode(scene, null);
@@ -48,7 +52,7 @@ public sealed partial class HostSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread for each joiner that was let in, which then fetches scene and state, with its link. Handlers must not throw.
+    /// Raised on the session's thread for each joiner that has a copy of scene and state and got its number, with its link. Handlers must not throw.
     /// </summary>
     public event Action<LinkTraffic>? JoinerCame;
 
@@ -58,14 +62,37 @@ public sealed partial class HostSession : Session
     /// </summary>
     public event Action<LinkTraffic>? JoinerGone;
 
-    /// <summary>How many joiners there are now.</summary>
-    public int JoinerCount => joiners.Count;
+    /// <summary>How many joiners there are now, without those that are still coming in.</summary>
+    public int JoinerCount
+    {
+        get
+        {
+            int count = 0;
+            foreach (Joiner joiner in joiners)
+            {
+                count += joiner.Peer > 0 ? 1 : 0;
+            }
 
-    /// <summary>The time before which no event is accepted any more.</summary>
-    public SimTime Watermark => SharedTime.Now - Options.Window.History;
+            return count;
+        }
+    }
+
+    /// <summary>
+    /// The time before which no event is accepted any more: the history before the clock, or before where the world stands if that is behind. It never goes back.
+    /// </summary>
+    /// <remarks>What a host that stands still has not simulated can still be changed, by the removal of what makes it stand, above all.</remarks>
+    public SimTime Watermark
+    {
+        get
+        {
+            SimTime now = SharedTime.Now;
+            SimTime simulated = World is null ? now : SimTime.Min(now, World.Simulation.SimulatedTo);
+            return watermark = SimTime.Max(watermark, simulated - Options.Window.History);
+        }
+    }
 
     /// <inheritdoc/>
-    public override IReadOnlyList<LinkTraffic> Links => joiners.ConvertAll(j => j.Link.Traffic);
+    public override IReadOnlyList<LinkTraffic> Links => joiners.FindAll(j => j.Peer > 0).ConvertAll(j => j.Link.Traffic);
 
     /// <inheritdoc/>
     public override uint LogLength => log.Count;
@@ -106,21 +133,24 @@ public sealed partial class HostSession : Session
                 OnDoubt(doubt, from);
                 break;
             case DatagramType.Leave when IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)):
-                Counters.DatagramsIgnored +=
-                    LetGo(j => j.Link.Other == from && j.Peer == leave.Peer && j.Link.SessionId == leave.SessionId) ? 0 : 1;
+                Counters.DatagramsIgnored += LetGo(
+                    j => j.Link.Other == from && (j.Peer == leave.Peer || leave.Peer == 0) && j.Link.SessionId == leave.SessionId, LeaveReason.Left) ? 0 : 1;
                 break;
-            case DatagramType.Welcome or DatagramType.Refusal or DatagramType.Challenge or DatagramType.Chunk or DatagramType.Evidence:
+            case DatagramType.Move when IsWellFormed(MoveDatagram.TryDecode(datagram, out MoveDatagram move, out _)):
+                OnMove(move, from);
+                break;
+            case DatagramType.Welcome or DatagramType.Refusal or DatagramType.Challenge or DatagramType.Chunk or DatagramType.Evidence or DatagramType.Seat:
                 Counters.DatagramsIgnored++; // a host's own words
                 break;
         }
     }
 
     // A loop, since a delegate would be allocated for every datagram.
-    private Joiner? JoinerAt(PeerAddress from)
+    private Joiner? JoinerOf(ulong session)
     {
         foreach (Joiner joiner in joiners)
         {
-            if (joiner.Link.Other == from)
+            if (joiner.Link.SessionId == session)
             {
                 return joiner;
             }
@@ -131,14 +161,21 @@ public sealed partial class HostSession : Session
 
     private protected override void OnUpdate(UpdateDatagram update, PeerAddress from)
     {
-        Joiner? joiner = JoinerAt(from);
-        if (joiner is null || update.SessionId != joiner.Link.SessionId || update.Peer != joiner.Peer || State == SessionState.Ended)
+        Joiner? joiner = JoinerOf(update.SessionId);
+        if (joiner is not null && joiner.Link.Other != from && State != SessionState.Ended)
+        {
+            Counters.DatagramsIgnored++; // what it says comes again, once it has shown that it is there
+            Challenge(update.SessionId, from);
+            return;
+        }
+
+        if (joiner is null || (update.Peer != joiner.Peer && update.Peer != 0) || State == SessionState.Ended)
         {
             Counters.DatagramsIgnored++;
-            if (State == SessionState.Ended || update.SessionId != joiner?.Link.SessionId)
+            if (State == SessionState.Ended || joiner is null)
             {
                 // It has not heard the goodbye, or never was one of ours. Told with its own session's number, and in fewer bytes than it sent.
-                SayGoodbye(from, update.SessionId, State == SessionState.Ended ? LeaveReason.HostEnded : LeaveReason.NotJoined);
+                SayGoodbye(from, update.SessionId, State == SessionState.Ended ? LeaveReason.HostEnded : places.WhyGone(update.SessionId));
             }
 
             return;
@@ -152,12 +189,28 @@ public sealed partial class HostSession : Session
         }
 
         joiner.Link.CountReceived(update.EncodedLength);
+        joiner.NoteEcho(update.EchoNumber);
         joiner.HasWritten = true;
-        joiner.IsReady |= update.Ready;
+        if (update.Ready && joiner.Peer == 0 && !TrySeat(joiner, now))
+        {
+            return;
+        }
+
         joiner.HasBegun |= update.Start != SimTime.MinValue;
+        if (update.Peer == 0)
+        {
+            if (joiner.Peer > 0)
+            {
+                GiveSeat(joiner); // it has not heard which it has
+            }
+
+            joiner.Link.Answer(now);
+            return;
+        }
+
         if (update.EventsReceived <= log.Count)
         {
-            joiner.Outgoing.Acknowledge(update.EventsReceived);
+            joiner.Link.Acknowledge(update.EventsReceived, now);
         }
 
         uint sequence = update.FirstIndex;
@@ -173,18 +226,34 @@ public sealed partial class HostSession : Session
         Counters.EventsDeferred += JudgeNext(joiner, now) ? 0 : 1;
 
         // An answer at once: it carries the acknowledgement, and the joiner's clock has its exchange without waiting. Knots come many a second, and have time.
-        joiner.Link.Hasten(canWait ? now + MostAckDelay : now);
+        if (canWait)
+        {
+            joiner.Link.Hasten(now + UpdateLink.MostAckDelay);
+        }
+        else
+        {
+            joiner.Link.Answer(now);
+        }
     }
 
     private protected override void Tend(SimTime now)
     {
+        bool hasSlept = now - tended > Options.Timeout / 2; // it was this machine that slept: who was not listened to was not silent
+        tended = now;
         for (int i = joiners.Count - 1; i >= 0; i--)
         {
-            bool isSilent = now - joiners[i].Link.Heard > PatienceWith(joiners[i]);
-            if (isSilent || log.Count - joiners[i].Acknowledged > MaxUnacknowledged)
+            Joiner joiner = joiners[i];
+            if (hasSlept)
             {
-                SayGoodbye(joiners[i].Link, isSilent ? LeaveReason.TimedOut : LeaveReason.FellBehind);
-                LetGo(i);
+                joiner.Link.NoteHeard(now);
+            }
+
+            bool isSilent = now - joiner.Link.Heard > PatienceWith(joiner) || (joiner.Peer == 0 && now - joiner.Came > PatienceWithCopy(joiner));
+            if (isSilent || HasFallenBehind(joiner, now))
+            {
+                LeaveReason why = isSilent ? LeaveReason.TimedOut : LeaveReason.FellBehind;
+                SayGoodbye(joiner.Link, why);
+                LetGo(i, why);
             }
         }
 
@@ -195,7 +264,7 @@ public sealed partial class HostSession : Session
             return;
         }
 
-        if (World is null && joiners.Count(j => j.IsReady) >= Options.ExpectedJoiners)
+        if (World is null && JoinerCount >= Options.ExpectedJoiners)
         {
             Begin(now + Options.StartLead);
             Hasten();
@@ -212,12 +281,21 @@ public sealed partial class HostSession : Session
         log.ForgetUpTo(joiners.Aggregate(newestCopy?.LogIndex ?? uint.MaxValue, (least, joiner) => Math.Min(least, joiner.Acknowledged)));
         foreach (Joiner joiner in joiners)
         {
-            if (joiner.HasWritten && joiner.Link.Due <= now)
+            for (int n = 0; n < SendWindow.MaxDatagramsAtOnce && joiner.HasWritten && joiner.Link.IsDue(now); n++)
             {
-                SendUpdates(joiner, now);
+                SendUpdate(joiner, now);
             }
         }
     }
+
+    /// <summary>Whether a joiner has not taken in what happened for so long, or so much of it, that a fresh copy is sooner there.</summary>
+    private bool HasFallenBehind(Joiner joiner, SimTime now) =>
+        joiner.Peer > 0 && joiner.Acknowledged < log.Count
+        && (log.Count - joiner.Acknowledged > MaxUnacknowledged || now - SimTime.Max(log.AddedAt(joiner.Acknowledged + 1), joiner.SeatedAt) > Options.Timeout);
+
+    /// <summary>How long one that is coming in may take.</summary>
+    private SimDuration PatienceWithCopy(Joiner joiner) =>
+        Options.Timeout + SilentPlace + SimDuration.FromSeconds((joiner.Copy?.Bytes.Length ?? 0) / SlowestCopy);
 
     private SimDuration PatienceWith(Joiner joiner) => joiner.HasWritten || Options.Timeout < SilentPlace ? Options.Timeout : SilentPlace;
 
@@ -247,22 +325,28 @@ public sealed partial class HostSession : Session
     }
 
     /// <summary>Forgets the joiner of which that holds, of which there is one at most.</summary>
-    private bool LetGo(Predicate<Joiner> isIt)
+    private bool LetGo(Predicate<Joiner> isIt, LeaveReason why)
     {
         int index = joiners.FindIndex(isIt);
         if (index >= 0)
         {
-            LetGo(index);
+            LetGo(index, why);
         }
 
         return index >= 0;
     }
 
-    private void LetGo(int index)
+    /// <param name="index">Which.</param>
+    /// <param name="why">Its number is kept for it unless it left.</param>
+    private void LetGo(int index, LeaveReason why)
     {
-        LinkTraffic link = joiners[index].Link.Traffic;
+        Joiner joiner = joiners[index];
         joiners.RemoveAt(index);
-        JoinerGone?.Invoke(link);
+        if (joiner.Peer > 0)
+        {
+            places[joiner.Peer].Leave(why != LeaveReason.Left, joiner.Link.SessionId, why, Clock.Now);
+            JoinerGone?.Invoke(joiner.Link.Traffic);
+        }
     }
 
     private void SayGoodbye(PeerAddress to, ulong itsSession, LeaveReason reason)
@@ -277,13 +361,13 @@ public sealed partial class HostSession : Session
     {
         while (joiner.Incoming.HasNext)
         {
-            if (!joiner.Events.TrySpend(now))
+            if (!places[joiner.Peer].Events.TrySpend(now))
             {
                 return false;
             }
 
             UpdateEntry entry = joiner.Incoming.Take();
-            lastSequences[joiner.Peer] = joiner.EventsReceived;
+            places[joiner.Peer].LastSequence = joiner.EventsReceived;
             Judge(entry, joiner.Peer, joiner.EventsReceived);
         }
 
@@ -304,7 +388,7 @@ public sealed partial class HostSession : Session
         SimTime now = SharedTime.Now;
         Verdict verdict = World is null || !MayEnter(external) ? Verdict.Invalid
             : !EventRights.Has(external, Scene!) ? Verdict.NoRight
-            : external.Time < now - Options.Window.History || external.Time < World.Simulation.Start ? Verdict.TooLate
+            : external.Time < Watermark || external.Time < World.Simulation.Start ? Verdict.TooLate
             : external.Time > now + Options.Window.History ? Verdict.TooEarly
             : Limits.WhyNot(external, World.Simulation, now, out _);
         if (verdict == Verdict.Accepted)
@@ -320,50 +404,44 @@ public sealed partial class HostSession : Session
     {
         Counters.EventsAccepted += verdict == Verdict.Accepted ? 1 : 0;
         Counters.EventsRefused += verdict == Verdict.Accepted ? 0 : 1;
-        log.Add(external, verdict, SimTime.Min(Watermark, external.Time)); // it was judged, or done, a little earlier
+        log.Add(external, verdict, SimTime.Min(Watermark, external.Time), Clock.Now); // it was judged, or done, a little earlier
         lastUrgent = verdict == Verdict.Accepted && IsMadeUpFor(external) ? lastUrgent : log.Count;
         Tell(log[log.Count]);
         SimTime now = Clock.Now;
         foreach (Joiner joiner in joiners)
         {
-            bool canWait = log.Count != lastUrgent && joiner.Peer == external.Peer; // who did it knows it already
-            joiner.Link.Hasten(canWait ? now + MostAckDelay : now);
+            if (joiner.Peer == 0)
+            {
+                continue;
+            }
+
+            if (log.Count != lastUrgent && joiner.Peer == external.Peer)
+            {
+                joiner.Link.Hasten(now + UpdateLink.MostAckDelay); // who did it knows it already
+            }
+            else
+            {
+                joiner.Link.NoteNews(UpdateDatagram.LengthOf(logView.EntryFor(joiner, log.Count)), now);
+            }
         }
     }
 
-    private void SendUpdates(Joiner joiner, SimTime now)
+    private void SendUpdate(Joiner joiner, SimTime now)
     {
-        bool hasMore = true;
-        for (int n = 0; hasMore && n < SendWindow.MaxDatagramsAtOnce; n++)
-        {
-            hasMore = SendUpdate(joiner, now);
-        }
-    }
-
-    /// <summary>Sends one update; whether there is more to be sent at once.</summary>
-    private bool SendUpdate(Joiner joiner, SimTime now)
-    {
-        UpdateDatagram update = joiner.Link.Compose(now);
+        UpdateLink link = joiner.Link;
+        UpdateDatagram update = link.Compose(now);
+        bool isToBegin = World is not null && joiner.IsReady && !joiner.HasBegun;
         update.EventsReceived = joiner.EventsReceived;
-        update.Start = World?.Simulation.Start ?? SimTime.MinValue;
-        if (Committed is CommittedState committed)
-        {
-            update.HasStateHash = true;
-            update.HashTime = committed.Time;
-            update.StateHash = committed.StateHash;
-        }
-
+        update.Start = joiner.HasBegun || World is null ? SimTime.MinValue : World.Simulation.Start;
+        joiner.NoteTold(update.Number, PutHashes(update, joiner.Told));
         logView.Reader = joiner;
-        bool hasMore = joiner.Outgoing.Fill(update, logView, now, TimesOf(joiner.Link));
+        link.Fill(logView, now);
 
         // The watermark is a promise about what comes after this update's last entry: the one at which the next entry was added, or as there is none, now's.
         uint last = update.FirstIndex + (uint)update.Held.Length - 1;
         update.Watermark = World is null ? SimTime.MinValue : last < log.Count ? log.WatermarkAfter(last) : Watermark;
-        bool isUrgent = joiner.Acknowledged < Math.Min(lastUrgent, logView.Last) || joiner.Outgoing.HasLost
-            || (World is not null && joiner.IsReady && !joiner.HasBegun);
-        SimDuration wait = WaitAfterUpdate(isUrgent, joiner.Acknowledged < logView.Last, joiner.Link, now, Overdue);
-        Send(joiner.Link.Seal(hasMore ? now : now + wait), joiner.Link);
-        return hasMore;
+        bool isUrgent = joiner.Acknowledged < Math.Min(lastUrgent, logView.Last);
+        Send(link.Seal(logView, now, RestAfterUpdate(link, isToBegin, now, Overdue), isUrgent), link);
     }
 
     /// <summary>The log as one joiner gets it: of what it did itself only the number travels back; a former one of its number is another.</summary>
@@ -377,38 +455,55 @@ public sealed partial class HostSession : Session
 
         public uint Last => Reader!.IsReady ? log.Count : Reader.Acknowledged;
 
-        public UpdateEntry this[uint number]
+        public UpdateEntry this[uint number] => EntryFor(Reader!, number);
+
+        internal UpdateEntry EntryFor(Joiner reader, uint number)
         {
-            get
-            {
-                LogEntry entry = log[number];
-                return entry.Event.Peer == Reader!.Peer && entry.Event.Sequence > Reader.FirstSequence
-                    ? new UpdateEntry(entry.Verdict, entry.Event.Sequence)
-                    : new UpdateEntry(entry.Verdict, entry.Event);
-            }
+            LogEntry entry = log[number];
+            return entry.Event.Peer == reader.Peer && entry.Event.Sequence > reader.FirstSequence
+                ? new UpdateEntry(entry.Verdict, entry.Event.Sequence)
+                : new UpdateEntry(entry.Verdict, entry.Event);
         }
     }
 
+    /// <summary>One that is coming in, and has no number yet, or is in.</summary>
     private sealed class Joiner
     {
-        internal Joiner(ulong nonce, UpdateLink link, Copy copy, uint firstSequence, RateLimit events, RateLimit pieces)
+        private readonly (uint Number, SimTime UpTo)[] tellings = new (uint, SimTime)[32]; // by the number of the update: the committed states it tells
+        internal Joiner(in JoinDatagram join, UpdateLink link, Copy copy, byte keyed, PlayerPlaces.Place? claimed, RateLimit pieces, SimTime now)
         {
-            Nonce = nonce;
+            Nonce = join.Nonce;
             Link = link;
             Copy = copy;
-            FirstSequence = firstSequence;
-            Incoming = new ReceiveWindow(firstSequence);
-            Outgoing = new SendWindow(copy.LogIndex);
-            Events = events;
+            Keyed = keyed;
+            Claimed = claimed;
+            ClaimedPass = claimed?.Pass;
+            Came = now;
             Pieces = pieces;
             Doubts = new RateLimit(2, RecentEvents.Most / DoubtDatagram.MaxEvents, link.Heard);
         }
 
+        /// <summary>Its number; 0 until it is in.</summary>
         internal byte Peer => Link.Peer;
 
         internal ulong Nonce { get; }
 
         internal UpdateLink Link { get; }
+
+        /// <summary>The number that its key gives it; 0 for none.</summary>
+        internal byte Keyed { get; }
+
+        /// <summary>The place of the player that it was before; null for none.</summary>
+        internal PlayerPlaces.Place? Claimed { get; }
+
+        /// <summary>The pass of that player when it was welcomed.</summary>
+        internal Token128? ClaimedPass { get; }
+
+        /// <summary>When it was welcomed.</summary>
+        internal SimTime Came { get; }
+
+        /// <summary>When it got its number.</summary>
+        internal SimTime SeatedAt { get; private set; }
 
         /// <summary>What it fetches; null once it has it.</summary>
         internal Copy? Copy { get; set; }
@@ -417,10 +512,7 @@ public sealed partial class HostSession : Session
         internal uint Fetches { get; set; }
 
         /// <summary>The last sequence number of those who had its number before.</summary>
-        internal uint FirstSequence { get; }
-
-        /// <summary>How many of its events are judged.</summary>
-        internal RateLimit Events { get; }
+        internal uint FirstSequence { get; private set; }
 
         /// <summary>How many pieces of its copy it gets.</summary>
         internal RateLimit Pieces { get; }
@@ -434,8 +526,8 @@ public sealed partial class HostSession : Session
         /// <summary>How many it got.</summary>
         internal long PiecesGiven { get; set; }
 
-        /// <summary>Whether it has scene, state and clock, and so wants the log.</summary>
-        internal bool IsReady { get; set; }
+        /// <summary>Whether it has scene, state, clock and number, and so wants the log.</summary>
+        internal bool IsReady => Peer > 0;
 
         /// <summary>Whether it knows when the session starts.</summary>
         internal bool HasBegun { get; set; }
@@ -444,15 +536,34 @@ public sealed partial class HostSession : Session
         internal bool HasWritten { get; set; }
 
         /// <summary>How many entries of the log it has.</summary>
-        internal uint Acknowledged => Outgoing.Acknowledged;
+        internal uint Acknowledged => Link.Outgoing.Acknowledged;
 
         /// <summary>How many of its events are judged, those of former holders of its number included.</summary>
         internal uint EventsReceived => Incoming.Received;
 
-        /// <summary>What it is told of the log.</summary>
-        internal SendWindow Outgoing { get; }
-
         /// <summary>What it did.</summary>
-        internal ReceiveWindow Incoming { get; }
+        internal ReceiveWindow Incoming { get; private set; } = new(0);
+
+        /// <summary>The newest committed state of which it is known to have the hash, or that came before its own.</summary>
+        internal SimTime Told { get; private set; } = SimTime.MinValue;
+
+        /// <summary>Notes up to which committed state an update tells.</summary>
+        internal void NoteTold(uint number, SimTime upTo) => tellings[number % (uint)tellings.Length] = (number, upTo);
+
+        /// <summary>Notes that an update came.</summary>
+        internal void NoteEcho(uint number)
+        {
+            (uint Number, SimTime UpTo) telling = tellings[number % (uint)tellings.Length];
+            Told = number > 0 && telling.Number == number ? SimTime.Max(Told, telling.UpTo) : Told;
+        }
+
+        /// <summary>Gives it a number.</summary>
+        internal void Sit(PlayerPlaces.Place place, SimTime now)
+        {
+            Link.Peer = place.Number;
+            FirstSequence = place.LastSequence;
+            Incoming = new ReceiveWindow(FirstSequence);
+            SeatedAt = now;
+        }
     }
 }

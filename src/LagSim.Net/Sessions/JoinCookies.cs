@@ -47,6 +47,18 @@ internal sealed class JoinCookies : IDisposable
 
     internal static bool IsProof(string key, in JoinDatagram join) => join.Proof == Prove(key, join.Nonce, join.Cookie);
 
+    /// <summary>What shows that one has a player's pass.</summary>
+    internal static Token128 Prove(Token128 pass, ulong nonce, Token128 cookie)
+    {
+        byte[] key = new byte[Token128.Bytes];
+        BinaryPrimitives.WriteUInt64LittleEndian(key, pass.First);
+        BinaryPrimitives.WriteUInt64LittleEndian(key.AsSpan(sizeof(ulong)), pass.Second);
+        using HMACSHA256 prover = new(key);
+        return Prove(prover, nonce, cookie);
+    }
+
+    internal static bool IsProof(Token128 pass, in JoinDatagram join) => join.PlayerProof == Prove(pass, join.Nonce, join.Cookie);
+
     /// <summary>The session id of the n-th join of a session.</summary>
     internal ulong SessionId(ulong session, ulong join)
     {

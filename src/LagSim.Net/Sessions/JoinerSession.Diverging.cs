@@ -25,14 +25,19 @@ public sealed partial class JoinerSession
 
     private protected override void OnCompared(in CommittedState own, ulong theirs)
     {
-        if (divergence is not null)
+        if (own.StateHash == theirs)
         {
+            agreed = inquiry is null ? SimTime.Max(agreed, own.Time) : agreed;
             return;
         }
 
-        if (own.StateHash == theirs)
+        if (divergence is not null)
         {
-            agreed = SimTime.Max(agreed, own.Time);
+            if (inquiry is null)
+            {
+                Renew();
+            }
+
             return;
         }
 
@@ -49,6 +54,15 @@ public sealed partial class JoinerSession
         divergence = Describe(after, DivergenceFinding.Asking);
     }
 
+    /// <summary>What is known to be wrong is not gone on with; that it was stays counted, and the first such state told.</summary>
+    private void Renew()
+    {
+        if (PromisesAgreement)
+        {
+            Rejoin(SessionEnd.Failed, "A committed state of this peer was not the host's.", isLinkGood: false);
+        }
+    }
+
     private void TendInquiry(SimTime now)
     {
         if (inquiry is null || link is null)
@@ -63,7 +77,7 @@ public sealed partial class JoinerSession
         else if (inquiry.Due <= now)
         {
             Span<byte> bytes = stackalloc byte[WireFormat.DoubtBytes];
-            SimDuration patience = link.Patience + MostAckDelay;
+            SimDuration patience = link.Trips.Patience + UpdateLink.MostAckDelay;
             Send(bytes.Slice(0, inquiry.Ask(link.SessionId, Peer, now, patience).Encode(bytes)), link);
         }
     }
@@ -126,6 +140,7 @@ public sealed partial class JoinerSession
         Divergence found = Describe(after, finding, hosts, own, hasOwnEffect);
         divergence = found;
         Diverged?.Invoke(found);
+        Renew();
     }
 
     private Divergence Describe(SimTime after, DivergenceFinding finding, LogEntry? hosts = null, LogEntry? own = null, bool hasOwnEffect = false) => new(

@@ -1,33 +1,25 @@
 using System;
+using LagSim.Net.Carriers;
 using LagSim.Net.Wire;
+using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Net.Sessions;
 
-/// <content>Getting in: knock, cookie, join, and fetching the copy of scene and world.</content>
+/// <content>Getting in, the first time and again: knock, cookie, join, copy, clock, number.</content>
 public sealed partial class JoinerSession
 {
-    /// <summary>A cookie that was of no use for so long is stale: another one is asked for.</summary>
-    private static readonly SimDuration CookieAge = SimDuration.FromSeconds(20);
-
-    /// <summary>The least time after which pieces that did not come are asked for again.</summary>
-    private static readonly SimDuration LeastPatience = SimDuration.FromMilliseconds(50);
-
     /// <summary>The longest round trip that is assumed before one is measured.</summary>
     private static readonly SimDuration MostGuessed = SimDuration.FromMilliseconds(400);
 
-    private Token128? cookie;
-    private SimTime challenged;
-    private SimDuration joinTook; // a round trip at least, and more where something was lost
-    private CopyFetch? fetch;
-    private ulong copyHash;
-    private WorldCopy? copy;
+    private JoinAttempt? attempt; // null once it is in
 
-    private protected override void OnOtherVersion(ReadOnlySpan<byte> datagram, Carriers.PeerAddress sender)
+    private protected override void OnOtherVersion(ReadOnlySpan<byte> datagram, PeerAddress sender)
     {
         if (sender == host && RefusalDatagram.TryReadAnyVersion(datagram, out ulong itsNonce, out byte version))
         {
-            OnRefusal(itsNonce, $"it speaks version {version} of the protocol, this peer {WireFormat.Version}.");
+            OnRefusal(itsNonce, null, $"it speaks version {version} of the protocol, this peer {WireFormat.Version}.");
         }
     }
 
@@ -38,77 +30,89 @@ public sealed partial class JoinerSession
         RefusalReason.WrongKey => "the key is wrong.",
         RefusalReason.Full => "the session is full.",
         RefusalReason.TooLarge => "its world is too large to be copied.",
+        RefusalReason.FoldDiffers => $"it computes worlds by other rules than this peer, whose fold version is {Simulation.FoldVersion}. Both need the same version of LagSim.",
+        RefusalReason.TooManyFromOneAddress => "as many as may join from one address have joined from this one (the host's MaxJoinersPerAddress).",
         _ => $"reason {(int)reason}.",
     };
 
-    private void AskToJoin(SimTime now)
+    private void AskToJoin(JoinAttempt joining, SimTime now)
     {
-        Span<byte> bytes = stackalloc byte[WireFormat.JoinBytes];
-        if (cookie is Token128 given && now - challenged <= CookieAge)
+        if (joining.Ask(now) is Token128 cookie)
         {
-            Token128 proof = JoinCookies.Prove(Options.ConnectKey, nonce, given);
-            Send(bytes.Slice(0, new JoinDatagram(nonce, given, proof, Scene?.Hash ?? 0).Encode(bytes)), host);
+            Span<byte> bytes = stackalloc byte[WireFormat.JoinBytes];
+            Token128 proof = JoinCookies.Prove(Options.ConnectKey, joining.Nonce, cookie);
+            PlayerPass former = Pass ?? default;
+            Token128 playerProof = former.Number == 0 ? default : JoinCookies.Prove(former.Secret, joining.Nonce, cookie);
+            JoinDatagram join = new(joining.Nonce, cookie, proof, Scene?.Hash ?? 0, (uint)Simulation.FoldVersion, former.Number, playerProof);
+            Send(bytes.Slice(0, join.Encode(bytes)), host);
         }
         else
         {
-            Send(bytes.Slice(0, new KnockDatagram(nonce).Encode(bytes)), host);
+            Span<byte> bytes = stackalloc byte[WireFormat.KnockBytes];
+            Send(bytes.Slice(0, new KnockDatagram(joining.Nonce).Encode(bytes)), host);
         }
     }
 
     private void OnChallenge(in ChallengeDatagram challenge)
     {
-        if (State != SessionState.Joining || challenge.Nonce != nonce)
+        if (link is not null && challenge.Nonce == link.SessionId)
+        {
+            // The host hears this peer from an address that it does not know it to have.
+            Span<byte> bytes = stackalloc byte[WireFormat.MoveBytes];
+            Send(bytes.Slice(0, new MoveDatagram(link.SessionId, link.Self, challenge.Cookie).Encode(bytes)), link);
+        }
+        else if (attempt is null || attempt.IsWelcome || challenge.Nonce != attempt.Nonce)
         {
             Counters.DatagramsIgnored++;
         }
-        else if (cookie != challenge.Cookie || Clock.Now - challenged > CookieAge)
+        else
         {
-            cookie = challenge.Cookie;
-            challenged = Clock.Now;
-            joinDue = challenged;
+            attempt.Take(challenge.Cookie, Clock.Now);
         }
     }
 
     private void OnWelcome(in WelcomeDatagram welcome)
     {
-        if (welcome.Nonce != nonce)
+        if (attempt is null || welcome.Nonce != attempt.Nonce)
         {
             Counters.DatagramsIgnored++;
         }
-        else if (State == SessionState.Joining)
+        else if (!attempt.IsWelcome)
         {
             SimTime now = Clock.Now;
-            Peer = welcome.Peer;
-            LastSequence = firstSequence = welcome.LastSequence;
             History = welcome.History;
-            LogStart = welcome.LogIndex;
-            unjudged = new OwnEvents(firstSequence);
-            outgoing = new SendWindow(firstSequence);
-            incoming = new ReceiveWindow(LogStart);
-            copyHash = welcome.CopyHash;
-            joinTook = now - challenged;
-            fetch = new CopyFetch(welcome.CopyLength, now);
-            link = new UpdateLink(welcome.SessionId, welcome.Peer, 0, host, now);
-            State = SessionState.Synchronising;
+            logStart = welcome.LogIndex;
+            attempt.Take(welcome, now);
+            Counters.EventsUnanswered += unjudged.Count;
+            unjudged = new OwnEvents(0);
+            incoming = new ReceiveWindow(logStart); // of the link that begins now
+            link = LinkTo(host, welcome.SessionId, 0, 0, now);
+            link.Self = 0;
+            State = State == SessionState.Joining ? SessionState.Synchronising : State;
         }
     }
 
-    private void OnRefusal(ulong itsNonce, string why)
+    private void OnRefusal(ulong itsNonce, RefusalReason? reason, string why)
     {
-        if (itsNonce == nonce && State == SessionState.Joining)
+        if (attempt is null || itsNonce != attempt.Nonce)
         {
-            End(SessionEnd.Refused, $"The host at {host} refused: {why}");
+            Counters.DatagramsIgnored++;
+        }
+        else if (State == SessionState.Rejoining && reason is RefusalReason.Full or RefusalReason.TooManyFromOneAddress)
+        {
+            attempt = new JoinAttempt(NextNonce(), Clock.Now + SimDuration.FromSeconds(1)); // somebody may leave
+            link = null;
         }
         else
         {
-            Counters.DatagramsIgnored++;
+            End(SessionEnd.Refused, $"The host at {host} refused: {why}");
         }
     }
 
     private void OnChunk(in ChunkDatagram chunk, int length)
     {
         SimTime now = Clock.Now;
-        if (link is null || fetch is null || chunk.SessionId != link.SessionId || !fetch.Take(chunk, now))
+        if (link is null || attempt?.Fetch is not CopyFetch fetch || chunk.SessionId != link.SessionId || !fetch.Take(chunk, now))
         {
             Counters.DatagramsIgnored++;
             return;
@@ -122,17 +126,18 @@ public sealed partial class JoinerSession
         }
 
         string? error = null;
-        if (CopyFetch.HashOf(fetch.Bytes) != copyHash)
+        if (CopyFetch.HashOf(fetch.Bytes) != attempt.CopyHash)
         {
             error = "its hash is another one than was announced.";
         }
-        else if (WorldCopy.TryDecode(fetch.Bytes, Options.Accelerations, Scene, out copy, out error))
+        else if (WorldCopy.TryDecode(fetch.Bytes, Options.Accelerations, Scene, out WorldCopy? copy, out error))
         {
+            attempt.Copy = copy;
             Scene = copy.Scene;
             link.Hasten(now);
         }
 
-        fetch = null;
+        attempt.Fetch = null;
         if (error is not null)
         {
             Farewell();
@@ -142,19 +147,100 @@ public sealed partial class JoinerSession
 
     private void TendFetch(SimTime now)
     {
-        if (fetch is null || fetch.Due > now)
+        if (attempt?.Fetch is not CopyFetch fetch || fetch.Due > now)
         {
             return;
         }
 
-        SimDuration roundTrip = link!.Traffic.RoundTrip;
-        if (roundTrip == SimDuration.Zero)
+        SimDuration guessed = attempt.Took < MostGuessed ? attempt.Took : MostGuessed;
+        Span<byte> bytes = stackalloc byte[WireFormat.FetchBytes];
+        Send(bytes.Slice(0, fetch.Ask(link!.SessionId, link.Self, now, link.Trips, guessed).Encode(bytes)), link);
+    }
+
+    private void OnSeat(in SeatDatagram seat)
+    {
+        if (link is null || attempt is null || seat.SessionId != link.SessionId || !attempt.IsReady)
         {
-            roundTrip = joinTook < MostGuessed ? joinTook : MostGuessed;
+            Counters.DatagramsIgnored++;
+            return;
         }
 
-        SimDuration patience = roundTrip + (roundTrip / 2) > LeastPatience ? roundTrip + (roundTrip / 2) : LeastPatience;
-        Span<byte> bytes = stackalloc byte[WireFormat.FetchBytes];
-        Send(bytes.Slice(0, fetch.Ask(link.SessionId, Peer, now, patience).Encode(bytes)), link);
+        link.CountReceived(WireFormat.SeatBytes);
+        if (attempt.Seat is not null)
+        {
+            return;
+        }
+
+        attempt.Seat = seat;
+        Peer = seat.Peer;
+        link.Self = seat.Peer;
+        LastSequence = firstSequence = seat.LastSequence;
+        lastUrgent = firstSequence;
+        unjudged = new OwnEvents(firstSequence);
+        link.StartAfter(firstSequence);
+        LogStart = logStart;
+        Pass = new PlayerPass(seat.Peer, seat.Pass);
+        ClockSync = attempt.Clock;
+        SharedTime.Restart();
+        SharedTime.Adjust(ClockSync.Estimate);
+        State = State == SessionState.Synchronising ? SessionState.Waiting : State;
+        link.Hasten(Clock.Now);
     }
+
+    /// <summary>Makes the world once scene, state or start, the shared time, and the number are there.</summary>
+    private void TryBegin(SimTime start)
+    {
+        if (attempt?.Seat is null || attempt.Copy is not WorldCopy copy)
+        {
+            return;
+        }
+
+        if (copy.Snapshot is WorldSnapshot snapshot)
+        {
+            try
+            {
+                from = snapshot.Time;
+                Begin(snapshot);
+            }
+            catch (SceneException failure)
+            {
+                Farewell();
+                End(SessionEnd.Failed, $"The state that the host at {host} sent is no world of its scene. {failure.Message}");
+                return;
+            }
+        }
+        else if (start == SimTime.MinValue)
+        {
+            return; // it is not decided
+        }
+        else if (start < EarliestStart())
+        {
+            Farewell();
+            End(SessionEnd.Failed, FormattableString.Invariant(
+                $"The host at {host} says that the session began {(SharedTime.Now - start).ToSeconds():0} s ago and sent no state of it: that is more than")
+                + " history and time-out allow.");
+            return;
+        }
+        else
+        {
+            from = SimTime.MinValue;
+            Begin(start);
+        }
+
+        attempt = null;
+        agreed = SimTime.MinValue;
+        if (State == SessionState.Rejoining)
+        {
+            renewed = Clock.Now;
+            State = SessionState.Waiting;
+        }
+    }
+
+    /// <summary>
+    /// Whoever joins later than the history after the start gets a state with the scene. The start of one who got none lies at most the history before it
+    /// asked to be let in, and the time-out for clocks and copies; before that nothing is simulated, however long it would take.
+    /// </summary>
+    private SimTime EarliestStart() =>
+        SharedTime.Now - (Clock.Now - attempt!.Began) - Options.Timeout
+        - (History < LatencyCompensationWindow.MaxHistory ? History : LatencyCompensationWindow.MaxHistory);
 }

@@ -6,14 +6,14 @@ using LagSim.Net.Clocks;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
-using LagSim.Timelines;
 
 namespace LagSim.Net.Sessions;
 
 /// <summary>A peer that joins a host's session, at its start or at any time later.</summary>
 /// <remarks>
 /// It sets its clock by the host's before its first tick, and fetches scene and committed state from it. Its own events show at once; one
-/// that the host refuses is taken back. After a time-out it joins again as a new one.
+/// that the host refuses is taken back. When it loses its host, or its world turns out to be wrong, it asks by itself to be let in again, as the same player, and
+/// goes on from a fresh copy (<see cref="SessionState.Rejoining"/>). Its address may change at any time.
 /// </remarks>
 public sealed partial class JoinerSession : Session
 {
@@ -23,23 +23,21 @@ public sealed partial class JoinerSession : Session
     /// </summary>
     public const int MaxUnjudgedEvents = 1 << 14;
 
-    /// <summary>How long between two tries to be let in, and between two exchanges while the clock is set.</summary>
-    private static readonly SimDuration Pace = SimDuration.FromMilliseconds(20);
-
     /// <summary>By less than this a clock's estimate may be corrected on a bad link too.</summary>
     private static readonly SimDuration LeastJump = SimDuration.FromSeconds(1);
 
     private readonly PeerAddress host;
-    private readonly ulong nonce;
-    private readonly SimTime began;
+    private ulong nonce; // of the newest attempt
+    private SimTime began = SimTime.MaxValue; // own clock, at the first step: however long that is waited for, nobody was silent
     private SimTime tended; // own clock, when this peer last looked after itself
     private uint lastUrgent; // of the own events: the newest that nothing later makes up for
+    private volatile object? pass; // a boxed one: other threads read it whole
+    private bool isStartTold; // the host tells the start until it has heard that it is known here
+    private uint logStart; // of the newest attempt
     private UpdateLink? link;
-    private SimTime joinDue;
     private SimTime from = SimTime.MinValue; // the world goes on from there: earlier events are in it
     private uint firstSequence; // the last sequence number of those who had this peer's number before
     private OwnEvents unjudged = new(0);
-    private SendWindow outgoing = new(0); // what the host has of own events; their verdicts may come later
     private ReceiveWindow incoming = new(0); // the host's log
 
     /// <summary>Asks to be let in, from the first step on.</summary>
@@ -54,9 +52,8 @@ public sealed partial class JoinerSession : Session
     {
         this.host = host;
         this.nonce = nonce;
-        began = Clock.Now;
-        tended = began;
-        joinDue = began;
+        attempt = new JoinAttempt(nonce, Clock.Now);
+        Pass = options.Pass.Number > 0 ? options.Pass : null;
         State = SessionState.Joining;
     }
 
@@ -64,7 +61,17 @@ public sealed partial class JoinerSession : Session
     public SimDuration History { get; private set; }
 
     /// <summary>What is known of the distance between the two clocks.</summary>
-    public ClockSync ClockSync { get; } = new();
+    public ClockSync ClockSync { get; private set; } = new();
+
+    /// <summary>
+    /// What shows a host that this is the player it was, for another session of this program: see <see cref="SessionOptions.Pass"/>. Null before the host gave a
+    /// number. From any thread.
+    /// </summary>
+    public PlayerPass? Pass
+    {
+        get => (PlayerPass?)pass;
+        private set => pass = value;
+    }
 
     /// <inheritdoc/>
     public override IReadOnlyList<LinkTraffic> Links => link is null ? Array.Empty<LinkTraffic>() : new[] { link.Traffic };
@@ -74,8 +81,6 @@ public sealed partial class JoinerSession : Session
 
     /// <summary>How many own events wait for the host's verdict, at most <see cref="MaxUnjudgedEvents"/>. On the session's thread.</summary>
     public int UnjudgedEvents => unjudged.Count;
-
-    private bool IsReady => copy is not null && SharedTime.IsSet;
 
     private protected override void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress sender)
     {
@@ -94,7 +99,7 @@ public sealed partial class JoinerSession : Session
                 OnWelcome(welcome);
                 break;
             case DatagramType.Refusal when IsWellFormed(RefusalDatagram.TryDecode(datagram, out RefusalDatagram refusal, out _)):
-                OnRefusal(refusal.Nonce, Sentence(refusal.Reason));
+                OnRefusal(refusal.Nonce, refusal.Reason, Sentence(refusal.Reason));
                 break;
             case DatagramType.Chunk when IsWellFormed(ChunkDatagram.TryDecode(datagram, out ChunkDatagram chunk, out _)):
                 OnChunk(chunk, datagram.Length);
@@ -105,7 +110,10 @@ public sealed partial class JoinerSession : Session
             case DatagramType.Leave when IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)):
                 OnLeave(leave);
                 break;
-            case DatagramType.Knock or DatagramType.Join or DatagramType.Fetch or DatagramType.Doubt:
+            case DatagramType.Seat when IsWellFormed(SeatDatagram.TryDecode(datagram, out SeatDatagram seat, out _)):
+                OnSeat(seat);
+                break;
+            case DatagramType.Knock or DatagramType.Join or DatagramType.Fetch or DatagramType.Doubt or DatagramType.Move:
                 Counters.DatagramsIgnored++; // a joiner's own words
                 break;
         }
@@ -132,18 +140,23 @@ public sealed partial class JoinerSession : Session
         }
 
         link.CountReceived(update.EncodedLength);
-        if (isNewest && update.EchoSent != SimTime.MinValue
-            && ClockSync.Add(update.EchoSent, update.EchoReceived, update.Sent, now) && ClockSync.IsReady)
+        if (State == SessionState.Rejoining && attempt is not null && !attempt.IsWelcome)
         {
-            SharedTime.Adjust(ClockSync.Estimate);
+            Regain();
+        }
+
+        ClockSync clock = attempt?.Clock ?? ClockSync;
+        bool isExchange = isNewest && link.TryGetSent(update.EchoNumber, out SimTime echoSent)
+            && clock.Add(echoSent, update.EchoReceived, update.Sent, now) && clock.IsReady;
+        if (isExchange && attempt is null)
+        {
+            SharedTime.Adjust(clock.Estimate);
             SimDuration off = SharedTime.Remaining < SimDuration.Zero ? -SharedTime.Remaining : SharedTime.Remaining;
-            if (World is not null && off > History && off > LeastJump)
+            if (off > History && off > LeastJump)
             {
                 // To bend it back at 5 % takes twenty times as long, and until then all that is done here would be refused.
-                Farewell();
-                End(SessionEnd.Failed, FormattableString.Invariant(
-                    $"This machine's clock and the host's are {off.ToSeconds():0.###} s further apart than before: one of them jumped, or the machine slept.")
-                    + " Join again.");
+                Rejoin(SessionEnd.Failed, FormattableString.Invariant(
+                    $"This machine's clock and the host's are {off.ToSeconds():0.###} s further apart than before: one of them jumped, or the machine slept."), isLinkGood: false);
                 return;
             }
         }
@@ -154,72 +167,98 @@ public sealed partial class JoinerSession : Session
         }
 
         // Its clock is set first: events are late or not by it.
-        bool hadWorld = World is not null;
-        TryBegin(update.Start);
-        if (!hadWorld && World is not null)
+        isStartTold = update.Start != SimTime.MinValue;
+        Keep(update); // in any case: the host hears that this update came, and does not send again what was in it
+        if (attempt is not null)
         {
+            TryBegin(update.Start);
+            if (attempt is not null || State == SessionState.Ended)
+            {
+                return;
+            }
+
             link.Hasten(now); // until the host hears that it has begun, it is told so again and again
         }
 
-        if (World is not null)
+        link.Acknowledge(Math.Min(update.EventsReceived, LastSequence), now);
+        long lost = Counters.EventsLost;
+        TakeEntries(now);
+        if (Counters.EventsLost > lost && PromisesAgreement)
         {
-            outgoing.Acknowledge(Math.Min(update.EventsReceived, LastSequence));
-            TakeEntries(update, now);
-            if (update.HasStateHash)
-            {
-                CompareCommitted(update.HashTime, update.StateHash);
-            }
+            Rejoin(SessionEnd.Failed, "An accepted event came too late for the history that this peer still had.", isLinkGood: false);
+        }
+        else
+        {
+            CompareCommitted(update);
         }
     }
 
     private protected override void Tend(SimTime now)
     {
+        if (began == SimTime.MaxValue)
+        {
+            began = tended = now;
+        }
+
         if (now - tended > Options.Timeout / 2)
         {
             link?.NoteHeard(now); // it was this machine that slept, or whose clock jumped: who was not listened to was not silent
         }
 
         tended = now;
-        SimTime heard = link?.Heard ?? began;
-        if (now - heard > Options.Timeout)
+        if (State == SessionState.Rejoining)
         {
-            End(SessionEnd.HostSilent, link is null
-                ? FormattableString.Invariant($"No answer from {host} within {Options.Timeout.ToSeconds():0.###} s.")
-                : FormattableString.Invariant($"The host at {host} fell silent for {Options.Timeout.ToSeconds():0.###} s."));
-            return;
+            TendRejoining(now);
         }
-
-        if (link is null)
+        else if (now - (link?.Heard ?? began) > Options.Timeout)
         {
-            if (joinDue <= now)
+            if (World is null)
             {
-                AskToJoin(now);
-                joinDue = now + Pace;
+                End(SessionEnd.HostSilent, link is null
+                    ? FormattableString.Invariant($"No answer from {host} within {Options.Timeout.ToSeconds():0.###} s.")
+                    : Silence);
             }
+            else
+            {
+                Rejoin(SessionEnd.HostSilent, Silence, isLinkGood: true);
+            }
+        }
 
+        if (State == SessionState.Ended)
+        {
             return;
         }
 
-        TendFetch(now);
-        TendInquiry(now);
-        if (link.Due <= now)
+        if (attempt is JoinAttempt joining && !joining.IsWelcome)
         {
-            bool hasMore = true;
-            for (int n = 0; hasMore && n < SendWindow.MaxDatagramsAtOnce; n++)
+            if (joining.Due <= now)
             {
-                hasMore = SendUpdate(link, now);
+                AskToJoin(joining, now);
+            }
+        }
+        else
+        {
+            TendFetch(now);
+            TendInquiry(now);
+            for (int n = 0; n < SendWindow.MaxDatagramsAtOnce && link?.IsDue(now) == true; n++)
+            {
+                SendUpdate(link, now);
             }
         }
     }
 
+    private string Silence => FormattableString.Invariant($"The host at {host} fell silent for {Options.Timeout.ToSeconds():0.###} s.");
+
     private protected override SimTime NextDue(SimTime now) =>
-        link is null ? joinDue : SimTime.Min(SimTime.Min(link.Due, fetch?.Due ?? SimTime.MaxValue), inquiry?.Due ?? SimTime.MaxValue);
+        attempt is JoinAttempt joining && !joining.IsWelcome
+            ? joining.Due
+            : SimTime.Min(SimTime.Min(link?.Due ?? now, attempt?.Fetch?.Due ?? SimTime.MaxValue), inquiry?.Due ?? SimTime.MaxValue);
 
     private protected override void Publish(in ExternalEvent external)
     {
         unjudged.Add(external);
         lastUrgent = IsMadeUpFor(external) ? lastUrgent : external.Sequence;
-        link!.Hasten(Clock.Now);
+        link!.NoteNews(UpdateDatagram.LengthOf(new UpdateEntry(Verdict.Pending, external)), Clock.Now);
     }
 
     private protected override void ThrowIfTooMuch()
@@ -243,14 +282,32 @@ public sealed partial class JoinerSession : Session
     {
         if (link is not null && leave.SessionId == link.SessionId && leave.Peer == 0)
         {
-            End(leave.Reason == LeaveReason.HostEnded ? SessionEnd.HostEnded : SessionEnd.LetGo, leave.Reason switch
+            string why = leave.Reason switch
             {
                 LeaveReason.TimedOut => $"The host at {host} heard nothing from this peer for too long.",
                 LeaveReason.Replaced => $"This player came in from elsewhere; the host at {host} let this peer go.",
                 LeaveReason.NotJoined => $"The host at {host} does not have this peer among its joiners, or no longer.",
-                LeaveReason.FellBehind => $"The host at {host} let this peer go: it did not take in what happened as fast as it did.",
+                LeaveReason.FellBehind => FormattableString.Invariant(
+                    $"The link to the host at {host} is too slow: what happened {Options.Timeout.ToSeconds():0.###} s ago has not come over it yet."),
                 _ => $"The host at {host} ended the session.",
-            });
+            };
+            if (leave.Reason is not (LeaveReason.TimedOut or LeaveReason.NotJoined or LeaveReason.FellBehind))
+            {
+                End(leave.Reason == LeaveReason.HostEnded ? SessionEnd.HostEnded : SessionEnd.LetGo, why);
+            }
+            else if (State == SessionState.Rejoining)
+            {
+                attempt = attempt!.IsWelcome ? new JoinAttempt(NextNonce(), Clock.Now) : attempt;
+                link = null; // what it was is over, or what it was about to be
+            }
+            else if (World is null)
+            {
+                End(SessionEnd.LetGo, why);
+            }
+            else
+            {
+                Rejoin(leave.Reason == LeaveReason.FellBehind ? SessionEnd.LinkTooSlow : SessionEnd.LetGo, why, isLinkGood: false);
+            }
         }
         else
         {
@@ -258,58 +315,7 @@ public sealed partial class JoinerSession : Session
         }
     }
 
-    /// <summary>Makes the world once scene, state or start, and the shared time are there.</summary>
-    private void TryBegin(SimTime start)
-    {
-        if (!IsReady)
-        {
-            return;
-        }
-
-        State = State == SessionState.Synchronising ? SessionState.Waiting : State;
-        if (World is not null)
-        {
-            return;
-        }
-
-        if (copy!.Snapshot is not WorldSnapshot snapshot)
-        {
-            if (start != SimTime.MinValue && start < EarliestStart())
-            {
-                Farewell();
-                End(SessionEnd.Failed, FormattableString.Invariant(
-                    $"The host at {host} says that the session began {(SharedTime.Now - start).ToSeconds():0} s ago and sent no state of it: that is more than")
-                    + " history and time-out allow.");
-            }
-            else if (start != SimTime.MinValue)
-            {
-                Begin(start);
-            }
-
-            return;
-        }
-
-        try
-        {
-            from = snapshot.Time;
-            Begin(snapshot);
-        }
-        catch (SceneException failure)
-        {
-            Farewell();
-            End(SessionEnd.Failed, $"The state that the host at {host} sent is no world of its scene. {failure.Message}");
-        }
-    }
-
-    /// <summary>
-    /// Whoever joins later than the history after the start gets a state with the scene. The start of one who got none lies at most the history before it
-    /// asked to be let in, and the time-out for clocks and copies; before that nothing is simulated, however long it would take.
-    /// </summary>
-    private SimTime EarliestStart() =>
-        SharedTime.Now - (Clock.Now - began) - Options.Timeout
-        - (History < LatencyCompensationWindow.MaxHistory ? History : LatencyCompensationWindow.MaxHistory);
-
-    private void TakeEntries(UpdateDatagram update, SimTime now)
+    private void Keep(UpdateDatagram update)
     {
         uint number = update.FirstIndex;
         foreach (UpdateEntry entry in update.Held)
@@ -321,7 +327,10 @@ public sealed partial class JoinerSession : Session
         {
             incoming.Promise(number - 1, update.Watermark);
         }
+    }
 
+    private void TakeEntries(SimTime now)
+    {
         bool any = incoming.HasNext;
         bool isUrgent = false;
         while (incoming.HasNext)
@@ -339,9 +348,13 @@ public sealed partial class JoinerSession : Session
             Commit(SimTime.Min(incoming.Promised, needed));
         }
 
-        if (any)
+        if (any && isUrgent)
         {
-            link!.Hasten(isUrgent ? now : now + MostAckDelay);
+            link!.Answer(now);
+        }
+        else if (any)
+        {
+            link!.Hasten(now + UpdateLink.MostAckDelay);
         }
     }
 
@@ -360,7 +373,7 @@ public sealed partial class JoinerSession : Session
         if (own)
         {
             external = unjudged.Take();
-            outgoing.Acknowledge(external.Sequence); // an update that was overtaken may tell the verdict first
+            link!.Acknowledge(external.Sequence, Clock.Now); // an update that was overtaken may tell the verdict first
         }
 
         bool accepted = entry.Verdict == Verdict.Accepted && (own || MayEnter(external));
@@ -381,18 +394,16 @@ public sealed partial class JoinerSession : Session
         Tell(new LogEntry(incoming.Received, entry.Verdict, external));
     }
 
-    /// <summary>Sends one update; whether there is more to be sent at once.</summary>
-    private bool SendUpdate(UpdateLink to, SimTime now)
+    private void SendUpdate(UpdateLink to, SimTime now)
     {
         UpdateDatagram update = to.Compose(now);
-        update.EventsReceived = incoming.Received;
-        update.Ready = IsReady;
-        update.Start = World?.Simulation.Start ?? SimTime.MinValue;
-        bool hasMore = outgoing.Fill(update, unjudged, now, TimesOf(to));
-        SimDuration wait = !IsReady
-            ? Pace
-            : WaitAfterUpdate(outgoing.Acknowledged < lastUrgent || outgoing.HasLost, outgoing.Acknowledged < LastSequence, to, now, Options.KeepAlive);
-        Send(to.Seal(hasMore ? now : now + wait), to);
-        return hasMore;
+        update.EventsReceived = attempt is null ? incoming.Received : 0;
+        update.Ready = attempt is null || attempt.IsReady;
+        update.Start = attempt is null && isStartTold ? World!.Simulation.Start : SimTime.MinValue;
+        to.Fill(unjudged, now);
+        bool isComingIn = attempt is not null && !(attempt.Seat is not null && World is null);
+        SimDuration pace = to.Trips.Mean / 8 > JoinAttempt.Pace ? to.Trips.Mean / 8 : JoinAttempt.Pace;
+        SimDuration rest = isComingIn ? pace : RestAfterUpdate(to, false, now, Options.KeepAlive);
+        Send(to.Seal(unjudged, now, rest, isUrgent: to.Outgoing.Acknowledged < lastUrgent), to);
     }
 }

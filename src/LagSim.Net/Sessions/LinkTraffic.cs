@@ -7,7 +7,7 @@ namespace LagSim.Net.Sessions;
 /// <remarks>A copy: immutable, safe on any thread.</remarks>
 public sealed class LinkTraffic
 {
-    internal LinkTraffic(byte peer, PeerAddress address, long datagramsSent, long bytesSent, long datagramsReceived, long bytesReceived, SimDuration roundTrip)
+    internal LinkTraffic(byte peer, PeerAddress address, long datagramsSent, long bytesSent, long datagramsReceived, long bytesReceived, SimDuration roundTrip, SimDuration queueing)
     {
         Peer = peer;
         Address = address;
@@ -16,6 +16,7 @@ public sealed class LinkTraffic
         DatagramsReceived = datagramsReceived;
         BytesReceived = bytesReceived;
         RoundTrip = roundTrip;
+        Queueing = queueing;
     }
 
     /// <summary>The other peer's number; 0 is the host.</summary>
@@ -38,4 +39,10 @@ public sealed class LinkTraffic
 
     /// <summary>The newest round trip, without the time spent at the other peer; zero before there is one.</summary>
     public SimDuration RoundTrip { get; }
+
+    /// <summary>
+    /// How much of the round trips of late is waiting in a queue, in one direction or the other; zero where there is none worth speaking of. While there is one,
+    /// this end repeats nothing and puts more into each datagram.
+    /// </summary>
+    public SimDuration Queueing { get; }
 }

@@ -21,6 +21,7 @@ public sealed class PeerThread : IDisposable
     private readonly ManualResetEventSlim decided = new(); // running or ended
     private readonly bool ownsPort;
     private volatile bool disposed;
+    private bool isWarm; // the session's thread alone
 
     /// <summary>Gives the session a thread; it is not started yet. The port is not disposed with it.</summary>
     public PeerThread(Session session, IDatagramPort port, string name)
@@ -106,6 +107,9 @@ public sealed class PeerThread : IDisposable
 
     /// <summary>What tells of contacts, as the session's options gave it; null for nobody, and before there is a world.</summary>
     public ContactNotices? Contacts => Session.World?.Contacts;
+
+    /// <summary>What the thread does before its first step, given the session's strategy; to be set before it is started.</summary>
+    internal Action<string> WarmUpFor { get; set; } = SessionWarmup.Once;
 
     /// <summary>How many steps the thread has done.</summary>
     public long Steps => thread.Steps;
@@ -205,6 +209,19 @@ public sealed class PeerThread : IDisposable
         }
     }
 
+    /// <summary>On this thread and not the game's, and before anything is answered, so that what is done waits for it at worst once.</summary>
+    private void WarmUp()
+    {
+        if (!isWarm)
+        {
+            isWarm = true;
+            if (Session.WarmsUpFor is string strategy)
+            {
+                WarmUpFor(strategy);
+            }
+        }
+    }
+
     private void AnswerAll()
     {
         while (requests.TryDequeue(out Action? request))
@@ -226,10 +243,12 @@ public sealed class PeerThread : IDisposable
         }
     }
 
-    private SimDuration Step()
+    /// <summary>What its thread does again and again; for that thread alone, or whoever has not started it.</summary>
+    internal SimDuration Step()
     {
         try
         {
+            WarmUp();
             AnswerAll();
             SimDuration wait = Session.Step();
             if (Session.State is SessionState.Running or SessionState.Ended)

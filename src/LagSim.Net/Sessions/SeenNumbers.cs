@@ -46,6 +46,18 @@ internal sealed class SeenNumbers
         return true;
     }
 
+    /// <summary>Which of the 32 numbers before one that is not above <see cref="Newest"/> have come: bit n for number - 1 - n.</summary>
+    internal uint BitsBefore(uint number)
+    {
+        uint bits = 0;
+        for (uint n = 1; n <= 32 && n < number; n++)
+        {
+            bits |= (seen[Word(number - n)] & Bit(number - n)) != 0 ? 1u << (int)(n - 1) : 0;
+        }
+
+        return bits;
+    }
+
     private static int Word(uint number) => (int)(number % Span / WordBits);
 
     private static ulong Bit(uint number) => 1UL << (int)(number % WordBits);

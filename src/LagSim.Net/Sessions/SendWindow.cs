@@ -1,19 +1,14 @@
 using System;
 using System.Collections.Generic;
 using LagSim.Net.Wire;
-using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>Chooses which entries the next update of a link carries, so that a long way costs no throughput and a loss as little time as can be.</summary>
+/// <summary>Chooses which entries the next update of a link carries: what was lost first, then what is new, then repetitions as far as they are allowed.</summary>
 /// <remarks>
-/// <para>What fits into one datagram travels in every datagram until it is acknowledged: a loss costs a resend interval. Of more than that each datagram
-/// carries what has not been sent; what a datagram carried is sent again when it was not acknowledged for longer than an answer takes. Once a resend interval a
-/// datagram is filled up with entries that were sent before.</para>
-/// <para>At most <see cref="MaxEntries"/> are under way. Where nothing is acknowledged though all was sent twice, the wait doubles, and only the oldest
-/// go on at the resend interval: who lets itself be sent to and answers nothing costs little.</para>
-/// <para>Knots are made up for by later ones, so they travel twice, and then wait; once one <see cref="HasLost"/> its time, they too travel in every
-/// datagram.</para>
+/// <para>Each entry has to go once, and again for each time that it was lost with everything that carried it (<see cref="Lose"/>). That is needed, whatever the
+/// link is like. Repetition of what is on its way hides losses before they are known, and is for links with room.</para>
+/// <para>At most <see cref="MaxEntries"/> are under way. Knots are made up for by later ones, so they are repeated once, with the next.</para>
 /// </remarks>
 internal sealed class SendWindow
 {
@@ -23,12 +18,11 @@ internal sealed class SendWindow
     /// <summary>So many datagrams go out at a time at most; the next a millisecond later.</summary>
     internal const int MaxDatagramsAtOnce = 4;
 
-    private const int MostDoublings = 8;
+    private const int Room = WireFormat.MaxBytes - WireFormat.EmptyUpdateBytes - WireFormat.MostHashBytes - WireFormat.StartBytes;
 
-    private readonly Queue<Flight> flights = new(); // by when they were sent; each entry under way is in one at least
+    private readonly List<(uint First, uint Last)> lost = new(); // ascending, apart, above what is acknowledged
     private uint sent;
-    private int stalls; // how often the oldest entry was sent again in vain
-    private SimTime repeated = SimTime.MinValue; // when a datagram was last filled up with what had been sent before
+    private uint lostUpTo; // the greatest number that was ever sent in vain
 
     /// <param name="acknowledged">The other has the entries up to this one.</param>
     internal SendWindow(uint acknowledged) => Acknowledged = sent = acknowledged;
@@ -36,188 +30,216 @@ internal sealed class SendWindow
     /// <summary>The other has the entries up to this one.</summary>
     internal uint Acknowledged { get; private set; }
 
-    /// <summary>
-    /// Whether something was not acknowledged in time, and nothing has been since. From then on all of it is worth a datagram each resend interval: links lose
-    /// several datagrams in a row, however far apart, so whoever asks again only after each answer's time may wait for seconds.
-    /// </summary>
-    internal bool HasLost { get; private set; }
+    /// <summary>The greatest number that was sent, or acknowledged.</summary>
+    internal uint Sent => sent;
 
     /// <summary>Notes that the other has the entries up to a number; a lower one than before says nothing.</summary>
     internal void Acknowledge(uint number)
     {
-        if (number > Acknowledged)
+        if (number <= Acknowledged)
         {
-            Acknowledged = number;
-            sent = Math.Max(sent, number);
-            stalls = 0;
-            HasLost = false;
+            return;
         }
+
+        Acknowledged = number;
+        sent = Math.Max(sent, number);
+        while (lost.Count > 0 && lost[0].First <= number)
+        {
+            if (lost[0].Last > number)
+            {
+                lost[0] = (number + 1, lost[0].Last);
+                return;
+            }
+
+            lost.RemoveAt(0);
+        }
+    }
+
+    /// <summary>Notes that entries were sent in vain: they have to go again, unless they are on their way again already.</summary>
+    internal void Lose(uint first, uint last, bool isOnItsWay = false)
+    {
+        first = Math.Max(first, Acknowledged + 1);
+        last = Math.Min(last, sent);
+        if (first > last)
+        {
+            return;
+        }
+
+        lostUpTo = Math.Max(lostUpTo, last);
+        if (isOnItsWay)
+        {
+            return;
+        }
+
+        int at = 0;
+        while (at < lost.Count && lost[at].Last + 1L < first)
+        {
+            at++;
+        }
+
+        while (at < lost.Count && lost[at].First <= last + 1L)
+        {
+            first = Math.Min(first, lost[at].First);
+            last = Math.Max(last, lost[at].Last);
+            lost.RemoveAt(at);
+        }
+
+        lost.Insert(at, (first, last));
+    }
+
+    /// <summary>
+    /// Whether something was sent in vain that is not acknowledged yet. Then all of it is worth a repetition, knots too: links lose several datagrams in a row,
+    /// however far apart, so whoever sends again only when the answer is overdue may wait for seconds.
+    /// </summary>
+    internal bool HasLost => lostUpTo > Acknowledged;
+
+    /// <summary>Whether anything has to go again.</summary>
+    internal bool HasToGoAgain => lost.Count > 0;
+
+    /// <summary>Whether anything has to go.</summary>
+    internal bool HasNeeded(IEntrySource source) => lost.Count > 0 || sent < LastOf(source);
+
+    /// <summary>How many bytes the entries take that a repetition would carry; 0 if there are none.</summary>
+    /// <param name="source">The entries.</param>
+    internal int RepetitionBytes(IEntrySource source)
+    {
+        int bytes = 0;
+        for (uint number = Acknowledged; number < sent && bytes < Room; number++)
+        {
+            bytes += UpdateDatagram.LengthOf(source[number + 1]);
+        }
+
+        return Math.Min(bytes, Room);
     }
 
     /// <summary>Puts entries into an update that has none, and sets the number of the first.</summary>
     /// <param name="update">The update.</param>
     /// <param name="source">The entries.</param>
-    /// <param name="now">When it is sent.</param>
-    /// <param name="times">How long answers take, and to wait for them.</param>
-    /// <returns>Whether more is to be sent at once.</returns>
-    internal bool Fill(UpdateDatagram update, IEntrySource source, SimTime now, in ResendTimes times)
+    /// <param name="repetition">How many bytes may be repetition; of an update that is nothing else, its own bytes among them.</param>
+    /// <param name="own">How many bytes an update has beside its entries, UDP and IP included.</param>
+    /// <returns>How many were.</returns>
+    internal int Fill(UpdateDatagram update, IEntrySource source, int repetition, int own)
     {
-        uint last = source.Last - Acknowledged > MaxEntries ? Acknowledged + MaxEntries : source.Last;
-        bool mayRepeat = repeated == SimTime.MinValue || now - repeated >= times.Interval;
-        while (flights.TryPeek(out Flight past) && past.Last <= Acknowledged)
+        uint last = LastOf(source);
+        (uint first, uint end) = lost.Count > 0 ? lost[0] : (sent + 1, last);
+        end = end == sent ? last : end; // what is new follows at once
+        bool isNeeded = first <= end && (lost.Count > 0 || sent < last);
+        int allowed = isNeeded ? repetition : repetition - own;
+
+        // All that is not acknowledged, if that is one datagram and not too much repetition.
+        bool isMadeUpFor = !HasLost && AreKnots(source, last);
+        if (!isNeeded && isMadeUpFor)
         {
-            flights.Dequeue();
+            update.FirstIndex = sent + 1; // so much the other has been sent: what the update promises comes after that
+            return 0;
         }
 
-        SimDuration wait = Wait(times.Answer);
-        uint first = Acknowledged + 1;
-        HasLost |= IsOverdue(now, wait + times.AckDelay);
-        uint needed = HasLost ? first : FirstNeeded(source, last);
-        if (Add(update, source, needed, last) == last)
+        uint from = isMadeUpFor ? Math.Max(Acknowledged + 1, Math.Min(sent, last)) : Acknowledged + 1;
+        int all = Length(source, from, last);
+        int needed = LengthNeeded(source, from, last);
+        if (from <= last && all <= Room && all - needed <= allowed && (isNeeded || all > 0))
         {
-            if (needed == first)
+            Carry(update, source, from, last);
+            lost.RemoveAll(range => range.First >= from);
+            sent = Math.Max(sent, last);
+            return all - needed + (isNeeded ? 0 : own);
+        }
+
+        if (!isNeeded)
+        {
+            // The oldest, which keep the others waiting.
+            uint held = Carry(update, source, Acknowledged + 1, sent, allowed);
+            if (held > Acknowledged)
             {
-                flights.Clear();
-                sent = Acknowledged;
+                return own + Length(source, Acknowledged + 1, held);
             }
 
-            Note(sent + 1, last, now);
-            repeated = now;
-            return false;
-        }
-
-        if (needed != first)
-        {
-            Add(update, source, first, last);
-        }
-
-        if (mayRepeat && (stalls > 0 || (sent == last && !IsOverdue(now, wait))))
-        {
-            repeated = now; // from the oldest on, as it is already filled
-        }
-        else if (IsOverdue(now, wait))
-        {
-            Repeat(update, source, now, wait);
-        }
-        else if (sent < last)
-        {
-            first = mayRepeat ? FirstBefore(source, last) : sent + 1;
-            repeated = mayRepeat ? now : repeated;
-            Note(sent + 1, Add(update, source, Math.Min(first, sent + 1), last), now);
-        }
-        else
-        {
-            update.ClearEntries();
             update.FirstIndex = sent + 1;
+            return 0;
         }
 
-        return sent < last || IsOverdue(now, Wait(times.Answer));
+        int repeated = 0;
+        if (Length(source, first, end) is int length && length <= Room)
+        {
+            while (first > Acknowledged + 1)
+            {
+                int more = UpdateDatagram.LengthOf(source[first - 1]);
+                if (length + more > Room || repeated + more > allowed)
+                {
+                    break;
+                }
+
+                (length, repeated, first) = (length + more, repeated + more, first - 1);
+            }
+        }
+
+        uint carried = Carry(update, source, first, end);
+        if (lost.Count > 0)
+        {
+            lost[0] = (Math.Min(carried, lost[0].Last) + 1, lost[0].Last);
+            if (lost[0].First > lost[0].Last)
+            {
+                lost.RemoveAt(0);
+            }
+        }
+
+        sent = Math.Max(sent, carried);
+        return repeated;
     }
 
+    private uint LastOf(IEntrySource source) => source.Last - Acknowledged > MaxEntries ? Acknowledged + MaxEntries : source.Last;
+
     /// <summary>
-    /// The first entry that goes out in any case, of those that are not acknowledged, up to the last. Where they are knots alone it is the newest that was sent
-    /// before; where there is anything else, it is the first, since what comes after one that is lost can be taken only with it.
+    /// Whether all entries that are not acknowledged, up to the last, are knots. Then it is the newest sent before that is repeated, with the next; where there is
+    /// anything else, it is all, since what comes after one that is lost can be taken only with it.
     /// </summary>
-    private uint FirstNeeded(IEntrySource source, uint last)
+    private bool AreKnots(IEntrySource source, uint last)
     {
         for (uint number = Acknowledged; number < last; number++) // the last may be the greatest number there is
         {
             UpdateEntry entry = source[number + 1];
             if (entry.IsOwn || !Session.IsMadeUpFor(entry.Event))
             {
-                return Acknowledged + 1;
+                return false;
             }
         }
 
-        return Math.Max(Acknowledged + 1, Math.Min(sent, last));
+        return true;
     }
 
-    /// <summary>Sends again what was in the datagram that was sent the longest ago, and what follows on it and was overdue as well.</summary>
-    private void Repeat(UpdateDatagram update, IEntrySource source, SimTime now, SimDuration wait)
+    /// <summary>How many bytes entries take, or more than fits into a datagram.</summary>
+    private static int Length(IEntrySource source, uint first, uint last)
     {
-        Flight oldest = flights.Dequeue();
-        uint first = Math.Max(oldest.First, Acknowledged + 1), last = oldest.Last;
-        stalls = first == Acknowledged + 1 ? Math.Min(stalls + 1, MostDoublings) : stalls;
-        uint held = Add(update, source, first, last);
-        while (IsOverdue(now, wait) && flights.Peek() is Flight next && next.First == last + 1)
+        int bytes = 0;
+        for (long number = first; number <= last && bytes <= Room; number++)
         {
-            held = Extend(update, source, held, next.Last);
-            if (held < next.Last)
-            {
-                break;
-            }
-
-            last = next.Last;
-            flights.Dequeue();
+            bytes += UpdateDatagram.LengthOf(source[(uint)number]);
         }
 
-        flights.Enqueue(new Flight(first, last, now));
+        return bytes;
     }
 
-    /// <summary>The first of the entries up to the last that fit into one datagram together.</summary>
-    private uint FirstBefore(IEntrySource source, uint last)
+    private int LengthNeeded(IEntrySource source, uint first, uint last)
     {
-        int room = WireFormat.MaxBytes - WireFormat.EmptyUpdateBytes - WireFormat.StateHashBytes;
-        uint first = last + 1;
-        while (first > Acknowledged + 1)
+        int bytes = Length(source, Math.Max(first, sent + 1), last);
+        foreach ((uint First, uint Last) range in lost)
         {
-            room -= UpdateDatagram.LengthOf(source[first - 1]);
-            if (room < 0)
-            {
-                break;
-            }
-
-            first--;
+            bytes += Length(source, Math.Max(first, range.First), Math.Min(last, range.Last));
         }
 
-        return first;
+        return bytes;
     }
 
-    private SimDuration Wait(SimDuration answer) => answer * (1L << Math.Max(0, stalls - 1));
-
-    private bool IsOverdue(SimTime now, SimDuration wait) => flights.TryPeek(out Flight oldest) && now - oldest.At >= wait;
-
-    private void Note(uint first, uint last, SimTime now)
+    /// <summary>Has an update carry entries, as many as fit; the number of the last, or of the one before the first.</summary>
+    private static uint Carry(UpdateDatagram update, IEntrySource source, uint first, uint last, int most = Room)
     {
-        if (first <= last)
-        {
-            flights.Enqueue(new Flight(first, last, now));
-            sent = last;
-        }
-    }
-
-    /// <summary>Has an update carry the entries from the first on, up to the last if they fit; the number of the one that it ends with.</summary>
-    private static uint Add(UpdateDatagram update, IEntrySource source, uint first, uint last)
-    {
-        update.ClearEntries();
         update.FirstIndex = first;
-        return Extend(update, source, first - 1, last);
-    }
-
-    private static uint Extend(UpdateDatagram update, IEntrySource source, uint held, uint last)
-    {
-        while (held < last && update.TryAdd(source[held + 1]))
+        uint held = first - 1;
+        while (held < last && (most -= UpdateDatagram.LengthOf(source[held + 1])) >= 0 && update.TryAdd(source[held + 1]))
         {
             held++;
         }
 
         return held;
-    }
-
-    /// <summary>The entries that a datagram carried for the first time, or again, and when it was sent.</summary>
-    private readonly struct Flight
-    {
-        internal Flight(uint first, uint last, SimTime at)
-        {
-            First = first;
-            Last = last;
-            At = at;
-        }
-
-        internal uint First { get; }
-
-        internal uint Last { get; }
-
-        internal SimTime At { get; }
     }
 }

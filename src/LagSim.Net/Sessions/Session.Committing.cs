@@ -1,6 +1,6 @@
 using System;
+using LagSim.Net.Wire;
 using LagSim.Time;
-using LagSim.Timelines;
 
 namespace LagSim.Net.Sessions;
 
@@ -14,7 +14,7 @@ public abstract partial class Session
     /// <summary>
     /// Raised on the session's thread for every committed state, in order; see <see cref="SessionOptions.CommitInterval"/>. Handlers must not throw.
     /// </summary>
-    /// <remarks>A world that is behind commits later; where it had to forget an instant before that could be committed, none is raised for it.</remarks>
+    /// <remarks>A world that is behind commits later.</remarks>
     public event Action<CommittedState>? StateCommitted;
 
     /// <summary>The newest committed state; null before there is one. From any thread.</summary>
@@ -24,12 +24,39 @@ public abstract partial class Session
     private protected SimTime NextCommit(SimDuration behind) =>
         schedule is null ? SimTime.MaxValue : schedule.Next + behind + SimDuration.OneTick;
 
-    /// <summary>Notes the state that the host says it has committed.</summary>
-    private protected void CompareCommitted(SimTime time, ulong stateHash)
+    /// <summary>Puts the hashes of the newest committed states into an update, back to one that the other is known to have, as many as may travel.</summary>
+    /// <returns>The newest instant; <paramref name="after"/> if there is none after it.</returns>
+    private protected SimTime PutHashes(UpdateDatagram update, SimTime after)
     {
-        if (schedule is not null && schedule.TryCompare(time, stateHash, out CommittedState mine))
+        if (schedule is null || Committed is not CommittedState newest || newest.Time <= after)
         {
-            Compare(mine, stateHash);
+            return after;
+        }
+
+        for (SimTime time = newest.Time; time > after && schedule.TryGet(time, out ulong hash) && update.TryAddHash(time, hash); time -= schedule.Interval)
+        {
+        }
+
+        return newest.Time;
+    }
+
+    /// <summary>Notes the states that the host says it has committed.</summary>
+    private protected void CompareCommitted(UpdateDatagram update)
+    {
+        SimTime time = update.HashTime;
+        foreach (ulong hash in update.Hashes)
+        {
+            if (schedule is null || State == SessionState.Rejoining)
+            {
+                return;
+            }
+
+            if (schedule.TryCompare(time, hash, out CommittedState mine))
+            {
+                Compare(mine, hash);
+            }
+
+            time -= schedule.Interval;
         }
     }
 
@@ -72,18 +99,8 @@ public abstract partial class Session
     }
 
     /// <summary>
-    /// A world that has long to go takes no more memory for it than one that is there: what has been committed to is hashed as the world gets there, and
-    /// what is older than any event that can still come is forgotten, committed or not.
+    /// A world that has long to go takes no more memory for it than one that is there: what has been committed to is hashed as the world gets there, and then
+    /// forgotten. What the watermark has not passed stays, however old it is: an event of then may still come, and to have forgotten it would be to lose it.
     /// </summary>
-    private void ForgetWhileBehind(SimTime shared)
-    {
-        Commit(settled);
-        Simulation simulation = World!.Simulation;
-        SimTime oldest = SimTime.Min(shared - LatencyCompensationWindow.MaxHistory - Options.Timeout - Options.ExtraHistory, simulation.SimulatedTo);
-        if (oldest > simulation.HistoryEdge)
-        {
-            schedule!.SkipTo(oldest);
-            simulation.DropHistoryBefore(oldest);
-        }
-    }
+    private void ForgetWhileBehind() => Commit(settled);
 }

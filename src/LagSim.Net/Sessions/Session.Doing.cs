@@ -34,6 +34,7 @@ public abstract partial class Session
         {
             throw new InvalidOperationException(State == SessionState.Ended
                 ? $"Nothing can be done any more: the session has ended. {EndReason}"
+                : State == SessionState.Rejoining ? $"Nothing can be done until this peer is in again. {RenewedBecause}"
                 : $"Nothing can be done while the session is {State}; wait until it is Running.");
         }
 

@@ -56,7 +56,7 @@ public abstract partial class Session
         }
 
         SimTime due = State == SessionState.Ended ? SimTime.MaxValue : NextDue(now);
-        if (World is not null && State != SessionState.Ended)
+        if (World is not null && State is not (SessionState.Ended or SessionState.Rejoining))
         {
             SimTime shared = SharedTime.Now;
             SimTime worldDue = World.Step(shared);
@@ -68,7 +68,7 @@ public abstract partial class Session
 
             if (World.IsBehind)
             {
-                ForgetWhileBehind(shared);
+                ForgetWhileBehind();
             }
 
             if (worldDue != SimTime.MaxValue)
@@ -95,7 +95,7 @@ public abstract partial class Session
 
     private void BeginRunning(SimTime shared)
     {
-        if (World is not null && shared >= World.Simulation.Start)
+        if (World is not null && State is not (SessionState.Ended or SessionState.Rejoining) && shared >= World.Simulation.Start)
         {
             State = SessionState.Running;
         }

@@ -23,9 +23,6 @@ namespace LagSim.Net.Sessions;
 /// </remarks>
 public abstract partial class Session
 {
-    /// <summary>So long the acknowledgement of what is not urgent may wait for a datagram that goes out anyway.</summary>
-    private protected static readonly SimDuration MostAckDelay = SimDuration.FromMilliseconds(100);
-
     /// <summary>As often a goodbye is said at once; who has not heard it hears it again in answer to what it sends, for as long as the port is there.</summary>
     private protected const int Goodbyes = 3;
 
@@ -36,6 +33,8 @@ public abstract partial class Session
     private readonly ContactNotices? contacts;
     private readonly CancellationTokenSource interruption = new();
     private readonly CancellationToken cancellation;
+    private readonly UpdateDatagram outgoing = new();
+    private readonly byte[] sending = new byte[IDatagramPort.MaxDatagramBytes];
     private readonly CancellationTokenRegistration watch;
     private bool hasUnshown;
     private SimTime begunAt = SimTime.MaxValue; // the earliest instant of the world; there before the world is
@@ -61,6 +60,7 @@ public abstract partial class Session
         }
 
         Limits = new PlayerLimits(options);
+        Recent = new RecentEvents();
         strategy = LateEventStrategies.Create(options.Strategy, options.DisplayDelay);
         if (options.SyncTest && !(strategy.RewritesPast && strategy.Mode == HealingMode.CausalCone))
         {
@@ -77,6 +77,12 @@ public abstract partial class Session
     /// Raised on the session's thread, once, when there is a <see cref="World"/> and nothing has happened in it yet. Handlers must not throw.
     /// </summary>
     public event Action? Begun;
+
+    /// <summary>
+    /// Raised on the session's thread each time that a fresh copy of the host's world has taken the place of <see cref="World"/>, which is another object from
+    /// then on, with why. What this peer did that the host had not judged is in neither. Handlers must not throw.
+    /// </summary>
+    public event Action<string>? Renewed;
 
     /// <summary>Raised on the thread that ended the session, once; <see cref="EndReason"/> tells why. Handlers must not throw.</summary>
     public event Action? Ended;
@@ -130,7 +136,10 @@ public abstract partial class Session
     /// <summary>This peer's number; 0 is the host. Meaningful once joined.</summary>
     public byte Peer { get; private protected set; }
 
-    /// <summary>The world, from the moment its start is known; the same from then on. From any thread, but see the remarks for what is in it.</summary>
+    /// <summary>
+    /// The world, from the moment its start is known; the same from then on, but for a joiner that got a fresh copy (<see cref="Renewed"/>). From any thread,
+    /// but see the remarks for what is in it.
+    /// </summary>
     public LiveWorld? World => world;
 
     /// <summary>What the world went on from, for a joiner that came late enough; null where it began with the scene. On the session's thread.</summary>
@@ -156,6 +165,9 @@ public abstract partial class Session
     /// <summary>Whether all peers with this strategy end up with the same world, bit for bit.</summary>
     public bool PromisesAgreement => strategy.PromisesAgreement;
 
+    /// <summary>The strategy that a thread warms up for before it steps this session; null for none.</summary>
+    internal string? WarmsUpFor => Options.Warmup ? Options.Strategy : null;
+
     private protected IDatagramPort Port { get; }
 
     private protected IClock Clock { get; }
@@ -163,10 +175,10 @@ public abstract partial class Session
     private protected SessionOptions Options { get; }
 
     /// <summary>What players may do at most; a host judges by it.</summary>
-    private protected PlayerLimits Limits { get; }
+    private protected PlayerLimits Limits { get; private set; }
 
     /// <summary>The newest lines of the log, for what a difference is explained by.</summary>
-    private protected RecentEvents Recent { get; } = new();
+    private protected RecentEvents Recent { get; private set; }
 
     /// <summary>Whether the line of the log that is told next has no effect here, though the host accepted it.</summary>
     private protected bool IsWithoutEffect { get; set; }
@@ -231,12 +243,14 @@ public abstract partial class Session
     /// <summary>Makes the world, once its start is known.</summary>
     private protected void Begin(SimTime start)
     {
-        if (world is null)
+        if (world is null || State == SessionState.Rejoining)
         {
+            bool isFirst = Forget();
             begunAt = start;
             world = new LiveWorld(Scene!, WorldOptions(start), Options.Window.LookAhead, Options.PicturePast + DisplayDelay, contacts);
             schedule = new CommitSchedule(start, start, Options.CommitInterval);
-            Begun?.Invoke();
+            BegunFrom = null;
+            TellBegun(isFirst);
         }
     }
 
@@ -244,12 +258,45 @@ public abstract partial class Session
     /// <exception cref="SceneException">It is no world of the scene.</exception>
     private protected void Begin(WorldSnapshot snapshot)
     {
+        bool isFirst = Forget();
         LiveWorld copied = new(Scene!, snapshot, WorldOptions(snapshot.Start), Options.Window.LookAhead, Options.PicturePast + DisplayDelay, contacts);
         begunAt = copied.Simulation.HistoryEdge;
         world = copied;
         schedule = new CommitSchedule(snapshot.Start, snapshot.Time, Options.CommitInterval);
         BegunFrom = snapshot;
-        Begun?.Invoke();
+        TellBegun(isFirst);
+    }
+
+    /// <summary>Why the world is to be replaced, or was the last time.</summary>
+    private protected string RenewedBecause { get; set; } = "";
+
+    private void TellBegun(bool isFirst)
+    {
+        if (isFirst)
+        {
+            Begun?.Invoke();
+        }
+        else
+        {
+            Counters.Renewals++;
+            Renewed?.Invoke(RenewedBecause);
+        }
+    }
+
+    /// <summary>Begins anew with what belongs to one world, and not to the next; true if there has been none.</summary>
+    private bool Forget()
+    {
+        if (world is null)
+        {
+            return true;
+        }
+
+        world.Retire();
+        Limits = new PlayerLimits(Options);
+        Recent = new RecentEvents();
+        settled = SimTime.MinValue;
+        hasUnshown = false;
+        return false;
     }
 
     // The session itself decides what is forgotten, by the watermark; the simulation's own limit would go by its look-ahead.
@@ -268,31 +315,28 @@ public abstract partial class Session
     /// </summary>
     private protected SimDuration Overdue => Options.KeepAlive + (Options.KeepAlive / 4);
 
-    private protected ResendTimes TimesOf(UpdateLink link) => new(link.Patience + Options.ResendInterval, MostAckDelay, Options.ResendInterval);
-
     /// <summary>
     /// Whether the next of its kind carries what this one would have, if it is lost: it waits for its acknowledgement, and need not be sent again and again.
     /// </summary>
     internal static bool IsMadeUpFor(in ExternalEvent external) => external.Kind == EventKind.HoldKnot;
 
-    /// <summary>How long to wait before the next update, and how long where nothing is the matter.</summary>
-    /// <param name="hasUrgent">Whether something is not acknowledged that nothing later makes up for.</param>
-    /// <param name="hasUnacknowledged">Whether anything is not acknowledged.</param>
+    /// <summary>How long after an update the next one goes out if nothing new comes up.</summary>
     /// <param name="link">To whom.</param>
+    /// <param name="isWaitedFor">Whether the other must hear of something that is no entry.</param>
     /// <param name="now">By the own clock.</param>
     /// <param name="atRest">How long where nothing is the matter.</param>
-    private protected SimDuration WaitAfterUpdate(bool hasUrgent, bool hasUnacknowledged, UpdateLink link, SimTime now, SimDuration atRest)
+    private protected SimDuration RestAfterUpdate(UpdateLink link, bool isWaitedFor, SimTime now, SimDuration atRest)
     {
-        bool isUnmeasured = hasUnacknowledged && !link.IsMeasured;
-        if (hasUrgent || isUnmeasured || IsOverdue(link.Silence(now)))
+        if (!isWaitedFor && !IsOverdue(link.Silence(now)))
         {
-            return Options.ResendInterval;
+            return atRest;
         }
 
-        ResendTimes times = TimesOf(link);
-        SimDuration answered = times.Answer + times.AckDelay;
-        return hasUnacknowledged && answered < atRest ? answered : atRest;
+        return link.Trips.HasQueue && link.Trips.Mean > Options.ResendInterval ? link.Trips.Mean : Options.ResendInterval;
     }
+
+    private protected UpdateLink LinkTo(PeerAddress other, ulong sessionId, byte peer, uint acknowledged, SimTime now) =>
+        new(sessionId, Peer, peer, other, acknowledged, Options.ResendInterval, outgoing, sending, now);
 
     /// <summary>Counts a datagram that could not be decoded.</summary>
     private protected bool IsWellFormed(bool decoded)
@@ -319,11 +363,19 @@ public abstract partial class Session
         Send(bytes.Slice(0, new LeaveDatagram(link.SessionId, Peer, reason).Encode(bytes)), link);
     }
 
+    /// <summary>Asks for a fresh copy of the world in place of one that cannot be gone on with; false where there is none to be had.</summary>
+    private protected virtual bool TryRenew(SessionEnd by, string why) => false;
+
     /// <summary>Nothing is to be read from a world that failed; the pictures that were published still can be.</summary>
     private void EndWorld(SimulationException failure)
     {
-        Farewell();
         bool isFull = failure is TimelinesFullException;
+        if (isFull && TryRenew(SessionEnd.TimelinesFull, $"This peer had no more room for what may still change. {failure.Message}"))
+        {
+            return;
+        }
+
+        Farewell();
         End(
             isFull ? SessionEnd.TimelinesFull : SessionEnd.Failed,
             isFull ? $"This peer has no more room for what may still change, and left; it can join again. {failure.Message}" : $"The world cannot be simulated"

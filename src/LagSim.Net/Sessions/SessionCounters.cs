@@ -30,6 +30,8 @@ public sealed class SessionCounters
         EventsAccepted = other.EventsAccepted;
         EventsRefused = other.EventsRefused;
         EventsLost = other.EventsLost;
+        EventsUnanswered = other.EventsUnanswered;
+        Renewals = other.Renewals;
         Heals = other.Heals;
         LastShown = other.LastShown;
         EventsForged = other.EventsForged;
@@ -61,9 +63,15 @@ public sealed class SessionCounters
 
     /// <summary>
     /// Accepted events that came too late for the history this peer still had, and own refused ones that were no longer there to be taken
-    /// back. Its world may differ from then on.
+    /// back. A peer of a strategy that promises agreement then gets a fresh copy of the world.
     /// </summary>
     public long EventsLost { get; internal set; }
+
+    /// <summary>Own events of a joiner on which it has heard no verdict, because its world was replaced first: whether they happened, the new one shows.</summary>
+    public long EventsUnanswered { get; internal set; }
+
+    /// <summary>How often a fresh copy of the host's world took the place of this peer's.</summary>
+    public long Renewals { get; internal set; }
 
     /// <summary>Late events of other peers for which timelines were rewritten back to the event; none with a strategy that rewrites no past.</summary>
     public long Heals { get; internal set; }

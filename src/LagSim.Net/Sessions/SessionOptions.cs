@@ -26,6 +26,7 @@ public sealed class SessionOptions
     private static readonly SimDuration MostKeepAlive = SimDuration.FromSeconds(2);
 
     private SimDuration? keepAlive;
+    private int? perAddress;
 
     /// <summary>
     /// What only those may know who shall join; the host refuses any other. Up to <see cref="MaxKeyLength"/> characters, default none. It
@@ -40,6 +41,28 @@ public sealed class SessionOptions
     /// again, and with them what a scene grants to a number.
     /// </summary>
     public IReadOnlyDictionary<byte, string> PlayerKeys { get; set; } = new Dictionary<byte, string>();
+
+    /// <summary>
+    /// Joiner only: what shows the host that this is a player it had before, from <see cref="JoinerSession.Pass"/> of then; default none. A host that does not know it, or no
+    /// longer, gives the joiner a number as it gives anybody.
+    /// </summary>
+    public PlayerPass Pass { get; set; }
+
+    /// <summary>
+    /// For how long a joiner that lost its host, or its world, asks to be let in again before its session ends; and for how long a host keeps the number of a
+    /// joiner that fell silent, where nobody else needs it. 0 s to 1 h; default 2 min. With 0 a joiner's session ends at once.
+    /// </summary>
+    public SimDuration RejoinTime { get; set; } = SimDuration.FromSeconds(120);
+
+    /// <summary>
+    /// Host only: how many joiners may be in from one address, whatever their ports, 1 to <see cref="MaxJoiners"/>; default half of the places, or <see
+    /// cref="ExpectedJoiners"/> if that is more. So nobody takes all places from one machine. Players behind one NAT share an address.
+    /// </summary>
+    public int MaxJoinersPerAddress
+    {
+        get => perAddress ?? Math.Max(MaxJoiners / 2, ExpectedJoiners);
+        set => perAddress = value;
+    }
 
     /// <summary>Joiner only: the accelerations that this program can supply to a scene that it gets from the host; default none.</summary>
     public IReadOnlyList<IAcceleration>? Accelerations { get; set; }
@@ -98,7 +121,10 @@ public sealed class SessionOptions
     /// <summary>Host only: how long after all expected joiners are ready the scene starts, 0 to 60 s; default 500 ms.</summary>
     public SimDuration StartLead { get; set; } = SimDuration.FromMilliseconds(500);
 
-    /// <summary>After how much silence a peer is given up, 100 ms to 10 min; default 10 s.</summary>
+    /// <summary>
+    /// After how much silence a peer is given up, 100 ms to 10 min; default 10 s. A host lets a joiner go then, and keeps its number for <see cref="RejoinTime"/>; a
+    /// joiner asks for as long to be let in again. So long, too, a joiner may be behind the log before it gets a fresh copy instead.
+    /// </summary>
     public SimDuration Timeout { get; set; } = DefaultTimeout;
 
     /// <summary>How long what is not acknowledged waits before it is sent again, 1 ms to 1 s; default 30 ms.</summary>
@@ -135,6 +161,14 @@ public sealed class SessionOptions
     public SimDuration DisplayDelay { get; set; } = Interpolation.DefaultDelay;
 
     /// <summary>
+    /// Whether a <see cref="PeerThread"/> has what events need compiled before it steps its session for the first time; default true. Without, the first event of its
+    /// kind in a process may take some hundredths of a second to the other peers' worlds. It is done once a process and strategy, in memory, on the session's
+    /// thread, and takes some tenths of a second there; the session begins that much later, and nothing in it is another for it. Where everything is compiled
+    /// ahead, as by IL2CPP or native AOT, nothing is done. Who steps a session without such a thread is not affected.
+    /// </summary>
+    public bool Warmup { get; set; } = true;
+
+    /// <summary>
     /// Ends from any thread whatever the session is at, the simulating of its world included, between two instants: <see cref="Session.Step"/> then throws an
     /// <see cref="OperationCanceledException"/>, and every later one too, until the session has ended; default none. Nobody is told: <see cref="Session.Leave"/> says goodbye, and of a
     /// <see cref="PeerThread"/>, whose thread ends by that exception, <see cref="PeerThread.Dispose"/>. The token keeps the session from being collected until that has ended.
@@ -147,6 +181,7 @@ public sealed class SessionOptions
         Range(PicturePast, 0, 60, nameof(PicturePast));
         Range(DisplayDelay, 0, Interpolation.MaxDelay.ToSeconds(), nameof(DisplayDelay));
         Range(StartLead, 0, 60, nameof(StartLead));
+        Range(RejoinTime, 0, 3600, nameof(RejoinTime));
         Range(Timeout, 0.1, 600, nameof(Timeout));
         Range(ResendInterval, 0.001, 1, nameof(ResendInterval));
         if (keepAlive is SimDuration given)
@@ -209,6 +244,11 @@ public sealed class SessionOptions
         if (MaxSpawned is < 0 or > 1_000_000)
         {
             throw new ArgumentOutOfRangeException(nameof(MaxSpawned), MaxSpawned, "A player may have spawned 0 to 1,000,000 bodies that are there.");
+        }
+
+        if (perAddress is < 1 or > MaxJoiners)
+        {
+            throw new ArgumentOutOfRangeException(nameof(MaxJoinersPerAddress), perAddress, $"From one address 1 to {MaxJoiners} joiners may be in.");
         }
 
         if (ExpectedJoiners is < 0 or > MaxJoiners)

@@ -15,6 +15,11 @@ public enum SessionState
     /// <summary>There is a world, simulated ahead of the shared time.</summary>
     Running,
 
+    /// <summary>
+    /// A joiner that lost its host, or its world, asks to be let in again. What it knew stays readable and stands still, and nothing can be done.
+    /// </summary>
+    Rejoining,
+
     /// <summary>It is over; the world stays readable.</summary>
     Ended,
 }

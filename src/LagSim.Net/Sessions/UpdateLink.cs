@@ -5,50 +5,102 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>One end of the exchange of updates with one other peer: numbers, clock echoes, and when the next one is due.</summary>
+/// <summary>One end of the exchange of updates with one other peer: what came, what is on its way, and when the next one is due.</summary>
+/// <remarks>
+/// Where there is room, what is new goes at once, and what is not acknowledged again each resend interval. Where there is none (<see cref="CongestionControl"/>),
+/// nothing is repeated before it is known to be lost, and what is new waits until it is worth a datagram: two thirds of its bytes are entries, or half of what
+/// it will wait in the queue, or a tenth of a second, has passed.
+/// </remarks>
 internal sealed class UpdateLink
 {
-    /// <summary>Who writes more often is not answered more often than this.</summary>
+    /// <summary>So long the acknowledgement of what is not urgent may wait for a datagram that goes out anyway.</summary>
+    internal static readonly SimDuration MostAckDelay = SimDuration.FromMilliseconds(100);
+
+    /// <summary>What an update has beside its entries, in bytes: header, state hash, UDP and IP.</summary>
+    private const int OwnBytes = WireFormat.EmptyUpdateBytes + WireFormat.StateHashBytes + CongestionControl.DatagramOverhead;
+
+    /// <summary>The longest wait for an answer doubles no more often than this.</summary>
+    private const int MostDoublings = 3;
+
+    /// <summary>So many times in a row nothing is answered before the link counts as another one.</summary>
+    private const int Silent = 3;
+
+    /// <summary>Who writes more often is not answered more often than this, in the mean.</summary>
     private static readonly SimDuration LeastDistance = SimDuration.FromMilliseconds(1);
 
-    /// <summary>A round trip that is said to be longer is none: what the other says of its own times is not checked.</summary>
-    private static readonly SimDuration MostRoundTrip = SimDuration.FromSeconds(10);
+    /// <summary>
+    /// So far ahead of that may what is hastened be: after a pause three go out at once. What one player does then does not wait because an answer to what
+    /// another did has just gone.
+    /// </summary>
+    private static readonly SimDuration MostAhead = LeastDistance * 2;
 
-    private readonly UpdateDatagram outgoing = new();
-    private readonly byte[] buffer = new byte[IDatagramPort.MaxDatagramBytes];
+    /// <summary>How long an answer is waited for before a round trip has been measured.</summary>
+    private static readonly SimDuration FirstPatience = SimDuration.FromMilliseconds(300);
+
+    private readonly SimDuration interval;
+    private readonly UpdateDatagram outgoing;
+    private readonly byte[] buffer;
     private readonly SeenNumbers seen = new();
+    private readonly SentDatagrams sent = new();
+    private readonly CongestionControl congestion = new();
+    private readonly RoundTrips trips = new();
     private uint lastSent;
-    private SimTime echoSent = SimTime.MinValue;
     private SimTime echoReceived = SimTime.MinValue;
     private SimDuration unheard;
-    private SimTime earliest = SimTime.MinValue; // of the next update
+    private SimTime paced = SimTime.MinValue; // when the next update would be due if all went out in their least distance
+    private SimTime latest = SimTime.MinValue; // when the last update was sent
+    private int atOnce; // how many were sent then
+    private SimTime newsSince = SimTime.MaxValue; // since when something new waits
+    private int newsBytes; // how much, in entries
+    private int unanswered; // how many times in a row answers were overdue
+    private bool isHeldBack; // something has to go and may not yet
     private long datagramsSent;
     private long bytesSent;
     private long datagramsReceived;
     private long bytesReceived;
-    private SimDuration roundTrip;
-    private SimDuration meanRoundTrip;
-    private SimDuration meanDeviation;
 
-    internal UpdateLink(ulong sessionId, byte self, byte peer, PeerAddress other, SimTime now)
+    /// <param name="sessionId">What every datagram of this link bears.</param>
+    /// <param name="self">This peer's number.</param>
+    /// <param name="peer">The other's.</param>
+    /// <param name="other">Where that is.</param>
+    /// <param name="acknowledged">The other has this peer's entries up to this one.</param>
+    /// <param name="interval">How long what is not acknowledged waits before it is repeated, where there is room.</param>
+    /// <param name="outgoing">What updates are composed in, one after the other; all links of a session share it.</param>
+    /// <param name="buffer">Where their bytes go; likewise.</param>
+    /// <param name="now">By the own clock.</param>
+    internal UpdateLink(
+        ulong sessionId, byte self, byte peer, PeerAddress other, uint acknowledged, SimDuration interval, UpdateDatagram outgoing, byte[] buffer, SimTime now)
     {
+        this.outgoing = outgoing;
+        this.buffer = buffer;
         SessionId = sessionId;
         Self = self;
         Peer = peer;
         Other = other;
+        Outgoing = new SendWindow(acknowledged);
+        this.interval = interval;
         Heard = now;
         Due = now;
     }
 
     internal ulong SessionId { get; }
 
-    internal byte Self { get; }
+    /// <summary>This peer's number; 0 also for a joiner that has none yet.</summary>
+    internal byte Self { get; set; }
 
-    internal byte Peer { get; }
+    /// <summary>The other's number; 0 also for a joiner that has none yet.</summary>
+    internal byte Peer { get; set; }
 
-    internal PeerAddress Other { get; }
+    /// <summary>Where the other is.</summary>
+    internal PeerAddress Other { get; set; }
 
-    internal LinkTraffic Traffic => new(Peer, Other, datagramsSent, bytesSent, datagramsReceived, bytesReceived, roundTrip);
+    /// <summary>What of this peer's entries goes out next.</summary>
+    internal SendWindow Outgoing { get; private set; }
+
+    internal LinkTraffic Traffic => new(Peer, Other, datagramsSent, bytesSent, datagramsReceived, bytesReceived, trips.Newest, trips.HasQueue ? trips.Queueing : SimDuration.Zero);
+
+    /// <summary>What is known of the round trips.</summary>
+    internal RoundTrips Trips => trips;
 
     /// <summary>When the last update came, by the own clock.</summary>
     internal SimTime Heard { get; private set; }
@@ -59,14 +111,11 @@ internal sealed class UpdateLink
     /// <summary>The longer of two silences: for how long nothing came, and for how long the other said, when it last wrote, that nothing came there.</summary>
     internal SimDuration Silence(SimTime now) => now - Heard > unheard ? now - Heard : unheard;
 
-    /// <summary>
-    /// After how long an answer can be taken for lost: the mean round trip and four times its mean deviation, as TCP has it. Zero before it
-    /// <see cref="IsMeasured"/>.
-    /// </summary>
-    internal SimDuration Patience => meanRoundTrip + (meanDeviation * 4);
+    /// <summary>Begins anew with entries after that number, before any was sent.</summary>
+    internal void StartAfter(uint acknowledged) => Outgoing = new SendWindow(acknowledged);
 
-    /// <summary>Whether a round trip has been measured yet.</summary>
-    internal bool IsMeasured { get; private set; }
+    /// <summary>When an update was sent that the other says it has; false for one that was not, or long ago.</summary>
+    internal bool TryGetSent(uint number, out SimTime at) => sent.TryGetTime(number, out at);
 
     /// <summary>Notes an update that came.</summary>
     /// <param name="update">The update.</param>
@@ -81,34 +130,79 @@ internal sealed class UpdateLink
             return false; // perhaps somebody plays it again: it does not even show that the other is there
         }
 
-        if (!isNewest)
+        if (isNewest)
         {
-            return true;
-        }
-
-        Heard = now;
-        if (update.EchoSent != SimTime.MinValue)
-        {
-            SimDuration exchange = now - update.EchoSent;
-            SimDuration held = update.Sent - update.EchoReceived;
-            if (held >= SimDuration.Zero && held <= exchange) // else it is made up
+            Heard = now;
+            echoReceived = now;
+            SimDuration held = update.EchoNumber == 0 ? SimDuration.Zero : update.Sent - update.EchoReceived; // both by its own clock
+            unheard = held;
+            if (sent.TryGetTime(update.EchoNumber, out SimTime at) && held >= SimDuration.Zero && held <= now - at) // else it is made up
             {
-                roundTrip = exchange - held;
-                Average(roundTrip);
+                trips.Add(now - at - held, now);
             }
         }
 
-        echoSent = update.Sent;
-        echoReceived = now;
-        unheard = update.EchoReceived == SimTime.MinValue ? SimDuration.Zero : update.Sent - update.EchoReceived; // both by its own clock
+        TakeAcknowledgements(update, now);
         return true;
+    }
+
+    /// <summary>Notes that the other has this peer's entries up to a number.</summary>
+    internal void Acknowledge(uint number, SimTime now)
+    {
+        Outgoing.Acknowledge(number);
+        while (sent.TryTakeCovered(Outgoing.Acknowledged, out SentDatagrams.Datagram covered))
+        {
+            congestion.OnAcknowledged(covered.Bytes, trips.HasQueue);
+            unanswered = 0;
+        }
+
+        if (isHeldBack && congestion.HasRoom)
+        {
+            Hasten(now);
+        }
     }
 
     /// <summary>Notes something else that only the other can have sent, and only now.</summary>
     internal void NoteHeard(SimTime now) => Heard = now;
 
-    /// <summary>Has the next update sent no later than this, but for the least distance of two.</summary>
-    internal void Hasten(SimTime by) => Due = SimTime.Min(Due, SimTime.Max(by, earliest));
+    /// <summary>Has the next update sent no later than this, unless so many went out just now that the least distance would not be kept in the mean.</summary>
+    internal void Hasten(SimTime by) => Due = SimTime.Min(Due, SimTime.Max(by, paced == SimTime.MinValue ? by : paced - MostAhead));
+
+    /// <summary>Has the other answered: at once, or where that is too much together with what else there is to say soon.</summary>
+    internal void Answer(SimTime now) => Hasten(MayHurry(now) ? now : now + MostAckDelay);
+
+    /// <summary>Notes that there is something new for the other, of that many bytes.</summary>
+    internal void NoteNews(int bytes, SimTime now)
+    {
+        newsBytes += bytes;
+        newsSince = SimTime.Min(newsSince, now);
+        if (congestion.HasRoom) // else it goes with what is acknowledged, or lost, next
+        {
+            Hasten(newsBytes >= 2 * OwnBytes || MayHurry(now) ? now : newsSince + MergeTime);
+        }
+
+        isHeldBack |= !congestion.HasRoom;
+    }
+
+    /// <summary>Whether an update may go for little.</summary>
+    private bool MayHurry(SimTime now)
+    {
+        int comfort = congestion.ComfortAt(now, trips, unanswered > 0);
+        return congestion.UntilComfort(OwnBytes) == SimDuration.Zero && comfort >= OwnBytes;
+    }
+
+    /// <summary>
+    /// How long something new waits for more at most, where it may not hurry: no longer than an answer takes, and no longer than the queue itself has it wait, but
+    /// for what nobody notices on such a link.
+    /// </summary>
+    private SimDuration MergeTime
+    {
+        get
+        {
+            SimDuration most = trips.Queueing / 2 > MostAckDelay ? trips.Queueing / 2 : MostAckDelay;
+            return trips.Mean < most ? trips.Mean : most;
+        }
+    }
 
     internal void CountReceived(int bytes)
     {
@@ -122,7 +216,40 @@ internal sealed class UpdateLink
         bytesSent += bytes;
     }
 
-    /// <summary>An update with everything that this type knows filled in; the rest is the caller's. Send it with <see cref="Seal"/>.</summary>
+    /// <summary>Whether an update is due; what was not answered for too long counts as lost from now on.</summary>
+    internal bool IsDue(SimTime now)
+    {
+        if (Due > now)
+        {
+            return false;
+        }
+
+        TakeLost(now);
+        if (sent.Waited > 0 && now >= AnswerDue())
+        {
+            unanswered = Math.Min(unanswered + 1, MostDoublings + Silent);
+            if (unanswered == Silent && trips.HasQueue)
+            {
+                congestion.OnSilence(now);
+            }
+
+            // With a queue on the way the answer is more likely late than lost: the oldest goes again, as a probe (RFC 9002, 6.2.4), and nothing else.
+            SimTime before = now - Patience;
+            bool isProbe = trips.HasQueue;
+            while (sent.TryPeekOldest(out SimTime at) && at <= before && sent.TryTakeOldest(out SentDatagrams.Datagram oldest))
+            {
+                Lose(oldest, now, hasQueue: false);
+                if (isProbe)
+                {
+                    break;
+                }
+            }
+        }
+
+        return true;
+    }
+
+    /// <summary>An update with everything that this type knows filled in; the rest is the caller's. Then <see cref="Fill"/>, and send it with <see cref="Seal"/>.</summary>
     internal UpdateDatagram Compose(SimTime now)
     {
         outgoing.Clear();
@@ -130,36 +257,125 @@ internal sealed class UpdateLink
         outgoing.Peer = Self;
         outgoing.Number = ++lastSent;
         outgoing.Sent = now;
-        outgoing.EchoSent = echoSent;
+        outgoing.EchoNumber = seen.Newest;
+        outgoing.EchoBits = seen.BitsBefore(seen.Newest);
         outgoing.EchoReceived = echoReceived;
         return outgoing;
     }
 
-    /// <summary>The bytes of the composed update; sets when the next is due.</summary>
-    internal ReadOnlySpan<byte> Seal(SimTime nextDue)
+    /// <summary>Puts entries into the composed update.</summary>
+    internal void Fill(IEntrySource source, SimTime now)
     {
-        earliest = outgoing.Sent + LeastDistance;
-        Due = SimTime.Max(nextDue, earliest);
-        return buffer.AsSpan(0, outgoing.Encode(buffer));
+        int comfort = congestion.ComfortAt(now, trips, unanswered > 0);
+        if (!congestion.HasRoom)
+        {
+            outgoing.FirstIndex = Outgoing.Sent + 1;
+            return;
+        }
+
+        // What has to go finds the window half empty. An update that is worth its own bytes costs no comfort.
+        int repeated = Outgoing.Fill(outgoing, source, congestion.IsHalfFull ? 0 : comfort, OwnBytes);
+        int needed = outgoing.EncodedLength - WireFormat.EmptyUpdateBytes - repeated;
+        congestion.Spend(repeated + Math.Max(0, OwnBytes - (Math.Max(0, needed) / 2)));
     }
 
-    private void Average(SimDuration sample)
+    /// <summary>The bytes of the composed update; sets when the next is due.</summary>
+    /// <param name="source">The entries.</param>
+    /// <param name="now">When it is sent.</param>
+    /// <param name="rest">How long nothing is sent where nothing is the matter.</param>
+    /// <param name="isUrgent">Whether something is not acknowledged that nothing later makes up for.</param>
+    internal ReadOnlySpan<byte> Seal(IEntrySource source, SimTime now, SimDuration rest, bool isUrgent)
     {
-        if (sample > MostRoundTrip)
+        int length = outgoing.Encode(buffer);
+        uint last = outgoing.FirstIndex + (uint)outgoing.Held.Length - 1;
+        if (sent.Add(lastSent, now, length + CongestionControl.DatagramOverhead, outgoing.FirstIndex, last) is SentDatagrams.Datagram forgotten)
         {
-            return;
+            Lose(forgotten, now, trips.HasQueue);
         }
 
-        if (!IsMeasured)
+        if (outgoing.Held.Length > 0)
         {
-            IsMeasured = true;
-            meanRoundTrip = sample;
-            meanDeviation = sample / 2;
-            return;
+            congestion.OnSent(length + CongestionControl.DatagramOverhead);
         }
 
-        SimDuration off = sample - meanRoundTrip;
-        meanRoundTrip += off / 8;
-        meanDeviation += ((off < SimDuration.Zero ? -off : off) - meanDeviation) / 4;
+        bool hasNeeded = Outgoing.HasNeeded(source);
+        isHeldBack = hasNeeded && !congestion.HasRoom;
+        if (!hasNeeded)
+        {
+            (newsBytes, newsSince) = (0, SimTime.MaxValue);
+        }
+
+        paced = now == latest ? paced : SimTime.Max(paced, now) + LeastDistance; // those of one moment count as one
+        atOnce = now == latest ? atOnce + 1 : 1;
+        latest = now;
+        Due = !hasNeeded || isHeldBack ? now + (rest > LeastDistance ? rest : LeastDistance)
+            : atOnce < SendWindow.MaxDatagramsAtOnce ? now
+            : now + LeastDistance;
+        if (sent.Waited > 0)
+        {
+            Hasten(AnswerDue());
+            if (sent.TryGetOvertaken(out SimTime at))
+            {
+                Hasten(at + LongestTrip + (LongestTrip / 8));
+            }
+
+            if ((isUrgent || Outgoing.HasLost) && !congestion.IsHalfFull)
+            {
+                SimDuration affordable = congestion.UntilComfort(OwnBytes + Outgoing.RepetitionBytes(source));
+                Hasten(now + (interval > affordable ? interval : affordable));
+            }
+        }
+
+        return buffer.AsSpan(0, length);
+    }
+
+    private SimDuration Patience => (trips.IsMeasured ? trips.Patience : FirstPatience) + MostAckDelay + interval;
+
+    private SimDuration LongestTrip => trips.Mean > trips.Newest ? trips.Mean : trips.Newest;
+
+    /// <summary>When the answer to what was sent is overdue; with a queue on the way twice as long after each time that it was.</summary>
+    private SimTime AnswerDue() =>
+        sent.TryPeekOldest(out SimTime at) ? at + (Patience * (1L << (trips.HasQueue ? Math.Min(unanswered, MostDoublings) : 0))) : SimTime.MaxValue;
+
+    private void TakeAcknowledgements(UpdateDatagram update, SimTime now)
+    {
+        Acknowledge(update.EchoNumber);
+        for (int n = 0; n < 32 && update.EchoBits >> n != 0; n++)
+        {
+            if ((update.EchoBits >> n & 1) != 0)
+            {
+                Acknowledge(update.EchoNumber - 1 - (uint)n);
+            }
+        }
+
+        TakeLost(now);
+        if (Outgoing.HasToGoAgain || (isHeldBack && congestion.HasRoom))
+        {
+            Hasten(now);
+        }
+    }
+
+    private void Acknowledge(uint number)
+    {
+        if (sent.TryAcknowledge(number, out SentDatagrams.Datagram came))
+        {
+            congestion.OnAcknowledged(came.Bytes, trips.HasQueue);
+            unanswered = 0;
+        }
+    }
+
+    private void TakeLost(SimTime now)
+    {
+        while (sent.TryTakeLost(now, LongestTrip, out SentDatagrams.Datagram datagram))
+        {
+            Lose(datagram, now, trips.HasQueue);
+        }
+    }
+
+    private void Lose(in SentDatagrams.Datagram datagram, SimTime now, bool hasQueue)
+    {
+        congestion.OnLost(datagram.Bytes, datagram.At, now, hasQueue);
+        sent.NoteLost(datagram);
+        Outgoing.Lose(datagram.First, datagram.Last, isOnItsWay: sent.IsCarriedLater(datagram, datagram.First, datagram.Last));
     }
 }

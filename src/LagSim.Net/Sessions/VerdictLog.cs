@@ -9,7 +9,7 @@ namespace LagSim.Net.Sessions;
 /// <summary>The host's log: every event it said yes or no to, in that order, counted from 1; its beginning is forgotten once nobody needs it.</summary>
 internal sealed class VerdictLog
 {
-    private readonly List<(LogEntry Entry, SimTime Watermark)> entries = new();
+    private readonly List<(LogEntry Entry, SimTime Watermark, SimTime At)> entries = new();
     private uint forgotten;
     private uint settled;
 
@@ -27,8 +27,12 @@ internal sealed class VerdictLog
     /// <param name="external">The event.</param>
     /// <param name="verdict">What the host says.</param>
     /// <param name="watermark">The time before which there is no accepted event from this entry on.</param>
-    internal void Add(in ExternalEvent external, Verdict verdict, SimTime watermark) =>
-        entries.Add((new LogEntry(Count + 1, verdict, external), watermark));
+    /// <param name="at">When it says so, by its own clock.</param>
+    internal void Add(in ExternalEvent external, Verdict verdict, SimTime watermark, SimTime at) =>
+        entries.Add((new LogEntry(Count + 1, verdict, external), watermark, at));
+
+    /// <summary>When an entry that is kept was added, by the host's own clock.</summary>
+    internal SimTime AddedAt(uint number) => entries[(int)(number - forgotten - 1)].At;
 
     /// <summary>The time before which there is, and will be, no accepted event after the entries up to a number.</summary>
     /// <param name="number">Below <see cref="Count"/>, of an entry whose next one is kept.</param>

@@ -21,7 +21,7 @@ public enum DatagramType : byte
     /// <summary>A <see cref="LeaveDatagram"/>: this is over.</summary>
     Leave = 5,
 
-    /// <summary>A <see cref="ChallengeDatagram"/>: bring this back.</summary>
+    /// <summary>A <see cref="ChallengeDatagram"/>: bring this back, to come in, or to show that an address is yours.</summary>
     Challenge = 6,
 
     /// <summary>A <see cref="JoinDatagram"/>: let me in.</summary>
@@ -38,4 +38,10 @@ public enum DatagramType : byte
 
     /// <summary>An <see cref="EvidenceDatagram"/>: this one.</summary>
     Evidence = 11,
+
+    /// <summary>A <see cref="SeatDatagram"/>: you are this player.</summary>
+    Seat = 12,
+
+    /// <summary>A <see cref="MoveDatagram"/>: this is my address now.</summary>
+    Move = 13,
 }

@@ -7,12 +7,15 @@ namespace LagSim.Net.Wire;
 public readonly struct JoinDatagram
 {
     /// <summary>A request of these fields.</summary>
-    public JoinDatagram(ulong nonce, Token128 cookie, Token128 proof, ulong sceneHash)
+    public JoinDatagram(ulong nonce, Token128 cookie, Token128 proof, ulong sceneHash, uint foldVersion, byte player = 0, Token128 playerProof = default)
     {
         Nonce = nonce;
         Cookie = cookie;
         Proof = proof;
         SceneHash = sceneHash;
+        FoldVersion = foldVersion;
+        Player = player;
+        PlayerProof = playerProof;
     }
 
     /// <summary>The <see cref="KnockDatagram.Nonce"/> of this attempt.</summary>
@@ -27,6 +30,15 @@ public readonly struct JoinDatagram
     /// <summary>The hash of the scene that the joiner expects; 0: whichever the host has.</summary>
     public ulong SceneHash { get; }
 
+    /// <summary>By which version of the rules the joiner computes worlds; see <see cref="Simulation.FoldVersion"/>.</summary>
+    public uint FoldVersion { get; }
+
+    /// <summary>The number of the player that the joiner was before; 0: none, and then there is no <see cref="PlayerProof"/> either.</summary>
+    public byte Player { get; }
+
+    /// <summary>Shows that the joiner has that player's pass, without telling it: a keyed hash of nonce and cookie.</summary>
+    public Token128 PlayerProof { get; }
+
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.JoinBytes"/>.</returns>
     /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
@@ -38,6 +50,9 @@ public readonly struct JoinDatagram
         Cookie.Write(ref writer);
         Proof.Write(ref writer);
         writer.WriteUInt64(SceneHash);
+        writer.WriteUInt32(FoldVersion);
+        writer.WriteByte(Player);
+        PlayerProof.Write(ref writer);
         return writer.Position;
     }
 
@@ -48,7 +63,9 @@ public readonly struct JoinDatagram
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out JoinDatagram join, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Join);
-        join = new JoinDatagram(reader.ReadUInt64(), Token128.Read(ref reader), Token128.Read(ref reader), reader.ReadUInt64());
+        join = new JoinDatagram(
+            reader.ReadUInt64(), Token128.Read(ref reader), Token128.Read(ref reader), reader.ReadUInt64(), reader.ReadUInt32(), reader.ReadByte(), Token128.Read(ref reader));
+        reader.Require(join.Player != 0 || join.PlayerProof == default);
         return reader.Finish(out refusal);
     }
 }

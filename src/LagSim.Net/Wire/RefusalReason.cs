@@ -17,4 +17,10 @@ public enum RefusalReason : byte
 
     /// <summary>The world has grown too large to be copied.</summary>
     TooLarge = 5,
+
+    /// <summary>The joiner computes worlds by other rules: another <see cref="Simulation.FoldVersion"/>.</summary>
+    FoldDiffers = 6,
+
+    /// <summary>As many as may come from one address are there.</summary>
+    TooManyFromOneAddress = 7,
 }

@@ -26,7 +26,7 @@ public readonly struct Token128 : IEquatable<Token128>
         high = BinaryPrimitives.ReadUInt64LittleEndian(source.Slice(sizeof(ulong)));
     }
 
-    private Token128(ulong low, ulong high)
+    internal Token128(ulong low, ulong high)
     {
         this.low = low;
         this.high = high;
@@ -34,6 +34,9 @@ public readonly struct Token128 : IEquatable<Token128>
 
     /// <summary>The first eight of them.</summary>
     internal ulong First => low;
+
+    /// <summary>The other eight.</summary>
+    internal ulong Second => high;
 
     /// <inheritdoc/>
     public bool Equals(Token128 other) => ((low ^ other.low) | (high ^ other.high)) == 0;

@@ -10,7 +10,7 @@ public sealed partial class UpdateDatagram
     /// <param name="destination">At least <see cref="EncodedLength"/> bytes; <see cref="WireFormat.MaxBytes"/> always do.</param>
     /// <returns>Its length, <see cref="EncodedLength"/>.</returns>
     /// <exception cref="ArgumentException">The destination is too short, or a time is out of range.</exception>
-    /// <exception cref="InvalidOperationException">The numbers of the entries do not end by 4,294,967,295.</exception>
+    /// <exception cref="InvalidOperationException">The numbers of the entries do not end by 4,294,967,295, or bits of an echo are set without its number.</exception>
     public int Encode(Span<byte> destination)
     {
         if (!AreIndicesInRange)
@@ -25,14 +25,21 @@ public sealed partial class UpdateDatagram
         writer.WriteUInt32(Number);
         writer.WriteTime(Sent);
         WriteEcho(ref writer);
-        writer.WriteOptionalTime(Start);
         writer.WriteOptionalTime(Watermark);
         writer.WriteUInt32(EventsReceived);
-        writer.WriteByte((byte)((HasStateHash ? HashFlag : 0) | (Ready ? ReadyFlag : 0)));
+        writer.WriteByte((byte)((HasStateHash ? HashFlag | ((hashCount - 1) << HashesShift) : 0) | (Ready ? ReadyFlag : 0) | (Start == SimTime.MinValue ? 0 : StartFlag)));
+        if (Start != SimTime.MinValue)
+        {
+            writer.WriteTime(Start);
+        }
+
         if (HasStateHash)
         {
             writer.WriteTime(HashTime);
-            writer.WriteUInt64(StateHash);
+            foreach (ulong hash in Hashes)
+            {
+                writer.WriteUInt64(hash);
+            }
         }
 
         writer.WriteUInt32(FirstIndex);
@@ -99,8 +106,14 @@ public sealed partial class UpdateDatagram
 
     private void WriteEcho(ref WireWriter writer)
     {
-        writer.WriteOptionalTime(EchoSent);
-        if (EchoSent == SimTime.MinValue)
+        if (EchoNumber == 0 && EchoBits != 0)
+        {
+            throw new InvalidOperationException("Without the number of an update that came, there are none before it.");
+        }
+
+        writer.WriteUInt32(EchoNumber);
+        writer.WriteUInt32(EchoBits);
+        if (EchoNumber == 0)
         {
             writer.WriteOptionalTime(SimTime.MinValue);
         }
@@ -116,18 +129,28 @@ public sealed partial class UpdateDatagram
         Peer = reader.ReadByte();
         Number = reader.ReadUInt32();
         Sent = reader.ReadTime();
-        EchoSent = reader.ReadOptionalTime();
+        EchoNumber = reader.ReadUInt32();
+        EchoBits = reader.ReadUInt32();
         EchoReceived = reader.ReadOptionalTime();
-        reader.Require((EchoSent == SimTime.MinValue) == (EchoReceived == SimTime.MinValue)); // both or none
-        Start = reader.ReadOptionalTime();
+        reader.Require((EchoNumber == 0) == (EchoReceived == SimTime.MinValue) && (EchoNumber > 0 || EchoBits == 0)); // all or none
         Watermark = reader.ReadOptionalTime();
         EventsReceived = reader.ReadUInt32();
         byte flags = reader.ReadByte();
-        reader.Require((flags & ~(HashFlag | ReadyFlag)) == 0);
+        int more = flags >> HashesShift;
+        reader.Require(more < MaxHashes && (more == 0 || (flags & HashFlag) != 0));
         Ready = (flags & ReadyFlag) != 0;
-        HasStateHash = (flags & HashFlag) != 0;
-        HashTime = HasStateHash ? reader.ReadTime() : SimTime.Zero;
-        StateHash = HasStateHash ? reader.ReadUInt64() : 0;
+        Start = (flags & StartFlag) != 0 ? reader.ReadTime() : SimTime.MinValue;
+        hashCount = 0;
+        HashTime = SimTime.Zero;
+        if ((flags & HashFlag) != 0)
+        {
+            HashTime = reader.ReadTime();
+            for (; hashCount <= more && more < MaxHashes; hashCount++)
+            {
+                hashes[hashCount] = reader.ReadUInt64();
+            }
+        }
+
         FirstIndex = reader.ReadUInt32();
     }
 }

@@ -15,13 +15,20 @@ public sealed partial class UpdateDatagram
     /// <summary>The most entries that a datagram can hold: that many numbers of the addressee's own events.</summary>
     public const int MaxEntries = (WireFormat.MaxBytes - WireFormat.EmptyUpdateBytes) / OwnEntryBytes;
 
+    /// <summary>The most hashes that a datagram can hold.</summary>
+    public const int MaxHashes = 8;
+
     private const int VerdictBytes = 1;
     private const int OwnEntryBytes = VerdictBytes + sizeof(uint);
     private const byte OwnFlag = 0x80;
     private const byte HashFlag = 1;
     private const byte ReadyFlag = 2;
+    private const byte StartFlag = 4;
+    private const int HashesShift = 3; // three bits of the flags: how many hashes, less one
 
     private readonly UpdateEntry[] entries = new UpdateEntry[MaxEntries];
+    private readonly ulong[] hashes = new ulong[MaxHashes];
+    private int hashCount;
     private int count;
     private int entryBytes;
 
@@ -40,13 +47,18 @@ public sealed partial class UpdateDatagram
     /// <summary>When this was sent, by the sender's own clock.</summary>
     public SimTime Sent { get; set; }
 
-    /// <summary><see cref="Sent"/> of the newest update that the sender has of the addressee; <see cref="SimTime.MinValue"/>: none yet.</summary>
-    public SimTime EchoSent { get; set; }
+    /// <summary><see cref="Number"/> of the newest update that the sender has of the addressee; 0: none yet.</summary>
+    public uint EchoNumber { get; set; }
 
-    /// <summary>When that one arrived, by the sender's own clock. Without <see cref="EchoSent"/> it does not travel.</summary>
+    /// <summary>
+    /// Which of the 32 updates before that one the sender has: bit n is set for <see cref="EchoNumber"/> - 1 - n. 0 without <see cref="EchoNumber"/>.
+    /// </summary>
+    public uint EchoBits { get; set; }
+
+    /// <summary>When the newest one arrived, by the sender's own clock. Without <see cref="EchoNumber"/> it does not travel.</summary>
     public SimTime EchoReceived { get; set; }
 
-    /// <summary>The shared time at which the session starts; <see cref="SimTime.MinValue"/>: not decided.</summary>
+    /// <summary>The shared time at which the session starts; <see cref="SimTime.MinValue"/>: not decided, or the addressee knows it.</summary>
     public SimTime Start { get; set; }
 
     /// <summary>The shared time before which no accepted event comes after this update's last entry; <see cref="SimTime.MinValue"/>: none.</summary>
@@ -61,14 +73,20 @@ public sealed partial class UpdateDatagram
     /// <summary>The sender's clock is good enough to begin.</summary>
     public bool Ready { get; set; }
 
-    /// <summary>Whether <see cref="HashTime"/> and <see cref="StateHash"/> travel.</summary>
-    public bool HasStateHash { get; set; }
+    /// <summary>Whether <see cref="HashTime"/> and <see cref="StateHashes"/> travel.</summary>
+    public bool HasStateHash => hashCount > 0;
 
-    /// <summary>The committed shared time of <see cref="StateHash"/>; zero without one.</summary>
-    public SimTime HashTime { get; set; }
+    /// <summary>The committed shared time of the first of <see cref="StateHashes"/>; zero without one.</summary>
+    public SimTime HashTime { get; private set; }
 
-    /// <summary>The hash of the sender's state; zero without one.</summary>
-    public ulong StateHash { get; set; }
+    /// <summary>
+    /// The hashes of the sender's committed states, newest first, up to <see cref="MaxHashes"/>: each of the instant one commit interval before that of the one
+    /// before it. Valid until the next change to this object.
+    /// </summary>
+    public ReadOnlySpan<ulong> StateHashes => hashes.AsSpan(0, hashCount);
+
+    /// <summary>The same for this library; see <see cref="Held"/>.</summary>
+    internal Span<ulong> Hashes => hashes.AsSpan(0, hashCount);
 
     /// <summary>
     /// The number of the first entry: from the host its index in the log. The entry after it has the next number, and none is above
@@ -83,24 +101,45 @@ public sealed partial class UpdateDatagram
     internal Span<UpdateEntry> Held => entries.AsSpan(0, count);
 
     /// <summary>The datagram's length as it stands, in bytes.</summary>
-    public int EncodedLength => WireFormat.EmptyUpdateBytes + (HasStateHash ? WireFormat.StateHashBytes : 0) + entryBytes;
+    public int EncodedLength => WireFormat.EmptyUpdateBytes + HashBytes + StartBytes + entryBytes;
+
+    private int HashBytes => hashCount == 0 ? 0 : WireFormat.StateHashBytes + ((hashCount - 1) * sizeof(ulong));
+
+    private int StartBytes => Start == SimTime.MinValue ? 0 : WireFormat.StartBytes;
 
     /// <summary>Makes every field zero, false or none, and takes all entries out.</summary>
     public void Clear()
     {
-        SessionId = StateHash = 0;
-        Number = EventsReceived = FirstIndex = 0;
+        SessionId = 0;
+        Number = EchoNumber = EchoBits = EventsReceived = FirstIndex = 0;
         Peer = 0;
         Sent = HashTime = SimTime.Zero;
-        EchoSent = EchoReceived = Start = Watermark = SimTime.MinValue;
-        Ready = HasStateHash = false;
+        EchoReceived = Start = Watermark = SimTime.MinValue;
+        Ready = false;
+        hashCount = 0;
         ClearEntries();
     }
 
     /// <summary>Takes all entries out.</summary>
     public void ClearEntries() => count = entryBytes = 0;
 
-    /// <summary>Puts one more entry at the end, if it fits; room for a state hash is always kept.</summary>
+    /// <summary>Puts the hash of one more committed state at the end.</summary>
+    /// <param name="time">Of the first, its committed shared time; of others it is not looked at.</param>
+    /// <param name="hash">The hash.</param>
+    /// <returns>False where there are <see cref="MaxHashes"/>.</returns>
+    public bool TryAddHash(SimTime time, ulong hash)
+    {
+        if (hashCount == MaxHashes)
+        {
+            return false;
+        }
+
+        HashTime = hashCount == 0 ? time : HashTime;
+        hashes[hashCount++] = hash;
+        return true;
+    }
+
+    /// <summary>Puts one more entry at the end, if it fits; room for the start is always kept. Hashes are put in before.</summary>
     /// <returns>False when the datagram is full for an event of this kind.</returns>
     /// <exception cref="ArgumentException">The event is not <see cref="EventFormat.IsWellFormed"/>, or the verdict none of the enum's.</exception>
     public bool TryAdd(Verdict verdict, in ExternalEvent what) => TryAdd(new UpdateEntry(verdict, what));
@@ -129,7 +168,7 @@ public sealed partial class UpdateDatagram
 
         int length = LengthOf(entry);
         bool fits = count < MaxEntries
-            && WireFormat.EmptyUpdateBytes + WireFormat.StateHashBytes + entryBytes + length <= WireFormat.MaxBytes;
+            && WireFormat.EmptyUpdateBytes + HashBytes + WireFormat.StartBytes + entryBytes + length <= WireFormat.MaxBytes;
         if (fits)
         {
             entries[count++] = entry;

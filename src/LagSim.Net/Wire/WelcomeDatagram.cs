@@ -3,18 +3,16 @@ using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>The host lets a joiner in, tells it who it is, and what to fetch: a copy of scene and world, and the log from where that ends.</summary>
+/// <summary>The host lets a joiner come in, and tells it what to fetch: a copy of scene and world, and the log from where that ends.</summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
 public readonly struct WelcomeDatagram
 {
     /// <summary>An answer of these fields.</summary>
     public WelcomeDatagram(
-        ulong nonce, ulong sessionId, byte peer, uint lastSequence, SimDuration history, int copyLength, ulong copyHash, uint logIndex)
+        ulong nonce, ulong sessionId, SimDuration history, int copyLength, ulong copyHash, uint logIndex)
     {
         Nonce = nonce;
         SessionId = sessionId;
-        Peer = peer;
-        LastSequence = lastSequence;
         History = history;
         CopyLength = copyLength;
         CopyHash = copyHash;
@@ -26,12 +24,6 @@ public readonly struct WelcomeDatagram
 
     /// <summary>The session's number; every later datagram carries it.</summary>
     public ulong SessionId { get; }
-
-    /// <summary>The joiner's peer number, 1 to 255.</summary>
-    public byte Peer { get; }
-
-    /// <summary>The last sequence number that stands in an event of that peer number, of whoever had it before; the joiner's first event is the next.</summary>
-    public uint LastSequence { get; }
 
     /// <summary>How far back the host's window reaches; above zero, at most <see cref="WireFormat.MaxTimeTicks"/>.</summary>
     public SimDuration History { get; }
@@ -46,7 +38,7 @@ public readonly struct WelcomeDatagram
     public uint LogIndex { get; }
 
     private bool IsWellFormed =>
-        Peer != 0 && History.Ticks is > 0 and <= WireFormat.MaxTimeTicks && CopyLength is > 0 and <= WorldCopy.MaxBytes;
+        History.Ticks is > 0 and <= WireFormat.MaxTimeTicks && CopyLength is > 0 and <= WorldCopy.MaxBytes;
 
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.WelcomeBytes"/>.</returns>
@@ -57,7 +49,7 @@ public readonly struct WelcomeDatagram
         if (!IsWellFormed)
         {
             throw new InvalidOperationException(
-                $"No welcome: peer {Peer} must be 1 to 255, history {History.ToShortString()} above zero and below 48 days, a copy of {CopyLength} bytes 1 to"
+                $"No welcome: history {History.ToShortString()} above zero and below 48 days, a copy of {CopyLength} bytes 1 to"
                 + $" {WorldCopy.MaxBytes}.");
         }
 
@@ -65,8 +57,6 @@ public readonly struct WelcomeDatagram
         writer.WriteHeader(DatagramType.Welcome);
         writer.WriteUInt64(Nonce);
         writer.WriteUInt64(SessionId);
-        writer.WriteByte(Peer);
-        writer.WriteUInt32(LastSequence);
         writer.WriteInt64(History.Ticks);
         writer.WriteUInt32((uint)CopyLength);
         writer.WriteUInt64(CopyHash);
@@ -83,13 +73,11 @@ public readonly struct WelcomeDatagram
         WireReader reader = WireReader.Open(datagram, DatagramType.Welcome);
         ulong nonce = reader.ReadUInt64();
         ulong session = reader.ReadUInt64();
-        byte peer = reader.ReadByte();
-        uint sequence = reader.ReadUInt32();
         SimDuration history = SimDuration.FromTicks(reader.ReadInt64());
         uint length = reader.ReadUInt32();
         reader.Require(length <= WorldCopy.MaxBytes);
         welcome = new WelcomeDatagram(
-            nonce, session, peer, sequence, history, (int)Math.Min(length, WorldCopy.MaxBytes), reader.ReadUInt64(), reader.ReadUInt32());
+            nonce, session, history, (int)Math.Min(length, WorldCopy.MaxBytes), reader.ReadUInt64(), reader.ReadUInt32());
         reader.Require(welcome.IsWellFormed);
         return reader.Finish(out refusal);
     }

@@ -11,7 +11,7 @@ public static class WireFormat
     public const ushort Magic = 0x4C53;
 
     /// <summary>The version of the layouts. Any change to a layout, a range or an enum's numbers needs another version.</summary>
-    public const byte Version = 6;
+    public const byte Version = 7;
 
     /// <summary>Magic, version and type.</summary>
     public const int HeaderBytes = 4;
@@ -23,10 +23,16 @@ public static class WireFormat
     public const int ChallengeBytes = 28;
 
     /// <summary>The length of a <see cref="JoinDatagram"/>.</summary>
-    public const int JoinBytes = 52;
+    public const int JoinBytes = 73;
 
     /// <summary>The length of a <see cref="WelcomeDatagram"/>.</summary>
-    public const int WelcomeBytes = 49;
+    public const int WelcomeBytes = 44;
+
+    /// <summary>The length of a <see cref="SeatDatagram"/>: below that of any update.</summary>
+    public const int SeatBytes = 33;
+
+    /// <summary>The length of a <see cref="MoveDatagram"/>.</summary>
+    public const int MoveBytes = 29;
 
     /// <summary>The length of a <see cref="RefusalDatagram"/>.</summary>
     public const int RefusalBytes = 13;
@@ -46,11 +52,17 @@ public static class WireFormat
     /// <summary>The length of an <see cref="EvidenceDatagram"/> without an event.</summary>
     public const int EmptyEvidenceBytes = 21;
 
-    /// <summary>The length of an <see cref="UpdateDatagram"/> without state hash and entries.</summary>
-    public const int EmptyUpdateBytes = 67;
+    /// <summary>The length of an <see cref="UpdateDatagram"/> without start, state hash and entries.</summary>
+    public const int EmptyUpdateBytes = 59;
 
-    /// <summary>What a state hash and its time add to an <see cref="UpdateDatagram"/>.</summary>
+    /// <summary>What the start adds to an <see cref="UpdateDatagram"/>.</summary>
+    public const int StartBytes = 8;
+
+    /// <summary>What a state hash and its time add to an <see cref="UpdateDatagram"/>; each further one adds 8.</summary>
     public const int StateHashBytes = 16;
+
+    /// <summary>What the most state hashes and their time add to an <see cref="UpdateDatagram"/>.</summary>
+    internal const int MostHashBytes = StateHashBytes + ((UpdateDatagram.MaxHashes - 1) * sizeof(ulong));
 
     /// <summary>The longest datagram.</summary>
     public const int MaxBytes = IDatagramPort.MaxDatagramBytes;

@@ -111,6 +111,21 @@ public sealed class ContactNotices : IImpactObserver
         isFollowing = true;
     }
 
+    /// <summary>Lets go of a world that another takes the place of: what it predicted and did not confirm is retracted.</summary>
+    internal void Restart()
+    {
+        changes.Clear();
+        settledChanges = 0;
+        for (; confirmed < standing.Count; confirmed++)
+        {
+            Emit(ContactNoticeKind.Retracted, standing[confirmed]);
+        }
+
+        standing.Clear();
+        confirmed = 0;
+        isFollowing = false;
+    }
+
     /// <summary>
     /// Tells what a step changed and what can no longer change. While a heal is under way it waits: most of what that takes back it makes again.
     /// </summary>

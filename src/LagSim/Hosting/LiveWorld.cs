@@ -105,6 +105,9 @@ public sealed class LiveWorld
 
     private long EventsAStep => Math.Max(LeastEvents, Effort / (Math.Min(Simulation.BodyCount, Simulation.MostLooks) + 8));
 
+    /// <summary>Gives the contact notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to be stepped again.</summary>
+    public void Retire() => Contacts?.Restart();
+
     /// <summary>Submits an event at its own time.</summary>
     /// <remarks>
     /// What a late event has simulated again counts as this step's work: if it is too much, the next step goes on, and the world is behind meanwhile.

@@ -88,6 +88,6 @@ public sealed class ReadableMessagesTests
     private static void Send(params double[] seconds)
     {
         LinkModel link = new(LinkProfiles.Lan.ToHost, new SeededRandom(1));
-        seconds.Select(At).ToList().ForEach(time => link.Send(time));
+        seconds.Select(At).ToList().ForEach(time => link.Send(time, 100));
     }
 }

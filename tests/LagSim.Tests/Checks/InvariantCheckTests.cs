@@ -100,18 +100,18 @@ public sealed class InvariantCheckTests
     [Fact]
     public void Run_CutsByTime_IsCaughtAndShrunkToTwoDeedsOfOneTick()
     {
-        CheckOptions options = new() { Sessions = 4, Strategy = "full-rollback", Prepare = static (_, simulation) => simulation.CutsByTime = true };
+        CheckOptions options = new() { Sessions = 4, Seed = 2, Strategy = "full-rollback", Prepare = static (_, simulation) => simulation.CutsByTime = true };
         CheckReport report = Run(options);
         CheckFailure failure = report.Failures[0];
-        Assert.Equal(1UL, failure.Whole.Seed);
+        Assert.Equal(2UL, failure.Whole.Seed);
         Assert.True(failure.Least.Deeds.Count == 2 && failure.Least.Bodies.Count <= 2, failure.Command);
-        Assert.StartsWith("lagsim check --seed 1 --sessions 1 --strategy full-rollback --bodies ", failure.Command, StringComparison.Ordinal);
+        Assert.StartsWith("lagsim check --seed 2 --sessions 1 --strategy full-rollback --bodies ", failure.Command, StringComparison.Ordinal);
         AssertLeast(failure.Least, options);
-        CheckCase least = new(1, options with { Bodies = failure.Least.Bodies, Events = failure.Least.Deeds });
+        CheckCase least = new(2, options with { Bodies = failure.Least.Bodies, Events = failure.Least.Deeds });
         Assert.Single(least.DeedIndices.Select(i => least.Deeds[i].AtSeconds).Distinct());
 
         // What it names plays again to the same; without the fault it does not fail.
-        CheckOptions again = options with { Sessions = 1, Seed = 1, Bodies = failure.Least.Bodies, Events = failure.Least.Deeds, ShrinkingPlays = 0 };
+        CheckOptions again = options with { Sessions = 1, Seed = 2, Bodies = failure.Least.Bodies, Events = failure.Least.Deeds, ShrinkingPlays = 0 };
         Assert.Equal(failure.Least.Difference, Run(again).Failures.Single().Whole.Difference);
         Assert.Empty(Run(again with { Prepare = null }).Failures);
     }
@@ -147,11 +147,11 @@ public sealed class InvariantCheckTests
     [Theory]
     [InlineData(HealingFault.ForgetsThePast, 1u)]
     [InlineData(HealingFault.OverlooksWhoIsAhead, 1u)]
-    [InlineData(HealingFault.GivesUpByBody, 15u)]
+    [InlineData(HealingFault.GivesUpByBody, 5u)]
     [InlineData(HealingFault.DropsEvents, 1u)]
     [InlineData(HealingFault.LeavesMates, 94u)]
     [InlineData(HealingFault.CutsByTime, 1u)]
-    [InlineData(HealingFault.LeavesWhoRests, 18u)]
+    [InlineData(HealingFault.LeavesWhoRests, 1u)]
     internal void Run_HealingInAWayKnownToBeWrong_IsCaughtByItsSeed(HealingFault fault, uint seed)
     {
         // The seeds that docs/HEALING.md names.

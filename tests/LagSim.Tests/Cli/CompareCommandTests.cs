@@ -91,7 +91,7 @@ public sealed class CompareCommandTests
         }
 
         Assert.Contains("After the events healing is nowhere worse than another strategy.", tool.Output, StringComparison.Ordinal);
-        Assert.Matches(@"interpolation looks better than healing on \d+ of 23 links: .*lan", tool.Output);
+        Assert.Matches($@"interpolation looks better than healing on \d+ of {LinkProfiles.All.Count} links: .*lan", tool.Output);
         Assert.DoesNotContain("\u001b", tool.Output + tool.Error, StringComparison.Ordinal);
         string[] told = tool.Error.Split(Environment.NewLine, StringSplitOptions.RemoveEmptyEntries);
         Assert.Equal("compare, pair, virtual time ...", told[0]);

@@ -44,7 +44,7 @@ public sealed class ProcessTests
     {
         using ToolProcess host = ToolProcess.Start("host --scene pair --joiners 2 --history-s 0.2 --timeout-s 1.5 --do impulse@0.4:1,4,0");
         using ToolProcess first = ToolProcess.Start($"join {host.Address} --timeout-s 1.5");
-        using ToolProcess second = ToolProcess.Start($"join {host.Address} --timeout-s 1.5 --do impulse@1.5:-1,4,0");
+        using ToolProcess second = ToolProcess.Start($"join {host.Address} --timeout-s 1.5 --rejoin-s 0 --do impulse@1.5:-1,4,0");
         second.Says("T 1 s ");
         first.KillAtOnce();
         Assert.NotNull(host.Error.WaitFor(line => line.EndsWith(" is gone", StringComparison.Ordinal), LiveTool.Deadline));

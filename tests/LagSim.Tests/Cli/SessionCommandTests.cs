@@ -232,7 +232,7 @@ public sealed class SessionCommandTests
             () =>
             {
                 brief.Step();
-                return brief.Links.Count > 0;
+                return brief.Peer > 0;
             },
             LiveTool.Deadline));
         brief.Leave();
@@ -284,7 +284,11 @@ public sealed class SessionCommandTests
     {
         protected override bool Change(UpdateDatagram update)
         {
-            update.StateHash ^= update.HasStateHash ? 1u : 0;
+            if (update.HasStateHash)
+            {
+                update.Hashes[0] ^= 1;
+            }
+
             return update.HasStateHash;
         }
     }

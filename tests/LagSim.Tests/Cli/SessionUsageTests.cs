@@ -1,9 +1,12 @@
 using System;
+using System.Collections.Generic;
 using System.IO;
 using System.Linq;
 using System.Text.Json;
+using System.Text.RegularExpressions;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
+using LagSim.Net.Recordings;
 using LagSim.Net.Sessions;
 using LagSim.Tests.Recordings;
 using Xunit;
@@ -94,11 +97,87 @@ public sealed class SessionUsageTests
         File.WriteAllBytes(folder["cut early"], bytes[..(first - 1)]);
         Assert.Contains("The second is damaged at byte ", Tool.Run("diff", folder["all"], folder["cut late"]).Done().Output, StringComparison.Ordinal);
         Tool replay = Tool.Run("replay", folder["cut late"]).Done();
-        Assert.Contains("What stands before is run.", replay.Error, StringComparison.Ordinal);
+        Assert.Matches($"^'{Regex.Escape(folder["cut late"])}' is damaged at byte [0-9]+; what it holds counts, up to T [0-9.]+ s[.]$", LastLine(replay));
         Assert.Matches(@"up to T [0-9.]+ s, with", replay.Output);
         Assert.Equal(1, Tool.Run("diff", folder["all"], folder["cut early"]).ExitCode);
         Assert.Equal(1, Tool.Run("replay", folder["cut early"]).ExitCode);
     }
+
+    [Fact]
+    public void DiffAndReplay_OfRecordingsThatAreCut_TellItAlikeWhereverTheCutIs()
+    {
+        using TemporaryFolder folder = new();
+        byte[] bytes = Recorded.Small();
+        File.WriteAllBytes(folder["all"], bytes);
+        List<int> at = Recorded.Boundaries(bytes);
+        int committed = 0;
+        for (int record = 2; record < at.Count - 1; record++)
+        {
+            committed += bytes[at[record - 1]] == 5 ? 1 : 0;
+            foreach (int length in new[] { at[record], at[record] + 1, at[record + 1] - 1 })
+            {
+                File.WriteAllBytes(folder["cut"], bytes[..length]);
+                bool isAtEnd = length == at[record];
+                double? until = committed > 0 ? (committed - 1) / 2.0 : null;
+                int exit = committed > 0 ? 0 : 1;
+                string told = $"'{folder["cut"]}' {(isAtEnd ? "has no end record" : $"is damaged at byte {at[record]}")}; "
+                    + (until is double time ? FormattableString.Invariant($"what it holds counts, up to T {time} s.") : "it holds no committed state before that.");
+                foreach (string[] call in new string[][] { ["diff", folder["all"], folder["cut"]], ["diff", folder["cut"], folder["all"]], ["replay", folder["cut"]] })
+                {
+                    Tool text = Tool.Run(call), json = Tool.Run([.. call, "--json"]);
+                    Assert.Equal((exit, exit), (text.ExitCode, json.ExitCode));
+                    Assert.Equal((told, told), (LastLine(text), LastLine(json)));
+                    Assert.Contains(isAtEnd ? " has no end record: its writer was ended or still writes, or the file is cut; it holds " : " is damaged at byte ", text.Output, StringComparison.Ordinal);
+                    using JsonDocument document = JsonDocument.Parse(json.Output);
+                    JsonElement root = document.RootElement;
+                    JsonElement cut = call[0] == "replay" ? root.GetProperty("recording") : root.GetProperty("recordings")[call[1] == folder["all"] ? 1 : 0];
+                    Assert.Equal((false, false), (root.GetProperty("whole").GetBoolean(), cut.GetProperty("whole").GetBoolean()));
+                    Assert.Equal((until, until), (Number(root.GetProperty("agreed_up_to_s")), Number(cut.GetProperty("holds_up_to_s"))));
+                    Assert.Equal(isAtEnd ? null : at[record], Number(cut.GetProperty("damaged_at_byte")));
+                    Assert.Equal((null, committed), (cut.GetProperty("end_reason").GetString(), cut.GetProperty("states").GetInt32()));
+                }
+            }
+        }
+
+        // The control: nothing of it where nothing is missing.
+        foreach (string[] call in new string[][] { ["diff", folder["all"], folder["all"]], ["replay", folder["all"]] })
+        {
+            Assert.DoesNotContain(folder["all"] + "'", Tool.Run(call).Done().Error, StringComparison.Ordinal);
+            using JsonDocument document = JsonDocument.Parse(Tool.Run([.. call, "--json"]).Done().Output);
+            Assert.True(document.RootElement.GetProperty("whole").GetBoolean());
+            Assert.Equal(2, document.RootElement.GetProperty("agreed_up_to_s").GetDouble());
+        }
+    }
+
+    [Fact]
+    public void DiffAndReplay_OfAnotherFoldVersion_SayBoth()
+    {
+        using TemporaryFolder folder = new();
+        File.WriteAllBytes(folder["ours"], Recorded.Small());
+        File.WriteAllBytes(folder["theirs"], Recorded.OfFold(Recorded.Small(), 7));
+        Tool.Refuses(Input, ["replay", folder["theirs"]], folder["theirs"], "of fold version 7, ", $"this library computes fold version {Simulation.FoldVersion}, which gives other hashes.");
+        Tool.Refuses(Input, ["replay", folder["theirs"], "--json"], "of fold version 7, ");
+        Tool diff = Tool.Run("diff", folder["ours"], folder["theirs"]);
+        Assert.Equal(1, diff.ExitCode);
+        Assert.StartsWith($"The fold versions differ: {Simulation.FoldVersion} in the first, by the library ", diff.Output, StringComparison.Ordinal);
+        using JsonDocument document = JsonDocument.Parse(Tool.Run("diff", folder["ours"], folder["theirs"], "--json").Output);
+        Assert.Equal("fold-version-differs", document.RootElement.GetProperty("outcome").GetString());
+        Assert.Equal(
+            [Simulation.FoldVersion, 7], document.RootElement.GetProperty("recordings").EnumerateArray().Select(recording => recording.GetProperty("fold_version").GetInt32()));
+
+        // A file of the version before this one's is refused by its number, as any other.
+        byte[] old = Recorded.Small();
+        old[8] = RecordingFormat.Version - 1;
+        File.WriteAllBytes(folder["old"], old);
+        string says = $"The recording is of version {RecordingFormat.Version - 1}; this library reads version {RecordingFormat.Version}.";
+        Tool.Refuses(Input, ["replay", folder["old"]], says);
+        Tool.Refuses(Input, ["diff", folder["ours"], folder["old"]], says);
+    }
+
+    /// <summary>Of stderr; a replay has its progress before it.</summary>
+    private static string LastLine(Tool tool) => tool.Error.TrimEnd().Split('\n')[^1].TrimEnd();
+
+    private static double? Number(JsonElement value) => value.ValueKind == JsonValueKind.Null ? null : value.GetDouble();
 
     [Theory]
     [InlineData("host")]

@@ -26,6 +26,7 @@ public sealed class ClockAccuracyTests
                 { "loopback", 0.012, 0.015 }, { "lan", 0.06, 0.07 }, { "skewed-clock", 0.06, 0.07 }, { "wifi-good", 0.06, 0.7 }, { "wifi-busy", 1.2, 3.5 },
                 { "4g", 22, 24 }, { "3g", 35, 42 }, { "5g", 5, 8 }, { "starlink", 5, 11 }, { "transatlantic", 1.2, 1.4 }, { "eu-australia", 3.3, 4.5 },
                 { "satellite", 11, 17 }, { "awful", 50, 75 }, { "blackout", 2.4, 2.8 },
+                { "dsl-256k", 2.4, 2.7 }, { "modem-64k", 6, 6.8 }, { "bufferbloat", 2.4, 2.7 }, { "dip", 2.4, 2.7 }, // for what is said of the clock alone, without a transfer
             };
             foreach (LinkProfile rung in LinkProfiles.Ladder)
             {

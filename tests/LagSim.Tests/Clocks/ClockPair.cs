@@ -15,6 +15,9 @@ internal sealed class ClockPair
 
     private static readonly SimDuration SampleStep = SimDuration.FromMilliseconds(50);
 
+    /// <summary>What an update without events has, about.</summary>
+    private const int DatagramBytes = 60;
+
     private readonly List<Stamps> stamps;
 
     /// <summary>All exchanges of so many seconds.</summary>
@@ -94,7 +97,7 @@ internal sealed class ClockPair
 
     private static void Deliver(LinkModel leg, SimTime at, SimTime sent, List<(SimTime Sent, SimTime Arrived)> arrivals)
     {
-        LinkDeliveries deliveries = leg.Send(at);
+        LinkDeliveries deliveries = leg.Send(at, DatagramBytes);
         for (int i = 0; i < deliveries.Count; i++)
         {
             arrivals.Add((sent, deliveries[i]));

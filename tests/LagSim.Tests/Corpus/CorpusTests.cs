@@ -10,6 +10,7 @@ using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Tests.Api;
+using LagSim.Tests.Recordings;
 using LagSim.Time;
 using LagSim.Timelines;
 using Xunit;
@@ -81,6 +82,8 @@ public sealed partial class CorpusTests
             {
                 writer.WriteCommitted(state.Time, state.StateHash, state.EventHash);
             }
+
+            writer.WriteEnd("Spoiled.");
         }
 
         (int exit, string[] lines) = Check(copy.Folder);
@@ -101,6 +104,16 @@ public sealed partial class CorpusTests
         Assert.Equal((1, $"{Names().Length - 1} agree, 1 differ"), (exit, lines[^1]));
         Assert.Matches("^CANNOT drop-rk4 .*The file ends within an end", Assert.Single(lines, line => line.StartsWith("CANNOT", StringComparison.Ordinal)));
 
+        File.WriteAllBytes(path, bytes[..Recorded.Boundaries(bytes)[^2]]); // the same without a trace of the end
+        (exit, lines) = Check(copy.Folder);
+        Assert.Equal((1, $"{Names().Length - 1} agree, 1 differ"), (exit, lines[^1]));
+        Assert.Matches("^CANNOT drop-rk4 It has no end record: .* 21 committed states up to T ", Assert.Single(lines, line => line.StartsWith("CANNOT", StringComparison.Ordinal)));
+
+        File.WriteAllBytes(path, Recorded.OfFold(bytes, 7));
+        (exit, lines) = Check(copy.Folder);
+        Assert.Equal((1, $"{Names().Length - 1} agree, 1 differ"), (exit, lines[^1]));
+        Assert.Matches("^CANNOT drop-rk4 .* are of fold version 7, ", Assert.Single(lines, line => line.StartsWith("CANNOT", StringComparison.Ordinal)));
+
         foreach (string file in Directory.GetFiles(copy.Folder))
         {
             File.Delete(file);
@@ -109,9 +122,9 @@ public sealed partial class CorpusTests
         (exit, lines) = Check(copy.Folder);
         Assert.Equal((1, "0 agree, 0 differ"), (exit, lines[^1]));
 
-        using (RecordingWriter.Create(path, 0, Drop(1, 1), SimTime.Zero))
+        using (RecordingWriter nothing = RecordingWriter.Create(path, 0, Drop(1, 1), SimTime.Zero))
         {
-            // A recording of nothing.
+            nothing.WriteEnd("A recording of nothing.");
         }
 
         (exit, lines) = Check(copy.Folder);

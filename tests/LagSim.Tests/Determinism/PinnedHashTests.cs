@@ -1,3 +1,5 @@
+using System.Linq;
+using System.Reflection;
 using LagSim.Scenes;
 using LagSim.Time;
 using Xunit;
@@ -5,9 +7,13 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Determinism;
 
-/// <summary>The very bits of some worlds, the same in Debug and Release and on every machine. A hash that moves belongs in the changelog.</summary>
+/// <summary>The very bits of some worlds, the same in Debug and Release and on every machine. A hash that moves belongs in the changelog, and raises
+/// <see cref="Simulation.FoldVersion"/>.</summary>
 public sealed class PinnedHashTests
 {
+    /// <summary>The worlds.</summary>
+    internal static readonly string[] Names = ["drop", "integrated", "pile", "random"];
+
     [Theory]
     [InlineData("drop", 1663898684166190757UL, 835043358955592738UL)]
     [InlineData("integrated", 11975514299284432918UL, 11092246644800043823UL)]
@@ -21,13 +27,18 @@ public sealed class PinnedHashTests
     }
 
     [Fact]
+    public void Names_AreThoseOfTheHashesOnRecord() => Assert.Equal(
+        Names, typeof(PinnedHashTests).GetMethod(nameof(Hashes_OfAWorld_AreTheOnesOnRecord))!.GetCustomAttributes<InlineDataAttribute>().Select(data => (string)data.Data[0]!));
+
+    [Fact]
     public void Hashes_OneTickEarlier_AreOthers()
     {
         Simulation simulation = World("integrated");
         Assert.NotEqual(simulation.StateHash(simulation.SimulatedTo), simulation.StateHash(simulation.SimulatedTo - SimDuration.OneTick));
     }
 
-    private static Simulation World(string name)
+    /// <summary>One of the worlds, run to its end.</summary>
+    internal static Simulation World(string name)
     {
         switch (name)
         {

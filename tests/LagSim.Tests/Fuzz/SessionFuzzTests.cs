@@ -58,7 +58,8 @@ public sealed class SessionFuzzTests
     {
         FuzzReport once = SessionFuzz.Run(5_000, 7, null, CancellationToken.None);
         FuzzReport twice = SessionFuzz.Run(5_000, 7, null, CancellationToken.None);
-        Assert.Equal(once with { RetainedBytes = 0, SessionGrowthBytes = 0 }, twice with { RetainedBytes = 0, SessionGrowthBytes = 0 });
+        // A session id is drawn by the system: whether a changed byte leaves it what it was, and so what the answer is, is not the seed's.
+        Assert.Equal(once with { RetainedBytes = 0, SessionGrowthBytes = 0, StrangerBytesReceived = 0 }, twice with { RetainedBytes = 0, SessionGrowthBytes = 0, StrangerBytesReceived = 0 });
         Assert.NotEqual(once with { RetainedBytes = 0, SessionGrowthBytes = 0 }, SessionFuzz.Run(5_000, 8, null, CancellationToken.None) with { RetainedBytes = 0, SessionGrowthBytes = 0 });
     }
 }

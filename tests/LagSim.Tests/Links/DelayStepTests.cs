@@ -48,7 +48,7 @@ public sealed class DelayStepTests
         LinkModel busy = new(stepping, new SeededRandom(3)), idle = new(stepping, new SeededRandom(3));
         LinkRun.Of(busy, SimTime.Zero, SimDuration.FromMilliseconds(7), 10_000);
         SimTime later = SimTime.FromSeconds(71.5);
-        Assert.Equal(idle.Send(later)[0], busy.Send(later)[0]);
+        Assert.Equal(idle.Send(later, LinkRun.DatagramBytes)[0], busy.Send(later, LinkRun.DatagramBytes)[0]);
     }
 
     [Fact]

@@ -70,7 +70,7 @@ public sealed class DelayedPortTests
         for (byte i = 0; i < 250; i++)
         {
             clock.Now += SimDuration.FromMilliseconds(16);
-            LinkDeliveries deliveries = oracle.Send(clock.Now);
+            LinkDeliveries deliveries = oracle.Send(clock.Now, 1);
             expected.AddRange(Enumerable.Range(0, deliveries.Count).Select(copy => (deliveries[copy], (i * 2) + copy, i)));
             inner.Arrive([i], Sender);
             port.Poll();
@@ -82,6 +82,42 @@ public sealed class DelayedPortTests
 
         // Taken every 16 ms, so the order of arrival is by due time, whatever was taken together.
         Assert.Equal(expected.Order().Select(datagram => datagram.Number), got);
+    }
+
+    [Theory]
+    [InlineData(QueueDiscipline.DropTail)]
+    [InlineData(QueueDiscipline.CoDel)]
+    public void TryReceive_NarrowLink_GivesWhatTheLinkModelSaysWhenItSays(QueueDiscipline discipline)
+    {
+        LinkLeg leg = new(20, 2) { Bottleneck = new Bottleneck(100_000, 1_000, discipline) };
+        using DelayedPort port = WithoutThread(leg);
+        LinkModel oracle = new(leg, new SeededRandom(1).Fork(0));
+        List<(SimTime Due, byte Number)> expected = [], got = [];
+        void Until(SimTime time)
+        {
+            while (port.Poll() is SimTime next && next <= time)
+            {
+                clock.Now = SimTime.Max(clock.Now, next);
+                port.Poll();
+                got.AddRange(Drain(port).Select(number => (clock.Now, number)));
+            }
+
+            clock.Now = time;
+        }
+
+        for (byte i = 0; i < 250; i++)
+        {
+            Until(SimTime.FromSeconds(0.06 * i)); // 133 kbit/s
+            byte number = i;
+            oracle.Send(clock.Now, 958, deliveries => expected.AddRange(Enumerable.Range(0, deliveries.Count).Select(copy => (deliveries[copy], number))));
+            inner.Arrive([i, .. new byte[957]], Sender);
+        }
+
+        Until(SimTime.FromSeconds(60));
+        oracle.Queue!.DecideUntil(clock.Now);
+        Assert.Null(port.Poll());
+        Assert.Equal(expected.Order(), got);
+        Assert.InRange(got.Count, 150, 240);
     }
 
     [Fact]

@@ -175,8 +175,8 @@ public sealed class LinkModelTests
     public void Send_EarlierThanTheLast_IsRefused()
     {
         LinkModel link = new(LinkProfiles.Lan.ToHost, new SeededRandom(1));
-        link.Send(SimTime.FromSeconds(2));
-        Assert.Throws<ArgumentOutOfRangeException>(() => link.Send(SimTime.FromSeconds(1)));
+        link.Send(SimTime.FromSeconds(2), 1);
+        Assert.Throws<ArgumentOutOfRangeException>(() => link.Send(SimTime.FromSeconds(1), 1));
     }
 
     private static LinkProfile Profile(string name)

@@ -21,6 +21,9 @@ public sealed class LinkProfilesTests
     [InlineData("satellite", 325, 10, 0.5, 2)]
     [InlineData("awful", 200, 60, 10, 5, 5, 2)]
     [InlineData("blackout", 40, 2, 0, 1)]
+    [InlineData("modem-64k", 60, 5, 0, 1)]
+    [InlineData("bufferbloat", 20, 2, 0, 1)]
+    [InlineData("dip", 40, 2, 0, 1)]
     [InlineData("delay-0ms", 0, 0, 0, 1)]
     [InlineData("delay-25ms", 25, 0, 0, 1)]
     [InlineData("delay-0.5ms", 0.5, 0, 0, 1)]
@@ -36,12 +39,13 @@ public sealed class LinkProfilesTests
     [Theory]
     [InlineData("4g", 45, 15, 45, 5, 0.2)]
     [InlineData("5g", 18, 4, 7, 2, 0.1)]
+    [InlineData("dsl-256k", 25, 2, 25, 2, 0, 1)]
     public void TryGet_UnevenProfile_HasTheValuesOfEachDirection(
-        string name, double delayUp, double jitterUp, double delayDown, double jitterDown, double loss)
+        string name, double delayUp, double jitterUp, double delayDown, double jitterDown, double loss, double burst = 1.5)
     {
         LinkProfile profile = Profile(name);
-        Assert.Equal((delayUp, jitterUp, loss, 1.5, 0, 0), Values(profile.ToHost));
-        Assert.Equal((delayDown, jitterDown, loss, 1.5, 0, 0), Values(profile.FromHost));
+        Assert.Equal((delayUp, jitterUp, loss, burst, 0, 0), Values(profile.ToHost));
+        Assert.Equal((delayDown, jitterDown, loss, burst, 0, 0), Values(profile.FromHost));
     }
 
     [Fact]
@@ -50,7 +54,7 @@ public sealed class LinkProfilesTests
         string[] table =
         [
             "loopback", "lan", "skewed-clock", "wifi-good", "wifi-busy", "4g", "3g", "5g", "starlink", "transatlantic", "eu-australia", "satellite",
-            "awful", "blackout",
+            "awful", "blackout", "dsl-256k", "modem-64k", "bufferbloat", "dip",
         ];
         Assert.Equal(table, LinkProfiles.All.Select(profile => profile.Name).Take(table.Length));
         Assert.Equal(LinkProfiles.Ladder, LinkProfiles.All.Skip(table.Length));
@@ -62,6 +66,39 @@ public sealed class LinkProfilesTests
         Assert.Equal("10 % above 50 ms", LinkProfiles.WifiBusy.ToHost.Tail!.ToString());
         Assert.Equal(["starlink"], Names(profile => profile.ToHost.Step is not null));
         Assert.Equal(["starlink", "blackout"], Names(profile => profile.ToHost.Outage is not null));
+        Assert.Equal(["dsl-256k", "modem-64k", "bufferbloat", "dip"], Names(profile => profile.ToHost.Bottleneck is not null));
+        Assert.Equal(["dip"], Names(profile => profile.ToHost.Bottleneck?.Dip is not null));
+        Assert.Equal(["bufferbloat"], Names(profile => profile.HasBulkTransfer));
+    }
+
+    [Theory]
+    [InlineData("dsl-256k", 256_000, 2_000_000, 500)]
+    [InlineData("modem-64k", 64_000, 64_000, 1_000)]
+    [InlineData("bufferbloat", 1_000_000, 1_000_000, 2_000)]
+    [InlineData("dip", 512_000, 512_000, 1_000)]
+    public void TryGet_NarrowProfile_HasTheRatesAndTheQueueOfTheDesign(string name, long up, long down, double queue)
+    {
+        LinkProfile profile = Profile(name);
+        Assert.Equal((up, queue), (profile.ToHost.Bottleneck!.RateBitsPerSecond, profile.ToHost.Bottleneck.QueueMilliseconds));
+        Assert.Equal((down, queue), (profile.FromHost.Bottleneck!.RateBitsPerSecond, profile.FromHost.Bottleneck.QueueMilliseconds));
+        Assert.All(
+            new[] { profile.ToHost.Bottleneck, profile.FromHost.Bottleneck },
+            narrow => Assert.Equal((QueueDiscipline.DropTail, Bottleneck.DefaultBurstBytes), (narrow.Discipline, narrow.BurstBytes)));
+    }
+
+    [Fact]
+    public void TryGet_Dip_IsFiveSecondsOfAHundredKilobitsEveryThirty()
+    {
+        PeriodicDip dip = Profile("dip").ToHost.Bottleneck!.Dip!;
+        Assert.Equal((SimDuration.FromSeconds(30), SimDuration.FromSeconds(5), 100_000), (dip.Period, dip.Length, dip.RateBitsPerSecond));
+    }
+
+    [Fact]
+    public void LinkProfile_BulkTransferWithoutABottleneck_IsRefused()
+    {
+        LinkLeg wide = new(10), narrow = new(10) { Bottleneck = new Bottleneck(1_000_000, 100) };
+        Assert.Contains("'wide'", Assert.Throws<ArgumentException>(() => new LinkProfile("wide", narrow, wide) { HasBulkTransfer = true }).Message, StringComparison.Ordinal);
+        Assert.True(new LinkProfile("narrow down", wide, narrow) { HasBulkTransfer = true }.HasBulkTransfer);
     }
 
     [Theory]

@@ -7,6 +7,8 @@ namespace LagSim.Tests.Links;
 /// <summary>Datagrams sent through one leg, one after another.</summary>
 internal static class LinkRun
 {
+    internal const int DatagramBytes = 100;
+
     internal static (SimTime At, LinkDeliveries Arrives)[] Of(LinkLeg leg, ulong seed, SimDuration apart, int datagrams) =>
         Of(new LinkModel(leg, new SeededRandom(seed)), SimTime.Zero, apart, datagrams);
 
@@ -16,7 +18,7 @@ internal static class LinkRun
         SimTime at = from;
         for (int i = 0; i < run.Length; i++, at += apart)
         {
-            run[i] = (at, link.Send(at));
+            run[i] = (at, link.Send(at, DatagramBytes));
         }
 
         return run;

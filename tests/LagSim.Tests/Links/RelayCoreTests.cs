@@ -104,7 +104,7 @@ public sealed class RelayCoreTests : IDisposable
         int lost = 0;
         for (int i = 0; i < Sent; i++)
         {
-            LinkDeliveries deliveries = oracle.Send(clock.Now);
+            LinkDeliveries deliveries = oracle.Send(clock.Now, 1);
             lost += deliveries.Count == 0 ? 1 : 0;
             expected.AddRange(Enumerable.Range(0, deliveries.Count).Select(copy => (deliveries[copy], (i * 2) + copy, (byte)i)));
             Send(clients[0], (byte)i);
@@ -143,6 +143,28 @@ public sealed class RelayCoreTests : IDisposable
 
         Assert.All(lost, pair => Assert.Equal(pair.Up, pair.Down));
         Assert.InRange(lost.Count(pair => pair.Up), 299, 301); // two of 1.5 s in 40 s
+    }
+
+    [Theory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public void Poll_ProfileWithABulkTransfer_ClientsWaitBehindIt(bool hasTransfer)
+    {
+        Relay(hasTransfer ? LinkProfiles.Bufferbloat : new LinkProfile("alone", LinkProfiles.Bufferbloat.ToHost, LinkProfiles.Bufferbloat.FromHost));
+        Send(clients[0], 0);
+        Turn();
+        clock.Now = SimTime.FromSeconds(60);
+        Turn();
+        host.Send([1], backs[0].LocalAddress);
+        Send(clients[0], 2);
+        Turn();
+        clock.Now += SimDuration.FromMilliseconds(100);
+        Turn();
+        Assert.Equal([0, 2], Drain(host).Select(datagram => (int)datagram.Number)); // up there are acknowledgements only
+        Assert.Equal(hasTransfer ? 0 : 1, Drain(clients[0]).Count);
+        clock.Now += SimDuration.FromSeconds(3);
+        Turn();
+        Assert.Equal(hasTransfer ? 1 : 0, Drain(clients[0]).Count);
     }
 
     [Fact]

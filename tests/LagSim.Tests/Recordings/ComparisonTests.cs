@@ -17,13 +17,16 @@ namespace LagSim.Tests.Recordings;
 
 public sealed class ComparisonTests
 {
+    /// <summary>What is said in the end of two whole recordings.</summary>
+    private const string Both = " The first holds 6 log entries, and 5 committed states up to T 2 s. The second holds 6 log entries, and 5 committed states up to T 2 s.";
+
     [Fact]
     public void Of_TwoPeersOfOneSession_Agree()
     {
-        RecordingComparison compared = Compare(Small(peer: 0), Small(peer: 1, end: null));
+        RecordingComparison compared = Compare(Small(peer: 0), Small(peer: 1));
 
-        Assert.Equal((ComparisonOutcome.Agrees, 6, 5), (compared.Outcome, compared.EntriesCompared, compared.StatesCompared));
-        Assert.Equal("The recordings agree in all that both hold: 6 log entries and 5 committed states.", compared.Message);
+        Assert.Equal((ComparisonOutcome.Agrees, 6, 5, Start + Seconds(2)), (compared.Outcome, compared.EntriesCompared, compared.StatesCompared, compared.AgreedUpTo));
+        Assert.Equal($"The recordings agree in all that both hold: 6 log entries and 5 committed states, up to T 2 s.{Both}", compared.Message);
     }
 
     [Fact]
@@ -34,12 +37,13 @@ public sealed class ComparisonTests
         LogEntry[] other = With(5, Verdict.Accepted, changed);
         RecordingComparison compared = Compare(Small(), Small(other, truth: other));
 
-        Assert.Equal((ComparisonOutcome.EventDiffers, 4), (compared.Outcome, compared.EntriesCompared));
+        Assert.Equal((ComparisonOutcome.EventDiffers, 4, 3, Start + Seconds(1)), (compared.Outcome, compared.EntriesCompared, compared.StatesCompared, compared.AgreedUpTo));
         Assert.Equal(Log[4], compared.FirstEntry);
         Assert.Equal(other[4], compared.SecondEntry);
         Assert.Equal(
             "Entry 5 of the log differs, at T 1.25 s. In the first it is Accepted: SetVelocity of body 0.0.1 at 101.5s by 0.1: to (0, 5, 0) m/s."
-                + " In the second it is Accepted: SetVelocity of body 0.0.1 at 101.5s by 0.1: to (0, 5.000000000000001, 0) m/s.",
+                + " In the second it is Accepted: SetVelocity of body 0.0.1 at 101.5s by 0.1: to (0, 5.000000000000001, 0) m/s."
+                + " Their states agree up to T 1 s." + Both,
             compared.Message);
     }
 
@@ -51,7 +55,7 @@ public sealed class ComparisonTests
         RecordingComparison compared = Compare(Small(), Small(other, truth: other));
         Assert.Equal((ComparisonOutcome.EventDiffers, 1), (compared.Outcome, compared.EntriesCompared));
         Assert.Contains("m/s and (0, 0, 0) rad/s. In the second", compared.Message, StringComparison.Ordinal);
-        Assert.EndsWith("m/s and (0, 0, 1E-09) rad/s.", compared.Message, StringComparison.Ordinal);
+        Assert.Contains("m/s and (0, 0, 1E-09) rad/s. Their states agree up to T 0 s. The first holds", compared.Message, StringComparison.Ordinal);
     }
 
     [Fact]
@@ -75,8 +79,10 @@ public sealed class ComparisonTests
         Assert.Equal(World(lost).StateHash(Start + Seconds(1)), compared.SecondState!.Value.StateHash);
         Assert.Equal((ReplayOutcome.Agrees, ReplayOutcome.Differs), (compared.FirstReplay!.Outcome, compared.SecondReplay!.Outcome));
         Assert.Equal(3, compared.FirstReplay.StatesChecked); // no further than to where they differ
+        Assert.Equal(Start + Seconds(0.5), compared.AgreedUpTo);
         Assert.StartsWith("The log is the same in 6 common entries, and the committed state at T 1 s differs: state ", compared.Message, StringComparison.Ordinal);
-        Assert.EndsWith("The first agrees with its own replay. The second departs from its own replay at T 1 s.", compared.Message, StringComparison.Ordinal);
+        Assert.Contains(" in the second. Up to T 0.5 s they agree. ", compared.Message, StringComparison.Ordinal);
+        Assert.EndsWith("The first agrees with its own replay. The second departs from its own replay at T 1 s." + Both, compared.Message, StringComparison.Ordinal);
     }
 
     [Fact]
@@ -114,11 +120,13 @@ public sealed class ComparisonTests
         Scene other = new SceneBuilder("other").Build();
         RecordingComparison scenes = Compare(Small(), Bytes(_ => { }, other));
         Assert.Equal(ComparisonOutcome.SceneDiffers, scenes.Outcome);
-        Assert.Equal($"The scenes differ: 'two' ({Recorded.Scene.Hash:x16}) in the first, 'other' ({other.Hash:x16}) in the second.", scenes.Message);
+        Assert.Equal($"The scenes differ: 'two' ({Recorded.Scene.Hash:x16}) in the first, 'other' ({other.Hash:x16}) in the second."
+            + " The first holds 6 log entries, and 5 committed states up to T 2 s. The second has no end record: its writer was ended or still writes, or the file is cut;"
+            + " it holds 0 log entries and no committed state.", scenes.Message);
 
         RecordingComparison starts = Compare(Small(), Bytes(_ => { }, start: Start + Seconds(1)));
         Assert.Equal(ComparisonOutcome.StartDiffers, starts.Outcome);
-        Assert.Equal("The starts differ: the first session started at 100.25s, the second at 101.25s.", starts.Message);
+        Assert.StartsWith("The starts differ: the first session started at 100.25s, the second at 101.25s. The first holds ", starts.Message, StringComparison.Ordinal);
     }
 
     [Fact]
@@ -139,12 +147,15 @@ public sealed class ComparisonTests
 
         RecordingComparison compared = Compare(first, second);
         Assert.Equal(ComparisonOutcome.NothingInCommon, compared.Outcome);
-        Assert.Equal("The recordings are of one scene and start, and have no log entry and no committed time in common: of the states nothing is known.", compared.Message);
+        Assert.Null(compared.AgreedUpTo);
+        Assert.StartsWith(
+            "The recordings are of one scene and start, and have no log entry and no committed time in common: of the states nothing is known.", compared.Message, StringComparison.Ordinal);
         Assert.Equal(ComparisonOutcome.NothingInCommon, Compare(Bytes(_ => { }), Bytes(_ => { })).Outcome);
 
         RecordingComparison unreadable = Compare(first, [1, 2, 3]);
         Assert.Equal(ComparisonOutcome.NothingInCommon, unreadable.Outcome);
-        Assert.StartsWith("The recordings cannot be compared without both their headers. The second is damaged at byte 0", unreadable.Message, StringComparison.Ordinal);
+        Assert.StartsWith("The recordings cannot be compared without both their headers. The first has no end record", unreadable.Message, StringComparison.Ordinal);
+        Assert.Contains(" The second is damaged at byte 0, and holds nothing before that: This is no recording", unreadable.Message, StringComparison.Ordinal);
         Assert.Throws<ArgumentNullException>(() => Compared(null!, Read(first)));
         Assert.Throws<ArgumentNullException>(() => Compared(Read(first), null!));
     }
@@ -167,7 +178,7 @@ public sealed class ComparisonTests
     {
         RecordingComparison compared = Compare(Small(), Bytes(writer => writer.WriteEntry(1, Log[0].Verdict, Log[0].Event)));
         Assert.Equal((ComparisonOutcome.NothingInCommon, 1, 0), (compared.Outcome, compared.EntriesCompared, compared.StatesCompared));
-        Assert.EndsWith("have the same in 1 common log entry, and no committed time in common: of the states nothing is known.", compared.Message, StringComparison.Ordinal);
+        Assert.Contains("have the same in 1 common log entry, and no committed time in common: of the states nothing is known.", compared.Message, StringComparison.Ordinal);
     }
 
     [Fact]
@@ -178,7 +189,43 @@ public sealed class ComparisonTests
         RecordingComparison compared = Compare(Small(), bytes);
         Assert.Equal(ComparisonOutcome.Agrees, compared.Outcome);
         Assert.InRange(compared.StatesCompared, 3, 4);
-        Assert.Matches("The second is damaged at byte [0-9]+, and counts up to there: The checksum of a committed state is wrong.$", compared.Message);
+        Assert.Matches(
+            "The second is damaged at byte [0-9]+, and holds 6 log entries, and [34] committed states up to T 1(\\.5)? s before that: The checksum of a committed state is wrong.$",
+            compared.Message);
+    }
+
+    [Fact]
+    public void Of_RecordingWithoutItsEnd_CountsAsFarAsItHoldsAndSaysSo()
+    {
+        byte[] whole = Small();
+        List<int> at = Boundaries(whole);
+        byte[] cut = whole[..at[^4]]; // before the last two states and the end
+        RecordingComparison compared = Compare(cut, whole);
+        Assert.Equal((ComparisonOutcome.Agrees, 3, Start + Seconds(1)), (compared.Outcome, compared.StatesCompared, compared.AgreedUpTo));
+        Assert.Equal(
+            "The recordings agree in all that both hold: 6 log entries and 3 committed states, up to T 1 s. The first has no end record: its writer was ended or still"
+            + " writes, or the file is cut; it holds 6 log entries, and 3 committed states up to T 1 s. The second holds 6 log entries, and 5 committed states up to T 2 s.",
+            compared.Message);
+        Assert.EndsWith(Both, Compare(whole, whole).Message, StringComparison.Ordinal); // the control
+    }
+
+    [Fact]
+    public void Of_OtherFoldVersions_IsSaidBeforeAnythingThatWasComputed()
+    {
+        // Of one session, as builds of two versions would record it: the states differ, and that is no news.
+        RecordingComparison compared = Compare(Small(), OfFold(Small(truth: Log[1..]), 7));
+        Assert.Equal((ComparisonOutcome.FoldVersionDiffers, 0, 0), (compared.Outcome, compared.EntriesCompared, compared.StatesCompared));
+        string library = Read(Small()).Header!.LibraryVersion;
+        Assert.Equal(
+            $"The fold versions differ: {Simulation.FoldVersion} in the first, by the library {library}; 7 in the second, by the library {library}."
+            + $" They make different states of the same scene and events, so the hashes of one say nothing of the other's.{Both}",
+            compared.Message);
+
+        // Two of a version that is not this library's are compared as any; only their replays are missing.
+        Assert.Equal(ComparisonOutcome.Agrees, Compare(OfFold(Small(), 7), OfFold(Small(peer: 1), 7)).Outcome);
+        RecordingComparison differs = Compare(OfFold(Small(), 7), OfFold(Small(truth: Log[1..]), 7));
+        Assert.Equal((ComparisonOutcome.StateDiffers, ReplayOutcome.CannotRun), (differs.Outcome, differs.FirstReplay!.Outcome));
+        Assert.Contains(" The second has no replay to tell: The recording cannot be run again. Its states are of fold version 7, ", differs.Message, StringComparison.Ordinal);
     }
 
     [Fact]

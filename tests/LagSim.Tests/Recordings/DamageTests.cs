@@ -31,6 +31,7 @@ public sealed class DamageTests
             AssertBefore(cut, records);
             bool isBetween = At.Contains(length) && records >= 2;
             Assert.Equal(isBetween, cut.Damage is null);
+            Assert.Equal(length == Whole.Length, cut.IsWhole);
             if (!isBetween)
             {
                 Assert.Equal(length < 10 ? 0 : At[records], cut.Damage!.Offset);
@@ -164,9 +165,10 @@ public sealed class DamageTests
     public void Read_FieldOutOfRange_IsDamage()
     {
         byte[][] r = Enumerable.Range(0, At.Count - 1).Select(i => Whole[At[i]..At[i + 1]]).ToArray();
-        Damaged("The header holds a value out of its range.", 10, Recorded.Record(1, [0, .. BitConverter.GetBytes(long.MaxValue), .. new byte[8], 0]));
-        Damaged("The header ends before its last field.", 10, Recorded.Record(1, new byte[17]));
-        Damaged("The header goes on after its last field.", 10, Recorded.Record(1, new byte[19]));
+        Damaged("The header holds a value out of its range.", 10, Recorded.Record(1, [0, .. BitConverter.GetBytes(long.MaxValue), .. new byte[8], 1, 0, 0]));
+        Damaged("The header holds a value out of its range.", 10, Recorded.Record(1, new byte[20])); // fold version 0
+        Damaged("The header ends before its last field.", 10, Recorded.Record(1, [.. new byte[17], 1, 0]));
+        Damaged("The header goes on after its last field.", 10, Recorded.Record(1, [.. new byte[17], 1, 0, 0, 0]));
         Damaged("The joined state holds a value out of its range.", At[2], r[0], r[1], Recorded.Record(3, JoinedBytes(0, Start)));
         Damaged("The joined state holds a value out of its range.", At[2], r[0], r[1], Recorded.Record(3, JoinedBytes(1, Start - SimDuration.OneTick)));
         Damaged("The joined state ends before its last field.", At[2], r[0], r[1], Recorded.Record(3, JoinedBytes(1, Start)[..^1]));
@@ -185,8 +187,12 @@ public sealed class DamageTests
     public void Read_OtherVersion_IsRefusedWithBoth()
     {
         byte[] bytes = (byte[])Whole.Clone();
-        bytes[8] = 9;
-        Assert.Equal("Damaged at byte 8: The recording is of version 9; this library reads version 2.", Read(bytes).Damage!.ToString());
+        foreach (byte version in new byte[] { 2, 9 })
+        {
+            bytes[8] = version;
+            Assert.Equal($"Damaged at byte 8: The recording is of version {version}; this library reads version 3.", Read(bytes).Damage!.ToString());
+        }
+
         bytes[8] = RecordingFormat.Version;
         bytes[9] = 200;
         Assert.Equal(

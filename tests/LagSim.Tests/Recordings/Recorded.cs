@@ -171,6 +171,15 @@ internal static class Recorded
         return [.. record];
     }
 
+    /// <summary>The recording as a library of another fold version would have written it.</summary>
+    internal static byte[] OfFold(byte[] bytes, ushort version)
+    {
+        int end = Boundaries(bytes)[1];
+        byte[] header = bytes[12..(end - 4)];
+        BitConverter.TryWriteBytes(header.AsSpan(17), version);
+        return [.. bytes[..10], .. Record(1, header), .. bytes[end..]];
+    }
+
     /// <summary>CRC-32 bit by bit, as the page says.</summary>
     internal static uint Crc(byte[] bytes)
     {

@@ -38,6 +38,8 @@ public sealed class RecordingTests
         Assert.Equal(Enumerable.Range(0, 5).Select(i => Start + Seconds(i / 2.0)), recording.Committed.Select(c => c.Time));
         Assert.All(recording.Committed, c => Assert.Equal((world.StateHash(c.Time), world.EventHash(c.Time)), (c.StateHash, c.EventHash)));
         Assert.Equal("This peer left.", recording.EndReason);
+        Assert.Equal((Simulation.FoldVersion, true, Start + Seconds(2)), (recording.Header.FoldVersion, recording.IsWhole, recording.HoldsUpTo));
+        Assert.Equal("holds 6 log entries, and 5 committed states up to T 2 s.", recording.Extent);
     }
 
     [Fact]
@@ -114,8 +116,10 @@ public sealed class RecordingTests
             Assert.Equal(Log[0], left.Entries[0]);
             Assert.Equal(new CommittedState(Start + Seconds(1), 1, 2), Assert.Single(left.Committed));
             Assert.Null(left.EndReason);
+            Assert.Equal((false, Start + Seconds(1)), (left.IsWhole, left.HoldsUpTo));
 
             writer.WriteEnd("Done.");
+            Assert.True(Recording.Read(path).IsWhole);
             Assert.Equal("Done.", Recording.Read(path).EndReason);
             Assert.Equal(2, Recording.Read(path).Entries.Count);
         }

@@ -65,7 +65,7 @@ public sealed class RecordingsPageTests
             }
         }
 
-        Assert.Equal(3 + 4 + 4 + 33 + 2 + 3 + 3, rows); // of each table
+        Assert.Equal(3 + 4 + 5 + 33 + 2 + 3 + 3, rows); // of each table
     }
 
     [Fact]
@@ -135,7 +135,7 @@ public sealed class RecordingsPageTests
             ["wire version"] = (int)WireFormat.Version,
         });
         RecordingHeader header = recording.Header!;
-        Put(1, "1 Header", new() { ["peer"] = (int)header.Peer, ["start"] = header.Start, ["scene hash"] = header.SceneHash, ["library version"] = header.LibraryVersion });
+        Put(1, "1 Header", new() { ["peer"] = (int)header.Peer, ["start"] = header.Start, ["scene hash"] = header.SceneHash, ["fold version"] = header.FoldVersion, ["library version"] = header.LibraryVersion });
         PutBytes(2, SceneFromPage(page, recording.Scene!));
         if (recording.Joined is JoinedState joined)
         {

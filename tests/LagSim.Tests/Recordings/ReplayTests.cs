@@ -23,9 +23,10 @@ public sealed class ReplayTests
         RecordingReplay replay = Replayed(Read(Small()));
 
         Assert.Equal(ReplayOutcome.Agrees, replay.Outcome);
-        Assert.Equal((5, 5), (replay.StatesChecked, replay.EventsApplied));
+        Assert.Equal((5, 5, Start + Seconds(2)), (replay.StatesChecked, replay.EventsApplied, replay.AgreedUpTo));
         Assert.Equal(World(Log).StateHash(Start + Seconds(2)), replay.Actual!.Value.StateHash);
         Assert.StartsWith("The replay agrees: 5 committed states up to T 2 s, with 5 accepted events; state ", replay.Message, StringComparison.Ordinal);
+        Assert.EndsWith(". The recording holds 6 log entries, and 5 committed states up to T 2 s.", replay.Message, StringComparison.Ordinal);
     }
 
     [Fact]
@@ -48,7 +49,7 @@ public sealed class ReplayTests
         RecordingReplay replay = Replayed(Read(Small(With(4, Verdict.Accepted, changed))));
 
         Assert.Equal(ReplayOutcome.Differs, replay.Outcome);
-        Assert.Equal(2, replay.StatesChecked);
+        Assert.Equal((2, Start + Seconds(0.5)), (replay.StatesChecked, replay.AgreedUpTo));
         Assert.Equal(Start + Seconds(1), replay.Expected!.Value.Time);
         Assert.Equal(World(Log).StateHash(Start + Seconds(1)), replay.Expected.Value.StateHash);
         Assert.Equal(World(With(4, Verdict.Accepted, changed)).StateHash(Start + Seconds(1)), replay.Actual!.Value.StateHash);
@@ -66,13 +67,13 @@ public sealed class ReplayTests
                 .Select(body => body == First ? "'left'" : body == Second ? "'right'" : "the spawned body 2.1.0")];
             string message = Replayed(Read(Small(truth: [.. Log.Where(entry => entry.Index != lost)]))).Message;
             Assert.StartsWith(FormattableString.Invariant($"The replay differs at T {differs} s: "), message, StringComparison.Ordinal);
-            Assert.EndsWith(
-                FormattableString.Invariant($" Since T {since} s, the last that agrees, the replay has events of {named.Length} of 3 bodies: {string.Join(", ", named)}."),
+            Assert.Contains(
+                FormattableString.Invariant($" Since T {since} s, the last that agrees, the replay has events of {named.Length} of 3 bodies: {string.Join(", ", named)}. The recording holds "),
                 message, StringComparison.Ordinal);
         }
 
         string still = Replayed(Read(Bytes(w => w.WriteCommitted(Start + Seconds(0.1), 1, 2)))).Message;
-        Assert.EndsWith(" Since the start, the replay has events of 0 of 2 bodies.", still, StringComparison.Ordinal); // the control: nothing has happened by then
+        Assert.Contains(" Since the start, the replay has events of 0 of 2 bodies. The recording has ", still, StringComparison.Ordinal); // the control: nothing has happened by then
     }
 
     [Fact]
@@ -92,7 +93,7 @@ public sealed class ReplayTests
         RecordingReplay replay = Replayed(Read(bytes));
         Assert.Equal(ReplayOutcome.Differs, replay.Outcome);
         Assert.Contains(" The states are the same; what happened on the way there is not. ", replay.Message, StringComparison.Ordinal);
-        Assert.EndsWith(" Since the start, the replay has events of 2 of 2 bodies: 'left', 'right'.", replay.Message, StringComparison.Ordinal);
+        Assert.Contains(" Since the start, the replay has events of 2 of 2 bodies: 'left', 'right'. The recording has ", replay.Message, StringComparison.Ordinal);
     }
 
     [Fact]
@@ -102,6 +103,28 @@ public sealed class ReplayTests
         RecordingReplay replay = Replayed(Read(whole[..^60]));
         Assert.Equal(ReplayOutcome.Agrees, replay.Outcome);
         Assert.InRange(replay.StatesChecked, 2, 4);
+        Assert.Contains(" The recording is damaged at byte ", replay.Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Run_RecordingWithoutItsEnd_AgreesAsFarAsItHoldsAndSaysSo()
+    {
+        RecordingReplay replay = Replayed(Read(Small(end: null)));
+        Assert.Equal((ReplayOutcome.Agrees, 5), (replay.Outcome, replay.StatesChecked));
+        Assert.EndsWith(
+            ". The recording has no end record: its writer was ended or still writes, or the file is cut; it holds 6 log entries, and 5 committed states up to T 2 s.",
+            replay.Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Run_OfAnotherFoldVersion_IsRefusedWithBoth()
+    {
+        Recording other = Read(OfFold(Small(), 7));
+        Cannot(
+            $"The recording cannot be run again. Its states are of fold version 7, by the library {other.Header!.LibraryVersion}; this library computes fold version"
+            + $" {Simulation.FoldVersion}, which gives other hashes.", OfFold(Small(), 7));
+        Assert.Equal((Log.Length, 5, true), (other.Entries.Count, other.Committed.Count, other.IsWhole)); // all of it can be read
+        Assert.Equal(ReplayOutcome.Agrees, Replayed(Read(OfFold(Small(), (ushort)Simulation.FoldVersion))).Outcome); // the control
     }
 
     [Fact]

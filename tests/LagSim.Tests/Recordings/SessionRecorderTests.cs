@@ -47,7 +47,7 @@ public sealed class SessionRecorderTests
 
         Recording[] recordings = [.. streams.Select(stream => Read(stream.ToArray()))];
         Assert.All(recorders, recorder => Assert.Null(recorder.Failure));
-        Assert.All(recordings, recording => Assert.Null(recording.Damage));
+        Assert.All(recordings, recording => Assert.True(recording.IsWhole, recording.Extent));
         Assert.All(recordings, recording => Assert.Equal(ReplayOutcome.Agrees, Replayed(recording).Outcome));
         Assert.All(recordings[1..], recording => Assert.Equal(ComparisonOutcome.Agrees, Compared(recordings[0], recording).Outcome));
         Assert.Equal([0, 1, 2, 3], recordings.Select(recording => (int)recording.Header!.Peer).Order());
@@ -70,7 +70,7 @@ public sealed class SessionRecorderTests
     public void Recording_OfWhatCameBeforeTheStart_HasItsPlaceInTheLog()
     {
         // A joiner that acts before there is a world is refused; the entry stands in the host's log, and one that comes later does not get it.
-        SessionGroup group = new(Deeds.Box(), 3, LinkProfiles.PureDelay(2), expected: 1);
+        SessionGroup group = new(Deeds.Box(), 3, LinkProfiles.PureDelay(2), expected: 2);
         MemoryStream[] streams = Record(group, out SessionRecorder[] recorders);
         group.Cut(1, 0);
         group.Cut(2, 0);
@@ -101,7 +101,7 @@ public sealed class SessionRecorderTests
     {
         SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(2));
         FullStream full = new(1500);
-        using SessionRecorder recorder = new(group.Host, () => full);
+        using SessionRecorder recorder = new(group.Host, _ => full);
         List<string> told = [];
         recorder.Failed += told.Add;
         group.Connect();
@@ -132,7 +132,7 @@ public sealed class SessionRecorderTests
     public void Record_FileThatCannotBeMade_TellsAndTheSessionGoesOn(int room)
     {
         SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(2));
-        using SessionRecorder recorder = new(group.Host, () => room < 0 ? throw new UnauthorizedAccessException("Not you.") : new FullStream(room));
+        using SessionRecorder recorder = new(group.Host, _ => room < 0 ? throw new UnauthorizedAccessException("Not you.") : new FullStream(room));
         group.Connect();
         group.Run(3);
         Assert.Equal(room < 0 ? "The recording ends here: Not you." : "The recording ends here: No space left.", recorder.Failure);
@@ -144,7 +144,7 @@ public sealed class SessionRecorderTests
     {
         SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(2));
         FullStream full = new(100_000);
-        SessionRecorder recorder = new(group.Host, () => full);
+        SessionRecorder recorder = new(group.Host, _ => full);
         group.Connect();
         full.Room = 0;
         recorder.Dispose();
@@ -184,7 +184,7 @@ public sealed class SessionRecorderTests
     {
         SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(2));
         MemoryStream some = new(), all = new();
-        using (SessionRecorder first = new(group.Host, () => some, Seconds(2)), second = new(group.Host, () => all))
+        using (SessionRecorder first = new(group.Host, _ => some, Seconds(2)), second = new(group.Host, _ => all))
         {
             group.Connect();
             Deed(group, 1, PlayerAction.Teleport(First, V(0, 4)));
@@ -229,7 +229,7 @@ public sealed class SessionRecorderTests
     private static MemoryStream[] Record(SessionGroup group, out SessionRecorder[] recorders)
     {
         MemoryStream[] streams = [.. group.Sessions.Select(_ => new MemoryStream())];
-        recorders = [.. group.Sessions.Select((session, i) => new SessionRecorder(session, () => streams[i]))];
+        recorders = [.. group.Sessions.Select((session, i) => new SessionRecorder(session, _ => streams[i]))];
         return streams;
     }
 

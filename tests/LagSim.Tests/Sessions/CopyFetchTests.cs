@@ -13,6 +13,7 @@ namespace LagSim.Tests.Sessions;
 public sealed class CopyFetchTests
 {
     private static readonly SimDuration Patience = SimDuration.FromMilliseconds(50);
+    private static readonly RoundTrips Trips = new();
 
     [Fact]
     public void Take_PiecesLostDoubledAndOutOfOrder_ComesTogetherWhole()
@@ -32,7 +33,7 @@ public sealed class CopyFetchTests
                 Assert.True(now < SimTime.FromSeconds(600), $"seed {seed}");
                 if (fetch.Due <= now)
                 {
-                    FetchDatagram ask = fetch.Ask(1, 1, now, Patience);
+                    FetchDatagram ask = fetch.Ask(1, 1, now, Trips, Patience);
                     for (int n = 0; n < FetchDatagram.MaxChunks; n++)
                     {
                         if ((ask.Wanted >> n & 1) != 0)
@@ -70,7 +71,7 @@ public sealed class CopyFetchTests
         int asked = 0, requests = 0;
         while (!fetch.IsComplete)
         {
-            FetchDatagram ask = fetch.Ask(1, 1, now, Patience);
+            FetchDatagram ask = fetch.Ask(1, 1, now, Trips, Patience);
             asked += BitOperations.PopCount(ask.Wanted);
             requests++;
             for (int n = 0; n < FetchDatagram.MaxChunks; n++)

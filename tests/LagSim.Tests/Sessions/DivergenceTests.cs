@@ -82,7 +82,7 @@ public sealed class DivergenceTests
     }
 
     [Fact]
-    public void Event_ThatCameTooLateForTheHistoryHere_IsNamedAsWithoutEffect()
+    public void Event_ThatCameTooLateForTheHistoryHere_IsCountedAndTheWorldReplaced()
     {
         // Between two instants to be committed: the first is, and the second is still to come.
         Play(20);
@@ -99,11 +99,14 @@ public sealed class DivergenceTests
         group.Run(0.02);
         world.DropHistoryBefore(world.SimulatedTo);
         Assert.True(world.HistoryEdge > late.Time && world.HistoryEdge < next);
+        List<string> renewed = [];
+        group.Sessions[2].Renewed += renewed.Add;
         group.Run(3);
-        Divergence found = Assert.Single(told);
-        Assert.Equal((DivergenceFinding.EventDiffers, late, late, false), (found.Finding, found.HostVersion!.Value.Event, found.OwnVersion!.Value.Event, found.HasOwnEffect));
-        Assert.Equal(Verdict.Accepted, found.OwnVersion.Value.Verdict);
-        Assert.Contains("came too late", found.ToString(), StringComparison.Ordinal);
+        Assert.Contains("came too late", Assert.Single(renewed), StringComparison.Ordinal);
+        SessionCounters counters = group.Sessions[2].Counters;
+        Assert.Equal((1L, 1L, SessionState.Running), (counters.EventsLost, counters.Renewals, group.Sessions[2].State));
+        Assert.NotSame(world, group.Sessions[2].World!.Simulation);
+        Assert.Null(group.Difference());
         AssertOthersGoOn();
     }
 
@@ -124,7 +127,7 @@ public sealed class DivergenceTests
     {
         group.IsTapped = false;
         bool lies = true;
-        Change(update => lies && update.HasStateHash, update => update.StateHash ^= 1);
+        Change(update => lies && update.HasStateHash, update => update.Hashes[0] ^= 1);
         Play(30);
         lies = false;
         Play(30);

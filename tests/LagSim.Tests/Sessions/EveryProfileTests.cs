@@ -93,11 +93,11 @@ public sealed class EveryProfileTests
         Assert.True(taken > 0);
         Assert.All(group.Sessions, s => Assert.Equal((SessionState.Running, group.Host.LogLength), (s.State, s.LogLength)));
         SessionCounters robbed = group.Sessions[4].Counters;
-        Assert.True(robbed.StatesDiffered > 5 && robbed.StatesAgreed > 5, $"{robbed.StatesDiffered} differed, {robbed.StatesAgreed} agreed");
+        Assert.True(robbed.StatesDiffered > 0 && robbed.StatesAgreed > 5, $"{robbed.StatesDiffered} differed, {robbed.StatesAgreed} agreed");
         Assert.InRange((robbed.FirstDifference - group.Log[Accepted(group)].Event.Time).ToSeconds(), 0, 1);
         Assert.All(group.Sessions.Where(s => s != group.Sessions[4]), s => Assert.Equal(0, s.Counters.StatesDiffered));
-        string? difference = group.Difference();
-        Assert.True(difference?.StartsWith("peer 4", StringComparison.Ordinal), difference);
+        Assert.Equal(1, robbed.Renewals); // it does not go on with what it knows to be wrong; that it was wrong stays counted
+        Assert.Null(group.Difference());
 
         // The first accepted velocity of another from the tenth line on: early enough for its body to be there still.
         static uint Accepted(SessionGroup group) => group.Log.FirstOrDefault(e => e.Key >= 10 && e.Value.Verdict == Verdict.Accepted

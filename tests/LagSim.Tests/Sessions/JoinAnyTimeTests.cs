@@ -163,11 +163,11 @@ public sealed class JoinAnyTimeTests
     }
 
     [Fact]
-    public void Joiner_FellSilentAndCameBack_JoinsAgainAndHasTheSameWorld()
+    public void Joiner_FellSilentAndEndedAndCameBackAsANewOne_HasTheSameWorld()
     {
         SessionGroup group = new SessionGroup(
             Deeds.Box(), 2, LinkProfiles.PureDelay(10), 3,
-            _ => new SessionOptions { Timeout = SimDuration.FromSeconds(2), KeepAlive = SimDuration.FromSeconds(0.5) }).Connect();
+            _ => new SessionOptions { Timeout = SimDuration.FromSeconds(2), KeepAlive = SimDuration.FromSeconds(0.5), RejoinTime = SimDuration.Zero }).Connect();
         new Deeds(1).DoIn(group, 5);
         group.Cut(0, 1);
         group.Cut(1, 0);

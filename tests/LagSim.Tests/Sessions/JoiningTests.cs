@@ -99,7 +99,7 @@ public sealed class JoiningTests
         bytes[2] = 77; // as a host of version 77 sends it
         group.Ports[0].Send(bytes, PeerAddress.Virtual(1));
         group.Run(0.1);
-        Assert.Equal("The host at virtual:0 refused: it speaks version 77 of the protocol, this peer 6.", group.Sessions[1].EndReason);
+        Assert.Equal("The host at virtual:0 refused: it speaks version 77 of the protocol, this peer 7.", group.Sessions[1].EndReason);
     }
 
     [Fact]
@@ -130,7 +130,7 @@ public sealed class JoiningTests
     {
         SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.Lan).Connect();
         byte[] bytes = new byte[WireFormat.JoinBytes];
-        new JoinDatagram(777, default, JoinCookies.Prove("wrong", 777, default), group.Scene.Hash).Encode(bytes);
+        new JoinDatagram(777, default, JoinCookies.Prove("wrong", 777, default), group.Scene.Hash, (uint)Simulation.FoldVersion).Encode(bytes);
         group.Ports[1].Send(bytes, PeerAddress.Virtual(0));
         group.Run(0.2);
         Assert.Equal(1, group.Host.JoinerCount);

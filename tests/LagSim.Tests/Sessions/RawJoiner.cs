@@ -19,12 +19,19 @@ internal sealed class RawJoiner
     private Token128 cookie;
     private uint number;
 
-    internal RawJoiner(SessionGroup group, int address = 50)
+    internal RawJoiner(SessionGroup group, int address = 50, bool sits = true)
     {
         this.group = group;
         group.Network.Connect(address, 0, LinkProfiles.PureDelay(1));
         port = group.Network.CreatePort(address);
-        Join(4711);
+        if (sits)
+        {
+            Join(4711);
+        }
+        else
+        {
+            AskFor(4711);
+        }
     }
 
     internal byte Peer { get; private set; }
@@ -37,16 +44,41 @@ internal sealed class RawJoiner
     /// <summary>The last sequence number of those who had its number before.</summary>
     internal uint LastSequence { get; private set; }
 
-    /// <summary>Asks to be let in, under a nonce, and is.</summary>
+    /// <summary>Asks to be let in, under a nonce, and is, with a number.</summary>
     internal void Join(ulong nonce)
+    {
+        AskFor(nonce);
+        Sit();
+    }
+
+    /// <summary>Asks to be let in, under a nonce, and is welcome.</summary>
+    internal void AskFor(ulong nonce)
     {
         Assert.Equal(DatagramType.Welcome, Ask(nonce));
         Assert.True(WelcomeDatagram.TryDecode(buffer.AsSpan(0, WireFormat.WelcomeBytes), out WelcomeDatagram welcome, out _));
         Assert.Equal(nonce, welcome.Nonce);
-        Peer = welcome.Peer;
         SessionId = welcome.SessionId;
         CopyLength = welcome.CopyLength;
-        LastSequence = welcome.LastSequence;
+        number = 0; // of this link's updates
+    }
+
+    /// <summary>Says that it is ready, and gets its number.</summary>
+    internal void Sit()
+    {
+        Peer = 0;
+        UpdateDatagram update = new() { SessionId = SessionId, Number = ++number, Sent = SimTime.FromSeconds(number), Ready = true };
+        byte[] bytes = new byte[update.EncodedLength];
+        update.Encode(bytes);
+        Send(bytes);
+        group.Run(0.01);
+        SeatDatagram seat = default;
+        while (port.TryReceive(buffer, out int length, out _) && !SeatDatagram.TryDecode(buffer.AsSpan(0, length), out seat, out _))
+        {
+        }
+
+        Assert.NotEqual(0, seat.Peer);
+        Peer = seat.Peer;
+        LastSequence = seat.LastSequence;
     }
 
     /// <summary>Asks to be let in and tells what the answer was; null for none.</summary>
@@ -54,10 +86,18 @@ internal sealed class RawJoiner
     {
         Received();
         byte[] bytes = new byte[WireFormat.JoinBytes];
-        new JoinDatagram(nonce, Cookie(nonce), Prove(nonce), group.Scene.Hash).Encode(bytes);
+        new JoinDatagram(nonce, Cookie(nonce), Prove(nonce), group.Scene.Hash, (uint)Simulation.FoldVersion).Encode(bytes);
         Send(bytes);
         group.Run(0.01);
-        return port.TryReceive(buffer, out _, out _) ? (DatagramType)buffer[3] : null;
+        while (port.TryReceive(buffer, out _, out _))
+        {
+            if ((DatagramType)buffer[3] is not (DatagramType.Update or DatagramType.Leave)) // of a former link
+            {
+                return (DatagramType)buffer[3];
+            }
+        }
+
+        return null;
     }
 
     /// <summary>Knocks, and takes the cookie that comes.</summary>
@@ -67,8 +107,14 @@ internal sealed class RawJoiner
         new KnockDatagram(nonce).Encode(bytes);
         Send(bytes);
         group.Run(0.01);
-        Assert.True(port.TryReceive(buffer, out int length, out _));
-        Assert.True(ChallengeDatagram.TryDecode(buffer.AsSpan(0, length), out ChallengeDatagram challenge, out _));
+        ChallengeDatagram challenge = default;
+        bool came = false;
+        while (!came && port.TryReceive(buffer, out int length, out _))
+        {
+            came = ChallengeDatagram.TryDecode(buffer.AsSpan(0, length), out challenge, out _);
+        }
+
+        Assert.True(came);
         cookie = challenge.Cookie;
         return cookie;
     }
@@ -105,7 +151,7 @@ internal sealed class RawJoiner
 
     internal byte[] Bytes(uint firstIndex, params ExternalEvent[] events)
     {
-        UpdateDatagram update = new() { SessionId = SessionId, Peer = Peer, Number = ++number, Sent = SimTime.FromSeconds(number), FirstIndex = firstIndex };
+        UpdateDatagram update = new() { SessionId = SessionId, Peer = Peer, Number = ++number, Sent = SimTime.FromSeconds(number), FirstIndex = firstIndex, Ready = true };
         foreach (ExternalEvent external in events)
         {
             Assert.True(update.TryAdd(Verdict.Pending, external));

@@ -13,69 +13,140 @@ namespace LagSim.Tests.Sessions;
 public sealed class SendWindowTests
 {
     private const uint Many = 10_000;
-
-    private static readonly SimDuration Answer = SimDuration.FromMilliseconds(50);
-    private static readonly SimDuration Interval = SimDuration.FromMilliseconds(20);
+    private const int Own = 100;
 
     private readonly UpdateDatagram update = new();
 
     [Fact]
-    public void WhatFitsIntoOneDatagram_TravelsInEveryOneUntilItIsAcknowledged()
+    public void WithRoom_WhatFitsIntoOneDatagram_TravelsInEveryOneUntilItIsAcknowledged()
+    {
+        SendWindow window = new(0);
+        Entries entries = new() { Last = 3 };
+        Assert.Equal((1u, 3u), Next(window, entries));
+        Assert.Equal((1u, 3u), Next(window, entries));
+        window.Acknowledge(2);
+        window.Acknowledge(1); // overtaken: says nothing
+        Assert.Equal((3u, 3u), Next(window, entries));
+        entries.Last = 4;
+        Assert.Equal((3u, 4u), Next(window, entries));
+        window.Acknowledge(4);
+        Assert.Equal((5u, 4u), Next(window, entries)); // none
+    }
+
+    [Fact]
+    public void WithoutRoom_EachEntryTravelsOnce_AndAgainWhenItIsLost()
     {
         SendWindow window = new(0);
         Entries entries = new() { Last = 3 };
         Assert.Equal((1u, 3u), Next(window, entries, 0));
-        Assert.Equal((1u, 3u), Next(window, entries, 1));
-        window.Acknowledge(2);
-        window.Acknowledge(1); // overtaken: says nothing
-        Assert.Equal((3u, 3u), Next(window, entries, 2));
-        entries.Last = 4;
-        Assert.Equal((3u, 4u), Next(window, entries, 3));
-        window.Acknowledge(4);
-        Assert.Equal((5u, 4u), Next(window, entries, 4)); // none
+        Assert.Equal((4u, 3u), Next(window, entries, 0));
+        entries.Last = 5;
+        Assert.Equal((4u, 5u), Next(window, entries, 0));
+        window.Lose(2, 3);
+        Assert.True(window.HasNeeded(entries));
+        Assert.Equal((2u, 3u), Next(window, entries, 0));
+        Assert.False(window.HasNeeded(entries));
+        Assert.Equal((6u, 5u), Next(window, entries, 0));
     }
 
     [Fact]
-    public void OfMoreThanThat_EachDatagramCarriesWhatHasNotBeenSent_UpToTheWindow()
+    public void WithSomeRoom_NoMoreIsRepeatedThanThat()
+    {
+        SendWindow window = new(0);
+        Entries entries = new() { Last = 10 }; // of 5 bytes each
+        Assert.Equal((1u, 10u), Next(window, entries, 0));
+        entries.Last = 11;
+        update.Clear();
+        Assert.Equal(15, window.Fill(update, entries, 16, Own));
+        Assert.Equal((8u, 11u), Carried());
+        update.Clear();
+        Assert.Equal(Own + 20, window.Fill(update, entries, Own + 24, Own)); // nothing new: the oldest
+        Assert.Equal((1u, 4u), Carried());
+    }
+
+    [Fact]
+    public void OfMoreThanADatagram_EachCarriesWhatHasNotBeenSent_UpToTheWindow()
     {
         SendWindow window = new(0);
         Entries entries = new() { Last = Many };
-        List<(uint First, uint Last)> sent = Burst(window, entries, 0);
+        List<(uint First, uint Last)> sent = Burst(window, entries);
         AreInOneRow(sent, 1, SendWindow.MaxEntries);
         Assert.True(sent.Count > SendWindow.MaxEntries / UpdateDatagram.MaxEntries, $"{sent.Count}");
 
         // It grows by what is acknowledged, and by no more.
         uint acknowledged = sent[2].Last;
         window.Acknowledge(acknowledged);
-        AreInOneRow(Burst(window, entries, 1), SendWindow.MaxEntries + 1, acknowledged + SendWindow.MaxEntries);
+        AreInOneRow(Burst(window, entries), SendWindow.MaxEntries + 1, acknowledged + SendWindow.MaxEntries);
     }
 
     [Fact]
-    public void WhatIsNotAcknowledgedInTime_IsSentAgainFromTheOldestOn_AndNotBefore()
+    public void Lost_FromTheOldestOn_AndOnlyOnce()
     {
         SendWindow window = new(0);
         Entries entries = new() { Last = 1000 };
-        uint end = Burst(window, entries, 0)[0].Last;
-        Assert.Equal(1u, Next(window, entries, 20).First); // an interval is over: filled up from the oldest
-        Assert.False(window.HasLost);
-        window.Acknowledge(end);
-        Assert.Equal(end + 1, Next(window, entries, 49).First); // again an interval
-        Assert.Equal((1001u, 1000u), Next(window, entries, 49.5)); // nothing: no interval is over, and answers may come
-        Assert.False(window.HasLost);
-        Assert.Equal(end + 1, Next(window, entries, 50).First); // no answer: at once
-        Assert.True(window.HasLost);
-        window.Acknowledge(1000);
-        Assert.False(window.HasLost);
+        List<(uint First, uint Last)> sent = Burst(window, entries);
+        window.Lose(sent[2].First, sent[2].Last);
+        window.Lose(sent[0].First, sent[0].Last);
+        window.Lose(sent[0].First, sent[0].Last);
+        window.Acknowledge(10);
+        Assert.Equal((11u, sent[0].Last), Next(window, entries, 0));
+        Assert.Equal(sent[2], Next(window, entries, 0));
+        Assert.False(window.HasNeeded(entries));
+        window.Lose(1, uint.MaxValue); // all there was
+        AreInOneRow(Burst(window, entries), 11, 1000);
     }
 
     [Fact]
-    public void WhoAnswersNothing_IsSentLessAndLess()
+    public void AnyOrder_OfLossesAndAcknowledgements_SendsAllThatIsNeededAndNothingElse()
     {
-        SendWindow window = new(0);
-        Entries entries = new() { Last = Many };
-        int[] datagrams = [.. Enumerable.Range(0, 8).Select(part => Enumerable.Range(0, 250).Sum(tick => Tick(window, entries, (part * 250) + tick)))];
-        Assert.True(datagrams[^1] * 4 < datagrams[0], string.Join(", ", datagrams));
-        Assert.True(datagrams[^1] > 0, "it asks on, at the interval");
+        for (int seed = 0; seed < 300; seed++)
+        {
+            System.Random random = new(seed);
+            uint before = (uint)random.Next(100);
+            SendWindow window = new(before);
+            Entries entries = new() { Last = before };
+            HashSet<uint> needed = [];
+            for (int step = 0; step < 400; step++)
+            {
+                switch (random.Next(4))
+                {
+                    case 0:
+                        for (int n = random.Next(400); n > 0; n--)
+                        {
+                            needed.Add(++entries.Last);
+                        }
+
+                        break;
+                    case 1 when window.Sent > window.Acknowledged:
+                        uint upTo = window.Acknowledged + 1 + (uint)random.Next((int)(window.Sent - window.Acknowledged));
+                        window.Acknowledge(upTo);
+                        needed.RemoveWhere(n => n <= upTo);
+                        break;
+                    case 2 when window.Sent > window.Acknowledged:
+                        uint first = window.Acknowledged + 1 + (uint)random.Next((int)(window.Sent - window.Acknowledged));
+                        uint last = first + (uint)random.Next((int)(window.Sent - first + 1));
+                        window.Lose(first, last);
+                        for (uint n = first; n <= last; n++)
+                        {
+                            needed.Add(n);
+                        }
+
+                        break;
+                    default:
+                        Assert.Equal(needed.Any(n => n <= window.Acknowledged + SendWindow.MaxEntries), window.HasNeeded(entries));
+                        (uint from, uint to) = Next(window, entries, 0);
+                        for (uint n = from; n <= to && to >= from; n++)
+                        {
+                            Assert.True(needed.Remove(n), $"seed {seed}, step {step}: {n} was not needed");
+                        }
+
+                        break;
+                }
+            }
+
+            Burst(window, entries, 0).ForEach(carried => needed.RemoveWhere(n => n >= carried.First && n <= carried.Last));
+            Assert.DoesNotContain(needed, n => n <= window.Acknowledged + SendWindow.MaxEntries);
+        }
     }
 
     [Fact]
@@ -83,13 +154,13 @@ public sealed class SendWindowTests
     {
         SendWindow window = new(0);
         Entries entries = new() { Last = 1, AreKnots = true };
-        Assert.Equal((1u, 1u), Next(window, entries, 0));
+        Assert.Equal((1u, 1u), Next(window, entries));
         entries.Last = 2;
-        Assert.Equal((1u, 2u), Next(window, entries, 5));
+        Assert.Equal((1u, 2u), Next(window, entries));
         entries.Last = 3;
-        Assert.Equal((2u, 3u), Next(window, entries, 10)); // the first has travelled twice
-        Assert.Equal((1u, 3u), Next(window, entries, 200)); // lost: all, from the oldest on
-        Assert.True(window.HasLost);
+        Assert.Equal((2u, 3u), Next(window, entries)); // the first has travelled twice
+        window.Lose(1, 3);
+        Assert.Equal((1u, 3u), Next(window, entries)); // lost: all, from the oldest on
     }
 
     [Theory]
@@ -99,9 +170,15 @@ public sealed class SendWindowTests
     {
         SendWindow window = new(uint.MaxValue - 2);
         Entries entries = new() { Last = uint.MaxValue, AreKnots = areKnots };
-        Assert.Equal((uint.MaxValue - 1, uint.MaxValue), Next(window, entries, 0));
+        Assert.Equal((uint.MaxValue - 1, uint.MaxValue), Next(window, entries));
         window.Acknowledge(uint.MaxValue - 1);
-        Assert.Equal((uint.MaxValue, uint.MaxValue), Next(window, entries, 1));
+        if (!areKnots)
+        {
+            Assert.Equal((uint.MaxValue, uint.MaxValue), Next(window, entries));
+        }
+
+        window.Lose(uint.MaxValue, uint.MaxValue);
+        Assert.Equal((uint.MaxValue, uint.MaxValue), Next(window, entries, 0));
     }
 
     private static void AreInOneRow(List<(uint First, uint Last)> sent, uint first, uint last)
@@ -112,44 +189,23 @@ public sealed class SendWindowTests
     }
 
     /// <summary>The numbers of the next datagram; the second is the lesser where it carries none.</summary>
-    private (uint First, uint Last) Next(SendWindow window, Entries entries, double milliseconds)
+    private (uint First, uint Last) Next(SendWindow window, Entries entries, int repetition = 10_000)
     {
-        Fill(window, entries, milliseconds);
+        update.Clear();
+        window.Fill(update, entries, repetition, Own);
         return Carried();
     }
 
-    /// <summary>All datagrams that are to go out at one time.</summary>
-    private List<(uint First, uint Last)> Burst(SendWindow window, Entries entries, double milliseconds)
+    /// <summary>All datagrams that have to go.</summary>
+    private List<(uint First, uint Last)> Burst(SendWindow window, Entries entries, int repetition = 0)
     {
         List<(uint First, uint Last)> sent = [];
-        bool hasMore;
-        do
+        while (window.HasNeeded(entries))
         {
-            hasMore = Fill(window, entries, milliseconds);
-            sent.Add(Carried());
-        }
-        while (hasMore);
-        return sent;
-    }
-
-    /// <summary>How many datagrams with entries a session sends in a millisecond.</summary>
-    private int Tick(SendWindow window, Entries entries, double milliseconds)
-    {
-        int sent = 0;
-        bool hasMore = true;
-        for (int n = 0; hasMore && n < SendWindow.MaxDatagramsAtOnce; n++)
-        {
-            hasMore = Fill(window, entries, milliseconds);
-            sent += update.Held.Length > 0 ? 1 : 0;
+            sent.Add(Next(window, entries, repetition));
         }
 
         return sent;
-    }
-
-    private bool Fill(SendWindow window, Entries entries, double milliseconds)
-    {
-        update.Clear();
-        return window.Fill(update, entries, SimTime.FromSeconds(milliseconds / 1000), new ResendTimes(Answer, SimDuration.Zero, Interval));
     }
 
     private (uint First, uint Last) Carried() => (update.FirstIndex, update.FirstIndex + (uint)update.Held.Length - 1);

@@ -32,10 +32,13 @@ public sealed class SessionEndTests
     [Fact]
     public void Silence_OfTheHost_IsToldApartFromThatOfThePeer()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 3, LinkProfiles.PureDelay(5)).Connect();
+        SessionGroup group = new SessionGroup(Deeds.Box(), 3, LinkProfiles.PureDelay(5), options: _ => new SessionOptions { RejoinTime = SimDuration.FromSeconds(20) }).Connect();
         group.Cut(0, 1);
         group.Cut(2, 0);
+        group.Run(15);
+        Assert.All(group.Sessions.Skip(1), s => Assert.Equal(SessionState.Rejoining, s.State)); // they ask to be let in again
         Assert.True(group.RunUntil(() => group.Sessions.Skip(1).All(s => s.State == SessionState.Ended), 40));
+        Assert.EndsWith("It asked for 20 s to be let in again, in vain.", group.Sessions[1].EndReason, System.StringComparison.Ordinal);
         Assert.Equal([SessionEnd.None, SessionEnd.HostSilent, SessionEnd.LetGo], group.Sessions.Select(s => s.EndedBy));
     }
 
@@ -49,6 +52,20 @@ public sealed class SessionEndTests
         Assert.True(group.RunUntil(() => group.Sessions.Skip(1).All(s => s.State == SessionState.Ended), 40));
         Assert.Equal([SessionEnd.None, SessionEnd.Refused, SessionEnd.HostSilent], group.Sessions.Select(s => s.EndedBy));
         Assert.Equal(["1 ended", "2 ended"], told.Order());
+    }
+
+    [Fact]
+    public void Silence_BeforeTheFirstStep_IsNotTheHosts()
+    {
+        VirtualClock clock = new(SimTime.FromSeconds(10));
+        using Net.Carriers.IDatagramPort port = new VirtualNetwork(clock, 1).CreatePort(1);
+        JoinerSession joiner = new(null, port, clock, new SessionOptions(), Net.Carriers.PeerAddress.Virtual(0), 1);
+        clock.Now += SimDuration.FromSeconds(11);
+        joiner.Step();
+        Assert.Equal(SessionState.Joining, joiner.State);
+        clock.Now += SimDuration.FromSeconds(11);
+        joiner.Step();
+        Assert.Equal(SessionEnd.HostSilent, joiner.EndedBy);
     }
 
     [Fact]

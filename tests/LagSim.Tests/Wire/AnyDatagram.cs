@@ -48,6 +48,10 @@ internal static class AnyDatagram
                 return LeaveDatagram.TryDecode(bytes, out LeaveDatagram leave, out refusal) ? Bytes(leave.Encode) : null;
             case DatagramType.Doubt:
                 return DoubtDatagram.TryDecode(bytes, out DoubtDatagram doubt, out refusal) ? Bytes(doubt.Encode) : null;
+            case DatagramType.Seat:
+                return SeatDatagram.TryDecode(bytes, out SeatDatagram seat, out refusal) ? Bytes(seat.Encode) : null;
+            case DatagramType.Move:
+                return MoveDatagram.TryDecode(bytes, out MoveDatagram move, out refusal) ? Bytes(move.Encode) : null;
             case DatagramType.Evidence:
                 return EvidenceDatagram.TryDecode(bytes, out EvidenceDatagram evidence, out refusal) ? Bytes(evidence.Encode) : null;
             default:

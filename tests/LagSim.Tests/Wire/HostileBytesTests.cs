@@ -113,6 +113,8 @@ public class HostileBytesTests
         WireGen.Evidence.Select(evidence => AnyDatagram.Bytes(evidence.Encode)),
         WireGen.Join.Select(join => AnyDatagram.Bytes(join.Encode)),
         WireGen.Welcome.Select(welcome => AnyDatagram.Bytes(welcome.Encode)),
+        WireGen.Seat.Select(seat => AnyDatagram.Bytes(seat.Encode)),
+        WireGen.Move.Select(move => AnyDatagram.Bytes(move.Encode)),
         WireGen.Refusal.Select(answer => AnyDatagram.Bytes(answer.Encode)),
         WireGen.Leave.Select(leave => AnyDatagram.Bytes(leave.Encode)),
         WireGen.Update.Select(update => AnyDatagram.Bytes(update.Encode)),

@@ -82,10 +82,11 @@ public class RoundTripTests
     public void Encode_Join_GivesTheDocumentedBytes()
     {
         byte[] bytes = AnyDatagram.Bytes(
-            new JoinDatagram(0x0102030405060708, new Token128(Counting(1)), new Token128(Counting(0x41)), 0x2200000000000000).Encode);
+            new JoinDatagram(0x0102030405060708, new Token128(Counting(1)), new Token128(Counting(0x41)), 0x2200000000000000, 0x01020304, 5, new Token128(Counting(0x61))).Encode);
 
         Assert.Equal(
-            "534C0607" + "0807060504030201" + "0102030405060708090A0B0C0D0E0F10" + "4142434445464748494A4B4C4D4E4F50" + "0000000000000022",
+            "534C0707" + "0807060504030201" + "0102030405060708090A0B0C0D0E0F10" + "4142434445464748494A4B4C4D4E4F50" + "0000000000000022"
+            + "04030201" + "05" + "6162636465666768696A6B6C6D6E6F70",
             Convert.ToHexString(bytes));
 
         static byte[] Counting(int from) => Enumerable.Range(from, Token128.Bytes).Select(value => (byte)value).ToArray();
@@ -95,15 +96,14 @@ public class RoundTripTests
     public void Encode_UpdateWithASetVelocity_GivesTheDocumentedBytes()
     {
         UpdateDatagram update = new() { SessionId = 1, Peer = 2, Number = 3, Sent = SimTime.FromTicks(4), EventsReceived = 5, FirstIndex = 6 };
-        update.HasStateHash = update.Ready = true;
-        update.HashTime = SimTime.FromTicks(7);
-        update.StateHash = 8;
+        update.Ready = true;
+        update.TryAddHash(SimTime.FromTicks(7), 8);
         update.TryAdd(
             Verdict.Accepted, ExternalEvent.SetVelocity(SimTime.FromTicks(9), 2, 10, BodyId.FromPacked(11), new Vector3D(1, -0.0, 0)));
 
         const string None = "0000000000000080";
         Assert.Equal(
-            "534C0604" + "0100000000000000" + "02" + "03000000" + "0400000000000000" + None + None + None + None + "05000000" + "03"
+            "534C0704" + "0100000000000000" + "02" + "03000000" + "0400000000000000" + "00000000" + "00000000" + None + None + "05000000" + "03"
             + "0700000000000000" + "0800000000000000" + "06000000" + "01"
             + "01" + "0A" + "02" + "0A000000" + "0900000000000000" + "0B00000000000000"
             + "000000000000F03F" + "0000000000000000" + "0000000000000000",
@@ -118,9 +118,12 @@ public class RoundTripTests
         Assert.Equal(WireFormat.ChallengeBytes, AnyDatagram.Bytes(default(ChallengeDatagram).Encode).Length);
         Assert.Equal(WireFormat.FetchBytes, AnyDatagram.Bytes(default(FetchDatagram).Encode).Length);
         Assert.Equal(WireFormat.EmptyChunkBytes + 1, AnyDatagram.ChunkBytes(1, 2, [3]).Length);
-        Assert.Equal(WireFormat.WelcomeBytes, AnyDatagram.Bytes(new WelcomeDatagram(1, 2, 3, 4, SimDuration.OneTick, 5, 6, 7).Encode).Length);
+        Assert.Equal(WireFormat.WelcomeBytes, AnyDatagram.Bytes(new WelcomeDatagram(1, 2, SimDuration.OneTick, 5, 6, 7).Encode).Length);
         Assert.Equal(WireFormat.RefusalBytes, AnyDatagram.Bytes(new RefusalDatagram(1, RefusalReason.Full).Encode).Length);
         Assert.Equal(WireFormat.LeaveBytes, AnyDatagram.Bytes(new LeaveDatagram(1, 2, LeaveReason.Left).Encode).Length);
+        Assert.Equal(WireFormat.SeatBytes, AnyDatagram.Bytes(new SeatDatagram(1, 2, 3, default).Encode).Length);
+        Assert.Equal(WireFormat.MoveBytes, AnyDatagram.Bytes(default(MoveDatagram).Encode).Length);
+        Assert.Equal(WireFormat.EmptyUpdateBytes + WireFormat.StartBytes, AnyDatagram.Bytes(new UpdateDatagram { Start = SimTime.Zero }.Encode).Length);
         Assert.Equal(WireFormat.EmptyUpdateBytes, AnyDatagram.Bytes(new UpdateDatagram().Encode).Length);
     }
 
@@ -130,9 +133,9 @@ public class RoundTripTests
     private static bool Same(UpdateDatagram a, UpdateDatagram b)
     {
         bool same = a.SessionId == b.SessionId && a.Peer == b.Peer && a.Number == b.Number && a.Sent == b.Sent
-            && a.EchoSent == b.EchoSent && a.EchoReceived == b.EchoReceived && a.Start == b.Start && a.Watermark == b.Watermark
-            && a.EventsReceived == b.EventsReceived && a.Ready == b.Ready && a.HasStateHash == b.HasStateHash
-            && a.HashTime == b.HashTime && a.StateHash == b.StateHash && a.FirstIndex == b.FirstIndex
+            && a.EchoNumber == b.EchoNumber && a.EchoBits == b.EchoBits && a.EchoReceived == b.EchoReceived && a.Start == b.Start && a.Watermark == b.Watermark
+            && a.EventsReceived == b.EventsReceived && a.Ready == b.Ready
+            && a.HashTime == b.HashTime && a.StateHashes.SequenceEqual(b.StateHashes) && a.FirstIndex == b.FirstIndex
             && a.Entries.Length == b.Entries.Length;
         for (int i = 0; same && i < a.Entries.Length; i++)
         {

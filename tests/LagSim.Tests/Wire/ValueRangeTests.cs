@@ -11,24 +11,24 @@ namespace LagSim.Tests.Wire;
 public class ValueRangeTests
 {
     // Where things stand in an update with one spawn and no state hash.
-    private const int EchoSentAt = 25;
-    private const int FlagsAt = 61;
-    private const int FirstIndexAt = 62;
-    private const int CountAt = 66;
-    private const int VerdictAt = 67;
-    private const int KindAt = 68;
-    private const int SequenceAt = 70;
-    private const int TimeAt = 74;
-    private const int RadiusAt = 82;
-    private const int MassAt = 90;
-    private const int RestitutionAt = 98;
-    private const int FlightAt = 106;
-    private const int StepAt = 107;
-    private const int ForcesAt = 115;
-    private const int ToleranceAt = 119;
-    private const int FrictionAt = 127;
-    private const int RollingAt = 135;
-    private const int PositionAt = 143;
+    private const int EchoNumberAt = 25;
+    private const int FlagsAt = 53;
+    private const int FirstIndexAt = 54;
+    private const int CountAt = 58;
+    private const int VerdictAt = 59;
+    private const int KindAt = 60;
+    private const int SequenceAt = 62;
+    private const int TimeAt = 66;
+    private const int RadiusAt = 74;
+    private const int MassAt = 82;
+    private const int RestitutionAt = 90;
+    private const int FlightAt = 98;
+    private const int StepAt = 99;
+    private const int ForcesAt = 107;
+    private const int ToleranceAt = 111;
+    private const int FrictionAt = 119;
+    private const int RollingAt = 127;
+    private const int PositionAt = 135;
 
     private static readonly BodySpec Ball = new(0.5, 1, 0.8);
 
@@ -84,7 +84,7 @@ public class ValueRangeTests
     public void TryDecode_StepOutOfRange_IsRefused(long ticks) => AssertBad(StepAt, ticks);
 
     [Theory]
-    [InlineData(FlagsAt, 4)]
+    [InlineData(FlagsAt, 8)]
     [InlineData(FlagsAt, 0x80)]
     [InlineData(VerdictAt, 6)]
     [InlineData(KindAt, (byte)EventKind.None)]
@@ -111,7 +111,7 @@ public class ValueRangeTests
     public void TryDecode_EventTimeOutOfRange_IsRefused(long ticks) => AssertBad(TimeAt, ticks);
 
     [Fact]
-    public void TryDecode_HalfAnEcho_IsRefused() => AssertBad(EchoSentAt, 5);
+    public void TryDecode_HalfAnEcho_IsRefused() => AssertBad(EchoNumberAt, 5);
 
     [Fact]
     public void TryDecode_SequenceZero_IsRefused()
@@ -152,9 +152,9 @@ public class ValueRangeTests
         AssertHeader(WireRefusal.TooShort, 0x53, 0x4C, 3);
         AssertHeader(WireRefusal.NotLagSim, 0x4C, 0x53, 3, 1);
         AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, 1, 1);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 6, 0);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 6, 12);
-        AssertHeader(WireRefusal.None, 0x53, 0x4C, 6, 11);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 7, 0);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 7, 14);
+        AssertHeader(WireRefusal.None, 0x53, 0x4C, 7, 13);
     }
 
     [Fact]
@@ -167,8 +167,8 @@ public class ValueRangeTests
     [Fact]
     public void TryDecode_FixedDatagramsOutOfRange_AreRefused()
     {
-        byte[] welcome = AnyDatagram.Bytes(new WelcomeDatagram(1, 2, 3, 4, SimDuration.OneTick, 5, 6, 7).Encode);
-        foreach ((int at, byte value) in new (int, byte)[] { (20, 0), (25, 0), (33, 0), (36, 0x7F), (36, 0xFF) })
+        byte[] welcome = AnyDatagram.Bytes(new WelcomeDatagram(1, 2, SimDuration.OneTick, 5, 6, 7).Encode);
+        foreach ((int at, byte value) in new (int, byte)[] { (20, 0), (28, 0), (31, 0x7F), (31, 0xFF) })
         {
             byte was = welcome[at];
             welcome[at] = value;
@@ -179,11 +179,21 @@ public class ValueRangeTests
         byte[] knock = AnyDatagram.Bytes(new KnockDatagram(1).Encode);
         knock[^1] = 1;
         AssertRefused(knock);
-        foreach (byte reason in new byte[] { 0, 7, 255 })
+        byte[] seat = AnyDatagram.Bytes(new SeatDatagram(1, 2, 3, default).Encode);
+        seat[12] = 0;
+        AssertRefused(seat);
+        byte[] join = AnyDatagram.Bytes(new JoinDatagram(1, default, default, 2, 3).Encode);
+        join[^1] = 1; // a proof of no player
+        AssertRefused(join);
+        foreach (byte reason in new byte[] { 0, 8, 255 })
         {
             byte[] answer = AnyDatagram.Bytes(new RefusalDatagram(1, RefusalReason.Full).Encode);
             answer[^1] = reason;
             AssertRefused(answer);
+        }
+
+        foreach (byte reason in new byte[] { 0, 7, 255 })
+        {
             byte[] leave = AnyDatagram.Bytes(new LeaveDatagram(1, 2, LeaveReason.Left).Encode);
             leave[^1] = reason;
             AssertRefused(leave);
@@ -195,9 +205,11 @@ public class ValueRangeTests
     {
         Assert.Throws<InvalidOperationException>(() => AnyDatagram.Bytes(default(WelcomeDatagram).Encode));
         Assert.Throws<InvalidOperationException>(() => AnyDatagram.Bytes(default(RefusalDatagram).Encode));
+        Assert.Throws<InvalidOperationException>(() => AnyDatagram.Bytes(default(SeatDatagram).Encode));
+        Assert.Throws<InvalidOperationException>(() => AnyDatagram.Bytes(new UpdateDatagram { EchoBits = 1 }.Encode));
         Assert.Throws<InvalidOperationException>(() => AnyDatagram.Bytes(default(LeaveDatagram).Encode));
         Assert.Throws<ArgumentException>(() => AnyDatagram.Bytes(new UpdateDatagram { Sent = SimTime.MaxValue }.Encode));
-        Assert.Throws<ArgumentException>(() => AnyDatagram.Bytes(new UpdateDatagram { EchoSent = SimTime.Zero }.Encode));
+        Assert.Throws<ArgumentException>(() => AnyDatagram.Bytes(new UpdateDatagram { EchoNumber = 1 }.Encode));
         Assert.Throws<ArgumentException>(() => new UpdateDatagram().Encode(new byte[WireFormat.EmptyUpdateBytes - 1]));
     }
 
@@ -221,6 +233,8 @@ public class ValueRangeTests
     public void TryAdd_UntilFull_FitsWithAStateHashAdded()
     {
         UpdateDatagram removals = new(), spawns = new();
+        removals.TryAddHash(SimTime.Zero, 1);
+        spawns.TryAddHash(SimTime.Zero, 1);
         uint sequence = 1;
         while (removals.TryAdd(Verdict.Pending, ExternalEvent.Remove(default, 1, sequence, default)))
         {
@@ -232,7 +246,6 @@ public class ValueRangeTests
             sequence++;
         }
 
-        removals.HasStateHash = spawns.HasStateHash = true;
         Assert.Equal(48, removals.Entries.Length);
         Assert.Equal(7, spawns.Entries.Length);
         Assert.Equal(removals.EncodedLength, AnyDatagram.Bytes(removals.Encode).Length);

@@ -114,18 +114,29 @@ internal static class WireGen
         select AnyDatagram.ChunkBytes(session, index, Enumerable.Repeat(fill, length).ToArray());
 
     internal static readonly Gen<JoinDatagram> Join =
-        from nonce in Bits64 from cookie in Token from proof in Token from scene in Bits64 select new JoinDatagram(nonce, cookie, proof, scene);
+        from nonce in Bits64
+        from cookie in Token
+        from proof in Token
+        from scene in Bits64
+        from fold in Bits32
+        from player in Byte
+        from playerProof in Token
+        select new JoinDatagram(nonce, cookie, proof, scene, fold, player, player == 0 ? default : playerProof);
+
+    internal static readonly Gen<SeatDatagram> Seat =
+        from session in Bits64 from peer in Gen.Choose(1, 255) from sequence in Bits32 from pass in Token select new SeatDatagram(session, (byte)peer, sequence, pass);
+
+    internal static readonly Gen<MoveDatagram> Move =
+        from session in Bits64 from peer in Byte from cookie in Token select new MoveDatagram(session, peer, cookie);
 
     internal static readonly Gen<WelcomeDatagram> Welcome =
         from nonce in Bits64
         from session in Bits64
-        from peer in Gen.Choose(1, 255)
-        from sequence in Bits32
         from history in Gen.OneOf(Gen.Elements(1L, WireFormat.MaxTimeTicks), Bits64.Select(bits => (long)(bits >> 2)).Where(t => t > 0))
         from length in Gen.OneOf(Gen.Elements(1, WorldCopy.MaxBytes), Gen.Choose(1, WorldCopy.MaxBytes))
         from hash in Bits64
         from index in Bits32
-        select new WelcomeDatagram(nonce, session, (byte)peer, sequence, SimDuration.FromTicks(history), length, hash, index);
+        select new WelcomeDatagram(nonce, session, SimDuration.FromTicks(history), length, hash, index);
 
     internal static readonly Gen<RefusalDatagram> Refusal =
         from nonce in Bits64 from reason in Gen.Choose(1, 5) select new RefusalDatagram(nonce, (RefusalReason)reason);
@@ -138,12 +149,14 @@ internal static class WireGen
         from peer in Byte
         from number in Bits32
         from sent in Time
-        from echoSent in OptionalTime
+        from echo in Bits32
+        from echoBits in Bits32
         from echoReceived in Time
         from start in OptionalTime
         from watermark in OptionalTime
         from received in Bits32
         from flags in Gen.Choose(0, 3)
+        from hashes in Gen.Choose(0, UpdateDatagram.MaxHashes)
         from hashTime in Time
         from hash in Bits64
         from first in Bits32.Select(value => Math.Min(value, uint.MaxValue - UpdateDatagram.MaxEntries))
@@ -158,23 +171,29 @@ internal static class WireGen
                 Peer = peer,
                 Number = number,
                 Sent = sent,
-                EchoSent = echoSent,
-                EchoReceived = echoSent == SimTime.MinValue ? SimTime.MinValue : echoReceived,
+                EchoNumber = echo,
+                EchoBits = echo == 0 ? 0 : echoBits,
+                EchoReceived = echo == 0 ? SimTime.MinValue : echoReceived,
                 Start = start,
                 Watermark = watermark,
                 EventsReceived = received,
                 Ready = (flags & 2) != 0,
-                HasStateHash = (flags & 1) != 0,
-                HashTime = (flags & 1) != 0 ? hashTime : SimTime.Zero,
-                StateHash = (flags & 1) != 0 ? hash : 0,
                 FirstIndex = first,
             },
+            hashTime,
+            hash,
+            hashes,
             events,
             (Verdict)verdict,
             own);
 
-    private static UpdateDatagram Fill(UpdateDatagram update, ExternalEvent[] events, Verdict verdict, int own)
+    private static UpdateDatagram Fill(UpdateDatagram update, SimTime hashTime, ulong hash, int hashes, ExternalEvent[] events, Verdict verdict, int own)
     {
+        for (uint n = 0; n < hashes; n++)
+        {
+            update.TryAddHash(hashTime, hash + n);
+        }
+
         foreach (ExternalEvent what in events)
         {
             if (!(what.Sequence % 101 < own ? update.TryAddOwn(verdict, what.Sequence) : update.TryAdd(verdict, what)))

@@ -33,7 +33,7 @@ public sealed class WirePageTests
             checkedOnes++;
         }
 
-        Assert.Equal(11 * 60, checkedOnes);
+        Assert.Equal(13 * 60, checkedOnes);
     }
 
     [Fact]
@@ -74,7 +74,7 @@ public sealed class WirePageTests
             }
         }
 
-        Assert.Equal(3 + 3 + 8 + 2 + 16 + 4 + 6 + 3 + 2 + 4 + 5 + 3 + 6 + 9 + 3 + 27, rows);
+        Assert.Equal(3 + 3 + 6 + 2 + 17 + 4 + 6 + 3 + 2 + 7 + 5 + 3 + 6 + 9 + 4 + 3 + 3 + 27, rows);
     }
 
     [Fact]
@@ -95,6 +95,8 @@ public sealed class WirePageTests
             [DatagramType.Chunk] = WireFormat.EmptyChunkBytes + 1,
             [DatagramType.Doubt] = WireFormat.DoubtBytes,
             [DatagramType.Evidence] = WireFormat.EmptyEvidenceBytes,
+            [DatagramType.Seat] = WireFormat.SeatBytes,
+            [DatagramType.Move] = WireFormat.MoveBytes,
         };
         foreach (DatagramType type in Enum.GetValues<DatagramType>().Where(type => type != DatagramType.None))
         {
@@ -177,7 +179,7 @@ public sealed class WirePageTests
         foreach (WelcomeDatagram d in Sample(WireGen.Welcome, each))
         {
             yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(
-                page, DatagramType.Welcome, ("nonce", d.Nonce), ("session id", d.SessionId), ("peer", d.Peer), ("last sequence", d.LastSequence),
+                page, DatagramType.Welcome, ("nonce", d.Nonce), ("session id", d.SessionId),
                 ("history", d.History.Ticks), ("copy length", d.CopyLength), ("copy hash", d.CopyHash), ("log index", d.LogIndex)));
         }
 
@@ -201,10 +203,24 @@ public sealed class WirePageTests
         {
             yield return (AnyDatagram.Bytes(new ChallengeDatagram(nonce, new Token128(cookie)).Encode), page => Datagram(
                 page, DatagramType.Challenge, ("nonce", nonce), ("cookie", cookie)));
-            yield return (AnyDatagram.Bytes(new JoinDatagram(nonce, new Token128(cookie), new Token128([.. cookie.Reverse()]), ~nonce).Encode), page => Datagram(
-                page, DatagramType.Join, ("nonce", nonce), ("cookie", cookie), ("proof", (byte[])[.. cookie.Reverse()]), ("scene hash", ~nonce)));
+            yield return (AnyDatagram.Bytes(new JoinDatagram(nonce, new Token128(cookie), new Token128([.. cookie.Reverse()]), ~nonce, (uint)nonce, 7, new Token128(cookie)).Encode), page => Datagram(
+                page, DatagramType.Join, ("nonce", nonce), ("cookie", cookie), ("proof", (byte[])[.. cookie.Reverse()]), ("scene hash", ~nonce),
+                ("fold version", (uint)nonce), ("player", 7), ("player proof", cookie)));
             yield return (AnyDatagram.ChunkBytes(nonce, 77, cookie), page => Datagram(
                 page, DatagramType.Chunk, ("session id", nonce), ("index", 77), ("data", cookie)));
+        }
+
+        foreach (SeatDatagram d in Sample(WireGen.Seat, each))
+        {
+            byte[] bytes = AnyDatagram.Bytes(d.Encode);
+            yield return (bytes, page => Datagram(
+                page, DatagramType.Seat, ("session id", d.SessionId), ("peer", d.Peer), ("last sequence", d.LastSequence), ("pass", bytes[^16..])));
+        }
+
+        foreach (MoveDatagram d in Sample(WireGen.Move, each))
+        {
+            byte[] bytes = AnyDatagram.Bytes(d.Encode);
+            yield return (bytes, page => Datagram(page, DatagramType.Move, ("session id", d.SessionId), ("peer", d.Peer), ("cookie", bytes[^16..])));
         }
 
         foreach (FetchDatagram d in Sample(WireGen.Fetch, each))
@@ -266,15 +282,20 @@ public sealed class WirePageTests
             rows = [.. rows.Where(row => !row.Value.Contains("only with flag bit 0", StringComparison.Ordinal))];
         }
 
+        if (d.Start == SimTime.MinValue)
+        {
+            rows = [.. rows.Where(row => !row.Value.Contains("only with flag bit 2", StringComparison.Ordinal))];
+        }
+
         MemoryStream bytes = new();
         Header(bytes, page, DatagramType.Update);
         Write(
             bytes,
             rows,
             Values(
-                ("session id", d.SessionId), ("peer", d.Peer), ("number", d.Number), ("sent", d.Sent), ("echo sent", d.EchoSent), ("echo received", d.EchoReceived),
-                ("start", d.Start), ("watermark", d.Watermark), ("events received", d.EventsReceived), ("flags", (d.HasStateHash ? 1 : 0) + (d.Ready ? 2 : 0)),
-                ("hash time", d.HashTime), ("state hash", d.StateHash), ("first index", d.FirstIndex), ("count", d.Entries.Length)),
+                ("session id", d.SessionId), ("peer", d.Peer), ("number", d.Number), ("sent", d.Sent), ("echo number", d.EchoNumber), ("echo bits", d.EchoBits), ("echo received", d.EchoReceived),
+                ("start", d.Start), ("watermark", d.Watermark), ("events received", d.EventsReceived), ("flags", (d.HasStateHash ? 1 + ((d.StateHashes.Length - 1) << 3) : 0) + (d.Ready ? 2 : 0) + (d.Start == SimTime.MinValue ? 0 : 4)),
+                ("hash time", d.HashTime), ("state hashes", d.StateHashes.ToArray().SelectMany(BitConverter.GetBytes).ToArray()), ("first index", d.FirstIndex), ("count", d.Entries.Length)),
             new() { ["count"] = ("entry ", entries) });
         return bytes.ToArray();
     }

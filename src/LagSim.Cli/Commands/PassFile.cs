@@ -1,0 +1,38 @@
+using System;
+using System.IO;
+using LagSim.Cli.Output;
+using LagSim.Net.Sessions;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary>The file that keeps a player's pass from one run of <c>lagsim join</c> to the next.</summary>
+internal static class PassFile
+{
+    /// <summary>The pass in the file; none if there is no such file yet.</summary>
+    /// <exception cref="InputException">The file holds something else.</exception>
+    /// <exception cref="IOException">It cannot be read.</exception>
+    internal static PlayerPass Read(string file)
+    {
+        if (!File.Exists(file))
+        {
+            return default;
+        }
+
+        return PlayerPass.TryParse(File.ReadAllText(file), out PlayerPass pass)
+            ? pass
+            : throw new InputException($"--pass is '{file}', which holds no player's pass: a number from 1 to 255, a hyphen, and 32 hexadecimal digits.");
+    }
+
+    /// <summary>Keeps a pass, in a file that only this user may read where the system knows such a thing.</summary>
+    internal static void Write(string file, PlayerPass pass)
+    {
+        FileStreamOptions options = new() { Mode = FileMode.Create, Access = FileAccess.Write };
+        if (!OperatingSystem.IsWindows())
+        {
+            options.UnixCreateMode = UnixFileMode.UserRead | UnixFileMode.UserWrite;
+        }
+
+        using StreamWriter writer = new(file, options);
+        writer.WriteLine(pass.ToString());
+    }
+}

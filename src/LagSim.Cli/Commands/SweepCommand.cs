@@ -1,0 +1,120 @@
+using System;
+using System.Collections.Generic;
+using System.CommandLine;
+using System.CommandLine.Parsing;
+using System.Globalization;
+using System.Linq;
+using LagSim.Cli.Output;
+using LagSim.Harness.Sweep;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary><c>lagsim sweep</c>: sessions on links that are full, or nearly.</summary>
+internal static class SweepCommand
+{
+    internal static Command Create(ToolConsole console)
+    {
+        CommonOptions common = new();
+        SweepOptions byDefault = new();
+        Option<double[]> clients = Numbers("--clients", "How many clients, each with a link of its own", byDefault.Clients.Select(n => (double)n), 1, 8);
+        Option<double[]> events = Numbers("--events", "How many events each client does a second", byDefault.EventsPerSecond, 0, 200);
+        Option<double[]> rates = Numbers("--rate-kbps", "What each link carries in each direction, in kbit/s", byDefault.KilobitsPerSecond, 16, 1_000_000);
+        Option<double[]> queues = Numbers("--queue-ms", "How long its queues are, in milliseconds at that rate", byDefault.QueueMilliseconds, 0, 10_000);
+        Option<bool> noDips = new("--no-dips") { Description = "Only links that always carry the same; else each cell is also played with dips to a fifth for 5 s every 30 s." };
+        Option<bool> shared = new("--shared") { Description = "All clients behind one link that carries as much; else each has a link of its own." };
+        Option<double> play = CommonOptions.Number("--play-s", "How long events are done, in seconds", byDefault.PlaySeconds, 1, 3600);
+        Option<double> rest = CommonOptions.Number("--rest-s", "How long all rests after that, in seconds", byDefault.RestSeconds, 1, 3600);
+        Command command = new(
+            "sweep",
+            "Sessions on links that are full, or nearly, in virtual time: offered against delivered load, round trips, refusals, and whether all agree. 0 if every cell"
+                + " shows what it must: no accepted event lost, no state that differs, at least 90 % of them compared.") { clients, events, rates, queues, noDips, shared, play, rest };
+        common.AddTo(command);
+        command.SetAction(parsed =>
+        {
+            SweepOptions options = new()
+            {
+                Clients = [.. parsed.GetValue(clients)!.Select(n => n == Math.Floor(n) ? (int)n : throw new UsageException($"--clients is {n}; it takes whole numbers from 1 to 8."))],
+                EventsPerSecond = parsed.GetValue(events)!,
+                KilobitsPerSecond = parsed.GetValue(rates)!,
+                QueueMilliseconds = parsed.GetValue(queues)!,
+                Dips = !parsed.GetValue(noDips),
+                IsShared = parsed.GetValue(shared),
+                PlaySeconds = parsed.GetValue(play),
+                RestSeconds = parsed.GetValue(rest),
+                Seed = parsed.GetValue(common.Seed),
+            };
+            return Run(console, options, parsed.GetValue(common.Out), parsed.GetValue(common.Json));
+        });
+        return command;
+    }
+
+    private static int Run(ToolConsole console, SweepOptions options, string? folder, bool json)
+    {
+        if (folder is not null)
+        {
+            OutputFolder.ThrowIfNotWritable(folder); // to be said before some minutes have gone by
+        }
+
+        int count = options.Cells().Count();
+        int done = 0;
+        IReadOnlyList<SweepOutcome> outcomes = console.WithProgress(
+            "sweep over full links, virtual time",
+            count,
+            progress => LinkSweep.Run(
+                options,
+                outcome =>
+                {
+                    console.Begin(outcome.Cell.ToString());
+                    progress(++done);
+                },
+                console.Stop));
+        bool isStopped = outcomes.Count < count;
+        if (folder is not null && outcomes.Count > 0)
+        {
+            SweepFiles.Write(folder, options, outcomes);
+        }
+
+        if (json)
+        {
+            SweepJson.Write(console.Output, options, outcomes, isStopped);
+        }
+        else
+        {
+            SweepTables.Write(console, outcomes, folder);
+        }
+
+        console.Stop.ThrowIfCancellationRequested();
+        return outcomes.All(outcome => outcome.IsGood) ? ExitCode.Done : ExitCode.CheckFailed;
+    }
+
+    /// <summary>An option that takes numbers, with commas between them.</summary>
+    private static Option<double[]> Numbers(string name, string description, IEnumerable<double> byDefault, double least, double most)
+    {
+        string text = string.Join(",", byDefault.Select(n => n.ToString("0.###", CultureInfo.InvariantCulture)));
+        return new Option<double[]>(name)
+        {
+            Description = FormattableString.Invariant($"{description}: numbers from {least} to {most} with commas between them; default {text}."),
+            HelpName = "N,N",
+            DefaultValueFactory = _ => [.. byDefault],
+            CustomParser = result => Parse(result, name, least, most),
+        };
+    }
+
+    private static double[] Parse(ArgumentResult result, string name, double least, double most)
+    {
+        string text = result.Tokens.Count == 1 ? result.Tokens[0].Value : "";
+        List<double> numbers = [];
+        foreach (string part in text.Split(','))
+        {
+            if (!double.TryParse(part, NumberStyles.Float, CultureInfo.InvariantCulture, out double number) || !(number >= least && number <= most))
+            {
+                result.AddError(FormattableString.Invariant($"{name} is '{part}' in '{text}'; it takes numbers from {least} to {most} with commas between them."));
+                return [];
+            }
+
+            numbers.Add(number);
+        }
+
+        return [.. numbers];
+    }
+}

@@ -1,0 +1,299 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Threading;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Harness.Metrics;
+using LagSim.Harness.Peers;
+using LagSim.Harness.Scenes;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Harness.Sweep;
+
+/// <summary>Plays one cell of the sweep in virtual time: 120 s of events and 60 s of rest.</summary>
+internal sealed class SweepRun
+{
+    private const double IdleSeconds = 10;
+    private const double LookSeconds = 0.1;
+
+    private readonly SweepCell cell;
+    private readonly double playSeconds;
+    private readonly double restSeconds;
+    private readonly CancellationToken cancellation;
+    private readonly SeededRandom random;
+    private readonly VirtualClock clock = new(SimTime.FromSeconds(10));
+    private readonly VirtualNetwork network;
+    private readonly VirtualSteps steps;
+    private readonly List<Client> clients = [];
+    private readonly HashSet<uint> accepted = [];
+    private readonly List<SimTime> committed = [];
+    private readonly HostSession host;
+    private readonly UpdateDatagram measured = new();
+    private double needed; // bytes of entries, for all clients together
+
+    internal SweepRun(SweepCell cell, ulong seed, double playSeconds, double restSeconds, CancellationToken cancellation)
+    {
+        this.cell = cell;
+        this.playSeconds = playSeconds;
+        this.restSeconds = restSeconds;
+        this.cancellation = cancellation;
+        random = new SeededRandom(seed);
+        network = new VirtualNetwork(clock, seed, cell.Link);
+        steps = new VirtualSteps(network);
+        host = (HostSession)Add(0, seed);
+        host.Logged += entry =>
+        {
+            if (entry.Verdict == Verdict.Accepted)
+            {
+                accepted.Add(entry.Index);
+            }
+
+            foreach (Client client in clients)
+            {
+                needed += Length(entry, client.Session.Peer);
+            }
+        };
+        host.StateCommitted += state => committed.Add(state.Time);
+        LinkProfile link = cell.Link;
+        (LinkQueue? up, LinkQueue? down) = cell.IsShared
+            ? (new LinkQueue(link.ToHost.Bottleneck!, random.Fork(1)), new LinkQueue(link.FromHost.Bottleneck!, random.Fork(2)))
+            : (null, (LinkQueue?)null);
+        for (int n = 1; n <= cell.Clients; n++)
+        {
+            network.Connect(n, 0, link, up, down);
+            JoinerSession session = (JoinerSession)Add(n, seed);
+            Client client = new(session, n);
+            clients.Add(client);
+            session.Logged += entry =>
+            {
+                client.Heard.Add(entry.Index);
+                client.Bytes += Length(entry, session.Peer);
+            };
+            session.Renewed += _ => client.Covered.Add(session.LogStart);
+        }
+    }
+
+    internal SweepOutcome Play()
+    {
+        SweepOutcome outcome = new() { Cell = cell };
+        if (!RunUntil(() => host.State == SessionState.Running && clients.All(c => c.Session.State == SessionState.Running), 60))
+        {
+            return outcome with { Failure = $"Not all were in after 60 s: {States()}." };
+        }
+
+        // What an idle session takes there and back.
+        List<double> idle = [];
+        For(IdleSeconds, _ => Look(idle));
+        double idleTrip = Percentiles.Of(idle).P50;
+        long[] before = Sent();
+        double neededBefore = needed;
+        double[] heardBefore = [.. clients.Select(c => c.Bytes)];
+        List<double> trips = [];
+        List<(double At, double Trip)> course = [];
+        double[] next = [.. clients.Select(_ => cell.EventsPerSecond > 0 ? random.NextDouble() / cell.EventsPerSecond : double.MaxValue)];
+        SimTime start = clock.Now;
+        double nextLook = 0;
+        while (true)
+        {
+            double at = Math.Min(nextLook, next.Min());
+            if (at >= playSeconds)
+            {
+                break;
+            }
+
+            RunTo(start + SimDuration.FromSeconds(at));
+            if (at == nextLook)
+            {
+                nextLook += LookSeconds;
+                int count = trips.Count;
+                Look(trips);
+                course.Add(((clock.Now - SimTime.Zero).ToSeconds(), trips.Skip(count).DefaultIfEmpty(0).Max()));
+                continue;
+            }
+
+            int who = Array.IndexOf(next, at);
+            next[who] += 1 / cell.EventsPerSecond * (0.5 + random.NextDouble());
+            Do(clients[who]);
+        }
+
+        RunTo(start + SimDuration.FromSeconds(playSeconds));
+        long[] after = Sent();
+        double neededAfter = needed;
+        double[] heardAfter = [.. clients.Select(c => c.Bytes)];
+        RunTo(start + SimDuration.FromSeconds(playSeconds + restSeconds));
+        Percentiles trip = trips.Count > 0 ? Percentiles.Of(trips) : default;
+        return Compare(outcome with
+        {
+            OfferedBytesPerSecond = (neededAfter - neededBefore) / cell.Clients / playSeconds,
+            DeliveredBytesPerSecond = heardAfter.Zip(heardBefore, (a, b) => a - b).Sum() / cell.Clients / playSeconds,
+            SentBytesPerSecond = (after[0] - before[0]) / (double)cell.Clients / playSeconds,
+            SentUpBytesPerSecond = after.Zip(before, (a, b) => a - b).Skip(1).Sum() / (double)cell.Clients / playSeconds,
+            IdleRoundTripMs = idleTrip,
+            RoundTripP50Ms = trip.P50,
+            RoundTripP99Ms = trip.P99,
+            RecoverySeconds = Recovery(course, idleTrip),
+            LoadShare = LoadShare(),
+        });
+    }
+
+    /// <summary>The bytes that events and their updates need at least, of what the link carries.</summary>
+    private double LoadShare()
+    {
+        const double own = WireFormat.EmptyUpdateBytes + WireFormat.StateHashBytes + Bottleneck.OverheadBytes;
+        const int entry = 47, ownEntry = 5; // of a velocity, and of the number of one's own
+        double down = cell.EventsPerSecond * (((cell.Clients - 1) * (entry + (own / 3))) + ownEntry + (own / 3));
+        double dip = cell.HasDips ? 0.2 : 1;
+        return down * (cell.IsShared ? cell.Clients : 1) / (cell.RateBitsPerSecond / 8.0 * dip);
+    }
+
+    /// <summary>How many bytes an entry of the log takes on its way to a peer: of its own events it gets the number alone.</summary>
+    private int Length(in LogEntry entry, byte peer)
+    {
+        measured.ClearEntries();
+        bool fits = entry.Event.Peer == peer ? measured.TryAddOwn(entry.Verdict, entry.Event.Sequence) : measured.TryAdd(entry.Verdict, entry.Event);
+        return fits ? measured.EncodedLength - WireFormat.EmptyUpdateBytes : throw new InvalidOperationException($"'{entry}' does not fit into a datagram.");
+    }
+
+    private void Do(Client client)
+    {
+        if (client.Session.State != SessionState.Running)
+        {
+            return;
+        }
+
+        BodyId body = BodyId.OfScene((int)(random.NextUInt64() % (ulong)host.Scene!.Bodies.Count));
+        client.Session.Do(PlayerAction.SetVelocity(body, new Vector3D(random.NextDouble(-1, 1), 0, random.NextDouble(-1, 1))));
+        client.Done++;
+        steps.Wake(client.Number);
+    }
+
+    private SweepOutcome Compare(SweepOutcome outcome)
+    {
+        long lost = 0;
+        double share = 1;
+        foreach (Client client in clients.Where(c => c.Session.State != SessionState.Ended))
+        {
+            uint covered = client.Covered.DefaultIfEmpty(0u).Max();
+            lost += accepted.Count(index => index > covered && index <= client.Session.LogLength && !client.Heard.Contains(index));
+            lost += client.Session.LogLength < host.LogLength ? host.LogLength - client.Session.LogLength : 0;
+            share = Math.Min(share, committed.Count == 0 ? 1 : client.Session.Counters.StatesAgreed / (double)committed.Count);
+        }
+
+        Client[] ended = [.. clients.Where(c => c.Session.State == SessionState.Ended && c.Session.EndedBy != SessionEnd.LinkTooSlow)];
+        return outcome with
+        {
+            Done = clients.Sum(c => c.Done),
+            Refused = host.Counters.EventsRefused,
+            Unanswered = clients.Sum(c => c.Session.Counters.EventsUnanswered),
+            Lost = lost + clients.Sum(c => c.Session.Counters.EventsLost),
+            Differed = clients.Sum(c => c.Session.Counters.StatesDiffered),
+            ComparedShare = share,
+            Copies = clients.Sum(c => c.Session.Counters.Renewals),
+            TooSlow = clients.Count(c => c.Session.EndedBy == SessionEnd.LinkTooSlow),
+            Failure = host.State == SessionState.Ended ? host.EndReason : ended.Length > 0 ? ended[0].Session.EndReason : null,
+        };
+    }
+
+    /// <summary>The longest after a dip until the round trip was below twice the idle one again, and stayed so for a second.</summary>
+    private double Recovery(List<(double At, double Trip)> course, double idle)
+    {
+        if (!cell.HasDips)
+        {
+            return 0;
+        }
+
+        double longest = 0;
+        for (int i = 0; i < course.Count; i++)
+        {
+            // A dip begins with each period of the queue's cadence; where that is, the round trips tell: the recovery counts from the last instant above.
+            int from = i;
+            while (i < course.Count && course[i].Trip > 2 * idle)
+            {
+                i++;
+            }
+
+            longest = i > from ? Math.Max(longest, course[Math.Min(i, course.Count - 1)].At - course[from].At) : longest;
+        }
+
+        return Math.Max(0, longest - 5); // what the dip itself takes
+    }
+
+    private Session Add(int number, ulong seed)
+    {
+        IDatagramPort port = network.CreatePort(number);
+        SkewedClock own = new(clock, random.NextDouble(-30, 30), SimDuration.FromSeconds(random.NextDouble(0, 3600)));
+        SessionOptions options = new() { ExpectedJoiners = cell.Clients, Cancellation = cancellation };
+        Session session = number == 0
+            ? new HostSession(BuiltInScenes.Billiards(), port, own, options, seed)
+            : new JoinerSession(null, port, own, options, PeerAddress.Virtual(0), seed + (ulong)number);
+        steps.Add(session, port);
+        return session;
+    }
+
+    /// <summary>What each end sent so far with UDP and IP, the host first.</summary>
+    private long[] Sent() => [.. Enumerable.Range(0, clients.Count + 1).Select(n => network.Traffic(n).BytesSent)];
+
+    private void Look(List<double> trips)
+    {
+        foreach (Client client in clients)
+        {
+            if (client.Session.State == SessionState.Running && client.Session.Links is [LinkTraffic link] && link.RoundTrip > SimDuration.Zero)
+            {
+                trips.Add(link.RoundTrip.ToMilliseconds());
+            }
+        }
+    }
+
+    private void For(double seconds, Action<double> look)
+    {
+        for (double at = 0; at < seconds; at += LookSeconds)
+        {
+            RunTo(clock.Now + SimDuration.FromSeconds(LookSeconds));
+            look(at);
+        }
+    }
+
+    private bool RunUntil(Func<bool> isSo, double seconds)
+    {
+        SimTime deadline = clock.Now + SimDuration.FromSeconds(seconds);
+        while (!isSo() && clock.Now < deadline)
+        {
+            cancellation.ThrowIfCancellationRequested();
+            steps.Advance(deadline);
+        }
+
+        return isSo();
+    }
+
+    private void RunTo(SimTime time)
+    {
+        while (clock.Now < time)
+        {
+            cancellation.ThrowIfCancellationRequested();
+            steps.Advance(time);
+        }
+    }
+
+    private string States() => string.Join("; ", clients.Select(c => $"client {c.Number} {c.Session.State} {c.Session.EndReason}"));
+
+    private sealed class Client(JoinerSession session, int number)
+    {
+        internal JoinerSession Session { get; } = session;
+
+        internal int Number { get; } = number;
+
+        internal HashSet<uint> Heard { get; } = [];
+
+        /// <summary>Up to which entry of the log its copies reached.</summary>
+        internal List<uint> Covered { get; } = [];
+
+        internal double Bytes { get; set; }
+
+        internal long Done { get; set; }
+    }
+}

@@ -1,0 +1,95 @@
+using System;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions;
+
+/// <content>What a joiner does that lost its host, or its world: it asks to be let in again, as the same player, and gets a fresh copy.</content>
+public sealed partial class JoinerSession
+{
+    /// <summary>
+    /// A fresh copy that did not last this long was of no use: four dips of a link that has one each half minute. So many of those in a row end the session; one
+    /// is enough where it is the link that does not keep up, since the next copy would come over the same link.
+    /// </summary>
+    private static readonly SimDuration UsefulFor = SimDuration.FromSeconds(120);
+
+    private const int MostUseless = 3;
+
+    private SimTime rejoining; // since when, by the own clock
+    private SessionEnd rejoiningFor; // what the session ends by if it is not let in
+    private SimTime renewed = SimTime.MinValue; // when it was last in again
+    private int useless;
+
+    /// <summary>
+    /// Raised on the session's thread when this peer lost its host, or its world, and asks to be let in again: with why. <see cref="Session.Renewed"/> follows, or
+    /// <see cref="Regained"/>, or the session ends. Handlers must not throw.
+    /// </summary>
+    public event Action<string>? Interrupted;
+
+    /// <summary>Raised on the session's thread when a host that had fallen silent was heard again before it let this peer go: all goes on. Handlers must not throw.</summary>
+    public event Action? Regained;
+
+    private protected override bool TryRenew(SessionEnd by, string why) => Rejoin(by, why, isLinkGood: false);
+
+    /// <summary>Asks to be let in again, or ends the session where that is of no use or not wanted.</summary>
+    /// <param name="by">What the session ends by then.</param>
+    /// <param name="why">As a sentence.</param>
+    /// <param name="isLinkGood">Whether all is well as soon as the host is heard again.</param>
+    /// <returns>False if the session has ended.</returns>
+    private bool Rejoin(SessionEnd by, string why, bool isLinkGood)
+    {
+        SimTime now = Clock.Now;
+        if (State == SessionState.Rejoining)
+        {
+            return true;
+        }
+
+        useless = renewed != SimTime.MinValue && now - renewed < UsefulFor ? useless + 1 : 0;
+        bool isUseless = useless >= (by == SessionEnd.LinkTooSlow ? 1 : MostUseless);
+        if (Options.RejoinTime == SimDuration.Zero || isUseless)
+        {
+            if (isUseless)
+            {
+                Farewell();
+                why += useless == 1 ? " A fresh copy was of no use." : $" {useless} fresh copies in a row were of no use.";
+            }
+
+            End(by, why);
+            return false;
+        }
+
+        rejoining = now;
+        rejoiningFor = by;
+        RenewedBecause = why;
+        link = isLinkGood ? link : null;
+        inquiry = null;
+        attempt = new JoinAttempt(NextNonce(), now);
+        State = SessionState.Rejoining;
+        Interrupted?.Invoke(why);
+        return true;
+    }
+
+    /// <summary>What is due while it asks.</summary>
+    private void TendRejoining(SimTime now)
+    {
+        if (now - rejoining > Options.RejoinTime)
+        {
+            End(rejoiningFor, FormattableString.Invariant($"{RenewedBecause} It asked for {Options.RejoinTime.ToSeconds():0.###} s to be let in again, in vain."));
+        }
+        else if (attempt is not null && attempt.IsWelcome && link is not null && now - link.Heard > Options.Timeout)
+        {
+            attempt = new JoinAttempt(NextNonce(), now); // what welcomed it is gone again
+            link = null;
+        }
+    }
+
+    /// <summary>Goes on as before, since the host was heard again over the link that it had.</summary>
+    private void Regain()
+    {
+        attempt = null;
+        State = SessionState.Running;
+        Regained?.Invoke();
+    }
+
+    /// <summary>Another number that nobody else can tell.</summary>
+    private ulong NextNonce() => nonce = (nonce * 6_364_136_223_846_793_005) + 1_442_695_040_888_963_407;
+}

@@ -1,0 +1,120 @@
+using System.Security.Cryptography;
+using LagSim.Net.Wire;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions;
+
+/// <summary>The numbers of a session's players: what is known of each, and for whom one is kept that nobody has at the moment.</summary>
+/// <remarks>A number is kept for a player that fell silent, as long as the host's option says and no newcomer needs it.</remarks>
+internal sealed class PlayerPlaces
+{
+    private readonly Place[] places = new Place[SessionOptions.MaxJoiners + 1];
+    private readonly SessionOptions options;
+
+    internal PlayerPlaces(SessionOptions options, SimTime now)
+    {
+        this.options = options;
+        for (byte number = 1; number < places.Length; number++)
+        {
+            places[number] = new Place(number, new RateLimit(options.MaxEventsPerSecond, options.MaxEventsPerSecond, now));
+        }
+    }
+
+    internal Place this[byte number] => places[number];
+
+    /// <summary>The place of the player that a join says, and shows, that its joiner was; null if it does not.</summary>
+    internal Place? Claimed(in JoinDatagram join) =>
+        join.Player is > 0 and <= SessionOptions.MaxJoiners && places[join.Player].Pass is Token128 pass && JoinCookies.IsProof(pass, join) ? places[join.Player] : null;
+
+    /// <summary>
+    /// The least number that nobody has and that is kept for nobody; if there is none, the one that has been kept the longest; 0 if all are taken. Never one of a
+    /// player with a key.
+    /// </summary>
+    internal byte Free(SimTime now)
+    {
+        Place? kept = null;
+        for (byte number = 1; number < places.Length; number++)
+        {
+            Place place = places[number];
+            if (place.IsTaken || options.PlayerKeys.ContainsKey(number) || place.LastSequence == uint.MaxValue)
+            {
+                continue;
+            }
+
+            if (place.Pass is null || place.LeftAt is not SimTime left || now - left > options.RejoinTime)
+            {
+                return number;
+            }
+
+            kept = kept is null || left < kept.LeftAt ? place : kept;
+        }
+
+        return kept?.Number ?? 0;
+    }
+
+    /// <summary>Why the one that had that link was let go, if that was not long ago; else that there is none.</summary>
+    internal LeaveReason WhyGone(ulong session)
+    {
+        for (byte number = 1; number < places.Length; number++)
+        {
+            if (places[number].Former is (ulong former, LeaveReason why) && former == session && why != 0)
+            {
+                return why;
+            }
+        }
+
+        return LeaveReason.NotJoined;
+    }
+
+    /// <summary>One player's number.</summary>
+    internal sealed class Place
+    {
+        internal Place(byte number, RateLimit events)
+        {
+            Number = number;
+            Events = events;
+        }
+
+        internal byte Number { get; }
+
+        /// <summary>How many events of this number are judged a second: to come again starts none anew.</summary>
+        internal RateLimit Events { get; }
+
+        /// <summary>Of the last event that bears this number.</summary>
+        internal uint LastSequence { get; set; }
+
+        /// <summary>Whether somebody has it now.</summary>
+        internal bool IsTaken { get; private set; }
+
+        /// <summary>When its player fell silent; null if nobody had it, or whoever had it left.</summary>
+        internal SimTime? LeftAt { get; private set; }
+
+        /// <summary>The secret of its player; null if it has none.</summary>
+        internal Token128? Pass { get; private set; }
+
+        /// <summary>Gives it to the player who has its pass, or to a new one, who gets another.</summary>
+        internal void Take(bool isSamePlayer)
+        {
+            IsTaken = true;
+            LeftAt = null;
+            if (!isSamePlayer || Pass is null)
+            {
+                byte[] secret = new byte[Token128.Bytes];
+                RandomNumberGenerator.Fill(secret); // no run depends on it: a pass is right or wrong whatever its bits
+                Pass = new Token128(secret);
+            }
+        }
+
+        /// <summary>The session id of the link of whoever had it last, and why that one was let go.</summary>
+        internal (ulong Session, LeaveReason Why) Former { get; private set; }
+
+        /// <summary>Its player is gone: kept for it, or free.</summary>
+        internal void Leave(bool isKept, ulong session, LeaveReason why, SimTime now)
+        {
+            Former = (session, why);
+            IsTaken = false;
+            LeftAt = isKept ? now : null;
+            Pass = isKept ? Pass : null;
+        }
+    }
+}

@@ -1,0 +1,219 @@
+using System;
+using System.Collections.Generic;
+using System.Runtime.CompilerServices;
+using System.Threading.Tasks;
+using LagSim.Events;
+using LagSim.Hosting;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Net.Sessions;
+
+/// <summary>Has what an event needs compiled before the first one comes: a host and a joiner of its own, in memory and in virtual time, do all there is to do.</summary>
+/// <remarks>
+/// A runtime compiles a method when it is first called. On an event's way to another world these are several hundred, and the first event took some fifty times as
+/// long as the next. Nothing of a program's own session is touched: worlds, clocks, ports and numbers are the warm-up's own.
+/// </remarks>
+internal sealed class SessionWarmup
+{
+    /// <summary>The first time news comes at once, the second time late, and is healed. What is compiled is the same from then on.</summary>
+    private const int Rounds = 2;
+
+    /// <summary>So many frames late news waits on its way.</summary>
+    private const int FramesLate = 5;
+
+    /// <summary>So many frames until a host has committed a state that it copies to who joins, and until two that talk to each other run.</summary>
+    private const int FramesToStart = 30;
+
+    /// <summary>So many bodies of one player the host lets be there.</summary>
+    private const int MostSpawned = 2;
+
+    /// <summary>So often each gets its turn within a frame: news, its acknowledgement, and the answer to that.</summary>
+    private const int TurnsAFrame = 3;
+
+    private static readonly SimDuration Frame = SimDuration.FromMilliseconds(15);
+    private static readonly object Gate = new();
+    private static readonly List<string> Done = new(); // by strategy
+
+    private readonly ManualClock clock = new();
+    private readonly WarmupPort hostPort;
+    private readonly WarmupPort joinerPort;
+    private readonly PeerThread host;
+    private readonly PeerThread joiner;
+
+    // Threads that are never started: this one does their steps.
+    private SessionWarmup(string strategy, Scene scene)
+    {
+        (hostPort, joinerPort) = WarmupPort.Pair();
+        host = new PeerThread(new HostSession(scene, hostPort, clock, Options(strategy, MostSpawned), 1), hostPort, "warm-up host");
+        for (int n = 0; n < FramesToStart; n++)
+        {
+            clock.Now += Frame;
+            host.Step();
+        }
+
+        SessionOptions options = Options(strategy, 8);
+        options.Contacts = new ContactNotices();
+        joiner = new PeerThread(new JoinerSession(null, joinerPort, clock, options, hostPort.LocalAddress, 2), joinerPort, "warm-up joiner");
+        host.Session.Logged += entry => Note(entry, HeardByHost, from: 1);
+        joiner.Session.Logged += entry => Note(entry, HeardByJoiner, from: 0);
+    }
+
+    /// <summary>Every kind of event there is.</summary>
+    internal static IReadOnlyList<EventKind> EveryKind { get; } = new[]
+    {
+        EventKind.Spawn, EventKind.Impulse, EventKind.SetVelocity, EventKind.Teleport, EventKind.Grab, EventKind.HoldKnot, EventKind.Release, EventKind.Remove,
+    };
+
+    /// <summary>The kinds of the joiner's events that the host took in.</summary>
+    internal SortedSet<EventKind> HeardByHost { get; } = new();
+
+    /// <summary>The kinds of the host's events that the joiner took in.</summary>
+    internal SortedSet<EventKind> HeardByJoiner { get; } = new();
+
+    /// <summary>What the host counted.</summary>
+    internal SessionCounters HostCounters => host.Session.Counters;
+
+    /// <summary>What the joiner counted.</summary>
+    internal SessionCounters JoinerCounters => joiner.Session.Counters;
+
+    /// <summary>
+    /// Warms up for sessions with a strategy, once a process; who comes meanwhile waits until it is done. Where nothing is compiled while a program runs it does
+    /// nothing. From any thread.
+    /// </summary>
+    internal static void Once(string strategy)
+    {
+        if (!RuntimeFeature.IsDynamicCodeCompiled)
+        {
+            return;
+        }
+
+        lock (Gate)
+        {
+            if (Done.Contains(strategy))
+            {
+                return;
+            }
+
+            Done.Add(strategy);
+            try
+            {
+                Run(strategy, EveryKind, few: true);
+                Run(strategy, EveryKind, few: false);
+            }
+            catch (Exception failure) when (failure is not OutOfMemoryException)
+            {
+                // Whoever comes loses some milliseconds at its first event, and no more.
+            }
+        }
+    }
+
+    /// <summary>Does it, however often it was done before.</summary>
+    /// <param name="strategy">What is done with late events; <see cref="SessionOptions.Strategy"/>.</param>
+    /// <param name="kinds">Which events.</param>
+    /// <param name="few">Among a few bodies of all kinds, or among many; <see cref="WarmupScene.Of"/>.</param>
+    internal static SessionWarmup Run(string strategy, IReadOnlyList<EventKind> kinds, bool few)
+    {
+        SessionWarmup warmup = new(strategy, WarmupScene.Of(few));
+        warmup.Play(kinds);
+        return warmup;
+    }
+
+    private static SessionOptions Options(string strategy, int mostSpawned) => new()
+    {
+        Strategy = strategy,
+        Warmup = false,
+        StartLead = SimDuration.Zero,
+        CommitInterval = SimDuration.FromMilliseconds(100),
+        Window = new LatencyCompensationWindow(SimDuration.FromMilliseconds(200)),
+        MaxSpawned = mostSpawned,
+        Threads = 1,
+    };
+
+    private static PlayerAction Action(EventKind kind, int body, BodyId spawned)
+    {
+        BodyId own = BodyId.OfScene(body);
+        Vector3D home = new(body == WarmupScene.HostsBody ? -3 : 3, 1, 0);
+        return kind switch
+        {
+            EventKind.Spawn => PlayerAction.Spawn(new BodySpec(0.5, 1, 0.5), home + new Vector3D(0, 2, -3), new Vector3D(0, 1, 0), new Vector3D(1, 0, 0)),
+            EventKind.Impulse => PlayerAction.Impulse(own, new Vector3D(3, 1, 0)), // into the ball beside it
+            EventKind.SetVelocity => PlayerAction.SetVelocity(own, new Vector3D(2, 2, 0)),
+            EventKind.Teleport => PlayerAction.Teleport(own, home, new Vector3D(0, 1, 0)),
+            EventKind.Grab => PlayerAction.Grab(own, new Vector3D(0, 0.1, 0)),
+            EventKind.HoldKnot => PlayerAction.HoldKnot(own, home + new Vector3D(0, 0.2, 0), new Vector3D(0, 1, 0)),
+            EventKind.Release => PlayerAction.Release(own, new Vector3D(1, 1, 0)),
+            _ => PlayerAction.Remove(spawned),
+        };
+    }
+
+    private void Play(IReadOnlyList<EventKind> kinds)
+    {
+        Run(FramesToStart);
+        for (int round = 0; round < Rounds; round++)
+        {
+            Play(host, joinerPort, WarmupScene.HostsBody, kinds, isLate: round > 0);
+            Play(joiner, hostPort, WarmupScene.JoinersBody, kinds, isLate: round > 0);
+        }
+
+        Run(FramesToStart); // until what was removed is forgotten
+        joiner.Session.Leave();
+        Run(1);
+        host.Session.Leave();
+    }
+
+    private void Play(PeerThread player, WarmupPort others, int body, IReadOnlyList<EventKind> kinds, bool isLate)
+    {
+        BodyId spawned = default;
+        foreach (EventKind kind in kinds)
+        {
+            others.IsHeld = isLate;
+            PlayerAction action = Action(kind, body, spawned);
+            ExternalEvent done = Do(player, action);
+            spawned = kind == EventKind.Spawn ? done.Body : spawned;
+            for (int n = 0; n < MostSpawned && kind == EventKind.Spawn && player == joiner; n++)
+            {
+                Do(player, action); // the last is one too many for the host, which has it taken back
+            }
+
+            Run(isLate ? FramesLate : 1);
+            others.IsHeld = false;
+            Run(1);
+        }
+    }
+
+    private static ExternalEvent Do(PeerThread player, in PlayerAction action)
+    {
+        Task<ExternalEvent> answer = player.Do(action);
+        player.Step();
+        return answer.GetAwaiter().GetResult(); // it is there
+    }
+
+    private static void Note(in LogEntry entry, SortedSet<EventKind> heard, byte from)
+    {
+        if (entry.Event.Peer == from && entry.Verdict == Verdict.Accepted)
+        {
+            heard.Add(entry.Event.Kind);
+        }
+    }
+
+    private void Run(int frames)
+    {
+        for (int n = 0; n < frames; n++)
+        {
+            clock.Now += Frame;
+            for (int turn = 0; turn < TurnsAFrame; turn++)
+            {
+                host.Step();
+                joiner.Step();
+            }
+        }
+    }
+
+    private sealed class ManualClock : IClock
+    {
+        public SimTime Now { get; set; } = SimTime.FromSeconds(1);
+    }
+}

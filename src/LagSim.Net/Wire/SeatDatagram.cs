@@ -1,0 +1,61 @@
+using System;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>The host gives a joiner that is ready its place among the players. Repeated until an update of the joiner bears the number.</summary>
+/// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
+public readonly struct SeatDatagram
+{
+    /// <summary>A place of these fields.</summary>
+    public SeatDatagram(ulong sessionId, byte peer, uint lastSequence, Token128 pass)
+    {
+        SessionId = sessionId;
+        Peer = peer;
+        LastSequence = lastSequence;
+        Pass = pass;
+    }
+
+    /// <summary>The session.</summary>
+    public ulong SessionId { get; }
+
+    /// <summary>The joiner's peer number, 1 to 255.</summary>
+    public byte Peer { get; }
+
+    /// <summary>The last sequence number that stands in an event of that peer number, of whoever had it before; the joiner's first event is the next.</summary>
+    public uint LastSequence { get; }
+
+    /// <summary>What shows, after a silence, that one is the same player: see <see cref="JoinDatagram.PlayerProof"/>. Secret.</summary>
+    public Token128 Pass { get; }
+
+    /// <summary>Writes the datagram.</summary>
+    /// <returns>Its length, <see cref="WireFormat.SeatBytes"/>.</returns>
+    /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
+    /// <exception cref="InvalidOperationException"><see cref="Peer"/> is 0.</exception>
+    public int Encode(Span<byte> destination)
+    {
+        if (Peer == 0)
+        {
+            throw new InvalidOperationException("A joiner's number is 1 to 255; 0 is the host's.");
+        }
+
+        WireWriter writer = new(destination);
+        writer.WriteHeader(DatagramType.Seat);
+        writer.WriteUInt64(SessionId);
+        writer.WriteByte(Peer);
+        writer.WriteUInt32(LastSequence);
+        Pass.Write(ref writer);
+        return writer.Position;
+    }
+
+    /// <summary>Reads a datagram; never throws.</summary>
+    /// <param name="datagram">The whole datagram.</param>
+    /// <param name="seat">What it says; meaningless on refusal.</param>
+    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    public static bool TryDecode(ReadOnlySpan<byte> datagram, out SeatDatagram seat, out WireRefusal refusal)
+    {
+        WireReader reader = WireReader.Open(datagram, DatagramType.Seat);
+        seat = new SeatDatagram(reader.ReadUInt64(), reader.ReadByte(), reader.ReadUInt32(), Token128.Read(ref reader));
+        reader.Require(seat.Peer != 0);
+        return reader.Finish(out refusal);
+    }
+}

@@ -1,0 +1,100 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Threading.Tasks;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Harness.Scenes;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Net.Strategies;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Sessions;
+
+public sealed class SessionWarmupTests
+{
+    public static TheoryData<string, bool> Warmups => new(LateEventStrategies.Names.SelectMany(name => new[] { (name, true), (name, false) }));
+
+    [Theory]
+    [MemberData(nameof(Warmups))]
+    public void Run_ByEveryStrategy_TakesEveryKindBothWaysAndLateAndRefused(string strategy, bool few)
+    {
+        SessionWarmup warmup = SessionWarmup.Run(strategy, SessionWarmup.EveryKind, few);
+
+        Assert.Equal(PlayersKinds, warmup.HeardByHost);
+        Assert.Equal(PlayersKinds, warmup.HeardByJoiner);
+        Assert.NotEqual(0, warmup.HostCounters.EventsRefused); // a host's verdict of no, which is taken back
+        Assert.Equal(warmup.HostCounters.EventsRefused, warmup.JoinerCounters.EventsRefused);
+        Assert.Equal((0, 0), (warmup.HostCounters.DatagramsMalformed, warmup.JoinerCounters.DatagramsMalformed));
+        Assert.NotEqual(0, warmup.JoinerCounters.StatesAgreed + warmup.JoinerCounters.StatesDiffered);
+        ILateEventStrategy late = LateEventStrategies.Create(strategy);
+        Assert.Equal(late.RewritesPast, warmup.HostCounters.Heals > 0);
+        Assert.Equal(late.RewritesPast, warmup.JoinerCounters.Heals > 0);
+        Assert.True(!late.PromisesAgreement || warmup.JoinerCounters.StatesDiffered == 0);
+    }
+
+    [Fact]
+    public void Run_WithoutAKind_IsSeenNotToCoverIt()
+    {
+        foreach (EventKind missing in PlayersKinds)
+        {
+            SessionWarmup warmup = SessionWarmup.Run(LateEventStrategies.Default, [.. SessionWarmup.EveryKind.Where(k => k != missing)], few: true);
+            Assert.Equal(PlayersKinds.Where(k => k != missing), warmup.HeardByHost);
+            Assert.Equal(PlayersKinds.Where(k => k != missing), warmup.HeardByJoiner);
+        }
+    }
+
+    [Theory]
+    [InlineData(true, "full-rollback")]
+    [InlineData(false)]
+    public async Task Step_OfAThread_WarmsUpOnceBeforeAnythingIsAnswered_UnlessItIsSwitchedOff(bool isOn, params string[] expected)
+    {
+        using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
+        SessionOptions options = new() { Warmup = isOn, Strategy = "full-rollback" };
+        using PeerThread thread = new(new HostSession(BuiltInScenes.Pair(), port, new VirtualClock(), options, 7), port, "test");
+        List<string> warmed = [];
+        thread.WarmUpFor = warmed.Add;
+        Task<int> asked = thread.Ask(_ => warmed.Count);
+
+        thread.Step();
+        thread.Step();
+
+        Assert.Equal(expected, warmed);
+        Assert.Equal(expected.Length, await asked);
+        Assert.True(new SessionOptions().Warmup);
+    }
+
+    [Fact]
+    public void Run_InTheMiddleOfASession_ChangesNoBitOfItAndNoDatagram()
+    {
+        string[] alone = Play(warmups: false, deeds: 40);
+
+        Assert.Equal(alone, Play(warmups: true, deeds: 40));
+        Assert.NotEqual(alone, Play(warmups: false, deeds: 41));
+    }
+
+    private static IReadOnlyList<EventKind> PlayersKinds { get; } = [.. Enum.GetValues<EventKind>().Where(k => k is >= EventKind.Spawn and < EventKind.Impact)];
+
+    private static string[] Play(bool warmups, int deeds)
+    {
+        SessionGroup group = new SessionGroup(Deeds.Box(), 3, LinkProfiles.Transatlantic).Connect();
+        int steps = 0;
+        group.BeforeStep = _ =>
+        {
+            if (warmups && steps++ % 100 == 0)
+            {
+                SessionWarmup.Run(LateEventStrategies.Default, SessionWarmup.EveryKind, few: steps % 200 == 1);
+            }
+        };
+        new Deeds(1) { HasHands = true }.DoIn(group, deeds);
+        Assert.True(group.Settle(deeds));
+        SimTime end = group.Sessions.Min(s => s.World!.Simulation.SimulatedTo);
+        return
+        [
+            .. group.Sessions.Select(s => $"{s.World!.Simulation.StateHash(end):x} {s.World.Simulation.EventHash(end):x} at {end}, {s.Counters.Heals} heals,"
+                + $" {s.Counters.DatagramsSent} sent, {s.Links.Sum(l => l.BytesSent)} bytes"),
+        ];
+    }
+}

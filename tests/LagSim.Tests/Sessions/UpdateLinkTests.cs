@@ -1,0 +1,78 @@
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>When the next update of a link is due.</summary>
+public sealed class UpdateLinkTests
+{
+    private static readonly SimTime Start = SimTime.FromSeconds(5);
+
+    [Fact]
+    public void Hasten_RightAfterAnAnswer_DoesNotWait()
+    {
+        UpdateLink link = Link();
+        Send(link, Start);
+        SimTime soon = Start + SimDuration.FromMilliseconds(0.3);
+
+        link.Hasten(soon);
+
+        Assert.Equal(soon, link.Due);
+    }
+
+    [Fact]
+    public void Hasten_AllTheTime_IsOneAMillisecondInTheMean()
+    {
+        UpdateLink link = Link();
+        int sent = 0;
+        SimDuration pace = SimDuration.FromMilliseconds(0.125);
+        SimTime end = Start + SimDuration.FromMilliseconds(100);
+        for (SimTime now = Start; now < end; now += pace)
+        {
+            link.Hasten(now);
+            if (link.Due <= now)
+            {
+                Send(link, now);
+                sent++;
+            }
+        }
+
+        Assert.Equal(100 + 2, sent);
+    }
+
+    [Fact]
+    public void Seal_MoreToBeSentAtOnce_WaitsTheLeastDistance()
+    {
+        UpdateLink link = Link();
+        Entries entries = new() { Last = 2000 };
+        for (int n = 0; n < SendWindow.MaxDatagramsAtOnce; n++)
+        {
+            Assert.True(link.IsDue(Start) || n == 0);
+            link.Compose(Start);
+            link.Fill(entries, Start);
+            link.Seal(entries, Start, SimDuration.FromSeconds(1), isUrgent: true);
+        }
+
+        Assert.Equal(Start + SimDuration.FromMilliseconds(1), link.Due);
+        link.Hasten(Start);
+        Assert.Equal(Start, link.Due); // what goes out in one moment counts once, so that one who is pressed has two more
+    }
+
+    private static UpdateLink Link() => new(1, 0, 1, PeerAddress.Virtual(1), 0, SimDuration.FromMilliseconds(30), new UpdateDatagram(), new byte[WireFormat.MaxBytes], Start);
+
+    private static void Send(UpdateLink link, SimTime now)
+    {
+        link.Compose(now);
+        Assert.False(link.Seal(new Entries(), now, SimDuration.FromSeconds(1), isUrgent: false).IsEmpty);
+    }
+
+    private sealed class Entries : IEntrySource
+    {
+        public uint Last { get; init; }
+
+        public UpdateEntry this[uint number] => new(Verdict.Accepted, number);
+    }
+}
