@@ -18,7 +18,8 @@ public sealed class VirtualNetwork
 
     private readonly SeededRandom random;
     private readonly LinkProfile profile;
-    private readonly Dictionary<PeerAddress, VirtualPort> ports = [];
+    private readonly Dictionary<PeerAddress, VirtualPort> ports = []; // by where they are now
+    private readonly Dictionary<int, VirtualPort> numbers = [];
     private readonly Dictionary<(int From, int To), LinkModel> links = [];
     private readonly List<(int From, int To, BulkTransfer Transfer)> transfers = [];
     private readonly List<Func<int, int, ReadOnlyMemory<byte>, bool>> lossRules = [];
@@ -46,23 +47,62 @@ public sealed class VirtualNetwork
     /// <summary>When the next datagram arrives, or a queue of CoDel decides on one; null when none is in flight.</summary>
     public SimTime? NextDelivery => NextDecision is SimTime decision && !(NextArrival < decision) ? decision : NextArrival;
 
-    /// <summary>How many datagrams did not arrive: lost by a link or a rule, or sent to nobody.</summary>
+    /// <summary>How many datagrams did not arrive: lost by a link or a rule, sent to nobody, or to a port that had no room.</summary>
     public long DatagramsLost { get; private set; }
+
+    /// <summary>
+    /// How many datagrams may wait at a port that does not take them, as in the buffer of a socket; newer ones are lost. Default: any number.
+    /// </summary>
+    public int PortRoom { get; set; } = int.MaxValue;
 
     /// <summary>A node's port; its address is <see cref="PeerAddress.Virtual"/> of <paramref name="number"/>. A disposed one may be made anew.</summary>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="number"/> is negative.</exception>
-    /// <exception cref="InvalidOperationException">The number is taken.</exception>
+    /// <exception cref="InvalidOperationException">The number is taken, or the address.</exception>
     public IDatagramPort CreatePort(int number)
     {
         ArgumentOutOfRangeException.ThrowIfNegative(number);
-        if (ports.TryGetValue(PeerAddress.Virtual(number), out VirtualPort? taken) && !taken.IsDisposed)
+        ThrowIfTaken(number);
+        if (numbers.TryGetValue(number, out VirtualPort? former))
         {
-            throw new InvalidOperationException($"Port {number} of the virtual network is taken.");
+            if (!former.IsDisposed)
+            {
+                throw new InvalidOperationException($"Port {number} of the virtual network is taken; it has moved to {former.LocalAddress}.");
+            }
+
+            ports.Remove(former.LocalAddress);
         }
 
         VirtualPort port = new(this, number);
         ports[port.LocalAddress] = port;
+        numbers[number] = port;
         return port;
+    }
+
+    /// <summary>
+    /// Gives a port another address, as an address translator does that forgets a player: it sends from there from now on, and what is sent
+    /// to the former one, or on its way there, is lost. Its links stay what they are.
+    /// </summary>
+    /// <param name="number">The port's number, which stays.</param>
+    /// <param name="address">The number of the new address, at which nobody is.</param>
+    /// <exception cref="KeyNotFoundException">There is no such port.</exception>
+    /// <exception cref="ArgumentOutOfRangeException"><paramref name="address"/> is negative.</exception>
+    /// <exception cref="InvalidOperationException">The address is taken.</exception>
+    public void Move(int number, int address)
+    {
+        ArgumentOutOfRangeException.ThrowIfNegative(address);
+        ThrowIfTaken(address);
+        VirtualPort port = numbers[number];
+        ports.Remove(port.LocalAddress);
+        port.LocalAddress = PeerAddress.Virtual(address);
+        ports[port.LocalAddress] = port;
+    }
+
+    private void ThrowIfTaken(int address)
+    {
+        if (ports.TryGetValue(PeerAddress.Virtual(address), out VirtualPort? taken) && !taken.IsDisposed)
+        {
+            throw new InvalidOperationException($"Port {address} of the virtual network is taken.");
+        }
     }
 
     private SimTime? NextArrival => inFlight.TryPeek(out _, out (SimTime Time, long Sequence) due) ? due.Time : null;
@@ -151,7 +191,7 @@ public sealed class VirtualNetwork
 
     /// <summary>What went through a node's port so far. Received is what arrived, taken or not.</summary>
     /// <exception cref="KeyNotFoundException">There is no such port.</exception>
-    public PortTraffic Traffic(int number) => ports[PeerAddress.Virtual(number)].Traffic;
+    public PortTraffic Traffic(int number) => numbers[number].Traffic;
 
     /// <summary>Moves true time to <paramref name="now"/> and delivers what arrives until then, that included, each at its own time.</summary>
     /// <returns>How many datagrams were delivered.</returns>
@@ -163,14 +203,14 @@ public sealed class VirtualNetwork
         {
             inFlight.Dequeue();
             Clock.Now = SimTime.Max(Clock.Now, due.Time);
-            if (!ports.TryGetValue(flight.To, out VirtualPort? port) || port.IsDisposed)
+            if (ports.TryGetValue(flight.To, out VirtualPort? port) && !port.IsDisposed && port.Deliver(flight.Datagram, flight.From, PortRoom))
+            {
+                delivered++;
+            }
+            else
             {
                 DatagramsLost++;
-                continue;
             }
-
-            port.Deliver(flight.Datagram, flight.From);
-            delivered++;
         }
 
         Clock.Now = now;

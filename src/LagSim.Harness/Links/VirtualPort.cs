@@ -19,7 +19,7 @@ internal sealed class VirtualPort : IDatagramPort
 
     public event Action? Arrived;
 
-    public PeerAddress LocalAddress { get; }
+    public PeerAddress LocalAddress { get; internal set; }
 
     internal int Number { get; }
 
@@ -70,10 +70,17 @@ internal sealed class VirtualPort : IDatagramPort
         inbox.Clear();
     }
 
-    internal void Deliver(byte[] datagram, PeerAddress from)
+    /// <summary>Takes in what arrived; false where so many wait already that there is no room.</summary>
+    internal bool Deliver(byte[] datagram, PeerAddress from, int room)
     {
         Traffic = Traffic.WithReceived(datagram.Length);
+        if (inbox.Count >= room)
+        {
+            return false;
+        }
+
         inbox.Enqueue((datagram, from));
         Arrived?.Invoke();
+        return true;
     }
 }

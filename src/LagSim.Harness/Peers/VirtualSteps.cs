@@ -17,6 +17,7 @@ public sealed class VirtualSteps
     private readonly VirtualNetwork network;
     private readonly List<Session> sessions = [];
     private readonly List<SimTime> due = [];
+    private readonly List<bool> frozen = [];
 
     /// <summary>No sessions yet.</summary>
     public VirtualSteps(VirtualNetwork network)
@@ -48,6 +49,7 @@ public sealed class VirtualSteps
         int number = sessions.Count;
         sessions.Add(session);
         due.Add(network.Clock.Now);
+        frozen.Add(false);
         port.Arrived += () => Wake(number);
         return number;
     }
@@ -57,12 +59,45 @@ public sealed class VirtualSteps
     {
         sessions.RemoveAt(sessions.Count - 1);
         due.RemoveAt(due.Count - 1);
+        frozen.RemoveAt(frozen.Count - 1);
     }
 
-    /// <summary>Has a session stepped next, because something was done with it.</summary>
+    /// <summary>
+    /// Stops a session as a process is stopped: it is not stepped until <see cref="Thaw"/>, what is sent to it waits at its port
+    /// (<see cref="VirtualNetwork.PortRoom"/>), and its clock goes on. With its port disposed it is one that was killed.
+    /// </summary>
+    public void Freeze(int number)
+    {
+        frozen[number] = true;
+        due[number] = SimTime.MaxValue;
+    }
+
+    /// <summary>Lets a session go on; it is due at once.</summary>
+    public void Thaw(int number)
+    {
+        frozen[number] = false;
+        due[number] = network.Clock.Now;
+    }
+
+    /// <summary>Whether a session is stopped.</summary>
+    public bool IsFrozen(int number) => frozen[number];
+
+    /// <summary>
+    /// Puts another session in the place of one that was killed: the same program, started again. The former one's port must be disposed.
+    /// </summary>
+    public void Replace(int number, Session session, IDatagramPort port)
+    {
+        ArgumentNullException.ThrowIfNull(session);
+        ArgumentNullException.ThrowIfNull(port);
+        sessions[number] = session;
+        port.Arrived += () => Wake(number);
+        Thaw(number);
+    }
+
+    /// <summary>Has a session stepped next, because something was done with it; not one that is stopped.</summary>
     public void Wake(int number)
     {
-        if (number < due.Count)
+        if (number < due.Count && !frozen[number])
         {
             due[number] = network.Clock.Now;
         }

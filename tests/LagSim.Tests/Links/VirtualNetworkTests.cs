@@ -213,6 +213,48 @@ public sealed class VirtualNetworkTests
     }
 
     /// <summary>What arrives at node 1 from node 0 of 250 numbered datagrams over the awful link, while node 2 also sends so many.</summary>
+    [Fact]
+    public void Move_APortWithANewAddress_SendsFromThereAndLosesWhatIsSentToTheFormerOne()
+    {
+        VirtualNetwork network = new(clock, 1, LinkProfiles.PureDelay(25));
+        IDatagramPort host = network.CreatePort(0), player = network.CreatePort(1);
+        PeerAddress former = player.LocalAddress;
+        host.Send([1], former); // on its way when the address changes
+        network.Move(1, 1001);
+        host.Send([2], former);
+        host.Send([3], player.LocalAddress);
+        player.Send([4], host.LocalAddress);
+        Assert.Equal(PeerAddress.Virtual(1001), player.LocalAddress);
+
+        network.DeliverUntil(SimTime.FromSeconds(1));
+        Assert.True(host.TryReceive(buffer, out int length, out PeerAddress from));
+        Assert.Equal((4, 1, player.LocalAddress), (buffer[0], length, from));
+        Assert.Equal([[3]], Drain(player));
+        Assert.Equal(2, network.DatagramsLost);
+        Assert.Equal((1, 1), (network.Traffic(1).DatagramsSent, network.Traffic(1).DatagramsReceived)); // by its number, wherever it is
+
+        Assert.Throws<InvalidOperationException>(() => network.Move(1, 0));
+        Assert.Throws<InvalidOperationException>(() => network.CreatePort(1)); // it is there still, elsewhere
+        Assert.Throws<ArgumentOutOfRangeException>(() => network.Move(1, -1));
+        player.Dispose();
+        Assert.Equal(PeerAddress.Virtual(1), network.CreatePort(1).LocalAddress);
+    }
+
+    [Fact]
+    public void PortRoom_MoreThanThePortTakes_TheNewestAreLost()
+    {
+        VirtualNetwork network = new(clock, 1) { PortRoom = 3 };
+        IDatagramPort a = network.CreatePort(0), b = network.CreatePort(1);
+        for (byte n = 1; n <= 5; n++)
+        {
+            a.Send([n], b.LocalAddress);
+        }
+
+        Assert.Equal(3, network.DeliverUntil(clock.Now));
+        Assert.Equal([[1], [2], [3]], Drain(b));
+        Assert.Equal(2, network.DatagramsLost);
+    }
+
     private static List<(SimTime At, byte Datagram)> Trace(
         ulong seed, int others, Func<int, int, ReadOnlyMemory<byte>, bool>? lose = null)
     {
