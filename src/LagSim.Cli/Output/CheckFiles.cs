@@ -14,6 +14,7 @@ internal static class CheckFiles
     [
         "seed", "peers", "late_joiners", "leavers", "external_events", "late_events", "heals", "heals_that_changed_an_impact", "events", "events_rerun", "impacts",
         "too_late_events", "refused_events", "compared", "differing_bits", "failure",
+        "full_links", "stops", "copies", "lost_events",
     ];
 
     internal static void Write(string folder, CheckOptions options, CheckReport report)
@@ -26,7 +27,8 @@ internal static class CheckFiles
             {
                 csv.WriteRow(
                     o.Seed.ToString(CultureInfo.InvariantCulture), o.Peers, o.LateJoiners, o.Leavers, o.ExternalEvents, o.LateEvents, o.Heals, o.HealsThatChangedAnImpact,
-                    o.Events, o.EventsRerun, o.Impacts, o.TooLateEvents, o.RefusedEvents, o.Compared, o.DifferingBits, o.Failure);
+                    o.Events, o.EventsRerun, o.Impacts, o.TooLateEvents, o.RefusedEvents, o.Compared, o.DifferingBits, o.Failure,
+                    o.HasFullLinks ? 1 : 0, o.HasStops ? 1 : 0, o.Copies, o.LostEvents);
             }
         }
 
@@ -38,6 +40,8 @@ internal static class CheckFiles
             ["heals", Text(report.Heals)],
             ["heals that changed an impact", Text(report.HealsThatChangedAnImpact)],
             ["events of too late a stamp", Text(report.TooLateEvents)],
+            ["accepted events lost", Text(report.LostEvents)],
+            ["fresh copies", Text(report.Outcomes.Sum(o => o.Copies))],
             ["differing bits", Text(report.DifferingBits)],
             ["failing seeds", Text(report.Failures.Count)],
         ];

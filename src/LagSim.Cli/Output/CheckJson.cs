@@ -30,6 +30,7 @@ internal static class CheckJson
             json.WriteNumber("heals", report.Heals);
             json.WriteNumber("heals_that_changed_an_impact", report.HealsThatChangedAnImpact);
             json.WriteNumber("too_late_events", report.TooLateEvents);
+            json.WriteNumber("lost_events", report.LostEvents);
             json.WriteNumber("refused_events", report.Outcomes.Sum(o => o.RefusedEvents));
             json.WriteNumber("differing_bits", report.DifferingBits);
             json.WriteNumber("compared", report.Outcomes.Sum(o => o.Compared));
@@ -38,7 +39,10 @@ internal static class CheckJson
             json.WriteNumber("peers", report.Outcomes.Sum(o => (long)o.Peers));
             json.WriteNumber("late_joiners", report.Outcomes.Sum(o => (long)o.LateJoiners));
             json.WriteNumber("leavers", report.Outcomes.Sum(o => (long)o.Leavers));
+            json.WriteNumber("copies", report.Outcomes.Sum(o => o.Copies));
             json.WriteStartObject("sessions_that_met");
+            json.WriteNumber("full_links", report.Outcomes.Count(o => o.HasFullLinks));
+            json.WriteNumber("stops", report.Outcomes.Count(o => o.HasStops));
             foreach ((string name, Func<SceneFeatures, bool> isMet) in SceneFeatures.All)
             {
                 json.WriteNumber(name, report.SessionsThatMet(isMet));

@@ -31,6 +31,9 @@ internal static class CheckText
         double changed = report.Heals == 0 ? 0 : 100.0 * report.HealsThatChangedAnImpact / report.Heals;
         output.WriteLine(string.Create(culture, $"{Count(report.Heals, "heal")}, of which {report.HealsThatChangedAnImpact:N0} ({changed:0.0} %) changed an"
             + $" impact; too late {report.TooLateEvents:N0}"));
+        output.WriteLine(string.Create(culture, $"{Count(report.Outcomes.Count(o => o.HasFullLinks), "session")} on full links,"
+            + $" {report.Outcomes.Count(o => o.HasStops):N0} with a stop; {Count(report.Outcomes.Sum(o => o.Copies), "fresh copy", "fresh copies")};"
+            + $" lost {report.LostEvents:N0}"));
         output.WriteLine(string.Create(culture, $"differing bits {report.DifferingBits:N0}; failing seeds {report.Failures.Count:N0}"));
         if (Shrunk(report) is string shrunk)
         {
@@ -65,7 +68,7 @@ internal static class CheckText
         }
     }
 
-    private static string Count(long number, string thing) => NumberText.Count(number, thing, "N0");
+    private static string Count(long number, string thing, string? many = null) => NumberText.Count(number, thing, "N0", many);
 
     /// <summary>Of which failing sessions the least that fails was looked for, where that is not all of them.</summary>
     internal static string? Shrunk(CheckReport report)

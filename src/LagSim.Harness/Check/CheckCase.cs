@@ -33,7 +33,12 @@ internal sealed class CheckCase
     /// <summary>Of heaps each step is an event in every world, so they take few peers.</summary>
     private const int MostPeersOfHeap = 3;
 
+    private const double FullLinkPercent = 25;
+    private const double StopPercent = 15;
+    private const double LongestEntry = 10; // seconds, from the first question to the world
+
     private const ulong SortStream = 3;
+    private const ulong TroubleStream = 4;
     private const ulong FirstRoom = 100;
     private const ulong FirstHands = 1000;
     private const ulong MostAttempts = 20;
@@ -59,6 +64,7 @@ internal sealed class CheckCase
         double sort = random.Fork(SortStream).NextDouble() * 100; // a stream of its own: all other sessions are what they would be without
         isHeap = sort < HeapPercent;
         DrawPlayers(random.Fork(1), options);
+        DrawTrouble(random.Fork(TroubleStream), options);
         SeededRandom rest = random.Fork(2);
         long budget = rest.IsLucky(HeavyPercent) ? HeavyEvents : UsualEvents;
         for (ulong attempt = 0; ; attempt++)
@@ -101,6 +107,12 @@ internal sealed class CheckCase
     /// <summary>The host, and the joiners in the order of their addresses.</summary>
     internal IReadOnlyList<CheckPlayer> Players => players;
 
+    /// <summary>Whether a link has a rate, so that events may wait in its queue, or be refused.</summary>
+    internal bool HasFullLinks => players.Exists(p => p.Link.ToHost.Bottleneck is not null || p.Link.FromHost.Bottleneck is not null);
+
+    /// <summary>Whether a process stands still for a time.</summary>
+    internal bool HasStops => players.Exists(p => p.Stop is not null);
+
     /// <summary>All that was drawn, by ascending time.</summary>
     internal IReadOnlyList<CheckDeed> Deeds => deeds;
 
@@ -134,7 +146,7 @@ internal sealed class CheckCase
     }
 
     private static double WorstMilliseconds(LinkLeg leg) =>
-        leg.DelayMilliseconds + (4 * leg.JitterMilliseconds) + (leg.Tail is null ? 0 : LongTail.MostMilliseconds) + ((leg.Outage?.Length.ToMilliseconds() ?? 0) * 1.1);
+        leg.DelayMilliseconds + (leg.Bottleneck?.QueueMilliseconds ?? 0) + (4 * leg.JitterMilliseconds) + (leg.Tail is null ? 0 : LongTail.MostMilliseconds) + ((leg.Outage?.Length.ToMilliseconds() ?? 0) * 1.1);
 
     private static void Throw(IReadOnlyList<int> indices, int count, string what, ulong seed)
     {
@@ -173,6 +185,48 @@ internal sealed class CheckCase
             }
         }
     }
+
+    /// <summary>Gives links rates and queues, and has a process stand still: in some sessions, from a stream of its own, so all others are what they would be without.</summary>
+    private void DrawTrouble(SeededRandom random, CheckOptions options)
+    {
+        SeededRandom ofLinks = random.Fork(1);
+        if (ofLinks.IsLucky(FullLinkPercent) && options.Profile is null)
+        {
+            for (int peer = 1; peer < players.Count; peer++)
+            {
+                players[peer] = ofLinks.IsLucky(60) ? players[peer] with { Link = DrawFullLink(ofLinks) } : players[peer];
+            }
+        }
+
+        SeededRandom ofStops = random.Fork(2);
+        if (ofStops.IsLucky(StopPercent))
+        {
+            int who = ofStops.IsLucky(30) ? 0 : ofStops.NextInt(players.Count);
+            double at = ofStops.NextDouble(0.5, 8), seconds = LogUniform(ofStops, 0.1, 40);
+            players[who] = players[who] with { Stop = (at, seconds) };
+            for (int peer = 1; peer < players.Count && who == 0; peer++)
+            {
+                // Who is on the way in gives up a host that stands for longer than its patience, and is right to.
+                bool isInVain = players[peer].AsksAtSeconds is double asks && asks > at - LongestEntry && asks < at + seconds;
+                players[peer] = isInVain ? players[peer] with { AsksAtSeconds = at + seconds } : players[peer];
+            }
+        }
+    }
+
+    private static LinkProfile DrawFullLink(SeededRandom random)
+    {
+        double delay = LogUniform(random, 1, 200);
+        double jitter = random.Pick(0, delay / 20, delay / 5);
+        double loss = random.Pick(0, 0, 0, 1);
+        long rate = (long)LogUniform(random, 64e3, 10e6);
+        double queue = LogUniform(random, 50, 2000);
+        bool hasDips = random.IsLucky(30);
+        PeriodicDip? dip = hasDips ? new PeriodicDip(random.NextDouble(6, 30), 5, Math.Max(16_000, rate / 5)) : null;
+        QueueDiscipline discipline = random.IsLucky(20) ? QueueDiscipline.CoDel : QueueDiscipline.DropTail;
+        return new LinkProfile("full", new LinkLeg(delay, jitter, loss) { Bottleneck = new Bottleneck(rate, queue, discipline) { Dip = dip } });
+    }
+
+    private static double LogUniform(SeededRandom random, double low, double high) => low * SeededRandom.Exp(random.NextDouble() * Math.Log(high / low));
 
     private static CheckPlayer Player(SeededRandom random, LinkProfile link, double? asks, double? leaves, bool isKilled) =>
         new(link, random.NextDouble(-30, 30), random.NextDouble(0, 3600) + link.ReceiverClockOffset.ToSeconds(), asks, leaves, isKilled);

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using LagSim.Harness.Links;
+using LagSim.Net.Sessions;
 using LagSim.Net.Strategies;
 using LagSim.Time;
 
@@ -47,6 +48,9 @@ public sealed record CheckOptions
 
     /// <summary>How late an event may be; null, the default: as late as the session's links need. A test has it too short.</summary>
     internal SimDuration? History { get; init; }
+
+    /// <summary>Gets each peer's number in its session and the session itself, before its first step: likewise.</summary>
+    internal Action<int, Session>? PrepareSession { get; init; }
 
     /// <summary>Gets each peer's number in its session and its world, when the world has just been made: for faults put in on purpose.</summary>
     internal Action<int, Simulation>? Prepare { get; init; }

@@ -10,4 +10,8 @@ namespace LagSim.Harness.Check;
 /// <param name="LeavesAtSeconds">When it goes; null: not before the end.</param>
 /// <param name="IsKilled">Whether it goes without a word: nobody hears of it any more, nor it of anybody.</param>
 internal sealed record CheckPlayer(
-    LinkProfile Link, double ClockPartsPerMillion, double ClockOffsetSeconds, double? AsksAtSeconds, double? LeavesAtSeconds, bool IsKilled);
+    LinkProfile Link, double ClockPartsPerMillion, double ClockOffsetSeconds, double? AsksAtSeconds, double? LeavesAtSeconds, bool IsKilled)
+{
+    /// <summary>When its process stands still, from the session's start on, and for how long; null: never.</summary>
+    public (double AtSeconds, double Seconds)? Stop { get; init; }
+}

@@ -32,8 +32,11 @@ public sealed record CheckReport(IReadOnlyList<CheckOutcome> Outcomes, IReadOnly
     /// <summary>How many of these cut off or put in an impact.</summary>
     public long HealsThatChangedAnImpact => Outcomes.Sum(o => o.HealsThatChangedAnImpact);
 
-    /// <summary>Events of players that were too late; each is a failure.</summary>
+    /// <summary>Events of players that were too late; each is a failure, unless links were full or processes stood still and the host refused it.</summary>
     public long TooLateEvents => Outcomes.Sum(o => o.TooLateEvents);
+
+    /// <summary>Events that the host accepted and that another peer lacks; each is a failure.</summary>
+    public long LostEvents => Outcomes.Sum(o => o.LostEvents);
 
     /// <summary>States, hashes and timeline entries that differ in any bit.</summary>
     public long DifferingBits => Outcomes.Sum(o => o.DifferingBits);

@@ -35,6 +35,7 @@ internal sealed class CheckSession
     private readonly VirtualSteps steps;
     private readonly List<Member> members = []; // by address; joiners that come late are added when they ask
     private readonly List<ExternalEvent> accepted = [];
+    private readonly List<uint> acceptedEntries = [];
     private readonly BodyId?[] spawned;
     private (double AtSeconds, SimTime Stamp) last = (-1, SimTime.MinValue); // what was done last
     private long tooLate;
@@ -133,6 +134,16 @@ internal sealed class CheckSession
             }
         }
 
+        for (int peer = 0; peer < drawn.Players.Count; peer++)
+        {
+            int address = peer;
+            if (drawn.Players[peer].Stop is (double at, double seconds))
+            {
+                plan.Add((at, () => Stop(address)));
+                plan.Add((at + seconds, () => GoOn(address)));
+            }
+        }
+
         foreach (int index in drawn.DeedIndices)
         {
             plan.Add((drawn.Deeds[index].AtSeconds, () => Do(index)));
@@ -167,17 +178,21 @@ internal sealed class CheckSession
         Session session = address == 0
             ? new HostSession(drawn.Scene, port, own, sessionOptions, drawn.Seed)
             : new JoinerSession(null, port, own, sessionOptions, PeerAddress.Virtual(0), drawn.Seed + (ulong)address);
+        options.PrepareSession?.Invoke(address, session);
         Member member = new(address, session, steps.Add(session, port));
         members.Add(member);
-        session.Begun += () =>
+        void Watch()
         {
             Simulation simulation = session.World!.Simulation;
             options.Prepare?.Invoke(address, simulation);
-            member.Heals = new HealImpacts(simulation, report => report.From < session.SharedTime.Now);
-        };
+            member.Heals.Add(new HealImpacts(simulation, report => report.From < session.SharedTime.Now));
+        }
+        session.Begun += Watch;
+        session.Renewed += _ => Watch();
         session.StateCommitted += member.Committed.Add;
         if (session is JoinerSession joiner)
         {
+            member.Coverage = new LogCoverage(joiner);
             joiner.Interrupted += _ =>
             {
                 // What is repaired still counts: the world as it was is held against the one that never had a delay.
@@ -200,6 +215,7 @@ internal sealed class CheckSession
         {
             case Verdict.Accepted:
                 accepted.Add(entry.Event);
+                acceptedEntries.Add(entry.Index);
                 break;
             case Verdict.TooLate:
                 tooLate++;
@@ -230,6 +246,24 @@ internal sealed class CheckSession
         steps.Wake(member.Number);
     }
 
+    private void Stop(int address)
+    {
+        if (members.Find(m => m.Peer == address) is { HasGone: false } member)
+        {
+            member.IsStopped = true;
+            steps.Freeze(member.Number);
+        }
+    }
+
+    private void GoOn(int address)
+    {
+        if (members.Find(m => m.Peer == address) is { IsStopped: true } member)
+        {
+            member.IsStopped = false;
+            steps.Thaw(member.Number);
+        }
+    }
+
     private void Do(int index)
     {
         CheckDeed deed = drawn.Deeds[index];
@@ -239,7 +273,12 @@ internal sealed class CheckSession
             return; // to a body that was left out
         }
 
-        Member actor = members.Find(m => m.Peer == deed.Peer && m.Session.State == SessionState.Running) ?? members[0];
+        Member actor = members.Find(m => m.Peer == deed.Peer && m.Session.State == SessionState.Running && !m.IsStopped) ?? members[0];
+        if (actor.IsStopped)
+        {
+            return; // nobody is there to do it
+        }
+
         if (deed.Kind == EventKind.Impulse && actor.Session.World!.Simulation.SpecOf(target).Mass != deed.Spec.Mass)
         {
             return; // it has not heard of the body, or of another of that name: who spawned it went before anybody heard of it
@@ -337,10 +376,12 @@ internal sealed class CheckSession
             comparison.Take(member.Peer, member.Session.World!.Simulation);
         }
 
-        long lost = members.Sum(m => m.Session.Counters.EventsLost);
+        long lost = members.Sum(m => m.Session.Counters.EventsLost + (m.Coverage?.CountLost(acceptedEntries) ?? 0));
+        bool mayBeRefused = drawn.HasFullLinks || drawn.HasStops; // who could not be heard in time is refused, and knows it
         string? failure = comparison.Differing > 0 ? string.Create(CultureInfo.InvariantCulture, $"{comparison.Differing} of {comparison.Compared} compared"
             + $" states and events differ. {comparison.FirstHash}").TrimEnd()
-            : tooLate + lost > 0 ? $"{NumberText.Count(tooLate + lost, "event was", many: "events were")} too late."
+            : lost > 0 ? $"{NumberText.Count(lost, "accepted event was", many: "accepted events were")} lost."
+            : tooLate > 0 && !mayBeRefused ? $"{NumberText.Count(tooLate, "event was", many: "events were")} too late."
             : members.Sum(m => m.Session.Counters.StatesDiffered) > 0 ? "A joiner's committed state was not what the host said."
             : null;
         return outcome with
@@ -350,13 +391,17 @@ internal sealed class CheckSession
             ExternalEvents = accepted.Count,
             TiedEvents = Tied(),
             LateEvents = members.Sum(m => m.Session.Counters.Lateness.Count(late => late > SimDuration.Zero)),
-            Heals = members.Sum(m => m.Heals?.Heals ?? 0),
-            HealsThatChangedAnImpact = members.Sum(m => m.Heals?.Changed ?? 0),
-            EventsRerun = members.Sum(m => m.Heals?.Events ?? 0),
+            Heals = members.Sum(m => m.Heals.Sum(h => h.Heals)),
+            HealsThatChangedAnImpact = members.Sum(m => m.Heals.Sum(h => h.Changed)),
+            EventsRerun = members.Sum(m => m.Heals.Sum(h => h.Events)),
             Impacts = alone.ImpactsProcessed,
             Met = SceneFeatures.Of(alone, accepted, drawn.StepsAhead),
             TooLateEvents = tooLate + lost,
+            LostEvents = lost,
             RefusedEvents = refused,
+            HasFullLinks = drawn.HasFullLinks,
+            HasStops = drawn.HasStops,
+            Copies = members.Sum(m => m.Session.Counters.Renewals),
             LateJoiners = members.Count(m => drawn.Players[m.Peer].AsksAtSeconds is not null && m.Session.World is not null),
             Leavers = members.Count(m => m.HasGone),
             Compared = comparison.Compared,
@@ -382,7 +427,11 @@ internal sealed class CheckSession
         /// <summary>Its number among those that are stepped.</summary>
         internal int Number { get; } = number;
 
-        internal HealImpacts? Heals { get; set; }
+        /// <summary>What healing did in each of its worlds.</summary>
+        internal List<HealImpacts> Heals { get; } = [];
+
+        /// <summary>What of the host's log came to it; null for the host.</summary>
+        internal LogCoverage? Coverage { get; set; }
 
         internal List<CommittedState> Committed { get; } = [];
 
@@ -390,5 +439,8 @@ internal sealed class CheckSession
         internal List<Simulation> Wrong { get; } = [];
 
         internal bool HasGone { get; set; }
+
+        /// <summary>Whether its process stands still.</summary>
+        internal bool IsStopped { get; set; }
     }
 }

@@ -69,12 +69,7 @@ internal sealed class SweepRun
             JoinerSession session = (JoinerSession)Add(n, seed);
             Client client = new(session, n);
             clients.Add(client);
-            session.Logged += entry =>
-            {
-                client.Heard.Add(entry.Index);
-                client.Bytes += Length(entry, session.Peer);
-            };
-            session.Renewed += _ => client.Covered.Add(session.LogStart);
+            session.Logged += entry => client.Bytes += Length(entry, session.Peer);
         }
     }
 
@@ -178,8 +173,7 @@ internal sealed class SweepRun
         double share = 1;
         foreach (Client client in clients.Where(c => c.Session.State != SessionState.Ended))
         {
-            uint covered = client.Covered.DefaultIfEmpty(0u).Max();
-            lost += accepted.Count(index => index > covered && index <= client.Session.LogLength && !client.Heard.Contains(index));
+            lost += client.Coverage.CountLost(accepted);
             lost += client.Session.LogLength < host.LogLength ? host.LogLength - client.Session.LogLength : 0;
             share = Math.Min(share, committed.Count == 0 ? 1 : client.Session.Counters.StatesAgreed / (double)committed.Count);
         }
@@ -287,10 +281,7 @@ internal sealed class SweepRun
 
         internal int Number { get; } = number;
 
-        internal HashSet<uint> Heard { get; } = [];
-
-        /// <summary>Up to which entry of the log its copies reached.</summary>
-        internal List<uint> Covered { get; } = [];
+        internal LogCoverage Coverage { get; } = new(session);
 
         internal double Bytes { get; set; }
 

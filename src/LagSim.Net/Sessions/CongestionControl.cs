@@ -42,6 +42,7 @@ internal sealed class CongestionControl
     private const double LeastComfort = 1_000;
     private const double Growth = 1.08;
 
+    private readonly bool neverBacksOff;
     private double window = InitialWindow;
     private int peak; // the most that was on its way since the window was last cut: what of the window was used (RFC 7661)
     private double lossShare;
@@ -51,6 +52,9 @@ internal sealed class CongestionControl
     private SimTime counted = SimTime.MinValue;
     private SimTime adjusted = SimTime.MinValue; // when the rate was last looked at
     private SimTime cut = SimTime.MinValue; // what was sent before that is not counted against the window again
+
+    /// <param name="fault">What is done wrong on purpose.</param>
+    internal CongestionControl(SessionFault fault = SessionFault.None) => neverBacksOff = (fault & SessionFault.NeverBacksOff) != 0;
 
     /// <summary>How many bytes are on their way: sent, and neither acknowledged nor lost.</summary>
     internal int InFlight { get; private set; }
@@ -87,7 +91,7 @@ internal sealed class CongestionControl
     {
         InFlight -= bytes;
         lossShare += (1 - lossShare) * LossMemory;
-        if ((hasQueue || lossShare > BearableLoss) && sent > cut)
+        if ((hasQueue || lossShare > BearableLoss) && sent > cut && !neverBacksOff)
         {
             window = Math.Max(LeastWindow, Math.Min(window, peak) * CutTo);
             peak = InFlight;
@@ -99,7 +103,7 @@ internal sealed class CongestionControl
     /// <summary>Nothing was answered, again and again: the link may have become another one (RFC 9002, 7.6).</summary>
     internal void OnSilence(SimTime now)
     {
-        window = LeastWindow;
+        window = neverBacksOff ? window : LeastWindow;
         cut = now;
     }
 
@@ -118,7 +122,7 @@ internal sealed class CongestionControl
         if (now - adjusted >= interval)
         {
             comfort = isSilent || !trips.IsMeasured ? comfort // nothing new is known
-                : trips.HasQueue ? Math.Max(LeastComfort, comfort * CutTo)
+                : trips.HasQueue && !neverBacksOff ? Math.Max(LeastComfort, comfort * CutTo)
                 : isUsedUp ? Math.Min(MostComfort, comfort * Growth)
                 : Math.Max(comfort, Math.Min(FirstComfort, comfort * Math.Pow(Growth, (now - adjusted).ToSeconds() / interval.ToSeconds()))); // as a new link again
             adjusted = now;

@@ -348,13 +348,18 @@ public sealed partial class JoinerSession : Session
             Commit(SimTime.Min(incoming.Promised, needed));
         }
 
-        if (any && isUrgent)
+        if (!any || link is null) // what was committed may have differed: then this peer has left the link for a fresh copy
         {
-            link!.Answer(now);
+            return;
         }
-        else if (any)
+
+        if (isUrgent)
         {
-            link!.Hasten(now + UpdateLink.MostAckDelay);
+            link.Answer(now);
+        }
+        else
+        {
+            link.Hasten(now + UpdateLink.MostAckDelay);
         }
     }
 

@@ -24,8 +24,15 @@ internal sealed class SendWindow
     private uint sent;
     private uint lostUpTo; // the greatest number that was ever sent in vain
 
+    private readonly bool dropsWhenMerging;
+
     /// <param name="acknowledged">The other has the entries up to this one.</param>
-    internal SendWindow(uint acknowledged) => Acknowledged = sent = acknowledged;
+    /// <param name="fault">What is done wrong on purpose.</param>
+    internal SendWindow(uint acknowledged, SessionFault fault = SessionFault.None)
+    {
+        Acknowledged = sent = acknowledged;
+        dropsWhenMerging = (fault & SessionFault.DropsWhenMerging) != 0;
+    }
 
     /// <summary>The other has the entries up to this one.</summary>
     internal uint Acknowledged { get; private set; }
@@ -231,13 +238,14 @@ internal sealed class SendWindow
     }
 
     /// <summary>Has an update carry entries, as many as fit; the number of the last, or of the one before the first.</summary>
-    private static uint Carry(UpdateDatagram update, IEntrySource source, uint first, uint last, int most = Room)
+    private uint Carry(UpdateDatagram update, IEntrySource source, uint first, uint last, int most = Room)
     {
         update.FirstIndex = first;
         uint held = first - 1;
         while (held < last && (most -= UpdateDatagram.LengthOf(source[held + 1])) >= 0 && update.TryAdd(source[held + 1]))
         {
             held++;
+            held += dropsWhenMerging && held == first && held < last ? 1u : 0u;
         }
 
         return held;

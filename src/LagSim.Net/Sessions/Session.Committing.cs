@@ -79,6 +79,11 @@ public abstract partial class Session
             return;
         }
 
+        if ((Fault & SessionFault.ForgetsTooEarly) != 0)
+        {
+            watermark = SimTime.Max(watermark, SharedTime.Now - Options.Window.History);
+        }
+
         settled = SimTime.Max(settled, watermark);
         while (schedule.Next < watermark && schedule.Next <= World.Simulation.Horizon)
         {

@@ -336,7 +336,7 @@ public abstract partial class Session
     }
 
     private protected UpdateLink LinkTo(PeerAddress other, ulong sessionId, byte peer, uint acknowledged, SimTime now) =>
-        new(sessionId, Peer, peer, other, acknowledged, Options.ResendInterval, outgoing, sending, now);
+        new(sessionId, Peer, peer, other, acknowledged, Options.ResendInterval, outgoing, sending, now, Fault);
 
     /// <summary>Counts a datagram that could not be decoded.</summary>
     private protected bool IsWellFormed(bool decoded)
@@ -362,6 +362,9 @@ public abstract partial class Session
         Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];
         Send(bytes.Slice(0, new LeaveDatagram(link.SessionId, Peer, reason).Encode(bytes)), link);
     }
+
+    /// <summary>What is done wrong on purpose; set before the first step.</summary>
+    internal SessionFault Fault { get; set; }
 
     /// <summary>Asks for a fresh copy of the world in place of one that cannot be gone on with; false where there is none to be had.</summary>
     private protected virtual bool TryRenew(SessionEnd by, string why) => false;

@@ -40,9 +40,10 @@ internal sealed class UpdateLink
     private readonly SimDuration interval;
     private readonly UpdateDatagram outgoing;
     private readonly byte[] buffer;
+    private readonly SessionFault fault;
     private readonly SeenNumbers seen = new();
     private readonly SentDatagrams sent = new();
-    private readonly CongestionControl congestion = new();
+    private readonly CongestionControl congestion;
     private readonly RoundTrips trips = new();
     private uint lastSent;
     private SimTime echoReceived = SimTime.MinValue;
@@ -68,8 +69,10 @@ internal sealed class UpdateLink
     /// <param name="outgoing">What updates are composed in, one after the other; all links of a session share it.</param>
     /// <param name="buffer">Where their bytes go; likewise.</param>
     /// <param name="now">By the own clock.</param>
+    /// <param name="fault">What is done wrong on purpose.</param>
     internal UpdateLink(
-        ulong sessionId, byte self, byte peer, PeerAddress other, uint acknowledged, SimDuration interval, UpdateDatagram outgoing, byte[] buffer, SimTime now)
+        ulong sessionId, byte self, byte peer, PeerAddress other, uint acknowledged, SimDuration interval, UpdateDatagram outgoing, byte[] buffer, SimTime now,
+        SessionFault fault = SessionFault.None)
     {
         this.outgoing = outgoing;
         this.buffer = buffer;
@@ -77,7 +80,9 @@ internal sealed class UpdateLink
         Self = self;
         Peer = peer;
         Other = other;
-        Outgoing = new SendWindow(acknowledged);
+        this.fault = fault;
+        Outgoing = new SendWindow(acknowledged, fault);
+        congestion = new CongestionControl(fault);
         this.interval = interval;
         Heard = now;
         Due = now;
@@ -112,7 +117,7 @@ internal sealed class UpdateLink
     internal SimDuration Silence(SimTime now) => now - Heard > unheard ? now - Heard : unheard;
 
     /// <summary>Begins anew with entries after that number, before any was sent.</summary>
-    internal void StartAfter(uint acknowledged) => Outgoing = new SendWindow(acknowledged);
+    internal void StartAfter(uint acknowledged) => Outgoing = new SendWindow(acknowledged, fault);
 
     /// <summary>When an update was sent that the other says it has; false for one that was not, or long ago.</summary>
     internal bool TryGetSent(uint number, out SimTime at) => sent.TryGetTime(number, out at);

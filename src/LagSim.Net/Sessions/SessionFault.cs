@@ -1,0 +1,20 @@
+using System;
+
+namespace LagSim.Net.Sessions;
+
+/// <summary>Ways to keep a session together that are known to be wrong: negative controls, which only a test sets.</summary>
+[Flags]
+internal enum SessionFault
+{
+    /// <summary>Nothing is wrong.</summary>
+    None = 0,
+
+    /// <summary>History goes by the own clock, as if whatever has not been heard of by then did not exist.</summary>
+    ForgetsTooEarly = 1,
+
+    /// <summary>Of several entries that go out in one update the second is left out.</summary>
+    DropsWhenMerging = 2,
+
+    /// <summary>Neither a queue nor a loss has a link send less.</summary>
+    NeverBacksOff = 4,
+}

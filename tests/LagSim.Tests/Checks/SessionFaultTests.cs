@@ -1,0 +1,24 @@
+using LagSim.Harness.Check;
+using LagSim.Net.Sessions;
+using Xunit;
+
+namespace LagSim.Tests.Checks;
+
+/// <summary>Ways to keep a session together that are known to be wrong: <c>check</c> catches each, and lets the same session pass without it.</summary>
+public sealed class SessionFaultTests
+{
+    [Theory]
+    [InlineData(SessionFault.ForgetsTooEarly, 40u)]
+    [InlineData(SessionFault.DropsWhenMerging, 3u)]
+    [InlineData(SessionFault.DropsWhenMerging, 18u)]
+    [InlineData(SessionFault.DropsWhenMerging, 37u)]
+    internal void Run_KeptTogetherInAWayKnownToBeWrong_IsCaught(SessionFault fault, uint seed)
+    {
+        CheckOptions options = new() { Sessions = 1, Seed = seed, ShrinkingPlays = 0, PrepareSession = (_, session) => session.Fault = fault };
+        string? failure = Assert.Single(Run(options).Failures).Whole.Failure;
+        Assert.True(failure!.Contains("differ") || failure.Contains("lost"), failure); // by what it is there for, and not because something came to no end
+        Assert.Empty(Run(options with { PrepareSession = null }).Failures);
+    }
+
+    private static CheckReport Run(CheckOptions options) => InvariantCheck.Run(options, null, TestContext.Current.CancellationToken);
+}
