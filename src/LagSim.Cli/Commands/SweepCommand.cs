@@ -24,10 +24,11 @@ internal static class SweepCommand
         Option<bool> shared = new("--shared") { Description = "All clients behind one link that carries as much; else each has a link of its own." };
         Option<double> play = CommonOptions.Number("--play-s", "How long events are done, in seconds", byDefault.PlaySeconds, 1, 3600);
         Option<double> rest = CommonOptions.Number("--rest-s", "How long all rests after that, in seconds", byDefault.RestSeconds, 1, 3600);
+        Option<string?> beside = new("--beside") { Description = "What lagsim sweep --json wrote of another run: --out draws it beside this one, dashed.", HelpName = "FILE" };
         Command command = new(
             "sweep",
             "Sessions on links that are full, or nearly, in virtual time: offered against delivered load, round trips, refusals, and whether all agree. 0 if every cell"
-                + " shows what it must: no accepted event lost, no state that differs, at least 90 % of them compared.") { clients, events, rates, queues, noDips, shared, play, rest };
+                + " shows what it must: no accepted event lost, no state that differs, at least 90 % of them compared.") { clients, events, rates, queues, noDips, shared, play, rest, beside };
         common.AddTo(command);
         command.SetAction(parsed =>
         {
@@ -43,12 +44,18 @@ internal static class SweepCommand
                 RestSeconds = parsed.GetValue(rest),
                 Seed = parsed.GetValue(common.Seed),
             };
-            return Run(console, options, parsed.GetValue(common.Out), parsed.GetValue(common.Json));
+            string? folder = parsed.GetValue(common.Out), other = parsed.GetValue(beside);
+            if (other is not null && folder is null)
+            {
+                throw new UsageException($"--beside is '{other}', and is for the charts of --out, which is missing.");
+            }
+
+            return Run(console, options, folder, other is null ? null : SweepReader.Read(other), parsed.GetValue(common.Json));
         });
         return command;
     }
 
-    private static int Run(ToolConsole console, SweepOptions options, string? folder, bool json)
+    private static int Run(ToolConsole console, SweepOptions options, string? folder, IReadOnlyList<SweepOutcome>? beside, bool json)
     {
         if (folder is not null)
         {
@@ -71,7 +78,7 @@ internal static class SweepCommand
         bool isStopped = outcomes.Count < count;
         if (folder is not null && outcomes.Count > 0)
         {
-            SweepFiles.Write(folder, options, outcomes);
+            SweepFiles.Write(folder, options, outcomes, beside);
         }
 
         if (json)

@@ -10,9 +10,11 @@ namespace LagSim.Cli.Output;
 internal static class SweepChart
 {
     /// <summary>Null where there is nothing to draw: no cell in which anything happened.</summary>
-    internal static LineChart? Of(IReadOnlyList<SweepOutcome> outcomes)
+    /// <param name="outcomes">What was played.</param>
+    /// <param name="beside">Another run, drawn dashed; null for none.</param>
+    internal static LineChart? Of(IReadOnlyList<SweepOutcome> outcomes, IReadOnlyList<SweepOutcome>? beside)
     {
-        SweepOutcome[] drawn = [.. outcomes.Where(o => o.Cell.EventsPerSecond > 0 && o.OfferedBytesPerSecond > 0)];
+        SweepOutcome[] drawn = Drawn(outcomes), dashed = Drawn(beside ?? []);
         if (drawn.Length == 0)
         {
             return null;
@@ -20,21 +22,28 @@ internal static class SweepChart
 
         return new LineChart(
             "Full links: delivered, round trip and refusals against offered load",
-            "Each curve is one rate of the links; each point the mean of the cells of that rate and load, whatever their queues and dips.",
+            "Each curve is one rate of the links; each point the mean of the cells of that rate and load, whatever their queues and dips." + (beside is null ? "" : " Dashed: before."),
             [
                 new ChartPanel("delivered, of what was offered", "share", Curves(o => o.DeliveredBytesPerSecond / o.OfferedBytesPerSecond)) { HasLegendAtRight = true },
                 new ChartPanel("round trip, median, of the idle one", "times the idle one", Curves(o => o.RoundTripP50Ms / o.IdleRoundTripMs)) { HasLegendAtRight = true, Scale = ChartScale.Log10 },
                 new ChartPanel("refused, of what was done", "share", Curves(o => o.Done == 0 ? 0 : o.Refused / (double)o.Done)) { HasLegendAtRight = true },
+                new ChartPanel("lost, of what was done", "share", Curves(o => o.Done == 0 ? 0 : o.Lost / (double)o.Done)) { HasLegendAtRight = true },
             ])
         {
             XLabel = "offered load, of what the link carries (in its dips)",
             XScale = ChartScale.Log10,
         };
 
-        List<ChartSeries> Curves(Func<SweepOutcome, double> of) => [.. drawn.GroupBy(o => o.Cell.RateBitsPerSecond).OrderBy(g => g.Key).Select((rate, n) =>
+        List<ChartSeries> Curves(Func<SweepOutcome, double> of) => [.. Series(drawn, of, "", SeriesStyle.Line), .. Series(dashed, of, ", before", SeriesStyle.Dashed)];
+    }
+
+    private static SweepOutcome[] Drawn(IReadOnlyList<SweepOutcome> outcomes) => [.. outcomes.Where(o => o.Cell.EventsPerSecond > 0 && o.OfferedBytesPerSecond > 0)];
+
+    private static IEnumerable<ChartSeries> Series(SweepOutcome[] drawn, Func<SweepOutcome, double> of, string suffix, SeriesStyle style) =>
+        drawn.GroupBy(o => o.Cell.RateBitsPerSecond).OrderBy(g => g.Key).Select((rate, n) =>
         {
             var points = rate.GroupBy(o => o.LoadShare).Select(g => (X: g.Key, Y: g.Average(of))).Where(p => double.IsFinite(p.Y)).OrderBy(p => p.X).ToArray();
-            return new ChartSeries(FormattableString.Invariant($"{rate.Key / 1000.0} kbit/s"), [.. points.Select(p => p.X)], [.. points.Select(p => p.Y)], SeriesStyle.Line, n % LineChart.Colours);
-        })];
-    }
+            string name = FormattableString.Invariant($"{rate.Key / 1000.0} kbit/s{suffix}");
+            return new ChartSeries(name, [.. points.Select(p => p.X)], [.. points.Select(p => p.Y)], style, n % LineChart.Colours);
+        });
 }

@@ -36,6 +36,8 @@ internal static class SweepJson
                 json.WriteNumber("compared_share", o.ComparedShare);
                 json.WriteNumber("copies", o.Copies);
                 json.WriteNumber("links_too_slow", o.TooSlow);
+                json.WriteNumber("queued_s", o.QueuedSeconds);
+                json.WriteNumber("queued_sent_per_needed_byte", o.SentPerNeededByteWhileQueued);
                 json.WriteString("failure", o.Failure);
                 json.WriteBoolean("passed", o.IsGood);
                 json.WriteEndObject();

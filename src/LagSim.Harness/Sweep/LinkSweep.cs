@@ -34,7 +34,7 @@ public static class LinkSweep
                 {
                     // The token of the whole sweep would keep the sessions of all cells.
                     using CancellationTokenSource stop = CancellationTokenSource.CreateLinkedTokenSource(cancellation);
-                    SweepOutcome outcome = new SweepRun(cells[n], options.Seed, options.PlaySeconds, options.RestSeconds, stop.Token).Play();
+                    SweepOutcome outcome = new SweepRun(cells[n], options, stop.Token).Play();
                     outcomes[n] = outcome;
                     lock (gate)
                     {

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using LagSim.Net.Sessions;
 
 namespace LagSim.Harness.Sweep;
 
@@ -35,6 +36,9 @@ public sealed record SweepOptions
 
     /// <summary>How many cells are played at a time; default as many as there are processors.</summary>
     public int Workers { get; init; } = Environment.ProcessorCount;
+
+    /// <summary>Gets each peer's number and its session before its first step: for faults put in on purpose.</summary>
+    internal Action<int, Session>? Prepare { get; init; }
 
     /// <summary>All cells, in the order in which they are told.</summary>
     public IEnumerable<SweepCell> Cells()

@@ -30,6 +30,12 @@ public sealed record SweepOutcome
     /// <summary>The longest after a dip until the round trip was below twice the idle one again, in seconds; 0 without dips.</summary>
     public double RecoverySeconds { get; init; }
 
+    /// <summary>For how long queues showed on the way to clients, in seconds, summed over all of them.</summary>
+    public double QueuedSeconds { get; init; }
+
+    /// <summary>What the host sent meanwhile, in bytes of updates without UDP and IP, for each byte of entries that came; 0 if no queue showed.</summary>
+    public double SentPerNeededByteWhileQueued { get; init; }
+
     /// <summary>Events that clients did.</summary>
     public long Done { get; init; }
 

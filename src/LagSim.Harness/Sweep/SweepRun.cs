@@ -22,8 +22,7 @@ internal sealed class SweepRun
     private const double LookSeconds = 0.1;
 
     private readonly SweepCell cell;
-    private readonly double playSeconds;
-    private readonly double restSeconds;
+    private readonly SweepOptions options;
     private readonly CancellationToken cancellation;
     private readonly SeededRandom random;
     private readonly VirtualClock clock = new(SimTime.FromSeconds(10));
@@ -36,11 +35,11 @@ internal sealed class SweepRun
     private readonly UpdateDatagram measured = new();
     private double needed; // bytes of entries, for all clients together
 
-    internal SweepRun(SweepCell cell, ulong seed, double playSeconds, double restSeconds, CancellationToken cancellation)
+    internal SweepRun(SweepCell cell, SweepOptions options, CancellationToken cancellation)
     {
+        ulong seed = options.Seed;
         this.cell = cell;
-        this.playSeconds = playSeconds;
-        this.restSeconds = restSeconds;
+        this.options = options;
         this.cancellation = cancellation;
         random = new SeededRandom(seed);
         network = new VirtualNetwork(clock, seed, cell.Link);
@@ -85,6 +84,7 @@ internal sealed class SweepRun
         List<double> idle = [];
         For(IdleSeconds, _ => Look(idle));
         double idleTrip = Percentiles.Of(idle).P50;
+        double playSeconds = options.PlaySeconds;
         long[] before = Sent();
         double neededBefore = needed;
         double[] heardBefore = [.. clients.Select(c => c.Bytes)];
@@ -107,6 +107,7 @@ internal sealed class SweepRun
                 nextLook += LookSeconds;
                 int count = trips.Count;
                 Look(trips);
+                LookAtQueues();
                 course.Add(((clock.Now - SimTime.Zero).ToSeconds(), trips.Skip(count).DefaultIfEmpty(0).Max()));
                 continue;
             }
@@ -120,7 +121,7 @@ internal sealed class SweepRun
         long[] after = Sent();
         double neededAfter = needed;
         double[] heardAfter = [.. clients.Select(c => c.Bytes)];
-        RunTo(start + SimDuration.FromSeconds(playSeconds + restSeconds));
+        RunTo(start + SimDuration.FromSeconds(playSeconds + options.RestSeconds));
         Percentiles trip = trips.Count > 0 ? Percentiles.Of(trips) : default;
         return Compare(outcome with
         {
@@ -132,6 +133,8 @@ internal sealed class SweepRun
             RoundTripP50Ms = trip.P50,
             RoundTripP99Ms = trip.P99,
             RecoverySeconds = Recovery(course, idleTrip),
+            QueuedSeconds = clients.Sum(c => c.QueuedSeconds),
+            SentPerNeededByteWhileQueued = clients.Sum(c => c.SentQueued) / Math.Max(1, clients.Sum(c => c.CameQueued)),
             LoadShare = LoadShare(),
         });
     }
@@ -221,10 +224,11 @@ internal sealed class SweepRun
     {
         IDatagramPort port = network.CreatePort(number);
         SkewedClock own = new(clock, random.NextDouble(-30, 30), SimDuration.FromSeconds(random.NextDouble(0, 3600)));
-        SessionOptions options = new() { ExpectedJoiners = cell.Clients, Cancellation = cancellation };
+        SessionOptions its = new() { ExpectedJoiners = cell.Clients, Cancellation = cancellation };
         Session session = number == 0
-            ? new HostSession(BuiltInScenes.Billiards(), port, own, options, seed)
-            : new JoinerSession(null, port, own, options, PeerAddress.Virtual(0), seed + (ulong)number);
+            ? new HostSession(BuiltInScenes.Billiards(), port, own, its, seed)
+            : new JoinerSession(null, port, own, its, PeerAddress.Virtual(0), seed + (ulong)number);
+        options.Prepare?.Invoke(number, session);
         steps.Add(session, port);
         return session;
     }
@@ -240,6 +244,28 @@ internal sealed class SweepRun
             {
                 trips.Add(link.RoundTrip.ToMilliseconds());
             }
+        }
+    }
+
+    /// <summary>Counts what was sent to clients, and what came there, since the last look, where a queue showed all that time.</summary>
+    private void LookAtQueues()
+    {
+        foreach (LinkTraffic link in host.Links)
+        {
+            if (clients.Find(c => c.Session.Peer == link.Peer) is not Client client)
+            {
+                continue;
+            }
+
+            bool isQueued = link.Queueing > SimDuration.Zero;
+            if (isQueued && client.WasQueued)
+            {
+                client.QueuedSeconds += LookSeconds;
+                client.SentQueued += link.BytesSent - client.Sent;
+                client.CameQueued += client.Bytes - client.Came;
+            }
+
+            (client.WasQueued, client.Sent, client.Came) = (isQueued, link.BytesSent, client.Bytes);
         }
     }
 
@@ -284,6 +310,19 @@ internal sealed class SweepRun
         internal LogCoverage Coverage { get; } = new(session);
 
         internal double Bytes { get; set; }
+
+        /// <summary>As of the last look, as are the next two: whether a queue showed, what was sent there, and what had come.</summary>
+        internal bool WasQueued { get; set; }
+
+        internal long Sent { get; set; }
+
+        internal double Came { get; set; }
+
+        internal double QueuedSeconds { get; set; }
+
+        internal double SentQueued { get; set; }
+
+        internal double CameQueued { get; set; }
 
         internal long Done { get; set; }
     }
