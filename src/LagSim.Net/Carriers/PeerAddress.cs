@@ -76,9 +76,14 @@ public readonly struct PeerAddress : IEquatable<PeerAddress>
         return new IPEndPoint(new IPAddress(bytes.Slice(0, v6 ? 16 : 4)), (int)((portAndFamily & 0x1FFFF) - 1));
     }
 
-    /// <summary>Whether the other is of the same machine: the same IP address, whatever the port.</summary>
-    internal bool IsSameMachine(PeerAddress other) =>
-        high == other.high && low == other.low && portAndFamily >> 31 == other.portAndFamily >> 31;
+    /// <summary>Whether the other is of the same <see cref="Machine"/>.</summary>
+    internal bool IsSameMachine(PeerAddress other) => Machine == other.Machine;
+
+    /// <summary>
+    /// The same for all that one machine can send from: its IP address, whatever the port; of IPv6 the first 64 bits, for whoever has one such address has all
+    /// those of its network.
+    /// </summary>
+    internal PeerAddress Machine => portAndFamily >> 31 != 0 ? new(high, 0, 1u << 31) : new(high, low, 0);
 
     /// <summary>All of it as bytes, for a hash.</summary>
     internal void Write(Span<byte> destination)

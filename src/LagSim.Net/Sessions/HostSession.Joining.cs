@@ -11,20 +11,6 @@ namespace LagSim.Net.Sessions;
 /// <content>Letting joiners in: cookie, key, number, and the copy of scene and world that they fetch.</content>
 public sealed partial class HostSession
 {
-    /// <summary>So many may be coming in at a time. They hold no place: who is not in yet makes room for the next.</summary>
-    private const int MaxComing = 256;
-
-    /// <summary>So many of them from one address.</summary>
-    private const int MaxComingOfOne = 16;
-
-    /// <summary>Who comes in on the slowest link that is counted on gets so many bytes of its copy a second.</summary>
-    private const double SlowestCopy = 1_000;
-
-    /// <summary>A joiner gets pieces of its copy at this rate, 2.3 MB/s, and after a pause four windows of them at once.</summary>
-    private const double PiecesPerSecond = 2000;
-
-    private const int PiecesAtOnce = 4 * FetchDatagram.MaxChunks;
-
     /// <summary>How often every piece of a copy can be asked for in the mean, before no more of it is given.</summary>
     private const int MostRepeats = 8;
 
@@ -34,6 +20,8 @@ public sealed partial class HostSession
     /// <summary>A copy this fresh serves the next joiner too.</summary>
     private static readonly SimDuration CopyAge = SimDuration.FromSeconds(1);
 
+    private readonly DoorLimits door;
+    private readonly CopyPaces paces;
     private readonly JoinCookies cookies;
     private readonly byte[] sceneCopy;
     private Copy? newestCopy;
@@ -95,11 +83,12 @@ public sealed partial class HostSession
                 return; // the world is being simulated again; the joiner asks once more
             }
 
-            // The same address, shown by the cookie, under a new nonce: it started again. As the same player, if it has that one's pass.
-            LetGo(j => j.Link.Other == from, claimed is null ? LeaveReason.Left : LeaveReason.Replaced);
+            // The same address, shown by the cookie, under a new nonce: it started again. One that is in stays until the new one gets its number: if it had only
+            // fallen silent, it may be heard again first, and goes on.
+            joiners.RemoveAll(j => j.Peer == 0 && j.Link.Other == from);
             MakeRoom(from);
             UpdateLink link = LinkTo(from, cookies.SessionId(sessionId, joins++), 0, made.LogIndex, now);
-            known = new Joiner(join, link, made, keyed, claimed, new RateLimit(PiecesPerSecond, PiecesAtOnce, now), now);
+            known = new Joiner(join, link, made, keyed, claimed, now + PatienceWithCopy(made));
             joiners.Add(known);
         }
 
@@ -128,15 +117,27 @@ public sealed partial class HostSession
     /// <summary>Lets go of the oldest of those that are coming in, if there are too many, of that address or at all: of the address with the most.</summary>
     private void MakeRoom(PeerAddress from)
     {
-        List<Joiner> coming = joiners.FindAll(j => j.Peer == 0);
-        int ofOne = coming.Count(j => j.Link.Other.IsSameMachine(from));
-        if (ofOne >= MaxComingOfOne)
+        Dictionary<PeerAddress, int> coming = new(); // how many, by machine; each counted once, since a thousand may come a second
+        int all = 0, most = 0;
+        foreach (Joiner joiner in joiners)
         {
-            joiners.Remove(coming.Find(j => j.Link.Other.IsSameMachine(from))!);
+            if (joiner.Peer == 0)
+            {
+                PeerAddress machine = joiner.Link.Other.Machine;
+                coming.TryGetValue(machine, out int before);
+                coming[machine] = before + 1;
+                most = Math.Max(most, before + 1);
+                all++;
+            }
         }
-        else if (coming.Count >= MaxComing)
+
+        coming.TryGetValue(from.Machine, out int ofOne);
+        int leaves = ofOne >= door.ComingOfOne ? joiners.FindIndex(j => j.Peer == 0 && j.Link.Other.IsSameMachine(from))
+            : all >= door.Coming ? joiners.FindIndex(j => j.Peer == 0 && coming[j.Link.Other.Machine] == most)
+            : -1;
+        if (leaves >= 0)
         {
-            joiners.Remove(coming.OrderByDescending(j => coming.Count(k => k.Link.Other.IsSameMachine(j.Link.Other))).First()); // stable: the oldest of them
+            joiners.RemoveAt(leaves);
         }
     }
 
@@ -145,6 +146,7 @@ public sealed partial class HostSession
     {
         PlayerPlaces.Place? claimed = joiner.Claimed is PlayerPlaces.Place former && former.Pass == joiner.ClaimedPass ? former : null; // nobody else got it since
         PlayerPlaces.Place? place = joiner.Keyed > 0 ? places[joiner.Keyed] : claimed;
+        LetGo(j => j.Peer > 0 && j.Peer != place?.Number && j.Link.Other == joiner.Link.Other, LeaveReason.Left); // started again, as another player
         if (place is null)
         {
             if (WhyNoPlace(0, null, joiner.Link.Other, now) is RefusalReason reason)
@@ -234,7 +236,7 @@ public sealed partial class HostSession
             long index = (long)fetch.First + n;
             if ((fetch.Wanted >> n & 1) != 0 && index * ChunkDatagram.MaxData < copy.Length)
             {
-                if (joiner.PiecesGiven >= MostRepeats * ((copy.Length / ChunkDatagram.MaxData) + FetchDatagram.MaxChunks) || !joiner.Pieces.TrySpend(now))
+                if (joiner.PiecesGiven >= MostRepeats * ((copy.Length / ChunkDatagram.MaxData) + FetchDatagram.MaxChunks) || !paces.TrySpend(from, now))
                 {
                     return; // what is still missing is asked for again
                 }

@@ -45,6 +45,8 @@ public sealed partial class HostSession : Session
         tended = clock.Now;
         places = new PlayerPlaces(options, tended);
         logView = new LogView(log);
+        door = options.Door;
+        paces = new CopyPaces(door);
         cookies = new JoinCookies();
         sceneCopy = WorldCopy.Encode(scene, null);
         SharedTime.Adjust(SimDuration.Zero);
@@ -99,6 +101,9 @@ public sealed partial class HostSession : Session
 
     /// <summary>How much of the log is kept: what is not settled, and what some joiner has not acknowledged.</summary>
     internal int KeptLogEntries => log.Kept;
+
+    /// <summary>How many are coming in.</summary>
+    internal int ComingCount => joiners.Count - JoinerCount;
 
     /// <summary>Has the next step write to every joiner, which otherwise may wait for the keep-alive: they learn sooner what is committed.</summary>
     public void Hasten()
@@ -248,7 +253,7 @@ public sealed partial class HostSession : Session
                 joiner.Link.NoteHeard(now);
             }
 
-            bool isSilent = now - joiner.Link.Heard > PatienceWith(joiner) || (joiner.Peer == 0 && now - joiner.Came > PatienceWithCopy(joiner));
+            bool isSilent = now - joiner.Link.Heard > PatienceWith(joiner) || (joiner.Peer == 0 && now > joiner.ComesUntil);
             if (isSilent || HasFallenBehind(joiner, now))
             {
                 LeaveReason why = isSilent ? LeaveReason.TimedOut : LeaveReason.FellBehind;
@@ -293,9 +298,8 @@ public sealed partial class HostSession : Session
         joiner.Peer > 0 && joiner.Acknowledged < log.Count
         && (log.Count - joiner.Acknowledged > MaxUnacknowledged || now - SimTime.Max(log.AddedAt(joiner.Acknowledged + 1), joiner.SeatedAt) > Options.Timeout);
 
-    /// <summary>How long one that is coming in may take.</summary>
-    private SimDuration PatienceWithCopy(Joiner joiner) =>
-        Options.Timeout + SilentPlace + SimDuration.FromSeconds((joiner.Copy?.Bytes.Length ?? 0) / SlowestCopy);
+    /// <summary>How long one that is coming in may take, by what it has to fetch.</summary>
+    private SimDuration PatienceWithCopy(Copy copy) => Options.Timeout + SilentPlace + SimDuration.FromSeconds(copy.Bytes.Length / door.SlowestCopy);
 
     private SimDuration PatienceWith(Joiner joiner) => joiner.HasWritten || Options.Timeout < SilentPlace ? Options.Timeout : SilentPlace;
 
@@ -470,7 +474,7 @@ public sealed partial class HostSession : Session
     private sealed class Joiner
     {
         private readonly (uint Number, SimTime UpTo)[] tellings = new (uint, SimTime)[32]; // by the number of the update: the committed states it tells
-        internal Joiner(in JoinDatagram join, UpdateLink link, Copy copy, byte keyed, PlayerPlaces.Place? claimed, RateLimit pieces, SimTime now)
+        internal Joiner(in JoinDatagram join, UpdateLink link, Copy copy, byte keyed, PlayerPlaces.Place? claimed, SimTime comesUntil)
         {
             Nonce = join.Nonce;
             Link = link;
@@ -478,8 +482,7 @@ public sealed partial class HostSession : Session
             Keyed = keyed;
             Claimed = claimed;
             ClaimedPass = claimed?.Pass;
-            Came = now;
-            Pieces = pieces;
+            ComesUntil = comesUntil;
             Doubts = new RateLimit(2, RecentEvents.Most / DoubtDatagram.MaxEvents, link.Heard);
         }
 
@@ -499,8 +502,8 @@ public sealed partial class HostSession : Session
         /// <summary>The pass of that player when it was welcomed.</summary>
         internal Token128? ClaimedPass { get; }
 
-        /// <summary>When it was welcomed.</summary>
-        internal SimTime Came { get; }
+        /// <summary>When it is given up if it has no number by then.</summary>
+        internal SimTime ComesUntil { get; }
 
         /// <summary>When it got its number.</summary>
         internal SimTime SeatedAt { get; private set; }
@@ -513,9 +516,6 @@ public sealed partial class HostSession : Session
 
         /// <summary>The last sequence number of those who had its number before.</summary>
         internal uint FirstSequence { get; private set; }
-
-        /// <summary>How many pieces of its copy it gets.</summary>
-        internal RateLimit Pieces { get; }
 
         /// <summary>How many of its questions about a difference are answered: two a second, and as many at once as a whole answer takes.</summary>
         internal RateLimit Doubts { get; }

@@ -19,10 +19,16 @@ internal sealed class RateLimit
         counted = now;
     }
 
+    /// <summary>Whether nothing of it is spent: it is as a new one.</summary>
+    internal bool IsWhole(SimTime now)
+    {
+        Count(now);
+        return left >= most;
+    }
+
     internal bool TrySpend(SimTime now)
     {
-        left = Math.Min(most, left + ((now - counted).ToSeconds() * perSecond));
-        counted = now;
+        Count(now);
         if (left < 1)
         {
             return false;
@@ -30,5 +36,11 @@ internal sealed class RateLimit
 
         left--;
         return true;
+    }
+
+    private void Count(SimTime now)
+    {
+        left = Math.Min(most, left + ((now - counted).ToSeconds() * perSecond));
+        counted = now;
     }
 }

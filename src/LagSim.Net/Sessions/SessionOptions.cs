@@ -175,6 +175,9 @@ public sealed class SessionOptions
     /// </summary>
     public CancellationToken Cancellation { get; set; }
 
+    /// <summary>Host only: what those who are coming in can have.</summary>
+    internal DoorLimits Door { get; set; } = new();
+
     internal void Check()
     {
         Range(ExtraHistory, 0, 60, nameof(ExtraHistory));

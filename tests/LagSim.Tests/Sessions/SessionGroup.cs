@@ -21,13 +21,23 @@ internal sealed class SessionGroup
     private readonly VirtualSteps steps;
     private readonly List<IDatagramPort> ports = [];
     private readonly Random luck;
+    private readonly Func<int, IDatagramPort, IDatagramPort>? wrap;
     private readonly UpdateDatagram tapped = new();
     private SimTime promised = SimTime.MinValue; // the greatest watermark sent: whatever the host logs from then on is not before it
     private uint promisedFrom; // the least place in the log from which on it was promised to anybody
 
     /// <summary>Peers that are not connected yet: the host has number 0 in the network, the joiners 1 and up.</summary>
-    internal SessionGroup(Scene scene, int peers, LinkProfile link, ulong seed = 1, Func<int, SessionOptions>? options = null, Func<int, Scene>? scenes = null, int? expected = null)
+    internal SessionGroup(
+        Scene scene,
+        int peers,
+        LinkProfile link,
+        ulong seed = 1,
+        Func<int, SessionOptions>? options = null,
+        Func<int, Scene>? scenes = null,
+        int? expected = null,
+        Func<int, IDatagramPort, IDatagramPort>? wrap = null)
     {
+        this.wrap = wrap;
         Scene = scene;
         Network = new VirtualNetwork(Clock, seed, link);
         Network.Lose((from, _, datagram) =>
@@ -191,7 +201,7 @@ internal sealed class SessionGroup
 
     private Session Add(int address, Scene? scene, SessionOptions options, ulong nonce)
     {
-        IDatagramPort port = Network.CreatePort(address);
+        IDatagramPort port = wrap?.Invoke(address, Network.CreatePort(address)) ?? Network.CreatePort(address);
         SkewedClock own = new(Clock, (luck.NextDouble() * 40) - 20, SimDuration.FromSeconds(luck.NextDouble() * 3600));
         ports.Add(port);
         Session session = Sessions.Count == 0
