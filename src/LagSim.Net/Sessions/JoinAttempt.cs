@@ -17,7 +17,13 @@ internal sealed class JoinAttempt
     /// <summary>A cookie that was of no use for so long is stale: another one is asked for.</summary>
     private static readonly SimDuration CookieAge = SimDuration.FromSeconds(20);
 
+    /// <summary>
+    /// Each so-many-th try with a cookie is a knock again: a cookie is good for one address, and this peer's may have changed since, which it cannot see.
+    /// </summary>
+    private const int KnockAgain = 5;
+
     private SimDuration pace = Pace;
+    private int tries; // with this cookie
 
     /// <param name="nonce">An answer must bear it.</param>
     /// <param name="now">By the own clock.</param>
@@ -65,12 +71,12 @@ internal sealed class JoinAttempt
     /// <summary>Whether copy and clock are here: a number is all that is missing, or not even that.</summary>
     internal bool IsReady => Copy is not null && Clock.IsReady;
 
-    /// <summary>The cookie, if there is one that may still be good. The next try is later, twice as long each time.</summary>
+    /// <summary>The cookie, if there is one that may still be good; null where another is to be asked for. The next try is later, twice as long each time.</summary>
     internal Token128? Ask(SimTime now)
     {
         Due = now + pace;
         pace = pace * 2 < MostPace ? pace * 2 : MostPace;
-        return Cookie is Token128 cookie && now - Challenged <= CookieAge ? cookie : null;
+        return Cookie is Token128 cookie && now - Challenged <= CookieAge && ++tries % KnockAgain != 0 ? cookie : null;
     }
 
     /// <summary>Takes a cookie; false for one that it has.</summary>
@@ -83,6 +89,7 @@ internal sealed class JoinAttempt
 
         Cookie = cookie;
         Challenged = now;
+        tries = 0;
         Due = now;
         pace = Pace;
         return true;

@@ -28,7 +28,7 @@ public sealed partial class JoinerSession
     /// <summary>Raised on the session's thread when a host that had fallen silent was heard again before it let this peer go: all goes on. Handlers must not throw.</summary>
     public event Action? Regained;
 
-    private protected override bool TryRenew(SessionEnd by, string why) => Rejoin(by, why, isLinkGood: false);
+    private protected override bool TryRenew(SessionEnd by, string why) => Options.RejoinTime > SimDuration.Zero && Rejoin(by, why, isLinkGood: false);
 
     /// <summary>Asks to be let in again, or ends the session where that is of no use or not wanted.</summary>
     /// <param name="by">What the session ends by then.</param>
@@ -47,9 +47,9 @@ public sealed partial class JoinerSession
         bool isUseless = useless >= (by == SessionEnd.LinkTooSlow ? 1 : MostUseless);
         if (Options.RejoinTime == SimDuration.Zero || isUseless)
         {
+            Farewell(); // or its place stays taken until the time-out
             if (isUseless)
             {
-                Farewell();
                 why += useless == 1 ? " A fresh copy was of no use." : $" {useless} fresh copies in a row were of no use.";
             }
 

@@ -152,7 +152,7 @@ public sealed partial class JoinerSession : Session
         {
             SharedTime.Adjust(clock.Estimate);
             SimDuration off = SharedTime.Remaining < SimDuration.Zero ? -SharedTime.Remaining : SharedTime.Remaining;
-            if (off > History && off > LeastJump)
+            if (off > History && off > LeastJump && off > clock.Estimate.ErrorBound) // an exchange that waited long, in a stall, says little
             {
                 // To bend it back at 5 % takes twenty times as long, and until then all that is done here would be refused.
                 Rejoin(SessionEnd.Failed, FormattableString.Invariant(
@@ -210,7 +210,7 @@ public sealed partial class JoinerSession : Session
         {
             TendRejoining(now);
         }
-        else if (now - (link?.Heard ?? began) > Options.Timeout)
+        else if (now - (link?.Heard ?? SimTime.Max(began, attempt?.Began ?? began)) > Options.Timeout)
         {
             if (World is null)
             {
@@ -246,6 +246,9 @@ public sealed partial class JoinerSession : Session
             }
         }
     }
+
+    /// <summary>How long one that is coming in, and is pushed out, asks again.</summary>
+    private SimDuration LongestComing => Options.RejoinTime > Options.Timeout ? Options.RejoinTime : Options.Timeout;
 
     private string Silence => FormattableString.Invariant($"The host at {host} fell silent for {Options.Timeout.ToSeconds():0.###} s.");
 
@@ -299,6 +302,12 @@ public sealed partial class JoinerSession : Session
             {
                 attempt = attempt!.IsWelcome ? new JoinAttempt(NextNonce(), Clock.Now) : attempt;
                 link = null; // what it was is over, or what it was about to be
+            }
+            else if (World is null && leave.Reason == LeaveReason.NotJoined && attempt?.IsWelcome == true && Clock.Now - began <= LongestComing)
+            {
+                attempt = new JoinAttempt(NextNonce(), Clock.Now); // others who came in pushed it out, or the host is another one
+                link = null;
+                State = SessionState.Joining;
             }
             else if (World is null)
             {

@@ -378,6 +378,11 @@ public abstract partial class Session
             return;
         }
 
+        if (State == SessionState.Ended)
+        {
+            return; // a fresh copy would be of no use: said already
+        }
+
         Farewell();
         End(
             isFull ? SessionEnd.TimelinesFull : SessionEnd.Failed,

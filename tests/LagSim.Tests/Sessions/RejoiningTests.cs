@@ -1,0 +1,273 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Harness.Scenes;
+using LagSim.Net.Sessions;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>A player who lost its host comes back as the player it was, and nobody else does.</summary>
+public sealed class RejoiningTests
+{
+    private static readonly SimDuration Timeout = SimDuration.FromSeconds(3);
+
+    [Theory]
+    [InlineData(1)]
+    [InlineData(2)]
+    [InlineData(3)]
+    [InlineData(4)]
+    public void Silence_LongerThanTheTimeout_BringsTheSamePlayerBackWithTheSameWorld(int seed)
+    {
+        SessionGroup group = Group(3, seed: seed);
+        JoinerSession joiner = group.Joiner(1);
+        byte number = joiner.Peer;
+        PlayerPass? pass = joiner.Pass;
+        List<string> told = Listen(joiner);
+        group.Do(1, PlayerAction.Impulse(First, V(0.2, 1)));
+        group.Run(0.5);
+        Cut(group, 1);
+        group.Do(2, PlayerAction.Impulse(Second, V(-0.3, 1)));
+        ExternalEvent unheard = group.Do(1, PlayerAction.Impulse(First, V(0.1, 2)));
+        group.Run(Timeout.ToSeconds() + seed);
+        Assert.Equal((SessionState.Rejoining, 1), (joiner.State, group.Host.JoinerCount));
+        Mend(group, 1);
+        Assert.True(group.RunUntil(() => joiner.State == SessionState.Running, 2), joiner.EndReason);
+        Assert.Equal((number, pass, 2), (joiner.Peer, joiner.Pass, group.Host.JoinerCount));
+        Assert.Equal(["interrupted", "renewed"], told);
+        Assert.Equal((1L, 1L), (joiner.Counters.Renewals, joiner.Counters.EventsUnanswered));
+
+        // What it does from then on bears numbers that nobody used, those of what was never heard apart.
+        ExternalEvent next = group.Do(1, PlayerAction.Impulse(First, V(0, 1)));
+        group.Run(4);
+        Assert.Contains(next, group.Accepted);
+        Assert.DoesNotContain(unheard, group.Accepted);
+        Assert.Null(group.Difference());
+        Assert.All(group.Sessions, s => Assert.Equal((0L, 0L), (s.Counters.StatesDiffered, s.Counters.EventsLost)));
+        Assert.True(joiner.Counters.StatesAgreed > 0);
+    }
+
+    /// <summary>
+    /// The host is heard again in the very moment in which the joiner is let in anew: its answer to a knock overtakes its update. It goes on in one way or the
+    /// other, and is not let go for having asked.
+    /// </summary>
+    [Fact]
+    public void Silence_OneWay_ThatEndsWhileItAsks_InterruptsOnce()
+    {
+        int regained = 0, renewed = 0, overtaken = 0;
+        for (int seed = 1; seed <= 40; seed++)
+        {
+            SessionGroup group = Group(2, seed: seed);
+            JoinerSession joiner = group.Joiner(1);
+            List<string> told = Listen(joiner);
+            bool hasJoined = false;
+            group.Network.Lose((from, _, datagram) =>
+            {
+                hasJoined |= from == 1 && datagram.Span[3] == (byte)Net.Wire.DatagramType.Join;
+                return false;
+            });
+            hasJoined = false;
+            group.Cut(0, 1);
+            Assert.True(group.RunUntil(() => joiner.State == SessionState.Rejoining, 10));
+            group.Do(0, PlayerAction.Impulse(First, V(0, 1))); // repeated until it is heard: an update is soon on its way
+            group.Run(0.0537 * seed);
+            group.Restore(0, 1, 20);
+            Assert.True(group.RunUntil(() => joiner.State is SessionState.Running or SessionState.Ended, 2), $"{seed}: {joiner.State}");
+            bool isRegained = told.Contains("regained");
+            overtaken += isRegained && hasJoined ? 1 : 0;
+            regained += isRegained ? 1 : 0;
+            renewed += isRegained ? 0 : 1;
+            group.Run(8);
+            Assert.Equal((SessionState.Running, 2), (joiner.State, told.Count));
+            Assert.Equal(1, group.Host.JoinerCount);
+            Assert.Null(group.Difference());
+        }
+
+        Assert.True(regained > 0 && overtaken > 0, $"{regained} heard their host again, {overtaken} of them after they had asked; {renewed} did not");
+    }
+
+    [Fact]
+    public void Pass_OfAProgramThatWasStartedAgain_GivesTheNumberBack()
+    {
+        SessionGroup group = Group(3);
+        group.Do(2, PlayerAction.Impulse(First, V(0, 1)));
+        group.Run(1);
+        JoinerSession before = group.Joiner(2);
+        PlayerPass pass = before.Pass!.Value;
+        group.DropLast(); // killed: it says nothing
+        Assert.True(PlayerPass.TryParse(pass.ToString(), out PlayerPass kept));
+        JoinerSession after = group.Join(7, 77, new SessionOptions { Pass = kept });
+        Assert.True(group.RunUntil(() => after.State == SessionState.Running, 2));
+        Assert.Equal((before.Peer, pass, 2), (after.Peer, after.Pass, group.Host.JoinerCount)); // at once: nobody waits for the time-out
+        ExternalEvent next = after.Do(PlayerAction.Impulse(First, V(0, 1)));
+        Assert.Equal(2u, next.Sequence);
+        group.Run(1);
+        Assert.Contains(next, group.Accepted);
+    }
+
+    [Fact]
+    public void Pass_OfOneWhoIsStillThere_TakesItsPlaceAndTellsIt()
+    {
+        SessionGroup group = Group(3);
+        JoinerSession before = group.Joiner(1);
+        JoinerSession after = group.Join(7, 77, new SessionOptions { Pass = before.Pass!.Value });
+        Assert.True(group.RunUntil(() => after.State == SessionState.Running && before.State == SessionState.Ended, 2));
+        Assert.Equal((before.Peer, 2, SessionEnd.LetGo), (after.Peer, group.Host.JoinerCount, before.EndedBy));
+        Assert.Equal("This player came in from elsewhere; the host at virtual:0 let this peer go.", before.EndReason);
+    }
+
+    [Fact]
+    public void Pass_WithAnotherSecret_IsOfNoUse()
+    {
+        SessionGroup group = Group(3);
+        Random random = new(1);
+        for (int n = 0; n < 20; n++)
+        {
+            Assert.True(PlayerPass.TryParse($"1-{random.NextInt64():x16}{random.NextInt64():x16}", out PlayerPass guessed));
+            JoinerSession stranger = group.Join(7, 77 + (ulong)n, new SessionOptions { Pass = guessed });
+            Assert.True(group.RunUntil(() => stranger.State == SessionState.Running, 2));
+            Assert.Equal((3, 3), (stranger.Peer, group.Host.JoinerCount));
+            Assert.NotEqual(guessed, stranger.Pass);
+            stranger.Leave();
+            group.Run(0.1);
+            group.DropLast();
+        }
+
+        Assert.All(group.Sessions, s => Assert.Equal(SessionState.Running, s.State));
+    }
+
+    [Fact]
+    public void Pass_OfOneWhoLeft_OrWhoseNumberAnotherGot_IsOfNoUse()
+    {
+        SessionGroup group = Group(2);
+        PlayerPass left = group.Joiner(1).Pass!.Value;
+        group.Joiner(1).Leave();
+        group.Run(0.1);
+        group.DropLast();
+        JoinerSession next = Running(group, 10, left);
+        Assert.Equal(1, next.Peer); // as anybody: the least that is free
+        Assert.NotEqual(left, next.Pass);
+
+        // It falls silent, and somebody else needs its number.
+        PlayerPass former = next.Pass!.Value;
+        group.DropLast();
+        group.Run(Timeout.ToSeconds() + 1);
+        Assert.Equal(0, group.Host.JoinerCount);
+        List<JoinerSession> others = [.. Enumerable.Range(20, SessionOptions.MaxJoiners).Select(node => Running(group, node, default))];
+        Assert.Equal(Enumerable.Range(2, 7).Append(1), others.Select(s => (int)s.Peer)); // its number last of all
+        JoinerSession again = group.Join(40, 40, new SessionOptions { Pass = former });
+        Assert.True(group.RunUntil(() => again.State == SessionState.Ended, 2));
+        Assert.Equal("The host at virtual:0 refused: the session is full.", again.EndReason);
+        Assert.All(others, s => Assert.Equal(SessionState.Running, s.State));
+    }
+
+    [Fact]
+    public void Full_WhileItAsksToBeLetInAgain_IsWaitedFor()
+    {
+        SessionGroup group = Group(2);
+        JoinerSession joiner = group.Joiner(1);
+        Cut(group, 1);
+        group.Run(Timeout.ToSeconds() + 1);
+        List<JoinerSession> others = [.. Enumerable.Range(20, SessionOptions.MaxJoiners).Select(node => Running(group, node, default))];
+        Mend(group, 1);
+        group.Run(5);
+        Assert.Equal(SessionState.Rejoining, joiner.State);
+        others[3].Leave();
+        Assert.True(group.RunUntil(() => joiner.State == SessionState.Running, 3), joiner.EndReason);
+        Assert.Equal(5, joiner.Peer); // the number that is free now: its own is another's
+    }
+
+    [Theory]
+    [InlineData(10, 1)]
+    [InlineData(30, 2)]
+    public void Number_OfOneWhoFellSilent_IsKeptForTheHostsRejoinTime(double seconds, int expected)
+    {
+        SessionGroup group = new SessionGroup(
+            Deeds.Box(), 2, LinkProfiles.PureDelay(5), options: _ => new SessionOptions { Timeout = Timeout, RejoinTime = SimDuration.FromSeconds(20) }).Connect();
+        int gone = 0;
+        group.Host.JoinerGone += _ => gone++;
+        group.DropLast();
+        group.Run(Timeout.ToSeconds() - 0.5);
+        Assert.Equal((0, 1), (gone, group.Host.JoinerCount));
+        group.Run(0.6 + seconds);
+        Assert.Equal((1, 0), (gone, group.Host.JoinerCount));
+        Assert.Equal(3 - expected, Running(group, 7, default).Peer);
+    }
+
+    [Fact]
+    public void RejoinTime_OfNothing_EndsAtOnceByWhatHappened()
+    {
+        SessionGroup group = Group(3, _ => SimDuration.Zero);
+        group.Cut(0, 1);
+        group.Cut(2, 0);
+        group.Run(Timeout.ToSeconds() + 1);
+        Assert.Equal([SessionEnd.None, SessionEnd.HostSilent, SessionEnd.LetGo], group.Sessions.Select(s => s.EndedBy));
+        Assert.Equal("The host at virtual:0 fell silent for 3 s.", group.Sessions[1].EndReason);
+    }
+
+    /// <summary>Its world is full and it does not ask again: it says so, and that it can come again; its place is free at once.</summary>
+    [Fact]
+    public void RejoinTime_OfNothing_WithTimelinesFull_TellsThatItCanJoinAgain()
+    {
+        SessionGroup group = new SessionGroup(BuiltInScenes.Billiards(), 3, LinkProfiles.PureDelay(20), 1, peer => new SessionOptions
+        {
+            MaxSegments = peer == 1 ? 60 : SimulationOptions.DefaultMaxSegments,
+            RejoinTime = peer == 1 ? SimDuration.Zero : SimDuration.FromSeconds(60),
+        }).Connect();
+        JoinerSession full = group.Joiner(1);
+        Assert.True(group.RunUntil(() => full.State == SessionState.Ended, 20));
+        Assert.Equal(SessionEnd.TimelinesFull, full.EndedBy);
+        Assert.StartsWith("This peer has no more room for what may still change, and left; it can join again. ", full.EndReason, StringComparison.Ordinal);
+        group.Run(0.1);
+        Assert.Equal(1, group.Host.JoinerCount);
+    }
+
+    [Fact]
+    public void RejoinTime_ThatPasses_EndsWithBothSentences()
+    {
+        SessionGroup group = Group(2, _ => SimDuration.FromSeconds(5));
+        Cut(group, 1);
+        group.Run(Timeout.ToSeconds() + 5.5);
+        Assert.Equal((SessionState.Ended, SessionEnd.HostSilent), (group.Sessions[1].State, group.Sessions[1].EndedBy));
+        Assert.Equal("The host at virtual:0 fell silent for 3 s. It asked for 5 s to be let in again, in vain.", group.Sessions[1].EndReason);
+    }
+
+    private static SessionGroup Group(int peers, Func<int, SimDuration>? rejoinTime = null, int seed = 1) => new SessionGroup(
+        Deeds.Box(),
+        peers,
+        LinkProfiles.PureDelay(5),
+        (ulong)seed,
+        peer => new SessionOptions { Timeout = Timeout, RejoinTime = rejoinTime?.Invoke(peer) ?? SimDuration.FromSeconds(120) }).Connect();
+
+    private static JoinerSession Running(SessionGroup group, int node, PlayerPass pass)
+    {
+        JoinerSession session = group.Join(node, (ulong)node, new SessionOptions { Pass = pass });
+        Assert.True(group.RunUntil(() => session.State == SessionState.Running, 2), session.EndReason);
+        return session;
+    }
+
+    private static void Cut(SessionGroup group, int peer)
+    {
+        group.Cut(0, peer);
+        group.Cut(peer, 0);
+    }
+
+    private static void Mend(SessionGroup group, int peer)
+    {
+        group.Restore(0, peer);
+        group.Restore(peer, 0);
+    }
+
+    private static List<string> Listen(JoinerSession joiner)
+    {
+        List<string> told = [];
+        joiner.Interrupted += _ => told.Add("interrupted");
+        joiner.Renewed += _ => told.Add("renewed");
+        joiner.Regained += () => told.Add("regained");
+        return told;
+    }
+}
