@@ -47,8 +47,7 @@ internal static class JoinCommand
                 null, carrier, new StopwatchClock(), request.Options, PeerAddress.From(there), Session.DrawNumber());
             if (passFile is not null)
             {
-                session.Begun += () => Keep(console, passFile, session);
-                session.Renewed += _ => Keep(console, passFile, session);
+                session.PassGiven += given => Keep(console, passFile, given);
             }
 
             SessionPrinter printer = new(console, parsed.GetValue(common.Json), "join", parsed.GetValue(common.Seed), request);
@@ -58,11 +57,11 @@ internal static class JoinCommand
         return command;
     }
 
-    private static void Keep(ToolConsole console, string file, JoinerSession session)
+    private static void Keep(ToolConsole console, string file, PlayerPass given)
     {
         try
         {
-            PassFile.Write(file, session.Pass!.Value);
+            PassFile.Write(file, given);
         }
         catch (Exception failure) when (failure is IOException or UnauthorizedAccessException)
         {

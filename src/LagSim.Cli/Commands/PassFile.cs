@@ -26,13 +26,18 @@ internal static class PassFile
     /// <summary>Keeps a pass, in a file that only this user may read where the system knows such a thing.</summary>
     internal static void Write(string file, PlayerPass pass)
     {
+        string draft = file + ".new"; // then put in its place whole: whoever is killed meanwhile has the former one
         FileStreamOptions options = new() { Mode = FileMode.Create, Access = FileAccess.Write };
         if (!OperatingSystem.IsWindows())
         {
             options.UnixCreateMode = UnixFileMode.UserRead | UnixFileMode.UserWrite;
         }
 
-        using StreamWriter writer = new(file, options);
-        writer.WriteLine(pass.ToString());
+        using (StreamWriter writer = new(draft, options))
+        {
+            writer.WriteLine(pass.ToString());
+        }
+
+        File.Move(draft, file, overwrite: true);
     }
 }

@@ -110,7 +110,7 @@ public sealed partial class HostSession
 
         PeerAddress address = from;
         return joiners.Count(j => j.Peer > 0 && j.Link.Other != address && j.Link.Other.IsSameMachine(address)) >= Options.MaxJoinersPerAddress ? RefusalReason.TooManyFromOneAddress
-            : places.Free(now) == 0 && !joiners.Exists(j => j.Peer > 0 && j.Link.Other == address) ? RefusalReason.Full
+            : places.Free(now, 0) == 0 && !joiners.Exists(j => j.Peer > 0 && j.Link.Other == address) ? RefusalReason.Full
             : null;
     }
 
@@ -156,7 +156,7 @@ public sealed partial class HostSession
                 return false;
             }
 
-            place = places[places.Free(now)];
+            place = places[places.Free(now, joiner.Wanted)];
         }
 
         if (joiners.Find(j => j.Peer == place.Number) is Joiner before)
@@ -222,6 +222,11 @@ public sealed partial class HostSession
         if (joiner is null || joiner.Link.Other != from || joiner.Copy is null || fetch.Number <= joiner.Fetches)
         {
             Counters.DatagramsIgnored++;
+            if (joiner is not null && joiner.Link.Other != from)
+            {
+                Challenge(session, from); // pieces are many times as long as what asks for them: it must show first that it is there
+            }
+
             return;
         }
 

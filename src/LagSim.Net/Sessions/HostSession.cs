@@ -187,6 +187,11 @@ public sealed partial class HostSession : Session
         }
 
         SimTime now = Clock.Now;
+        if (now - joiner.Link.Heard > Options.Timeout / 2)
+        {
+            joiner.NoteSilence(now);
+        }
+
         if (!joiner.Link.Note(update, now, out _))
         {
             Counters.DatagramsIgnored++;
@@ -250,6 +255,7 @@ public sealed partial class HostSession : Session
             Joiner joiner = joiners[i];
             if (hasSlept)
             {
+                joiner.NoteSilence(now);
                 joiner.Link.NoteHeard(now);
             }
 
@@ -294,9 +300,11 @@ public sealed partial class HostSession : Session
     }
 
     /// <summary>Whether a joiner has not taken in what happened for so long, or so much of it, that a fresh copy is sooner there.</summary>
+    /// <remarks>Only while it is heard: one that stands still is silent, and not behind a link that is too slow.</remarks>
     private bool HasFallenBehind(Joiner joiner, SimTime now) =>
         joiner.Peer > 0 && joiner.Acknowledged < log.Count
-        && (log.Count - joiner.Acknowledged > MaxUnacknowledged || now - SimTime.Max(log.AddedAt(joiner.Acknowledged + 1), joiner.SeatedAt) > Options.Timeout);
+        && (log.Count - joiner.Acknowledged > MaxUnacknowledged
+            || (now - joiner.Link.Heard <= Options.Timeout / 2 && now - SimTime.Max(log.AddedAt(joiner.Acknowledged + 1), joiner.HeardSince) > Options.Timeout));
 
     /// <summary>How long one that is coming in may take, by what it has to fetch.</summary>
     private SimDuration PatienceWithCopy(Copy copy) => Options.Timeout + SilentPlace + SimDuration.FromSeconds(copy.Bytes.Length / door.SlowestCopy);
@@ -477,6 +485,7 @@ public sealed partial class HostSession : Session
         internal Joiner(in JoinDatagram join, UpdateLink link, Copy copy, byte keyed, PlayerPlaces.Place? claimed, SimTime comesUntil)
         {
             Nonce = join.Nonce;
+            Wanted = join.Player;
             Link = link;
             Copy = copy;
             Keyed = keyed;
@@ -490,6 +499,9 @@ public sealed partial class HostSession : Session
         internal byte Peer => Link.Peer;
 
         internal ulong Nonce { get; }
+
+        /// <summary>The number that it says it had; 0 for none.</summary>
+        internal byte Wanted { get; }
 
         internal UpdateLink Link { get; }
 
@@ -505,8 +517,8 @@ public sealed partial class HostSession : Session
         /// <summary>When it is given up if it has no number by then.</summary>
         internal SimTime ComesUntil { get; }
 
-        /// <summary>When it got its number.</summary>
-        internal SimTime SeatedAt { get; private set; }
+        /// <summary>When it got its number, or was heard again after a silence: since then it can follow.</summary>
+        internal SimTime HeardSince { get; private set; }
 
         /// <summary>What it fetches; null once it has it.</summary>
         internal Copy? Copy { get; set; }
@@ -563,7 +575,10 @@ public sealed partial class HostSession : Session
             Link.Peer = place.Number;
             FirstSequence = place.LastSequence;
             Incoming = new ReceiveWindow(FirstSequence);
-            SeatedAt = now;
+            HeardSince = now;
         }
+
+        /// <summary>Notes that it was silent, or not listened to, for long until now.</summary>
+        internal void NoteSilence(SimTime now) => HeardSince = now;
     }
 }

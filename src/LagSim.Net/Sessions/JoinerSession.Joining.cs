@@ -185,6 +185,7 @@ public sealed partial class JoinerSession
         SharedTime.Adjust(ClockSync.Estimate);
         State = State == SessionState.Synchronising ? SessionState.Waiting : State;
         link.Hasten(Clock.Now);
+        PassGiven?.Invoke(new PlayerPass(seat.Peer, seat.Pass));
     }
 
     /// <summary>Makes the world once scene, state or start, the shared time, and the number are there.</summary>

@@ -25,6 +25,12 @@ public sealed partial class JoinerSession
     /// </summary>
     public event Action<string>? Interrupted;
 
+    /// <summary>
+    /// Raised on the session's thread each time that the host gives this peer a number, with what shows that it is this player: <see cref="Pass"/>. That is before there
+    /// is a world, so a program that keeps it at once can come back whenever it is killed. Handlers must not throw.
+    /// </summary>
+    public event Action<PlayerPass>? PassGiven;
+
     /// <summary>Raised on the session's thread when a host that had fallen silent was heard again before it let this peer go: all goes on. Handlers must not throw.</summary>
     public event Action? Regained;
 
@@ -43,8 +49,9 @@ public sealed partial class JoinerSession
             return true;
         }
 
-        useless = renewed != SimTime.MinValue && now - renewed < UsefulFor ? useless + 1 : 0;
-        bool isUseless = useless >= (by == SessionEnd.LinkTooSlow ? 1 : MostUseless);
+        bool isSilence = by is SessionEnd.HostSilent or SessionEnd.LetGo; // who stood still, or was cut off, has nothing against the copy it got
+        useless = isSilence ? useless : renewed != SimTime.MinValue && now - renewed < UsefulFor ? useless + 1 : 0;
+        bool isUseless = !isSilence && useless >= (by == SessionEnd.LinkTooSlow ? 1 : MostUseless);
         if (Options.RejoinTime == SimDuration.Zero || isUseless)
         {
             Farewell(); // or its place stays taken until the time-out
@@ -66,6 +73,24 @@ public sealed partial class JoinerSession
         State = SessionState.Rejoining;
         Interrupted?.Invoke(why);
         return true;
+    }
+
+    /// <summary>
+    /// What a joiner does that was not let in: one that comes back after a restart, with its pass, asks for as long as one that lost its host; for it the host
+    /// may stand still as well. Any other session ends.
+    /// </summary>
+    private void AskAgainOrEnd(SimTime now, SessionEnd by, string why)
+    {
+        if (Options.Pass.Number == 0 || now - began > Options.RejoinTime)
+        {
+            End(by, why);
+        }
+        else if (link is not null)
+        {
+            attempt = new JoinAttempt(NextNonce(), now); // what welcomed it is gone again
+            link = null;
+            State = SessionState.Joining;
+        }
     }
 
     /// <summary>What is due while it asks.</summary>

@@ -200,9 +200,12 @@ public sealed partial class JoinerSession : Session
             began = tended = now;
         }
 
-        if (now - tended > Options.Timeout / 2)
+        SimDuration slept = now - tended;
+        if (slept > Options.Timeout / 2)
         {
             link?.NoteHeard(now); // it was this machine that slept, or whose clock jumped: who was not listened to was not silent
+            began += slept;
+            rejoining += slept;
         }
 
         tended = now;
@@ -214,9 +217,10 @@ public sealed partial class JoinerSession : Session
         {
             if (World is null)
             {
-                End(SessionEnd.HostSilent, link is null
-                    ? FormattableString.Invariant($"No answer from {host} within {Options.Timeout.ToSeconds():0.###} s.")
-                    : Silence);
+                AskAgainOrEnd(
+                    now,
+                    SessionEnd.HostSilent,
+                    link is null ? FormattableString.Invariant($"No answer from {host} within {Options.Timeout.ToSeconds():0.###} s.") : Silence);
             }
             else
             {
@@ -311,7 +315,7 @@ public sealed partial class JoinerSession : Session
             }
             else if (World is null)
             {
-                End(SessionEnd.LetGo, why);
+                AskAgainOrEnd(Clock.Now, SessionEnd.LetGo, why);
             }
             else
             {

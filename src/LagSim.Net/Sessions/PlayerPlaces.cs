@@ -10,10 +10,12 @@ internal sealed class PlayerPlaces
 {
     private readonly Place[] places = new Place[SessionOptions.MaxJoiners + 1];
     private readonly SessionOptions options;
+    private readonly SimTime began;
 
     internal PlayerPlaces(SessionOptions options, SimTime now)
     {
         this.options = options;
+        began = now;
         for (byte number = 1; number < places.Length; number++)
         {
             places[number] = new Place(number, new RateLimit(options.MaxEventsPerSecond, options.MaxEventsPerSecond, now));
@@ -30,9 +32,20 @@ internal sealed class PlayerPlaces
     /// The least number that nobody has and that is kept for nobody; if there is none, the one that has been kept the longest; 0 if all are taken. Never one of a
     /// player with a key.
     /// </summary>
-    internal byte Free(SimTime now)
+    /// <param name="now">By the own clock.</param>
+    /// <param name="wanted">
+    /// The number that whoever is to get it says it had; 0 for none. A host that was ended and started again knows no pass that it gave before, so for as long
+    /// as a number is kept it gives that one, if it is free: who comes back is who it was, though it shows nothing. Where that must be sure players have keys.
+    /// </param>
+    internal byte Free(SimTime now, byte wanted)
     {
         Place? kept = null;
+        if (wanted is > 0 and <= SessionOptions.MaxJoiners && now - began <= options.RejoinTime && places[wanted] is { IsTaken: false, Pass: null }
+            && !options.PlayerKeys.ContainsKey(wanted))
+        {
+            return wanted;
+        }
+
         for (byte number = 1; number < places.Length; number++)
         {
             Place place = places[number];

@@ -43,8 +43,9 @@ public sealed class SessionOptions
     public IReadOnlyDictionary<byte, string> PlayerKeys { get; set; } = new Dictionary<byte, string>();
 
     /// <summary>
-    /// Joiner only: what shows the host that this is a player it had before, from <see cref="JoinerSession.Pass"/> of then; default none. A host that does not know it, or no
-    /// longer, gives the joiner a number as it gives anybody.
+    /// Joiner only: what shows the host that this is a player it had before, from <see cref="JoinerSession.Pass"/> of then; default none. With one a joiner asks for
+    /// <see cref="RejoinTime"/> to be let in, as one does that lost its host. A host that does not know it, or no longer, gives the joiner a number as it gives
+    /// anybody; one that was started anew the same number, if it is free: without proof, and for its first <see cref="RejoinTime"/> alone.
     /// </summary>
     public PlayerPass Pass { get; set; }
 

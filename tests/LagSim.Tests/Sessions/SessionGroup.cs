@@ -74,6 +74,9 @@ internal sealed class SessionGroup
 
     internal IReadOnlyList<Session> Sessions => steps.Sessions;
 
+    /// <summary>The steps, to stop a peer or put another in its place.</summary>
+    internal VirtualSteps Steps => steps;
+
     internal HostSession Host => (HostSession)Sessions[0];
 
     /// <summary>What the host said to each event, by place in its log.</summary>
