@@ -36,6 +36,7 @@ internal static class Program
         DropCommand.Create(console),
         CompareCommand.Create(console),
         SweepCommand.Create(console),
+        StallsCommand.Create(console),
         HoldCommand.Create(console),
         AccuracyCommand.Create(console),
         HardCommand.Create(console),

@@ -35,9 +35,11 @@ internal static class RelayCommand
             HelpName = "ADDRESS",
         };
         Option<double?> length = SessionArguments.Seconds("--for-s", "How long; by default until Ctrl-C.", SessionArguments.LeastLength, Deed.MostSeconds);
+        Option<double?> change = SessionArguments.Seconds(
+            "--change-port-s", "After how long the host sees each joiner at another port, again and again; by default never.", 0.5, 3600);
         Command command = new("relay", "Passes datagrams between joiners and a host on, as late and with as many losses as a link profile says.")
         {
-            host, profile, port, address, length,
+            host, profile, port, address, length, change,
         };
         common.AddSeedAndJsonTo(command);
         command.SetAction(parsed =>
@@ -52,7 +54,8 @@ internal static class RelayCommand
             bool json = parsed.GetValue(common.Json);
             ulong seed = parsed.GetValue(common.Seed);
             StopwatchClock clock = new();
-            using UdpRelay relay = Open(new IPEndPoint(local, parsed.GetValue(port)), there, link, seed, clock);
+            SimDuration? changing = parsed.GetValue(change) is double seconds ? SimDuration.FromSeconds(seconds) : null;
+            using UdpRelay relay = Open(new IPEndPoint(local, parsed.GetValue(port)), there, link, seed, clock, changing);
             string listening = new IPEndPoint(local, relay.LocalAddress.ToEndPoint().Port).ToString();
             (json ? console.Error : console.Output).WriteLine($"listening on {listening}");
             (json ? console.Error : console.Output).Flush();
@@ -84,11 +87,11 @@ internal static class RelayCommand
         return command;
     }
 
-    private static UdpRelay Open(IPEndPoint listen, IPEndPoint host, LinkProfile link, ulong seed, StopwatchClock clock)
+    private static UdpRelay Open(IPEndPoint listen, IPEndPoint host, LinkProfile link, ulong seed, StopwatchClock clock, SimDuration? change)
     {
         try
         {
-            return new UdpRelay(listen, host, link, seed, clock);
+            return new UdpRelay(listen, host, link, seed, clock, change);
         }
         catch (ArgumentException failure)
         {

@@ -15,6 +15,7 @@ internal sealed class RelayCore : IDisposable
     private readonly SeededRandom random;
     private readonly Func<IDatagramPort?> openPort;
     private readonly int maxClients;
+    private readonly SimDuration? change;
     private readonly HeldDatagrams toHost;
     private readonly Dictionary<PeerAddress, Client> clients = [];
     private readonly object gate = new(); // six counters that belong together; taken only to replace or copy them
@@ -30,9 +31,17 @@ internal sealed class RelayCore : IDisposable
     /// <param name="seed">The luck of all links; clients get theirs in the order in which they are first heard of.</param>
     /// <param name="maxClients">How many there can be.</param>
     /// <param name="openPort">Opens the port by which the host knows one client, owned from then on; null if there is none to be had.</param>
+    /// <param name="change">After how long the host sees each client at another port, again and again; null for never.</param>
     internal RelayCore(
-        IDatagramPort front, PeerAddress host, LinkProfile profile, ulong seed, int maxClients, Func<IDatagramPort?> openPort)
+        IDatagramPort front,
+        PeerAddress host,
+        LinkProfile profile,
+        ulong seed,
+        int maxClients,
+        Func<IDatagramPort?> openPort,
+        SimDuration? change = null)
     {
+        this.change = change;
         this.front = front;
         this.host = host;
         this.profile = profile;
@@ -59,6 +68,11 @@ internal sealed class RelayCore : IDisposable
     internal SimTime? Poll(SimTime now)
     {
         polled = now;
+        foreach (Client client in clients.Values)
+        {
+            ChangePort(client, now);
+        }
+
         toHost.TakeFrom(front, now);
         while (toHost.TryDequeueDue(now, out (byte[] Datagram, PeerAddress From) up))
         {
@@ -77,6 +91,7 @@ internal sealed class RelayCore : IDisposable
             }
 
             next = client.FromHost.NextDue is SimTime due && !(next <= due) ? due : next;
+            next = client.NextChange is SimTime changing && !(next <= changing) ? changing : next;
         }
 
         Count();
@@ -103,13 +118,27 @@ internal sealed class RelayCore : IDisposable
         SeededRandom luck = random.Fork((ulong)clients.Count);
         SeededRandom path = luck.Fork(2);
         LinkModel down = new(profile.FromHost, luck.Fork(1), path), up = new(profile.ToHost, luck.Fork(0), path);
-        clients.Add(client, new Client(client, port, new HeldDatagrams(from => from == host ? down : null)));
+        clients.Add(client, new Client(client, new HeldDatagrams(from => from == host ? down : null)) { Port = port, NextChange = polled + change });
         if (profile.HasBulkTransfer)
         {
             _ = new BulkTransfer(new LinkModel(profile.FromHost, luck.Fork(3), path, down.Queue), new LinkModel(profile.ToHost, luck.Fork(4), path, up.Queue), polled);
         }
 
         return up;
+    }
+
+    /// <summary>
+    /// Closes the port by which the host knows a client, when it is time, and opens another one: what the host still sends to the former is lost, as with a
+    /// translator of addresses that forgets.
+    /// </summary>
+    private void ChangePort(Client client, SimTime now)
+    {
+        if (client.NextChange <= now && openPort() is IDatagramPort port)
+        {
+            client.Port.Dispose();
+            client.Port = port;
+            client.NextChange = now + change;
+        }
     }
 
     private void Count()
@@ -127,5 +156,16 @@ internal sealed class RelayCore : IDisposable
         }
     }
 
-    private sealed record Client(PeerAddress Address, IDatagramPort Port, HeldDatagrams FromHost);
+    private sealed class Client(PeerAddress address, HeldDatagrams fromHost)
+    {
+        internal PeerAddress Address { get; } = address;
+
+        internal HeldDatagrams FromHost { get; } = fromHost;
+
+        /// <summary>By which the host knows it.</summary>
+        internal required IDatagramPort Port { get; set; }
+
+        /// <summary>When that is to be another one; null for never.</summary>
+        internal required SimTime? NextChange { get; set; }
+    }
 }

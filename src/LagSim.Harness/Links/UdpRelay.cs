@@ -38,9 +38,10 @@ public sealed class UdpRelay : IDisposable
     /// <param name="profile">What each client's link does.</param>
     /// <param name="seed">The luck of all links.</param>
     /// <param name="clock">Real time, read from the relay's thread.</param>
+    /// <param name="change">After how long the host sees each client at another port, again and again; null, the default, for never.</param>
     /// <exception cref="ArgumentException"><paramref name="host"/> is not the address of one machine and a port from 1 on, or is the relay's own.</exception>
     /// <exception cref="IOException">The system does not give <paramref name="listen"/>, for instance because its port is in use.</exception>
-    public UdpRelay(IPEndPoint listen, IPEndPoint host, LinkProfile profile, ulong seed, IClock clock)
+    public UdpRelay(IPEndPoint listen, IPEndPoint host, LinkProfile profile, ulong seed, IClock clock, SimDuration? change = null)
     {
         ArgumentNullException.ThrowIfNull(listen);
         ArgumentNullException.ThrowIfNull(host);
@@ -62,7 +63,7 @@ public sealed class UdpRelay : IDisposable
             throw new ArgumentException($"'{host}' is the relay's own address, to which it would pass everything on for ever; it takes the host's.", nameof(host));
         }
 
-        core = new RelayCore(front, address, profile, seed, MaxClients, OpenPort);
+        core = new RelayCore(front, address, profile, seed, MaxClients, OpenPort, change);
         thread = new WorldThread("LagSim relay", Step);
         front.Arrived += thread.Wake;
         thread.Start();

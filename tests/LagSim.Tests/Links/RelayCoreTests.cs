@@ -186,6 +186,37 @@ public sealed class RelayCoreTests : IDisposable
     }
 
     [Fact]
+    public void Poll_WithChangingPorts_TheHostSeesAClientElsewhereAndWhatGoesToItsFormerPortIsLost()
+    {
+        Relay(LinkProfiles.PureDelay(5), SimDuration.FromSeconds(10));
+        Send(clients[0], 1);
+        Turn();
+        clock.Now = At(5);
+        Turn();
+        PeerAddress first = Assert.Single(Drain(host)).From;
+        clock.Now = SimTime.FromSeconds(10) - SimDuration.OneTick;
+        Assert.Equal(SimTime.FromSeconds(10), Turn()); // it says when it changes, though nothing is on its way
+        Assert.Single(backs);
+        clock.Now = SimTime.FromSeconds(10);
+        Assert.Equal(SimTime.FromSeconds(20), Turn());
+        Assert.Equal(2, backs.Count);
+        Send(clients[0], 2);
+        host.Send([9], first); // where it is no longer
+        Turn();
+        clock.Now += SimDuration.FromMilliseconds(5);
+        Turn();
+        (byte number, PeerAddress second) = Assert.Single(Drain(host));
+        Assert.Equal(2, number);
+        Assert.NotEqual(first, second);
+        host.Send([11], second);
+        Turn();
+        clock.Now += SimDuration.FromMilliseconds(5);
+        Turn();
+        Assert.Equal([11], Drain(clients[0]).Select(datagram => datagram.Number));
+        Assert.Equal(1, relay!.Traffic.Clients);
+    }
+
+    [Fact]
     public void Poll_SomebodyElseTowardsAClient_IsRefused()
     {
         Relay(LinkProfiles.PureDelay(0));
@@ -242,7 +273,7 @@ public sealed class RelayCoreTests : IDisposable
 
     private static SimTime At(double milliseconds) => SimTime.Zero + SimDuration.FromMilliseconds(milliseconds);
 
-    private void Relay(LinkProfile profile) => relay = new RelayCore(
+    private void Relay(LinkProfile profile, SimDuration? change = null) => relay = new RelayCore(
         network.CreatePort(Front), host.LocalAddress, profile, 1, MostClients, () =>
         {
             if (outOfPorts)
@@ -252,7 +283,8 @@ public sealed class RelayCoreTests : IDisposable
 
             backs.Add(network.CreatePort(FirstBack + backs.Count));
             return backs[^1];
-        });
+        },
+        change);
 
     private void Send(IDatagramPort client, byte number)
     {

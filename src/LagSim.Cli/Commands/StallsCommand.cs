@@ -1,0 +1,129 @@
+using System;
+using System.Collections.Generic;
+using System.CommandLine;
+using System.IO;
+using System.Linq;
+using System.Threading;
+using System.Threading.Tasks;
+using LagSim.Cli.Output;
+using LagSim.Harness.Stalls;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary><c>lagsim stalls</c>: drawn sessions in which peers stand still, are killed and started again, and change their addresses.</summary>
+internal static class StallsCommand
+{
+    /// <summary>Each has up to seven processes, which rest most of the time.</summary>
+    private const int ProcessSessionsAtOnce = 4;
+
+    /// <param name="console">Where it writes.</param>
+    /// <param name="change">For tests: has the check meet a fault.</param>
+    internal static Command Create(ToolConsole console, Func<StallOptions, StallOptions>? change = null)
+    {
+        CommonOptions common = new();
+        Option<int> sessions = CommonOptions.Whole("--sessions", "How many sessions are drawn; the seed is the first one's, each further one has the next", 200, 1, 1_000_000);
+        Option<int> worst = CommonOptions.Whole("--worst", "How many of them are told one by one, those that took the longest to recover", 20, 0, 1_000);
+        Option<int> processes = CommonOptions.Whole(
+            "--processes", "How many of the worst are played again with real processes, by SIGSTOP, kill -9 and a relay that changes its ports", 0, 0, 1_000);
+        Command command = new(
+            "stalls",
+            "Drawn sessions, in virtual time, in which host or clients stand still for 1 to 60 s, are killed and started again, or change their ports every 10 s."
+                + " 0 if play goes on in all: no accepted event lost, no state that differs, who was away is back by itself as the same player, and to nobody else"
+                + " anything happened.") { sessions, worst, processes };
+        common.AddSeedAndJsonTo(command);
+        command.SetAction(parsed =>
+        {
+            StallOptions options = new() { Sessions = parsed.GetValue(sessions), Seed = parsed.GetValue(common.Seed) };
+            int again = parsed.GetValue(processes);
+            if (again > 0 && OperatingSystem.IsWindows())
+            {
+                throw new UsageException($"--processes is '{again}'; processes are stopped by signals, which this system does not have: it takes 0 here.");
+            }
+
+            return Run(console, change?.Invoke(options) ?? options, parsed.GetValue(worst), again, parsed.GetValue(common.Json));
+        });
+        return command;
+    }
+
+    private static int Run(ToolConsole console, StallOptions options, int worst, int again, bool json)
+    {
+        int done = 0;
+        IReadOnlyList<StallOutcome> outcomes = console.WithProgress(
+            "sessions with stalls, virtual time",
+            options.Sessions,
+            progress => StallTest.Run(
+                options,
+                outcome =>
+                {
+                    if (++done % 100 == 0 || !outcome.IsGood)
+                    {
+                        console.Begin(FormattableString.Invariant($"{done} of {options.Sessions} sessions{(outcome.IsGood ? "" : $"; seed {outcome.Case.Seed} is not good")}"));
+                    }
+
+                    progress(done);
+                },
+                console.Stop));
+        StallOutcome[] ranked = [.. outcomes.OrderBy(o => o.IsGood).ThenByDescending(o => o.WorstSeconds).ThenBy(o => o.Case.Seed)];
+        IReadOnlyList<StallProcessOutcome> played = again == 0 || outcomes.Count < options.Sessions ? [] : PlayAgain(console, [.. ranked.Take(again)]);
+        if (json)
+        {
+            StallsJson.Write(console.Output, options, outcomes, [.. ranked.Take(worst)], played);
+        }
+        else
+        {
+            StallsText.Write(console.Output, outcomes, [.. ranked.Take(worst)], played);
+        }
+
+        return outcomes.All(o => o.IsGood) && played.All(o => o.IsGood)
+            ? console.Stop.IsCancellationRequested ? ExitCode.Interrupted : ExitCode.Done
+            : ExitCode.CheckFailed;
+    }
+
+    private static IReadOnlyList<StallProcessOutcome> PlayAgain(ToolConsole console, StallOutcome[] chosen) => console.WithProgress(
+        "the worst again, with processes",
+        chosen.Length,
+        progress =>
+        {
+            StallProcessOutcome?[] outcomes = new StallProcessOutcome?[chosen.Length];
+            object gate = new();
+            int next = -1;
+            int done = 0;
+            Task.WaitAll([.. Enumerable.Range(0, Math.Min(ProcessSessionsAtOnce, chosen.Length)).Select(_ => Task.Factory.StartNew(Work, TaskCreationOptions.LongRunning))]);
+            return outcomes.OfType<StallProcessOutcome>().ToArray();
+
+            void Work()
+            {
+                for (int n = Interlocked.Increment(ref next); n < chosen.Length && !console.Stop.IsCancellationRequested; n = Interlocked.Increment(ref next))
+                {
+                    string folder = Directory.CreateTempSubdirectory("lagsim-stalls-").FullName;
+                    try
+                    {
+                        using StallProcessRun run = new(chosen[n].Case, chosen[n].WorstSeconds, ThisTool(), folder, console.Stop);
+                        outcomes[n] = run.Play();
+                    }
+                    catch (OperationCanceledException) when (console.Stop.IsCancellationRequested)
+                    {
+                        return;
+                    }
+                    finally
+                    {
+                        Directory.Delete(folder, recursive: true);
+                    }
+
+                    lock (gate)
+                    {
+                        console.Begin(FormattableString.Invariant(
+                            $"{++done} of {chosen.Length}: seed {chosen[n].Case.Seed}{(outcomes[n]!.IsGood ? "" : $" is not good: {string.Join(" ", outcomes[n]!.Failures)}")}"));
+                        progress(done);
+                    }
+                }
+            }
+        });
+
+    /// <summary>How this very program is started: by itself, or by the runtime's host.</summary>
+    private static string[] ThisTool()
+    {
+        string program = Environment.ProcessPath ?? throw new InputException("--processes needs to know where this program is, and the system does not say.");
+        return Path.GetFileNameWithoutExtension(program) == "dotnet" ? [program, typeof(StallsCommand).Assembly.Location] : [program];
+    }
+}

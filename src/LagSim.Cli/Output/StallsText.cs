@@ -1,0 +1,50 @@
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using LagSim.Harness.Metrics;
+using LagSim.Harness.Stalls;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>Sessions with stalls as text.</summary>
+internal static class StallsText
+{
+    /// <summary>The command that plays one of them, and no other.</summary>
+    internal static string Replay(StallCase drawn, bool hasProcesses = false) =>
+        string.Create(CultureInfo.InvariantCulture, $"lagsim stalls --sessions 1 --seed {drawn.Seed}{(hasProcesses ? " --processes 1" : "")}");
+
+    internal static void Write(
+        TextWriter output, IReadOnlyList<StallOutcome> outcomes, IReadOnlyList<StallOutcome> worst, IReadOnlyList<StallProcessOutcome> played)
+    {
+        Percentiles recovery = Percentiles.Of(outcomes.SelectMany(o => o.RecoverySeconds));
+        output.WriteLine(string.Create(
+            CultureInfo.InvariantCulture,
+            $"{outcomes.Count} sessions, {outcomes.Sum(o => o.Case.Stalls.Count)} stalls: {outcomes.Sum(o => o.Compared)} states compared, {outcomes.Sum(o => o.Differed)} differ;"
+                + $" {outcomes.Sum(o => o.Lost)} of {outcomes.Sum(o => o.Accepted)} accepted events lost; {outcomes.Sum(o => o.Copies)} fresh copies,"
+                + $" {outcomes.Sum(o => o.Regained)} times none was needed"));
+        output.WriteLine(string.Create(
+            CultureInfo.InvariantCulture,
+            $"up to date after the end of a stall: {recovery.P50:0.00} s at the median, {recovery.P99:0.0} s at the 99th percentile, {recovery.Max:0.0} s at most"));
+        foreach (StallOutcome o in worst)
+        {
+            output.WriteLine(string.Create(
+                CultureInfo.InvariantCulture, $"  {o.WorstSeconds:0.0} s{(o.IsGood ? "" : ", NOT GOOD")}: {o.Case}"));
+            output.WriteLine($"    {Replay(o.Case)}");
+        }
+
+        StallOutcome[] bad = [.. outcomes.Where(o => !o.IsGood)];
+        output.WriteLine(bad.Length == 0 ? "All of them are as they should be." : $"{bad.Length} of them are not as they should be:");
+        foreach (StallOutcome o in bad)
+        {
+            output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"  {Replay(o.Case)}: {o.Differed} states differ, {o.Lost} events lost. {string.Join(" ", o.Failures)}"));
+        }
+
+        foreach (StallProcessOutcome o in played)
+        {
+            output.WriteLine(string.Create(
+                CultureInfo.InvariantCulture,
+                $"with processes: {o.Compared} states compared, {o.Differed} differ{(o.IsGood ? "" : ", NOT GOOD")}: {Replay(o.Case, hasProcesses: true)} {string.Join(" ", o.Failures)}").TrimEnd());
+        }
+    }
+}

@@ -1,0 +1,110 @@
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Net.Sessions;
+using LagSim.Time;
+
+namespace LagSim.Harness.Stalls;
+
+/// <summary>One client of a session with stalls, through all the sessions that it has when it is killed and started again.</summary>
+internal sealed class StallClient
+{
+    private readonly StallHostLog host;
+    private readonly int overlooked;
+    private readonly List<(SimTime Start, SimTime Time, ulong Hash)> states = [];
+    private readonly HashSet<uint> heard = []; // of the log of the world that it is in
+    private SimTime world = SimTime.MinValue; // the start of it
+    private uint copied; // up to where that log is in its copy
+
+    internal StallClient(int address, StallHostLog host, int overlooked)
+    {
+        Address = address;
+        this.host = host;
+        this.overlooked = overlooked;
+    }
+
+    /// <summary>Which client it is, from 1.</summary>
+    internal int Address { get; }
+
+    /// <summary>The player's number that it got first.</summary>
+    internal int Number { get; set; }
+
+    /// <summary>The session that it has now.</summary>
+    internal JoinerSession Session { get; private set; } = null!;
+
+    /// <summary>What it kept, as a program does in a file.</summary>
+    internal PlayerPass Pass { get; private set; }
+
+    /// <summary>How many stalls befall it at the moment, the host's among them.</summary>
+    internal int Stalls { get; set; }
+
+    /// <summary>Since when it is waited for until it is up to date; null while it is not.</summary>
+    internal SimTime? Since { get; set; }
+
+    /// <summary>Which host it is to hear from, and how much of its log it is to have.</summary>
+    internal (HostSession? Host, uint Length) Log { get; set; }
+
+    /// <summary>How many datagrams had come to it by then.</summary>
+    internal long Received { get; set; }
+
+    /// <summary>Why it was interrupted, each time.</summary>
+    internal List<string> Interruptions { get; } = [];
+
+    internal long Copies { get; private set; }
+
+    internal long Regained { get; private set; }
+
+    internal long Compared { get; private set; }
+
+    internal long Differed { get; private set; }
+
+    internal long Lost { get; private set; }
+
+    internal void Follow(JoinerSession session)
+    {
+        Session = session;
+        session.PassGiven += pass => Pass = pass;
+        session.Begun += () => Begin(session);
+        session.Renewed += _ =>
+        {
+            Copies++;
+            Begin(session);
+        };
+        session.Regained += () => Regained++;
+        session.Interrupted += Interruptions.Add;
+        session.Logged += entry =>
+        {
+            if (overlooked == 0 || entry.Index < 5 || entry.Index >= 5 + overlooked)
+            {
+                heard.Add(entry.Index);
+            }
+        };
+        session.StateCommitted += state => states.Add((session.World!.Simulation.Start, state.Time, state.StateHash));
+    }
+
+    /// <summary>At the end: holds what it had against what the hosts had.</summary>
+    internal void CountLost()
+    {
+        foreach ((SimTime start, SimTime time, ulong hash) in states)
+        {
+            if (host.TryGet(start, time, out ulong theirs))
+            {
+                Compared++;
+                Differed += hash == theirs ? 0 : 1;
+            }
+        }
+
+        Lost = host.Accepted.Count(index => index > copied && index <= Session.LogLength && !heard.Contains(index));
+    }
+
+    private void Begin(JoinerSession session)
+    {
+        SimTime start = session.World!.Simulation.Start;
+        if (start != world)
+        {
+            heard.Clear();
+            world = start;
+        }
+
+        copied = session.LogStart;
+    }
+}

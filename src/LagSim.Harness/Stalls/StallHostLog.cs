@@ -1,0 +1,40 @@
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+using LagSim.Time;
+
+namespace LagSim.Harness.Stalls;
+
+/// <summary>What the hosts of one drawn session said: the log and the committed states of each, one after the other if one was killed.</summary>
+internal sealed class StallHostLog
+{
+    private readonly Dictionary<(SimTime Start, SimTime Time), ulong> states = []; // a host that was started anew has a world of another start
+    private readonly List<HashSet<uint>> logs = [];
+
+    /// <summary>How many hosts there were; the last is there now.</summary>
+    internal int Hosts => logs.Count;
+
+    /// <summary>The accepted lines of the log of the host that is there now.</summary>
+    internal IReadOnlySet<uint> Accepted => logs[^1];
+
+    /// <summary>Of all hosts.</summary>
+    internal long AcceptedInAll => logs.Sum(log => (long)log.Count);
+
+    internal void Follow(HostSession host)
+    {
+        HashSet<uint> log = [];
+        logs.Add(log);
+        host.Logged += entry =>
+        {
+            if (entry.Verdict == Verdict.Accepted)
+            {
+                log.Add(entry.Index);
+            }
+        };
+        host.StateCommitted += state => states[(host.World!.Simulation.Start, state.Time)] = state.StateHash;
+    }
+
+    /// <summary>The host's state of that world at that time, if it got there.</summary>
+    internal bool TryGet(SimTime start, SimTime time, out ulong hash) => states.TryGetValue((start, time), out hash);
+}

@@ -1,0 +1,41 @@
+using System.Collections.Generic;
+using System.Linq;
+
+namespace LagSim.Harness.Stalls;
+
+/// <summary>What came of one session with stalls.</summary>
+public sealed record StallOutcome
+{
+    /// <summary>What was drawn.</summary>
+    public required StallCase Case { get; init; }
+
+    /// <summary>How many committed states of clients were held against the host's.</summary>
+    public long Compared { get; init; }
+
+    /// <summary>How many of them were not the host's.</summary>
+    public long Differed { get; init; }
+
+    /// <summary>Accepted events in the host's log that came to a client neither by the log nor in a copy.</summary>
+    public long Lost { get; init; }
+
+    /// <summary>Accepted events in the logs of all hosts there were.</summary>
+    public long Accepted { get; init; }
+
+    /// <summary>How often a client got a fresh copy of the world.</summary>
+    public long Copies { get; init; }
+
+    /// <summary>How often a host that had fallen silent was heard again before anything was lost.</summary>
+    public long Regained { get; init; }
+
+    /// <summary>For each stall and client that it touches, how long after its end that client was up to date again, in seconds.</summary>
+    public IReadOnlyList<double> RecoverySeconds { get; init; } = [];
+
+    /// <summary>What is not as it should be, as sentences.</summary>
+    public IReadOnlyList<string> Failures { get; init; } = [];
+
+    /// <summary>The longest of the recoveries; 0 without any.</summary>
+    public double WorstSeconds => RecoverySeconds.DefaultIfEmpty(0).Max();
+
+    /// <summary>Whether all is as it should be.</summary>
+    public bool IsGood => Failures.Count == 0 && Differed == 0 && Lost == 0;
+}
