@@ -14,11 +14,8 @@ internal sealed class JoinAttempt
     /// <summary>The longest time between two tries: short, since links lose several datagrams in a row, however far apart.</summary>
     private static readonly SimDuration MostPace = SimDuration.FromMilliseconds(100);
 
-    /// <summary>
-    /// A cookie that was of no use for so long is stale, or of an address that this peer no longer has: another one is asked for. To ask for the same one again
-    /// costs a datagram.
-    /// </summary>
-    private static readonly SimDuration CookieAge = SimDuration.FromSeconds(3);
+    /// <summary>A cookie that was of no use for so long is stale: another one is asked for.</summary>
+    private static readonly SimDuration CookieAge = SimDuration.FromSeconds(20);
 
     /// <summary>
     /// Each so-many-th try with a cookie is a knock again: a cookie is good for one address, and this peer's may have changed since, which it cannot see.
