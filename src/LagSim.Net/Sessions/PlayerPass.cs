@@ -34,7 +34,7 @@ public readonly struct PlayerPass : IEquatable<PlayerPass>
     {
         pass = default;
         string[] parts = (text ?? "").Trim().Split('-');
-        if (parts.Length != 2 || parts[1].Length != 2 * Digits
+        if (parts.Length != 2 || parts[1].Length != 2 * Digits || HasNull(parts[0]) || HasNull(parts[1])
             || !byte.TryParse(parts[0], NumberStyles.None, CultureInfo.InvariantCulture, out byte number) || number == 0
             || !ulong.TryParse(parts[1].Substring(0, Digits), NumberStyles.AllowHexSpecifier, CultureInfo.InvariantCulture, out ulong first)
             || !ulong.TryParse(parts[1].Substring(Digits), NumberStyles.AllowHexSpecifier, CultureInfo.InvariantCulture, out ulong second))
@@ -45,6 +45,9 @@ public readonly struct PlayerPass : IEquatable<PlayerPass>
         pass = new PlayerPass(number, new Token128(first, second));
         return true;
     }
+
+    /// <summary>What parses numbers takes them for the end of one.</summary>
+    private static bool HasNull(string digits) => digits.IndexOf('\0') >= 0;
 
     /// <summary>Same number and secret.</summary>
     public static bool operator ==(PlayerPass a, PlayerPass b) => a.Equals(b);

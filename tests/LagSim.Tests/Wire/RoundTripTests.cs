@@ -57,6 +57,16 @@ public class RoundTripTests
         LeaveDatagram.TryDecode(AnyDatagram.Bytes(leave.Encode), out LeaveDatagram again, out _) && again.Equals(leave));
 
     [Fact]
+    public void Encode_AnySeat_DecodesToTheSame() => Holds(WireGen.Seat, seat =>
+        SeatDatagram.TryDecode(AnyDatagram.Bytes(seat.Encode), out SeatDatagram again, out _)
+        && (again.SessionId, again.Peer, again.LastSequence, again.Pass) == (seat.SessionId, seat.Peer, seat.LastSequence, seat.Pass));
+
+    [Fact]
+    public void Encode_AnyMove_DecodesToTheSame() => Holds(WireGen.Move, move =>
+        MoveDatagram.TryDecode(AnyDatagram.Bytes(move.Encode), out MoveDatagram again, out _)
+        && (again.SessionId, again.Peer, again.Cookie) == (move.SessionId, move.Peer, move.Cookie));
+
+    [Fact]
     public void Encode_AnyUpdate_DecodesToTheSame()
     {
         UpdateDatagram again = new();

@@ -1,0 +1,91 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>Which number a newcomer gets, and for whom one is kept, against the rule spelled out.</summary>
+public sealed class PlayerPlacesTests
+{
+    private static readonly SimDuration Kept = SimDuration.FromSeconds(30);
+
+    [Fact]
+    public void AnyComingAndGoing_GivesTheLeastThatNobodyHas_AndOfThoseThatAreKeptTheOldest()
+    {
+        for (int seed = 0; seed < 50; seed++)
+        {
+            Random random = new(seed);
+            byte keyed = (byte)random.Next(0, 9);
+            SessionOptions options = new() { RejoinTime = Kept, PlayerKeys = keyed == 0 ? [] : new Dictionary<byte, string> { [keyed] = "key" } };
+            SimTime now = SimTime.FromSeconds(100);
+            PlayerPlaces places = new(options, now);
+            Dictionary<byte, SimTime?> left = []; // of those that nobody has: since when kept, or null
+            HashSet<byte> taken = [];
+            for (int step = 0; step < 300; step++)
+            {
+                now += SimDuration.FromSeconds(random.NextDouble() * 4);
+                byte[] free = [.. Enumerable.Range(1, SessionOptions.MaxJoiners).Select(n => (byte)n).Where(n => !taken.Contains(n) && n != keyed)];
+                byte[] unkept = [.. free.Where(n => left.GetValueOrDefault(n) is not SimTime since || now - since > Kept)];
+                byte expected = unkept.Length > 0 ? unkept.Min() : free.OrderBy(n => left[n]).FirstOrDefault();
+                Assert.Equal(expected, places.Free(now));
+                if (expected > 0 && random.Next(2) == 0)
+                {
+                    Token128? before = places[expected].Pass;
+                    places[expected].Take(isSamePlayer: false);
+                    Assert.True(places[expected].IsTaken && places[expected].Pass is not null && places[expected].Pass != before);
+                    taken.Add(expected);
+                }
+                else if (taken.Count > 0)
+                {
+                    byte leaver = taken.ElementAt(random.Next(taken.Count));
+                    bool isKept = random.Next(2) == 0;
+                    Token128? pass = places[leaver].Pass;
+                    places[leaver].Leave(isKept, (ulong)step, isKept ? LeaveReason.TimedOut : LeaveReason.Left, now);
+                    Assert.Equal(isKept ? pass : null, places[leaver].Pass);
+                    Assert.Equal(isKept ? LeaveReason.TimedOut : LeaveReason.Left, places.WhyGone((ulong)step));
+                    taken.Remove(leaver);
+                    left[leaver] = isKept ? now : null;
+                }
+            }
+
+            Assert.Equal(LeaveReason.NotJoined, places.WhyGone(ulong.MaxValue));
+        }
+    }
+
+    [Fact]
+    public void Claimed_OnlyWithTheProofOfItsPass_OverThatNonceAndCookie()
+    {
+        PlayerPlaces places = new(new SessionOptions(), SimTime.Zero);
+        places[3].Take(isSamePlayer: false);
+        Token128 pass = places[3].Pass!.Value, cookie = new(5, 6), other = new(pass.First ^ 1, pass.Second);
+        Assert.Same(places[3], places.Claimed(Join(3, JoinCookies.Prove(pass, 7, cookie))));
+        Assert.Null(places.Claimed(Join(3, JoinCookies.Prove(other, 7, cookie))));
+        Assert.Null(places.Claimed(Join(3, JoinCookies.Prove(pass, 8, cookie)))); // heard by somebody, and played again
+        Assert.Null(places.Claimed(Join(3, JoinCookies.Prove(pass, 7, other))));
+        Assert.Null(places.Claimed(Join(3, default)));
+        Assert.Null(places.Claimed(Join(4, JoinCookies.Prove(pass, 7, cookie)))); // nobody has had that number
+        Assert.Null(places.Claimed(Join(4, JoinCookies.Prove(default(Token128), 7, cookie))));
+        Assert.Null(places.Claimed(Join(0, JoinCookies.Prove(pass, 7, cookie))));
+        Assert.Null(places.Claimed(Join(255, JoinCookies.Prove(pass, 7, cookie))));
+        places[3].Leave(isKept: true, 1, LeaveReason.TimedOut, SimTime.Zero);
+        Assert.Same(places[3], places.Claimed(Join(3, JoinCookies.Prove(pass, 7, cookie))));
+        places[3].Take(isSamePlayer: true);
+        Assert.Equal(pass, places[3].Pass);
+        places[3].Take(isSamePlayer: false);
+        Assert.Null(places.Claimed(Join(3, JoinCookies.Prove(pass, 7, cookie))));
+
+        JoinDatagram Join(byte player, Token128 proof) => new(7, cookie, default, 0, 0, player, proof);
+    }
+
+    [Fact]
+    public void Free_NumberWithoutSequencesLeft_IsGivenToNobody()
+    {
+        PlayerPlaces places = new(new SessionOptions(), SimTime.Zero);
+        places[1].LastSequence = uint.MaxValue;
+        Assert.Equal(2, places.Free(SimTime.Zero));
+    }
+}
