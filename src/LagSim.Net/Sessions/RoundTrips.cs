@@ -6,7 +6,8 @@ namespace LagSim.Net.Sessions;
 /// <summary>The round trips of one link: how long they take in the mean and at least, and how much of that is waiting in a queue on the way.</summary>
 /// <remarks>
 /// A queue lengthens all trips, jitter some. So there is one where neither the least of a few trips in succession (the standing queue of CoDel, RFC 8289) nor
-/// their smoothed mean comes near the least that each was in the last minute: a few lucky trips say so of the first, and one spike does not lift the second.
+/// their smoothed mean comes near the least that each was in the last minute: a few lucky trips say so of the first, and one spike does not lift the second. Near is what the
+/// jitter of the link accounts for, as it is where it is least: a queue that comes and goes is none.
 /// </remarks>
 internal sealed class RoundTrips
 {
@@ -19,11 +20,20 @@ internal sealed class RoundTrips
     /// <summary>Less than this is no queue: what a sleeping thread, or a radio that waits for its turn, adds to every trip.</summary>
     private static readonly SimDuration LeastQueue = SimDuration.FromMilliseconds(5);
 
+    /// <summary>How many times its spread jitter moves the mean from the least that it was in a minute.</summary>
+    private const int MostOfSpread = 7;
+
+    /// <summary>Over so many trips the spread is taken; before there are so many, nothing is known of it.</summary>
+    private const int Many = 16;
+
     /// <summary>How many trips are a few.</summary>
     private const int Few = 4;
 
     private WindowedMinimum least;
     private WindowedMinimum leastMean;
+    private WindowedMinimum leastSpread;
+    private SimDuration spread; // the mean deviation, over more trips than the one that answers are waited for by
+    private int counted; // how many trips there were, up to many
     private readonly SimDuration[] few = new SimDuration[Few]; // the newest
     private int next;
 
@@ -48,9 +58,10 @@ internal sealed class RoundTrips
     internal SimDuration Queueing => Lesser(LeastOfFew - least.Value, Mean - leastMean.Value);
 
     /// <summary>
-    /// Whether there is a queue on the way: a quarter of the shortest round trip, so that a link that holds back then stays well below twice that one.
+    /// Whether there is a queue on the way: a quarter of the shortest round trip, so that a link that holds back then stays well below twice that one, and more than
+    /// jitter.
     /// </summary>
-    internal bool HasQueue => Queueing > LeastQueue && Queueing > least.Value / 4;
+    internal bool HasQueue => Queueing > LeastQueue && Queueing > least.Value / 4 && Queueing > leastSpread.Value * MostOfSpread;
 
     internal void Add(SimDuration sample, SimTime now)
     {
@@ -67,7 +78,10 @@ internal sealed class RoundTrips
         }
         else
         {
-            Deviation += ((sample < Mean ? Mean - sample : sample - Mean) - Deviation) / 4;
+            SimDuration apart = sample < Mean ? Mean - sample : sample - Mean;
+            Deviation += (apart - Deviation) / 4;
+            counted = Math.Min(counted + 1, Many);
+            spread += (apart - spread) / counted;
             Mean += (sample - Mean) / 8;
         }
 
@@ -75,6 +89,11 @@ internal sealed class RoundTrips
         Newest = sample;
         least.Add(sample, now, Memory);
         leastMean.Add(Mean, now, Memory);
+        if (counted == Many)
+        {
+            leastSpread.Add(spread, now, Memory);
+        }
+
         few[next] = sample;
         next = (next + 1) % Few;
     }
