@@ -1,0 +1,189 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Net.Sessions;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>The window of a link and its comfort: never too small, smaller where there is a queue, and no greater for what is not used.</summary>
+public sealed class CongestionControlTests(ITestOutputHelper output)
+{
+    private const int Full = 1228;
+    private static readonly SimDuration Trip = SimDuration.FromMilliseconds(40);
+
+    [Fact]
+    public void AnyLossesAndAcknowledgements_KeepTheWindowInItsBounds_AndCutItByNoMoreThanItSays()
+    {
+        for (int seed = 0; seed < 200; seed++)
+        {
+            Random random = new(seed);
+            CongestionControl control = new();
+            List<(int Bytes, SimTime Sent)> onTheirWay = [];
+            SimTime now = SimTime.FromSeconds(1), cut = SimTime.MinValue;
+            int inFlight = 0;
+            for (int step = 0; step < 2000; step++)
+            {
+                now += SimDuration.FromMilliseconds(random.Next(3));
+                int before = control.Window;
+                bool hasQueue = random.Next(3) == 0;
+                if (onTheirWay.Count == 0 || random.Next(2) == 0)
+                {
+                    int bytes = random.Next(60, Full + 1);
+                    control.OnSent(bytes);
+                    onTheirWay.Add((bytes, now));
+                    inFlight += bytes;
+                    Assert.Equal(before, control.Window);
+                }
+                else
+                {
+                    (int bytes, SimTime sent) = onTheirWay[0];
+                    onTheirWay.RemoveAt(0);
+                    bool isUsed = 2 * inFlight >= before;
+                    inFlight -= bytes;
+                    if (random.Next(4) > 0)
+                    {
+                        control.OnAcknowledged(bytes, hasQueue);
+                        Assert.InRange(control.Window, before, isUsed ? before + bytes + 1 : before); // no growth for what is not used
+                    }
+                    else
+                    {
+                        control.OnLost(bytes, sent, now, hasQueue);
+                        Assert.InRange(control.Window, 2 * Full, before);
+                        bool mayCut = hasQueue && sent > cut; // once for all that was on its way then
+                        Assert.True(mayCut ? control.Window <= Math.Max(2 * Full, (before * 0.7) + 1) : !hasQueue || control.Window == before);
+                        cut = control.Window < before || mayCut ? now : cut;
+                    }
+                }
+
+                Assert.Equal(inFlight, control.InFlight);
+                Assert.InRange(control.Window, 2 * Full, 400 * Full);
+                Assert.Equal(inFlight + Full <= control.Window || inFlight == 0, control.HasRoom);
+            }
+        }
+    }
+
+    [Fact]
+    public void Comfort_WithAQueue_IsCutToTheLeast_AndWithoutRecoversToTheFirst()
+    {
+        CongestionControl control = new();
+        RoundTrips trips = new();
+        SimTime now = SimTime.FromSeconds(1);
+        Add(trips, ref now, 40, 100);
+        Assert.Equal(12_000, Rate(control, trips, now), 50.0);
+
+        double before = 12_000;
+        for (int n = 0; n < 60; n++)
+        {
+            Add(trips, ref now, 200, 8);
+            double rate = Rate(control, trips, now);
+            Assert.InRange(rate, 999, Math.Max(1_001, before));
+            before = rate;
+        }
+
+        Assert.Equal(1_000, before, 5.0);
+        for (int n = 0; n < 300; n++)
+        {
+            Add(trips, ref now, 40, 8);
+            control.ComfortAt(now, trips, isSilent: false); // it comes back, and grows no further: nobody uses it up
+        }
+
+        Assert.Equal(12_000, Rate(control, trips, now), 50.0);
+        for (int n = 0; n < 300; n++)
+        {
+            Add(trips, ref now, 40, 8);
+            control.ComfortAt(now, trips, false);
+            control.Spend(Full);
+            control.UntilComfort(Full); // used up
+        }
+
+        Assert.InRange(Rate(control, trips, now), 20_000, (Full / 0.03) + 1);
+    }
+
+    [Fact]
+    public void Comfort_OfNothingAnswered_StaysWhatItWas()
+    {
+        CongestionControl control = new();
+        RoundTrips trips = new();
+        SimTime now = SimTime.FromSeconds(1);
+        Add(trips, ref now, 40, 100);
+        Rate(control, trips, now);
+        for (int n = 0; n < 100; n++)
+        {
+            now += SimDuration.FromSeconds(0.2);
+            control.ComfortAt(now, trips, isSilent: true);
+        }
+
+        Assert.Equal(12_000, Rate(control, trips, now), 50.0);
+    }
+
+    /// <summary>A sender with all there is to send, over a link with a long queue: it keeps well below it. One that never backs off fills it, and is noticed.</summary>
+    [Theory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public void Window_OverALinkWithALongQueue_KeepsItShortOnlyIfItBacksOff(bool backsOff)
+    {
+        const double bytesPerSecond = 32_000, most = 2.0; // 256 kbit/s, a queue of two seconds
+        CongestionControl control = new();
+        RoundTrips trips = new();
+        Queue<(int Bytes, SimTime Sent, SimTime Back, bool IsLost)> onTheirWay = new();
+        SimTime now = SimTime.FromSeconds(1), free = now, end = now + SimDuration.FromSeconds(50);
+        long sent = 0, lost = 0, looked = 0;
+        double waited = 0;
+        while (now < end)
+        {
+            now += SimDuration.FromMilliseconds(1);
+            while (onTheirWay.TryPeek(out (int Bytes, SimTime Sent, SimTime Back, bool IsLost) next) && next.Back <= now)
+            {
+                onTheirWay.Dequeue();
+                if (next.IsLost && backsOff)
+                {
+                    control.OnLost(next.Bytes, next.Sent, now, trips.HasQueue);
+                }
+                else
+                {
+                    trips.Add(now - next.Sent, now);
+                    control.OnAcknowledged(next.Bytes, backsOff && trips.HasQueue);
+                }
+            }
+
+            free = SimTime.Max(free, now);
+            while (control.HasRoom)
+            {
+                SimDuration wait = free - now;
+                bool isLost = wait.ToSeconds() > most;
+                free += isLost ? SimDuration.Zero : SimDuration.FromSeconds(Full / bytesPerSecond);
+                control.OnSent(Full);
+                onTheirWay.Enqueue((Full, now, free + Trip, isLost));
+                sent++;
+                lost += isLost ? 1 : 0;
+            }
+
+            waited += (free - now).ToSeconds();
+            looked++;
+        }
+
+        output.WriteLine($"backs off: {backsOff}; {(double)lost / sent:P1} of {sent} lost, {waited / looked:F2} s in the queue in the mean, window {control.Window}");
+        Assert.Equal(backsOff, (double)lost / sent < 0.05);
+    }
+
+    private static void Add(RoundTrips trips, ref SimTime now, double milliseconds, int count)
+    {
+        for (int n = 0; n < count; n++)
+        {
+            now += SimDuration.FromMilliseconds(25);
+            trips.Add(SimDuration.FromMilliseconds(milliseconds), now);
+        }
+    }
+
+    /// <summary>Bytes of comfort a second, by how long a datagram of it takes.</summary>
+    private static double Rate(CongestionControl control, RoundTrips trips, SimTime now)
+    {
+        int allowed = control.ComfortAt(now, trips, isSilent: false);
+        control.Spend(allowed);
+        int left = control.ComfortAt(now, trips, isSilent: false);
+        control.ComfortAt(now, trips, isSilent: false);
+        double seconds = control.UntilComfort(Full).ToSeconds();
+        return (Full - left) / seconds;
+    }
+}

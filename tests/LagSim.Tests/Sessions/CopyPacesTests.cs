@@ -1,0 +1,48 @@
+using System.Net;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>The pace at which pieces of copies are given is a machine's, whatever port or address of its network it asks from.</summary>
+public sealed class CopyPacesTests
+{
+    [Theory]
+    [InlineData("10.0.0.1", "10.0.0.1", true)]
+    [InlineData("10.0.0.1", "10.0.0.2", false)]
+    [InlineData("2001:db8:1:2::1", "2001:db8:1:2:ffff::9", true)] // one network of IPv6 is one machine's
+    [InlineData("2001:db8:1:2::1", "2001:db8:1:3::1", false)]
+    [InlineData("::ffff:10.0.0.1", "10.0.0.1", true)]
+    public void TrySpend_IsSharedByWhatIsOneMachine(string one, string other, bool isShared)
+    {
+        CopyPaces paces = new(new DoorLimits { PiecesPerSecond = 100, PiecesAtOnce = 10 });
+        PeerAddress first = Address(one, 1000), second = Address(other, 2000);
+        Assert.Equal((isShared, isShared), (first.IsSameMachine(second), first.Machine == second.Machine));
+        SimTime now = SimTime.FromSeconds(1);
+        for (int n = 0; n < 10; n++)
+        {
+            Assert.True(paces.TrySpend(first, now));
+        }
+
+        Assert.False(paces.TrySpend(first, now));
+        Assert.Equal(!isShared, paces.TrySpend(second, now));
+        Assert.True(paces.TrySpend(first, now + SimDuration.FromMilliseconds(10.1)));
+    }
+
+    [Fact]
+    public void Machines_ThatHaveTheirWholePaceAgain_AreForgotten()
+    {
+        CopyPaces paces = new(new DoorLimits());
+        SimTime now = SimTime.FromSeconds(1);
+        for (int n = 0; n < 10_000; n++)
+        {
+            now += SimDuration.FromMilliseconds(1);
+            Assert.True(paces.TrySpend(NatPort.Address(n, 1000), now));
+            Assert.InRange(paces.Count, 1, 65);
+        }
+    }
+
+    private static PeerAddress Address(string address, int port) => PeerAddress.From(new IPEndPoint(IPAddress.Parse(address), port));
+}

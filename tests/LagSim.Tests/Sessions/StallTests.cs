@@ -1,0 +1,49 @@
+using System.Collections.Generic;
+using LagSim.Harness.Links;
+using LagSim.Harness.Peers;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>
+/// A machine that stood still for nearly as long as an exchange of clocks may take: what then arrives late says little of the host's clock, and is not taken for a
+/// jump of it.
+/// </summary>
+public sealed class StallTests
+{
+    [Theory]
+    [InlineData(30)]
+    [InlineData(58.5)]
+    [InlineData(59)]
+    [InlineData(59.5)]
+    [InlineData(59.9)]
+    [InlineData(61)]
+    public void Stall_OfAJoiner_IsNoJumpOfItsClock(double seconds)
+    {
+        for (int seed = 1; seed <= 3; seed++)
+        {
+            VirtualClock clock = new(SimTime.FromSeconds(10));
+            VirtualNetwork network = new(clock, (ulong)seed, LinkProfiles.PureDelay(5 * seed));
+            VirtualSteps steps = new(network);
+            IDatagramPort hostPort = network.CreatePort(0), port = network.CreatePort(1);
+            SessionOptions options = new() { Timeout = SimDuration.FromSeconds(300) };
+            steps.Add(new HostSession(Deeds.Box(), hostPort, clock, options, 1), hostPort);
+            JoinerSession joiner = new(null, port, clock, options, PeerAddress.Virtual(0), 4);
+            int number = steps.Add(joiner, port);
+            steps.RunFor(SimDuration.FromSeconds(5 + (0.21 * seed)));
+            Assert.Equal(SessionState.Running, joiner.State);
+            List<string> interrupted = [];
+            joiner.Interrupted += interrupted.Add;
+            steps.Freeze(number);
+            steps.RunFor(SimDuration.FromSeconds(seconds));
+            steps.Thaw(number);
+            steps.RunFor(SimDuration.FromSeconds(10));
+            Assert.Empty(interrupted);
+            Assert.Equal(SessionState.Running, joiner.State);
+            Assert.InRange((joiner.SharedTime.Now - clock.Now).ToSeconds(), -0.001, 0.001);
+        }
+    }
+}
