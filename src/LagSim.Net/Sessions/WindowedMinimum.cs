@@ -25,7 +25,7 @@ internal struct WindowedMinimum
         {
             former = present;
             present = sample;
-            since = now;
+            since += window / 2; // and not now: where samples are seldom, the former half would count for half as long again
         }
         else
         {
