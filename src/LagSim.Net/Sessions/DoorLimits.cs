@@ -1,6 +1,8 @@
 namespace LagSim.Net.Sessions;
 
-/// <summary>What those who are coming in can have of a host at most. Nobody sets another one but a test that takes a limit away to see it missed.</summary>
+/// <summary>
+/// What those who are coming in can have of a host at most. Nobody sets another one but a test that takes a limit away to see it missed.
+/// </summary>
 internal sealed class DoorLimits
 {
     /// <summary>So many may be coming in at a time. They hold no place: who is not in yet makes room for the next.</summary>

@@ -72,7 +72,8 @@ public sealed class ComingInAgainTests
         nat.Place(Node, 1, 1000);
         group.Network.Connect(Node, 0, LinkProfiles.PureDelay(200));
         Intruder[] others = Enumerable.Range(0, 16).Select(n => Neighbour(group, nat, n)).ToArray();
-        JoinerSession joiner = group.Join(Node, 99, new SessionOptions { RejoinTime = SimDuration.Zero, Timeout = SimDuration.FromSeconds(3) });
+        JoinerSession joiner = group.Join(
+            Node, 99, new SessionOptions { RejoinTime = SimDuration.Zero, Timeout = SimDuration.FromSeconds(3) });
         SimTime began = group.Clock.Now;
         while (joiner.State != SessionState.Ended && group.Clock.Now - began < SimDuration.FromSeconds(20))
         {

@@ -7,7 +7,10 @@ using LagSim.Time;
 
 namespace LagSim.Tests.Sessions;
 
-/// <summary>Somebody who comes in as the rules have it, and then only costs: it answers at once whatever it needs to be answered, and asks for the rest when told to.</summary>
+/// <summary>
+/// Somebody who comes in as the rules have it, and then only costs: it answers at once whatever it needs to be answered, and asks for the
+/// rest when told to.
+/// </summary>
 /// <remarks>Unlike <see cref="RawJoiner"/> it lets no time pass, so a thousand of them can be at it at once.</remarks>
 internal sealed class Intruder
 {
@@ -59,7 +62,8 @@ internal sealed class Intruder
     /// <summary>Says that it is there, as one that is in or not.</summary>
     internal void Update(bool isReady)
     {
-        UpdateDatagram update = new() { SessionId = SessionId, Peer = Peer, Number = ++number, Sent = SimTime.FromSeconds(number), Ready = isReady };
+        UpdateDatagram update = new() { SessionId = SessionId, Peer = Peer, Number = ++number, Ready = isReady };
+        update.Sent = SimTime.FromSeconds(number);
         byte[] bytes = new byte[update.EncodedLength];
         update.Encode(bytes);
         Send(bytes);

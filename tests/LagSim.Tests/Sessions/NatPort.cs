@@ -5,7 +5,10 @@ using LagSim.Net.Carriers;
 
 namespace LagSim.Tests.Sessions;
 
-/// <summary>A host's port in a virtual network, seen from behind the others' NATs: each node has an IP address and a port, and may get others at any time.</summary>
+/// <summary>
+/// A host's port in a virtual network, seen from behind the others' NATs: each node has an IP address and a port, and may get others at any
+/// time.
+/// </summary>
 /// <remarks>What the host sends to an address that no node has any more is lost, as behind a real NAT.</remarks>
 internal sealed class NatPort(IDatagramPort inner) : IDatagramPort
 {

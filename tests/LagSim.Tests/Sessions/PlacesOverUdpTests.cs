@@ -29,7 +29,9 @@ public sealed class PlacesOverUdpTests
         JoinerSession[] greedy = Enumerable.Range(0, 6).Select(n => group.Join(2)).ToArray();
         Assert.True(group.RunUntil(() => greedy.All(s => s.State is SessionState.Running or SessionState.Ended)));
         Assert.Equal(4, greedy.Count(s => s.State == SessionState.Running));
-        Assert.All(greedy.Where(s => s.State == SessionState.Ended), s => Assert.Contains("as many as may join from one address", s.EndReason, StringComparison.Ordinal));
+        Assert.All(
+            greedy.Where(s => s.State == SessionState.Ended),
+            s => Assert.Contains("as many as may join from one address", s.EndReason, StringComparison.Ordinal));
         JoinerSession[] honest = [group.Join(3), group.Join(4)];
         Assert.True(group.RunUntil(() => honest.All(s => s.State == SessionState.Running)), honest[0].EndReason);
         Assert.Equal(6, group.Host.JoinerCount);

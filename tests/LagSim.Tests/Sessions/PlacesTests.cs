@@ -11,8 +11,8 @@ using Xunit;
 namespace LagSim.Tests.Sessions;
 
 /// <summary>
-/// Honest players get in within 2 s, and a host sends no more than it should, whatever those do who only take: half-open joins, all places, slow and greedy
-/// fetches. Each limit is taken away once, and missed.
+/// Honest players get in within 2 s, and a host sends no more than it should, whatever those do who only take: half-open joins, all places,
+/// slow and greedy fetches. Each limit is taken away once, and missed.
 /// </summary>
 public sealed class PlacesTests(ITestOutputHelper output)
 {
@@ -69,7 +69,8 @@ public sealed class PlacesTests(ITestOutputHelper output)
         for (int seed = 1; seed <= Seeds; seed++)
         {
             (SessionGroup group, NatPort nat) = Host(seed, perAddress: perAddress);
-            Intruder[] takers = Enumerable.Range(0, 3 * SessionOptions.MaxJoiners).Select(n => Intrude(group, nat, n, true, sits: true)).ToArray();
+            Intruder[] takers = Enumerable.Range(0, 3 * SessionOptions.MaxJoiners)
+                .Select(n => Intrude(group, nat, n, true, sits: true)).ToArray();
             foreach (Intruder one in takers)
             {
                 one.Knock();
@@ -160,7 +161,9 @@ public sealed class PlacesTests(ITestOutputHelper output)
         Report("16 greedy fetches of one machine", took, took.Count);
     }
 
-    /// <summary>Whatever is sent in the name of an address, that address gets no more than three times as much before it has shown that it is there.</summary>
+    /// <summary>
+    /// Whatever is sent in the name of an address, that address gets no more than three times as much before it has shown that it is there.
+    /// </summary>
     [Fact]
     public void BytesOut_BeforeTheAddressIsConfirmed_AreAtMostThreeTimesBytesIn()
     {
@@ -174,7 +177,8 @@ public sealed class PlacesTests(ITestOutputHelper output)
             ulong session = 0;
             group.Network.Lose((from, _, datagram) =>
             {
-                session = from == Honest && datagram.Span[3] == (byte)DatagramType.Update ? BitConverter.ToUInt64(datagram.Span[4..12]) : session;
+                bool isIts = from == Honest && datagram.Span[3] == (byte)DatagramType.Update;
+                session = isIts ? BitConverter.ToUInt64(datagram.Span[4..12]) : session;
                 return false;
             });
             group.Run(3);
@@ -197,7 +201,8 @@ public sealed class PlacesTests(ITestOutputHelper output)
         }
 
         Assert.True(worst[0] > 0.9);
-        output.WriteLine("bytes out for bytes in before the address is confirmed, at most: " + string.Join(", ", Kinds.Zip(worst, (kind, most) => $"{kind} {most:F2}")));
+        string list = string.Join(", ", Kinds.Zip(worst, (kind, most) => $"{kind} {most:F2}"));
+        output.WriteLine($"bytes out for bytes in before the address is confirmed, at most: {list}");
 
         // The same sum after it: the meter shows what a copy is beside the bytes that ask for it.
         (SessionGroup large, NatPort there) = Host(1, isLarge: true);
@@ -225,7 +230,8 @@ public sealed class PlacesTests(ITestOutputHelper output)
                 new JoinDatagram((ulong)random.NextInt64(), token, token, 0, (uint)Simulation.FoldVersion, peer, token).Encode(bytes);
                 return bytes;
             case 2:
-                UpdateDatagram update = new() { SessionId = random.Next(2) == 0 ? session : (ulong)random.NextInt64(), Peer = peer, Number = (uint)random.Next(1, 999), Ready = true };
+                ulong its = random.Next(2) == 0 ? session : (ulong)random.NextInt64();
+                UpdateDatagram update = new() { SessionId = its, Peer = peer, Number = (uint)random.Next(1, 999), Ready = true };
                 bytes = new byte[update.EncodedLength];
                 update.Encode(bytes);
                 return bytes;
@@ -272,7 +278,9 @@ public sealed class PlacesTests(ITestOutputHelper output)
         return new Intruder(group, Thousand + n, sits);
     }
 
-    /// <summary>How long an honest player on a 4G phone takes to get in while something goes on; infinite if it is not in after two seconds.</summary>
+    /// <summary>
+    /// How long an honest player on a 4G phone takes to get in while something goes on; infinite if it is not in after two seconds.
+    /// </summary>
     private static double GetIn(SessionGroup group, NatPort nat, int seed, Action meanwhile, double each)
     {
         group.Run(new Random(seed).NextDouble() * 0.1);
@@ -297,11 +305,14 @@ public sealed class PlacesTests(ITestOutputHelper output)
     private void Report(string what, List<double> took, int expected = Seeds)
     {
         int got = took.Count(double.IsFinite);
-        output.WriteLine($"{what}: in within {Within} s in {got} of {took.Count} tries{(got > 0 ? $", {took.Where(double.IsFinite).Max():F2} s at most" : "")}");
+        string most = got > 0 ? $", {took.Where(double.IsFinite).Max():F2} s at most" : "";
+        output.WriteLine($"{what}: in within {Within} s in {got} of {took.Count} tries{most}");
         Assert.Equal(expected, got);
     }
 
-    /// <summary>Somebody who sends in the name of an address and hears nothing of the answers; that address does, and did not ask.</summary>
+    /// <summary>
+    /// Somebody who sends in the name of an address and hears nothing of the answers; that address does, and did not ask.
+    /// </summary>
     private sealed class Spoofed(SessionGroup group, int node)
     {
         private readonly Net.Carriers.IDatagramPort port = group.Network.CreatePort(node);

@@ -17,7 +17,8 @@ public sealed class PlayerPassTests
         Random random = new(1);
         for (int n = 0; n < 1000; n++)
         {
-            PlayerPass pass = new((byte)random.Next(1, 256), new Token128((ulong)random.NextInt64() << 1, (ulong)random.NextInt64() >> random.Next(64)));
+            Token128 secret = new((ulong)random.NextInt64() << 1, (ulong)random.NextInt64() >> random.Next(64));
+            PlayerPass pass = new((byte)random.Next(1, 256), secret);
             Assert.True(PlayerPass.TryParse($" {pass}\n", out PlayerPass again));
             Assert.True(pass == again && pass.Equals((object)again) && pass.GetHashCode() == again.GetHashCode());
             Assert.True(PlayerPass.TryParse(pass.ToString().ToUpperInvariant(), out again) && again == pass);

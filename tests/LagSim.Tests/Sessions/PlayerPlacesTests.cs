@@ -20,7 +20,8 @@ public sealed class PlayerPlacesTests
         {
             Random random = new(seed);
             byte keyed = (byte)random.Next(0, 9);
-            SessionOptions options = new() { RejoinTime = Kept, PlayerKeys = keyed == 0 ? [] : new Dictionary<byte, string> { [keyed] = "key" } };
+            Dictionary<byte, string> keys = keyed == 0 ? [] : new() { [keyed] = "key" };
+            SessionOptions options = new() { RejoinTime = Kept, PlayerKeys = keys };
             SimTime now = SimTime.FromSeconds(100);
             PlayerPlaces places = new(options, now);
             Dictionary<byte, SimTime?> left = []; // of those that nobody has: since when kept, or null
@@ -28,10 +29,11 @@ public sealed class PlayerPlacesTests
             for (int step = 0; step < 300; step++)
             {
                 now += SimDuration.FromSeconds(random.NextDouble() * 4);
-                byte[] free = [.. Enumerable.Range(1, SessionOptions.MaxJoiners).Select(n => (byte)n).Where(n => !taken.Contains(n) && n != keyed)];
+                IEnumerable<byte> numbers = Enumerable.Range(1, SessionOptions.MaxJoiners).Select(n => (byte)n);
+                byte[] free = [.. numbers.Where(n => !taken.Contains(n) && n != keyed)];
                 byte[] unkept = [.. free.Where(n => left.GetValueOrDefault(n) is not SimTime since || now - since > Kept)];
                 byte expected = unkept.Length > 0 ? unkept.Min() : free.OrderBy(n => left[n]).FirstOrDefault();
-                Assert.Equal(expected, places.Free(now));
+                Assert.Equal(expected, places.Free(now, 0));
                 if (expected > 0 && random.Next(2) == 0)
                 {
                     Token128? before = places[expected].Pass;
@@ -86,6 +88,6 @@ public sealed class PlayerPlacesTests
     {
         PlayerPlaces places = new(new SessionOptions(), SimTime.Zero);
         places[1].LastSequence = uint.MaxValue;
-        Assert.Equal(2, places.Free(SimTime.Zero));
+        Assert.Equal(2, places.Free(SimTime.Zero, 0));
     }
 }

@@ -52,8 +52,8 @@ public sealed class RejoiningTests
     }
 
     /// <summary>
-    /// The host is heard again in the very moment in which the joiner is let in anew: its answer to a knock overtakes its update. It goes on in one way or the
-    /// other, and is not let go for having asked.
+    /// The host is heard again in the very moment in which the joiner is let in anew: its answer to a knock overtakes its update. It goes
+    /// on in one way or the other, and is not let go for having asked.
     /// </summary>
     [Fact]
     public void Silence_OneWay_ThatEndsWhileItAsks_InterruptsOnce()
@@ -87,7 +87,9 @@ public sealed class RejoiningTests
             Assert.Null(group.Difference());
         }
 
-        Assert.True(regained > 0 && overtaken > 0, $"{regained} heard their host again, {overtaken} of them after they had asked; {renewed} did not");
+        Assert.True(
+            regained > 0 && overtaken > 0,
+            $"{regained} heard their host again, {overtaken} of them after they had asked; {renewed} did not");
     }
 
     [Fact]
@@ -186,8 +188,7 @@ public sealed class RejoiningTests
     [InlineData(30, 2)]
     public void Number_OfOneWhoFellSilent_IsKeptForTheHostsRejoinTime(double seconds, int expected)
     {
-        SessionGroup group = new SessionGroup(
-            Deeds.Box(), 2, LinkProfiles.PureDelay(5), options: _ => new SessionOptions { Timeout = Timeout, RejoinTime = SimDuration.FromSeconds(20) }).Connect();
+        SessionGroup group = Group(2, _ => SimDuration.FromSeconds(20));
         int gone = 0;
         group.Host.JoinerGone += _ => gone++;
         group.DropLast();
@@ -221,7 +222,8 @@ public sealed class RejoiningTests
         JoinerSession full = group.Joiner(1);
         Assert.True(group.RunUntil(() => full.State == SessionState.Ended, 20));
         Assert.Equal(SessionEnd.TimelinesFull, full.EndedBy);
-        Assert.StartsWith("This peer has no more room for what may still change, and left; it can join again. ", full.EndReason, StringComparison.Ordinal);
+        Assert.StartsWith(
+            "This peer has no more room for what may still change, and left; it can join again. ", full.EndReason, StringComparison.Ordinal);
         group.Run(0.1);
         Assert.Equal(1, group.Host.JoinerCount);
     }
@@ -233,7 +235,8 @@ public sealed class RejoiningTests
         Cut(group, 1);
         group.Run(Timeout.ToSeconds() + 5.5);
         Assert.Equal((SessionState.Ended, SessionEnd.HostSilent), (group.Sessions[1].State, group.Sessions[1].EndedBy));
-        Assert.Equal("The host at virtual:0 fell silent for 3 s. It asked for 5 s to be let in again, in vain.", group.Sessions[1].EndReason);
+        Assert.Equal(
+            "The host at virtual:0 fell silent for 3 s. It asked for 5 s to be let in again, in vain.", group.Sessions[1].EndReason);
     }
 
     private static SessionGroup Group(int peers, Func<int, SimDuration>? rejoinTime = null, int seed = 1) => new SessionGroup(

@@ -8,7 +8,9 @@ using Xunit;
 
 namespace LagSim.Tests.Sessions;
 
-/// <summary>What round trips say of a link: their mean by the book, and a queue where there is one, but not where there is only jitter.</summary>
+/// <summary>
+/// What round trips say of a link: their mean by the book, and a queue where there is one, but not where there is only jitter.
+/// </summary>
 public sealed class RoundTripsTests(ITestOutputHelper output)
 {
     private static readonly SimDuration Pause = SimDuration.FromMilliseconds(30);
@@ -73,12 +75,15 @@ public sealed class RoundTripsTests(ITestOutputHelper output)
     {
         double falsely = Share(new LinkLeg(delay, jitter), queue: 0);
         double truly = Share(new LinkLeg(delay, jitter), queue: 2 * delay);
-        output.WriteLine($"{delay} ms, jitter {jitter} ms: a queue shows after {falsely:P2} of the trips without one, and {truly:P2} with one of {2 * delay} ms");
+        output.WriteLine(
+            $"{delay} ms, jitter {jitter} ms: a queue shows after {falsely:P2} of the trips without one, {truly:P2} with one of {2 * delay} ms");
         Assert.InRange(falsely, 0, most);
         Assert.InRange(truly, 0.9, 1);
     }
 
-    /// <summary>After how many of the trips of half a minute a queue shows, once the link is known; half a minute is one in which it comes.</summary>
+    /// <summary>
+    /// After how many of the trips of half a minute a queue shows, once the link is known; half a minute is one in which it comes.
+    /// </summary>
     private static double Share(LinkLeg leg, double queue)
     {
         const int known = 600, looked = 1000, seeds = 20;

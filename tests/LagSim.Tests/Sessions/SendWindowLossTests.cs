@@ -7,7 +7,10 @@ using Xunit;
 
 namespace LagSim.Tests.Sessions;
 
-/// <summary>No entry is lost over a link that loses, delays and reorders datagrams and their acknowledgements as it likes; and what loses one is noticed here.</summary>
+/// <summary>
+/// No entry is lost over a link that loses, delays and reorders datagrams and their acknowledgements as it likes; and what loses one is
+/// noticed here.
+/// </summary>
 public sealed class SendWindowLossTests
 {
     private const int Seeds = 100;

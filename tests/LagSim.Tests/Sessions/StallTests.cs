@@ -9,8 +9,8 @@ using Xunit;
 namespace LagSim.Tests.Sessions;
 
 /// <summary>
-/// A machine that stood still for nearly as long as an exchange of clocks may take: what then arrives late says little of the host's clock, and is not taken for a
-/// jump of it.
+/// A machine that stood still for nearly as long as an exchange of clocks may take: what then arrives late says little of the host's clock,
+/// and is not taken for a jump of it.
 /// </summary>
 public sealed class StallTests
 {

@@ -12,7 +12,9 @@ public sealed class WindowedMinimumTests
 {
     private static readonly SimDuration Window = SimDuration.FromSeconds(60);
 
-    /// <summary>Samples come all the time, or seldom, or not for a while: no older one than the while counts, and all of its last half do.</summary>
+    /// <summary>
+    /// Samples come all the time, or seldom, or not for a while: no older one than the while counts, and all of its last half do.
+    /// </summary>
     [Theory]
     [InlineData(0.03)]
     [InlineData(5)]
@@ -35,8 +37,9 @@ public sealed class WindowedMinimumTests
                 all.Add((now, sample));
                 all.RemoveAll(s => now - s.Time > Window);
                 SimDuration least = all.Min(s => s.Sample), leastOfLate = all.Where(s => now - s.Time <= Window / 2).Min(s => s.Sample);
-                Assert.True(minimum.Value >= least, $"seed {seed}, {n}: {minimum.Value} is of a sample older than {Window}; since then {least} was the least");
-                Assert.True(minimum.Value <= leastOfLate, $"seed {seed}, {n}: {minimum.Value}, though {leastOfLate} is not older than half of {Window}");
+                string what = $"seed {seed}, {n}: {minimum.Value.ToSeconds()} s";
+                Assert.True(minimum.Value >= least, $"{what} is of a sample older than the while; since then {least} was the least");
+                Assert.True(minimum.Value <= leastOfLate, $"{what}, though {leastOfLate} is in the last half of the while");
             }
         }
     }
