@@ -21,15 +21,18 @@ internal static class StallsCommand
     internal static Command Create(ToolConsole console, Func<StallOptions, StallOptions>? change = null)
     {
         CommonOptions common = new();
-        Option<int> sessions = CommonOptions.Whole("--sessions", "How many sessions are drawn; the seed is the first one's, each further one has the next", 200, 1, 1_000_000);
-        Option<int> worst = CommonOptions.Whole("--worst", "How many of them are told one by one, those that took the longest to recover", 20, 0, 1_000);
+        Option<int> sessions = CommonOptions.Whole(
+            "--sessions", "How many sessions are drawn; the seed is the first one's, each further one has the next", 200, 1, 1_000_000);
+        Option<int> worst = CommonOptions.Whole(
+            "--worst", "How many of them are told one by one, those that took the longest to recover", 20, 0, 1_000);
         Option<int> processes = CommonOptions.Whole(
             "--processes", "How many of the worst are played again with real processes, by SIGSTOP, kill -9 and a relay that changes its ports", 0, 0, 1_000);
         Command command = new(
             "stalls",
-            "Drawn sessions, in virtual time, in which host or clients stand still for 1 to 60 s, are killed and started again, or change their ports every 10 s."
-                + " 0 if play goes on in all: no accepted event lost, no state that differs, who was away is back by itself as the same player, and to nobody else"
-                + " anything happened.") { sessions, worst, processes };
+            "Drawn sessions, in virtual time, in which host or clients stand still for 1 to 60 s, are killed and started again, or change their"
+                + " ports every 10 s."
+                + " 0 if play goes on in all: no accepted event lost, no state that differs, who was away is back by itself as the same player,"
+                + " and to nobody else anything happened.") { sessions, worst, processes };
         common.AddSeedAndJsonTo(command);
         command.SetAction(parsed =>
         {
@@ -37,7 +40,8 @@ internal static class StallsCommand
             int again = parsed.GetValue(processes);
             if (again > 0 && OperatingSystem.IsWindows())
             {
-                throw new UsageException($"--processes is '{again}'; processes are stopped by signals, which this system does not have: it takes 0 here.");
+                throw new UsageException(
+                    $"--processes is '{again}'; processes are stopped by signals, which this system does not have: it takes 0 here.");
             }
 
             return Run(console, change?.Invoke(options) ?? options, parsed.GetValue(worst), again, parsed.GetValue(common.Json));
@@ -57,14 +61,16 @@ internal static class StallsCommand
                 {
                     if (++done % 100 == 0 || !outcome.IsGood)
                     {
-                        console.Begin(FormattableString.Invariant($"{done} of {options.Sessions} sessions{(outcome.IsGood ? "" : $"; seed {outcome.Case.Seed} is not good")}"));
+                        string how = outcome.IsGood ? "" : FormattableString.Invariant($"; seed {outcome.Case.Seed} is not good");
+                        console.Begin(FormattableString.Invariant($"{done} of {options.Sessions} sessions{how}"));
                     }
 
                     progress(done);
                 },
                 console.Stop));
         StallOutcome[] ranked = [.. outcomes.OrderBy(o => o.IsGood).ThenByDescending(o => o.WorstSeconds).ThenBy(o => o.Case.Seed)];
-        IReadOnlyList<StallProcessOutcome> played = again == 0 || outcomes.Count < options.Sessions ? [] : PlayAgain(console, [.. ranked.Take(again)]);
+        bool isStopped = outcomes.Count < options.Sessions;
+        IReadOnlyList<StallProcessOutcome> played = again == 0 || isStopped ? [] : PlayAgain(console, [.. ranked.Take(again)]);
         if (json)
         {
             StallsJson.Write(console.Output, options, outcomes, [.. ranked.Take(worst)], played);
@@ -88,12 +94,13 @@ internal static class StallsCommand
             object gate = new();
             int next = -1;
             int done = 0;
-            Task.WaitAll([.. Enumerable.Range(0, Math.Min(ProcessSessionsAtOnce, chosen.Length)).Select(_ => Task.Factory.StartNew(Work, TaskCreationOptions.LongRunning))]);
+            int workers = Math.Min(ProcessSessionsAtOnce, chosen.Length);
+            Task.WaitAll([.. Enumerable.Range(0, workers).Select(_ => Task.Factory.StartNew(Work, TaskCreationOptions.LongRunning))]);
             return outcomes.OfType<StallProcessOutcome>().ToArray();
 
             void Work()
             {
-                for (int n = Interlocked.Increment(ref next); n < chosen.Length && !console.Stop.IsCancellationRequested; n = Interlocked.Increment(ref next))
+                while (!console.Stop.IsCancellationRequested && Interlocked.Increment(ref next) is int n && n < chosen.Length)
                 {
                     string folder = Directory.CreateTempSubdirectory("lagsim-stalls-").FullName;
                     try
@@ -112,8 +119,8 @@ internal static class StallsCommand
 
                     lock (gate)
                     {
-                        console.Begin(FormattableString.Invariant(
-                            $"{++done} of {chosen.Length}: seed {chosen[n].Case.Seed}{(outcomes[n]!.IsGood ? "" : $" is not good: {string.Join(" ", outcomes[n]!.Failures)}")}"));
+                        string how = outcomes[n]!.IsGood ? "" : $" is not good: {string.Join(" ", outcomes[n]!.Failures)}";
+                        console.Begin(FormattableString.Invariant($"{++done} of {chosen.Length}: seed {chosen[n].Case.Seed}{how}"));
                         progress(done);
                     }
                 }

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Threading;
 using LagSim.Net.Carriers;
 using LagSim.Time;
 
@@ -20,6 +21,7 @@ internal sealed class RelayCore : IDisposable
     private readonly Dictionary<PeerAddress, Client> clients = [];
     private readonly object gate = new(); // six counters that belong together; taken only to replace or copy them
     private SimTime polled;
+    private int changesAsked; // 1 if so
     private RelayTraffic traffic;
     private long forwardedToHost;
     private long forwardedFromHost;
@@ -63,14 +65,18 @@ internal sealed class RelayCore : IDisposable
         }
     }
 
+    /// <summary>Has the next poll give every client another port. From any thread.</summary>
+    internal void ChangePorts() => Interlocked.Exchange(ref changesAsked, 1);
+
     /// <summary>Takes in what came, as sent now, and hands on what is due by now.</summary>
     /// <returns>When the next datagram is due; null when none is on its way.</returns>
     internal SimTime? Poll(SimTime now)
     {
         polled = now;
+        bool isAsked = Interlocked.Exchange(ref changesAsked, 0) != 0;
         foreach (Client client in clients.Values)
         {
-            ChangePort(client, now);
+            ChangePort(client, isAsked, now);
         }
 
         toHost.TakeFrom(front, now);
@@ -131,9 +137,9 @@ internal sealed class RelayCore : IDisposable
     /// Closes the port by which the host knows a client, when it is time, and opens another one: what the host still sends to the former is lost, as with a
     /// translator of addresses that forgets.
     /// </summary>
-    private void ChangePort(Client client, SimTime now)
+    private void ChangePort(Client client, bool isAsked, SimTime now)
     {
-        if (client.NextChange <= now && openPort() is IDatagramPort port)
+        if ((isAsked || client.NextChange <= now) && openPort() is IDatagramPort port)
         {
             client.Port.Dispose();
             client.Port = port;

@@ -83,6 +83,13 @@ public sealed class UdpRelay : IDisposable
         }
     }
 
+    /// <summary>Has the host see every client at another port from now on; what it still sends to the former is lost. From any thread.</summary>
+    public void ChangePorts()
+    {
+        core.ChangePorts();
+        thread.Wake();
+    }
+
     /// <summary>Stops at once and closes all sockets; what is still on its way is lost. Safe to call twice.</summary>
     public void Dispose()
     {

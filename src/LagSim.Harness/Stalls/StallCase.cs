@@ -18,6 +18,13 @@ public sealed class StallCase
     /// <summary>Between two stalls of one peer it plays at least so long.</summary>
     private const double LeastPause = 2;
 
+    /// <summary>What is drawn from: a host that is killed loses its world, so that is the rarest.</summary>
+    private static readonly StallKind[] Kinds =
+    [
+        StallKind.HostFrozen, StallKind.HostFrozen, StallKind.HostKilled, StallKind.ClientFrozen, StallKind.ClientFrozen, StallKind.ClientKilled,
+        StallKind.ClientKilled, StallKind.PortChanges,
+    ];
+
     /// <summary>Draws it.</summary>
     public StallCase(ulong seed)
     {
@@ -30,15 +37,16 @@ public sealed class StallCase
         int count = 1 + random.NextInt(2);
         for (int n = 0; n < count; n++)
         {
-            StallKind kind = random.Pick(StallKind.HostFrozen, StallKind.HostFrozen, StallKind.HostKilled, StallKind.ClientFrozen, StallKind.ClientFrozen, StallKind.ClientKilled, StallKind.ClientKilled, StallKind.PortChanges);
+            StallKind kind = random.Pick(Kinds);
             int player = kind is StallKind.HostFrozen or StallKind.HostKilled ? 0 : 1 + random.NextInt(Clients);
             double seconds = kind == StallKind.PortChanges
                 ? random.NextDouble(2, 5) * Stall.ChangeSeconds
                 : LeastSeconds * Math.Pow(MostSeconds / LeastSeconds, random.NextDouble()); // as many of 1 to 8 s as of 8 to 60 s
             double at = random.NextDouble(3, 30);
-            foreach (Stall before in stalls.Where(s => s.Player == player && s.Kind != StallKind.PortChanges && kind != StallKind.PortChanges))
+            foreach (Stall before in stalls.Where(s => s.Player == player))
             {
-                at = Math.Max(at, before.EndSeconds + LeastPause);
+                bool isBoth = before.Kind != StallKind.PortChanges && kind != StallKind.PortChanges; // ports may change all the while
+                at = isBoth ? Math.Max(at, before.EndSeconds + LeastPause) : at;
             }
 
             stalls.Add(new Stall(kind, player, at, seconds));

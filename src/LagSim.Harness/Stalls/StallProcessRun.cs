@@ -4,9 +4,11 @@ using System.Diagnostics;
 using System.Globalization;
 using System.IO;
 using System.Linq;
+using System.Net;
 using System.Text.Json;
 using System.Threading;
 using LagSim.Harness.Links;
+using LagSim.Hosting;
 
 namespace LagSim.Harness.Stalls;
 
@@ -14,7 +16,8 @@ namespace LagSim.Harness.Stalls;
 /// <remarks>For systems with signals. What the processes do depends on their clocks: whether they agree does not.</remarks>
 public sealed class StallProcessRun : IDisposable
 {
-    private const double StartSeconds = 90;
+    /// <summary>How long processes may take to start and to get in, on links that take seconds and behind ports that change meanwhile.</summary>
+    private const double StartSeconds = 180;
 
     private readonly StallCase drawn;
     private readonly IReadOnlyList<string> tool;
@@ -28,7 +31,7 @@ public sealed class StallProcessRun : IDisposable
     private readonly List<StallProcess>[] clients; // by number less one, each with all its lives
     private readonly List<(double Seconds, string Text)>[] deeds;
     private readonly List<string> failures = [];
-    private readonly string?[] reached; // where each client sends to
+    private readonly UdpRelay[] relays; // of each client
     private readonly string?[] numbers; // that they got first
     private string port = "0";
 
@@ -50,7 +53,7 @@ public sealed class StallProcessRun : IDisposable
         length = Math.Ceiling(drawn.EndSeconds + (1.5 * recoverySeconds) + 30);
         random = new SeededRandom(drawn.Seed).Fork(0x9C);
         clients = [.. Enumerable.Range(0, drawn.Clients).Select(_ => new List<StallProcess>())];
-        reached = new string?[drawn.Clients];
+        relays = new UdpRelay[drawn.Clients];
         numbers = new string?[drawn.Clients];
         deeds = [.. clients.Select(_ => Draw())];
     }
@@ -61,8 +64,17 @@ public sealed class StallProcessRun : IDisposable
         if (Start())
         {
             watch.Start();
-            foreach ((double at, Action what) in drawn.Stalls.SelectMany(s => new[] { (s.AtSeconds, (Action)(() => Begin(s))), (s.EndSeconds, () => End(s)) })
-                .OrderBy(step => step.Item1))
+            List<(double At, Action What)> plan = [.. drawn.Stalls.Select(s => (s.AtSeconds, (Action)(() => Begin(s))))];
+            plan.AddRange(drawn.Stalls.Select(s => (s.EndSeconds, (Action)(() => End(s)))));
+            foreach (Stall stall in drawn.Stalls.Where(s => s.Kind == StallKind.PortChanges))
+            {
+                for (double at = stall.AtSeconds; at < stall.EndSeconds; at += Stall.ChangeSeconds)
+                {
+                    plan.Add((at, relays[stall.Player - 1].ChangePorts));
+                }
+            }
+
+            foreach ((double at, Action what) in plan.OrderBy(step => step.At))
             {
                 Wait(at);
                 what();
@@ -78,9 +90,9 @@ public sealed class StallProcessRun : IDisposable
     /// <summary>Ends what still runs.</summary>
     public void Dispose()
     {
-        foreach (StallProcess process in all)
+        foreach (IDisposable part in all.Concat<IDisposable>(relays.OfType<UdpRelay>()))
         {
-            process.Dispose();
+            part.Dispose();
         }
     }
 
@@ -94,17 +106,10 @@ public sealed class StallProcessRun : IDisposable
         }
 
         port = address[(address.LastIndexOf(':') + 1)..];
-        string? plain = StartRelay(address);
         for (int n = 0; n < clients.Length; n++)
         {
-            bool isMoving = drawn.Stalls.Any(s => s.Kind == StallKind.PortChanges && s.Player == n + 1);
-            reached[n] = isMoving ? StartRelay(address, "--change-port-s", Stall.ChangeSeconds.ToString(CultureInfo.InvariantCulture)) : plain;
-            if (reached[n] is null)
-            {
-                failures.Add("A relay does not listen.");
-                return false;
-            }
-
+            IPEndPoint there = IPEndPoint.Parse(address);
+            relays[n] = new UdpRelay(new IPEndPoint(IPAddress.Loopback, 0), there, drawn.Link, drawn.Seed + (ulong)n, new StopwatchClock());
             StartClient(n);
         }
 
@@ -130,15 +135,12 @@ public sealed class StallProcessRun : IDisposable
         return host;
     }
 
-    private string? StartRelay(string host, params string[] more) =>
-        Run(["relay", host, "--profile", drawn.Link.Name, "--seed", Text(drawn.Seed), .. more]).Await("listening on ", StartSeconds, cancellation);
-
     /// <summary>One that comes later does what is left to be done a while after that.</summary>
     private void StartClient(int n)
     {
         double from = clients[n].Count == 0 ? 3 : watch.Elapsed.TotalSeconds + 15;
         IEnumerable<string> done = deeds[n].Where(d => d.Seconds > from).SelectMany(d => new[] { "--do", d.Text });
-        clients[n].Add(Run(["join", reached[n]!, "--pass", PassOf(n), "--json", .. done]));
+        clients[n].Add(Run(["join", relays[n].LocalAddress.ToString(), "--pass", PassOf(n), "--json", .. done]));
     }
 
     private StallProcess Run(params string[] arguments)
@@ -223,7 +225,8 @@ public sealed class StallProcessRun : IDisposable
             failures.Add($"Client {n + 1} left no result: {Last(client)}");
         }
 
-        if (!drawn.Stalls.Any(s => s.Touches(n + 1)) && client.Lines.FirstOrDefault(l => l.Contains("let in again", StringComparison.Ordinal)) is string line)
+        bool isTouched = drawn.Stalls.Any(s => s.Touches(n + 1));
+        if (!isTouched && client.Lines.FirstOrDefault(l => l.Contains("let in again", StringComparison.Ordinal)) is string line)
         {
             failures.Add($"Client {n + 1}, to whom nothing happened, was interrupted: {line}");
         }

@@ -108,7 +108,8 @@ internal sealed class StallRun
         foreach (Stall stall in drawn.Stalls)
         {
             plan.Add((stall.AtSeconds, () => Begin(stall)));
-            for (double at = stall.AtSeconds + Stall.ChangeSeconds; stall.Kind == StallKind.PortChanges && at < stall.EndSeconds; at += Stall.ChangeSeconds)
+            double from = stall.Kind == StallKind.PortChanges ? stall.AtSeconds + Stall.ChangeSeconds : double.MaxValue;
+            for (double at = from; at < stall.EndSeconds; at += Stall.ChangeSeconds)
             {
                 plan.Add((at, () => ChangeAddress(stall.Player)));
             }
@@ -118,7 +119,7 @@ internal sealed class StallRun
 
         double[] next = [.. clients.Select(_ => random.NextDouble() / drawn.EventsPerSecond)];
         double end = double.MaxValue;
-        foreach ((double at, Action what) in plan.OrderBy(p => p.At).Append((drawn.EndSeconds + Patience, () => { })))
+        foreach ((double at, Action what) in plan.OrderBy(p => p.At).Append((drawn.EndSeconds + Patience, Look)))
         {
             while (true)
             {
@@ -151,7 +152,8 @@ internal sealed class StallRun
     /// <summary>Until all have heard of all that was done, and the last of it is committed.</summary>
     private void Settle()
     {
-        RunUntil(() => clients.All(c => c.Session is { State: SessionState.Running, UnjudgedEvents: 0 } && c.Session.LogLength == Host.LogLength), Patience);
+        RunUntil(
+            () => clients.All(c => c.Session is { State: SessionState.Running, UnjudgedEvents: 0 } && c.Session.LogLength == Host.LogLength), Patience);
         RunUntil(() => false, 4);
     }
 
@@ -165,7 +167,9 @@ internal sealed class StallRun
         }
         else if (client.Since is SimTime since)
         {
-            failures.Add(string.Create(CultureInfo.InvariantCulture, $"Client {client.Address} was not up to date {(clock.Now - since).ToSeconds():0} s after the last stall."));
+            failures.Add(string.Create(
+                CultureInfo.InvariantCulture,
+                $"Client {client.Address} was not up to date {(clock.Now - since).ToSeconds():0} s after the last stall."));
         }
         else if (session.LogLength != Host.LogLength)
         {
@@ -281,7 +285,8 @@ internal sealed class StallRun
     {
         SessionOptions chosen = Options();
         chosen.Pass = options.KeepsPasses ? client.Pass : default;
-        JoinerSession session = new(null, ports[client.Address], clocks[client.Address], chosen, PeerAddress.Virtual(0), drawn.Seed + (1000 * ++sessions));
+        JoinerSession session = new(
+            null, ports[client.Address], clocks[client.Address], chosen, PeerAddress.Virtual(0), drawn.Seed + (1000 * ++sessions));
         client.Follow(session);
         return session;
     }

@@ -21,12 +21,13 @@ public static class StallTest
         StallOutcome?[] outcomes = new StallOutcome?[options.Sessions];
         object gate = new();
         int next = -1;
-        Task.WaitAll([.. Enumerable.Range(0, Math.Max(1, options.Workers)).Select(_ => Task.Factory.StartNew(Work, TaskCreationOptions.LongRunning))]);
+        int workers = Math.Max(1, options.Workers);
+        Task.WaitAll([.. Enumerable.Range(0, workers).Select(_ => Task.Factory.StartNew(Work, TaskCreationOptions.LongRunning))]);
         return [.. outcomes.OfType<StallOutcome>()];
 
         void Work()
         {
-            for (int n = Interlocked.Increment(ref next); n < outcomes.Length && !cancellation.IsCancellationRequested; n = Interlocked.Increment(ref next))
+            while (!cancellation.IsCancellationRequested && Interlocked.Increment(ref next) is int n && n < outcomes.Length)
             {
                 try
                 {

@@ -57,7 +57,8 @@ public sealed partial class JoinerSession
     {
         if (link is not null && challenge.Nonce == link.SessionId)
         {
-            // The host hears this peer from an address that it does not know it to have.
+            // The host hears this peer from an address that it does not know it to have: it is there, though it says nothing else until that is shown.
+            link.NoteHeard(Clock.Now);
             Span<byte> bytes = stackalloc byte[WireFormat.MoveBytes];
             Send(bytes.Slice(0, new MoveDatagram(link.SessionId, link.Self, challenge.Cookie).Encode(bytes)), link);
         }

@@ -30,6 +30,7 @@ public sealed partial class JoinerSession : Session
     private ulong nonce; // of the newest attempt
     private SimTime began = SimTime.MaxValue; // own clock, at the first step: however long that is waited for, nobody was silent
     private SimTime tended; // own clock, when this peer last looked after itself
+    private SimDuration asleep; // how long it did not
     private uint lastUrgent; // of the own events: the newest that nothing later makes up for
     private volatile object? pass; // a boxed one: other threads read it whole
     private bool isStartTold; // the host tells the start until it has heard that it is known here
@@ -204,8 +205,8 @@ public sealed partial class JoinerSession : Session
         if (slept > Options.Timeout / 2)
         {
             link?.NoteHeard(now); // it was this machine that slept, or whose clock jumped: who was not listened to was not silent
-            began += slept;
             rejoining += slept;
+            asleep += slept;
         }
 
         tended = now;

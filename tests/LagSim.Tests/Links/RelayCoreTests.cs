@@ -214,6 +214,10 @@ public sealed class RelayCoreTests : IDisposable
         Turn();
         Assert.Equal([11], Drain(clients[0]).Select(datagram => datagram.Number));
         Assert.Equal(1, relay!.Traffic.Clients);
+
+        relay.ChangePorts(); // or when it is told to
+        Turn();
+        Assert.Equal(3, backs.Count);
     }
 
     [Fact]

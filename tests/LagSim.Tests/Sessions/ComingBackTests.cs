@@ -208,6 +208,25 @@ public sealed class ComingBackTests
     }
 
     [Fact]
+    public void Move_EveryTenSecondsOverALinkOfFourThereAndBack_IsNoSilence()
+    {
+        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(2000)).Connect();
+        List<string> interruptions = [];
+        group.Joiner(1).Interrupted += interruptions.Add;
+        for (int n = 0; n < 12; n++)
+        {
+            group.Network.Move(1, 1000 + n);
+            group.Run(10);
+        }
+
+        group.Run(10);
+        Assert.Empty(interruptions);
+        Assert.Equal(SessionState.Running, group.Joiner(1).State);
+        Assert.Equal(0, group.Joiner(1).Counters.StatesDiffered);
+        Assert.True(group.Joiner(1).Counters.StatesAgreed > 90);
+    }
+
+    [Fact]
     public void Join_AnAddressThatChangesBeforeTheWelcome_GetsAnotherCookieSoon()
     {
         SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(20)).Connect();
