@@ -89,7 +89,6 @@ internal sealed class SweepRun
         double neededBefore = needed;
         double[] heardBefore = [.. clients.Select(c => c.Bytes)];
         List<double> trips = [];
-        List<(double At, double Trip)> course = [];
         double[] next = [.. clients.Select(_ => cell.EventsPerSecond > 0 ? random.NextDouble() / cell.EventsPerSecond : double.MaxValue)];
         SimTime start = clock.Now;
         double nextLook = 0;
@@ -105,10 +104,13 @@ internal sealed class SweepRun
             if (at == nextLook)
             {
                 nextLook += LookSeconds;
-                int count = trips.Count;
                 Look(trips);
                 LookAtQueues();
-                course.Add(((clock.Now - SimTime.Zero).ToSeconds(), trips.Skip(count).DefaultIfEmpty(0).Max()));
+                foreach (Client client in clients)
+                {
+                    client.Course.Add(((clock.Now - SimTime.Zero).ToSeconds(), RoundTrip(client)));
+                }
+
                 continue;
             }
 
@@ -132,7 +134,7 @@ internal sealed class SweepRun
             IdleRoundTripMs = idleTrip,
             RoundTripP50Ms = trip.P50,
             RoundTripP99Ms = trip.P99,
-            RecoverySeconds = Recovery(course, idleTrip),
+            RecoverySeconds = cell.HasDips ? clients.Max(c => Recovery(c.Course, idleTrip)) : 0,
             QueuedSeconds = clients.Sum(c => c.QueuedSeconds),
             SentPerNeededByteWhileQueued = clients.Sum(c => c.SentQueued) / Math.Max(1, clients.Sum(c => c.CameQueued)),
             LoadShare = LoadShare(),
@@ -196,14 +198,9 @@ internal sealed class SweepRun
         };
     }
 
-    /// <summary>The longest after a dip until the round trip was below twice the idle one again, and stayed so for a second.</summary>
-    private double Recovery(List<(double At, double Trip)> course, double idle)
+    /// <summary>The longest after a dip until one client's round trip was below twice the idle one again.</summary>
+    private static double Recovery(List<(double At, double Trip)> course, double idle)
     {
-        if (!cell.HasDips)
-        {
-            return 0;
-        }
-
         double longest = 0;
         for (int i = 0; i < course.Count; i++)
         {
@@ -240,12 +237,16 @@ internal sealed class SweepRun
     {
         foreach (Client client in clients)
         {
-            if (client.Session.State == SessionState.Running && client.Session.Links is [LinkTraffic link] && link.RoundTrip > SimDuration.Zero)
+            if (RoundTrip(client) is > 0 and double trip)
             {
-                trips.Add(link.RoundTrip.ToMilliseconds());
+                trips.Add(trip);
             }
         }
     }
+
+    /// <summary>The newest, in milliseconds; 0 where there is none.</summary>
+    private static double RoundTrip(Client client) =>
+        client.Session.State == SessionState.Running && client.Session.Links is [LinkTraffic link] ? link.RoundTrip.ToMilliseconds() : 0;
 
     /// <summary>Counts what was sent to clients, and what came there, since the last look, where a queue showed all that time.</summary>
     private void LookAtQueues()
@@ -310,6 +311,9 @@ internal sealed class SweepRun
         internal LogCoverage Coverage { get; } = new(session);
 
         internal double Bytes { get; set; }
+
+        /// <summary>Its round trips as time went by, in seconds and milliseconds.</summary>
+        internal List<(double At, double Trip)> Course { get; } = [];
 
         /// <summary>As of the last look, as are the next two: whether a queue showed, what was sent there, and what had come.</summary>
         internal bool WasQueued { get; set; }

@@ -7,9 +7,9 @@ namespace LagSim.Net.Sessions;
 
 /// <summary>One end of the exchange of updates with one other peer: what came, what is on its way, and when the next one is due.</summary>
 /// <remarks>
-/// Where there is room, what is new goes at once, and what is not acknowledged again each resend interval. Where there is none (<see cref="CongestionControl"/>),
-/// nothing is repeated before it is known to be lost, and what is new waits until it is worth a datagram: two thirds of its bytes are entries, or half of what
-/// it will wait in the queue, or a tenth of a second, has passed.
+/// What is new goes at once, and what is not acknowledged again each resend interval, as far as the link's <see cref="SpareRate"/> allows. Beyond that nothing is repeated
+/// before it is known to be lost, and what is new waits until it is worth a datagram: two thirds of its bytes are entries, or half of what it will wait in the
+/// queue, or a tenth of a second, has passed. In any case no more is on its way than <see cref="CongestionControl"/> lets.
 /// </remarks>
 internal sealed class UpdateLink
 {
@@ -44,6 +44,7 @@ internal sealed class UpdateLink
     private readonly SeenNumbers seen = new();
     private readonly SentDatagrams sent = new();
     private readonly CongestionControl congestion;
+    private readonly SpareRate spare;
     private readonly RoundTrips trips = new();
     private uint lastSent;
     private SimTime echoReceived = SimTime.MinValue;
@@ -83,6 +84,7 @@ internal sealed class UpdateLink
         this.fault = fault;
         Outgoing = new SendWindow(acknowledged, fault);
         congestion = new CongestionControl(fault);
+        spare = new SpareRate(fault);
         this.interval = interval;
         Heard = now;
         Due = now;
@@ -112,6 +114,24 @@ internal sealed class UpdateLink
 
     /// <summary>When the next update is due, by the own clock.</summary>
     internal SimTime Due { get; private set; }
+
+    /// <summary>How long an answer is waited for.</summary>
+    private SimDuration Patience => (trips.IsMeasured ? trips.Patience : FirstPatience) + MostAckDelay + interval;
+
+    private SimDuration LongestTrip => trips.Mean > trips.Newest ? trips.Mean : trips.Newest;
+
+    /// <summary>
+    /// How long something new waits for more at most, where it may not hurry: no longer than an answer takes, and no longer than the queue itself has it wait, but
+    /// for what nobody notices on such a link.
+    /// </summary>
+    private SimDuration MergeTime
+    {
+        get
+        {
+            SimDuration most = trips.Queueing / 2 > MostAckDelay ? trips.Queueing / 2 : MostAckDelay;
+            return trips.Mean < most ? trips.Mean : most;
+        }
+    }
 
     /// <summary>The longer of two silences: for how long nothing came, and for how long the other said, when it last wrote, that nothing came there.</summary>
     internal SimDuration Silence(SimTime now) => now - Heard > unheard ? now - Heard : unheard;
@@ -189,26 +209,6 @@ internal sealed class UpdateLink
         isHeldBack |= !congestion.HasRoom;
     }
 
-    /// <summary>Whether an update may go for little.</summary>
-    private bool MayHurry(SimTime now)
-    {
-        int comfort = congestion.ComfortAt(now, trips, unanswered > 0);
-        return congestion.UntilComfort(OwnBytes) == SimDuration.Zero && comfort >= OwnBytes;
-    }
-
-    /// <summary>
-    /// How long something new waits for more at most, where it may not hurry: no longer than an answer takes, and no longer than the queue itself has it wait, but
-    /// for what nobody notices on such a link.
-    /// </summary>
-    private SimDuration MergeTime
-    {
-        get
-        {
-            SimDuration most = trips.Queueing / 2 > MostAckDelay ? trips.Queueing / 2 : MostAckDelay;
-            return trips.Mean < most ? trips.Mean : most;
-        }
-    }
-
     internal void CountReceived(int bytes)
     {
         datagramsReceived++;
@@ -271,17 +271,17 @@ internal sealed class UpdateLink
     /// <summary>Puts entries into the composed update.</summary>
     internal void Fill(IEntrySource source, SimTime now)
     {
-        int comfort = congestion.ComfortAt(now, trips, unanswered > 0);
+        spare.Advance(now, trips, unanswered > 0);
         if (!congestion.HasRoom)
         {
             outgoing.FirstIndex = Outgoing.Sent + 1;
             return;
         }
 
-        // What has to go finds the window half empty. An update that is worth its own bytes costs no comfort.
-        int repeated = Outgoing.Fill(outgoing, source, congestion.IsHalfFull ? 0 : comfort, OwnBytes);
+        // What has to go finds the window half empty. An update that is worth its own bytes is none that could have waited.
+        int repeated = Outgoing.Fill(outgoing, source, congestion.IsHalfFull ? 0 : spare.Bytes, OwnBytes);
         int needed = outgoing.EncodedLength - WireFormat.EmptyUpdateBytes - repeated;
-        congestion.Spend(repeated + Math.Max(0, OwnBytes - (Math.Max(0, needed) / 2)));
+        spare.Spend(repeated + Math.Max(0, OwnBytes - (Math.Max(0, needed) / 2)));
     }
 
     /// <summary>The bytes of the composed update; sets when the next is due.</summary>
@@ -326,7 +326,7 @@ internal sealed class UpdateLink
 
             if ((isUrgent || Outgoing.HasLost) && !congestion.IsHalfFull)
             {
-                SimDuration affordable = congestion.UntilComfort(OwnBytes + Outgoing.RepetitionBytes(source));
+                SimDuration affordable = spare.WaitFor(OwnBytes + Outgoing.RepetitionBytes(source));
                 Hasten(now + (interval > affordable ? interval : affordable));
             }
         }
@@ -334,13 +334,16 @@ internal sealed class UpdateLink
         return buffer.AsSpan(0, length);
     }
 
-    private SimDuration Patience => (trips.IsMeasured ? trips.Patience : FirstPatience) + MostAckDelay + interval;
-
-    private SimDuration LongestTrip => trips.Mean > trips.Newest ? trips.Mean : trips.Newest;
-
     /// <summary>When the answer to what was sent is overdue; with a queue on the way twice as long after each time that it was.</summary>
     private SimTime AnswerDue() =>
         sent.TryPeekOldest(out SimTime at) ? at + (Patience * (1L << (trips.HasQueue ? Math.Min(unanswered, MostDoublings) : 0))) : SimTime.MaxValue;
+
+    /// <summary>Whether an update may go for little.</summary>
+    private bool MayHurry(SimTime now)
+    {
+        spare.Advance(now, trips, unanswered > 0);
+        return spare.WaitFor(OwnBytes) == SimDuration.Zero;
+    }
 
     private void TakeAcknowledgements(UpdateDatagram update, SimTime now)
     {
@@ -379,7 +382,11 @@ internal sealed class UpdateLink
 
     private void Lose(in SentDatagrams.Datagram datagram, SimTime now, bool hasQueue)
     {
-        congestion.OnLost(datagram.Bytes, datagram.At, now, hasQueue);
+        if (congestion.OnLost(datagram.Bytes, datagram.At, now, hasQueue))
+        {
+            spare.Cut();
+        }
+
         sent.NoteLost(datagram);
         Outgoing.Lose(datagram.First, datagram.Last, isOnItsWay: sent.IsCarriedLater(datagram, datagram.First, datagram.Last));
     }

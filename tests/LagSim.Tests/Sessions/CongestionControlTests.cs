@@ -7,7 +7,7 @@ using Xunit;
 namespace LagSim.Tests.Sessions;
 
 /// <summary>
-/// The window of a link and its comfort: never too small, smaller where there is a queue, and no greater for what is not used.
+/// The window of a link: never too small, smaller where there is a queue, and no greater for what is not used.
 /// </summary>
 public sealed class CongestionControlTests(ITestOutputHelper output)
 {
@@ -66,60 +66,6 @@ public sealed class CongestionControlTests(ITestOutputHelper output)
         }
     }
 
-    [Fact]
-    public void Comfort_WithAQueue_IsCutToTheLeast_AndWithoutRecoversToTheFirst()
-    {
-        CongestionControl control = new();
-        RoundTrips trips = new();
-        SimTime now = SimTime.FromSeconds(1);
-        Add(trips, ref now, 40, 100);
-        Assert.Equal(12_000, Rate(control, trips, now), 50.0);
-
-        double before = 12_000;
-        for (int n = 0; n < 60; n++)
-        {
-            Add(trips, ref now, 200, 8);
-            double rate = Rate(control, trips, now);
-            Assert.InRange(rate, 999, Math.Max(1_001, before));
-            before = rate;
-        }
-
-        Assert.Equal(1_000, before, 5.0);
-        for (int n = 0; n < 300; n++)
-        {
-            Add(trips, ref now, 40, 8);
-            control.ComfortAt(now, trips, isSilent: false); // it comes back, and grows no further: nobody uses it up
-        }
-
-        Assert.Equal(12_000, Rate(control, trips, now), 50.0);
-        for (int n = 0; n < 300; n++)
-        {
-            Add(trips, ref now, 40, 8);
-            control.ComfortAt(now, trips, false);
-            control.Spend(Full);
-            control.UntilComfort(Full); // used up
-        }
-
-        Assert.InRange(Rate(control, trips, now), 20_000, (Full / 0.03) + 1);
-    }
-
-    [Fact]
-    public void Comfort_OfNothingAnswered_StaysWhatItWas()
-    {
-        CongestionControl control = new();
-        RoundTrips trips = new();
-        SimTime now = SimTime.FromSeconds(1);
-        Add(trips, ref now, 40, 100);
-        Rate(control, trips, now);
-        for (int n = 0; n < 100; n++)
-        {
-            now += SimDuration.FromSeconds(0.2);
-            control.ComfortAt(now, trips, isSilent: true);
-        }
-
-        Assert.Equal(12_000, Rate(control, trips, now), 50.0);
-    }
-
     /// <summary>
     /// A sender with all there is to send, over a link with a long queue: it keeps well below it. One that never backs off fills it, and is
     /// noticed.
@@ -172,25 +118,5 @@ public sealed class CongestionControlTests(ITestOutputHelper output)
         output.WriteLine(
             $"backs off: {backsOff}; {(double)lost / sent:P1} of {sent} lost, {waited / looked:F2} s in the queue in the mean");
         Assert.Equal(backsOff, (double)lost / sent < 0.05);
-    }
-
-    private static void Add(RoundTrips trips, ref SimTime now, double milliseconds, int count)
-    {
-        for (int n = 0; n < count; n++)
-        {
-            now += SimDuration.FromMilliseconds(25);
-            trips.Add(SimDuration.FromMilliseconds(milliseconds), now);
-        }
-    }
-
-    /// <summary>Bytes of comfort a second, by how long a datagram of it takes.</summary>
-    private static double Rate(CongestionControl control, RoundTrips trips, SimTime now)
-    {
-        int allowed = control.ComfortAt(now, trips, isSilent: false);
-        control.Spend(allowed);
-        int left = control.ComfortAt(now, trips, isSilent: false);
-        control.ComfortAt(now, trips, isSilent: false);
-        double seconds = control.UntilComfort(Full).ToSeconds();
-        return (Full - left) / seconds;
     }
 }
