@@ -18,7 +18,7 @@ public sealed class RoundTripsTests(ITestOutputHelper output)
     [Fact]
     public void Mean_Deviation_AndPatience_AreThoseOfTcp()
     {
-        for (int seed = 0; seed < 100; seed++)
+        for (int seed = 0; seed < 40; seed++)
         {
             Random random = new(seed);
             RoundTrips trips = new();
@@ -49,7 +49,7 @@ public sealed class RoundTripsTests(ITestOutputHelper output)
     [Fact]
     public void Queueing_IsNeitherBelowNothing_NorMoreThanTheTripsHaveGrown()
     {
-        for (int seed = 0; seed < 100; seed++)
+        for (int seed = 0; seed < 40; seed++)
         {
             Random random = new(seed);
             RoundTrips trips = new();

@@ -13,7 +13,7 @@ namespace LagSim.Tests.Sessions;
 /// </summary>
 public sealed class SendWindowLossTests
 {
-    private const int Seeds = 100;
+    private const int Seeds = 60;
 
     /// <summary>What is wrong with the sender, on purpose.</summary>
     public enum Fault
