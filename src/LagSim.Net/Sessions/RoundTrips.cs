@@ -20,8 +20,11 @@ internal sealed class RoundTrips
     /// <summary>Less than this is no queue: what a sleeping thread, or a radio that waits for its turn, adds to every trip.</summary>
     private static readonly SimDuration LeastQueue = SimDuration.FromMilliseconds(5);
 
-    /// <summary>How many times its spread jitter moves the mean from the least that it was in a minute.</summary>
-    private const int MostOfSpread = 7;
+    /// <summary>
+    /// How many times the least spread of a minute jitter moves the mean from its least. A mean smoothed by an eighth has 0.26 of the jitter's standard deviation;
+    /// in a minute it goes over six of its own, 1.5; and the spread of sixteen trips is at its least some 0.4. More takes longer to see a queue that comes.
+    /// </summary>
+    private const int MostOfSpread = 4;
 
     /// <summary>Over so many trips the spread is taken; before there are so many, nothing is known of it.</summary>
     private const int Many = 16;

@@ -53,7 +53,7 @@ public sealed class LinkSweepTests
     [Fact]
     public void Play_MoreThanTheLinkCarries_LosesNothingUnlessItForgetsTooEarly()
     {
-        SweepOptions tooMuch = Usual with { Clients = [3], EventsPerSecond = [40], KilobitsPerSecond = [64] };
+        SweepOptions tooMuch = Usual with { Clients = [3], EventsPerSecond = [40], KilobitsPerSecond = [64], RestSeconds = 60 };
         SweepOutcome outcome = Play(tooMuch, hasDips: true);
         SweepOutcome forgetful = Play(tooMuch with { Prepare = static (_, session) => session.Fault = SessionFault.ForgetsTooEarly }, hasDips: true);
 
