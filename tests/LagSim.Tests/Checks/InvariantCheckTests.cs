@@ -17,13 +17,14 @@ namespace LagSim.Tests.Checks;
 public sealed class InvariantCheckTests
 {
     [Fact]
-    public void Run_RandomSessions_NoBitDiffersAndNothingIsTooLate()
+    public void Run_RandomSessions_NoBitDiffersAndNothingIsLost()
     {
         CheckOptions options = new() { Sessions = 150, Seed = 1_000_001 };
         CheckReport report = Run(options);
 
         Assert.True(report.Failures.Count == 0, string.Join(Environment.NewLine, report.Failures.Select(f => $"{f.Whole.Failure} {f.Least.Difference} {f.Command}")));
-        Assert.Equal((150, 0L, 0L), (report.Outcomes.Count, report.DifferingBits, report.TooLateEvents));
+        Assert.Equal((150, 0L, 0L), (report.Outcomes.Count, report.DifferingBits, report.LostEvents));
+        Assert.All(report.Outcomes, o => Assert.True(o.TooLateEvents == 0 || o.HasFullLinks || o.HasStops, $"seed {o.Seed}: {o.TooLateEvents} too late"));
 
         // Else little was shown.
         Assert.True(report.HealsThatChangedAnImpact >= 0.3 * report.Heals && report.Heals > 5_000, $"{report.HealsThatChangedAnImpact} of {report.Heals}");
@@ -31,6 +32,7 @@ public sealed class InvariantCheckTests
         Assert.All(report.Outcomes, o => Assert.True(o.Compared > 100, $"seed {o.Seed}: {o.Compared} compared"));
         Assert.True(report.Outcomes.Sum(o => o.LateJoiners) > 50 && report.Outcomes.Sum(o => o.Leavers) > 20);
         Assert.True(report.Outcomes.Sum(o => o.TiedEvents) > 500);
+        Assert.True(report.Outcomes.Count(o => o.HasFullLinks) > 40 && report.Outcomes.Count(o => o.HasStops) > 10);
         Assert.Superset(Enumerable.Range(2, 7).ToHashSet(), report.Outcomes.Select(o => o.Peers).ToHashSet());
 
         // What is rare is met all the same.
@@ -147,11 +149,11 @@ public sealed class InvariantCheckTests
     [Theory]
     [InlineData(HealingFault.ForgetsThePast, 1u)]
     [InlineData(HealingFault.OverlooksWhoIsAhead, 1u)]
-    [InlineData(HealingFault.GivesUpByBody, 5u)]
+    [InlineData(HealingFault.GivesUpByBody, 4u)]
     [InlineData(HealingFault.DropsEvents, 1u)]
     [InlineData(HealingFault.LeavesMates, 94u)]
     [InlineData(HealingFault.CutsByTime, 1u)]
-    [InlineData(HealingFault.LeavesWhoRests, 1u)]
+    [InlineData(HealingFault.LeavesWhoRests, 29u)]
     internal void Run_HealingInAWayKnownToBeWrong_IsCaughtByItsSeed(HealingFault fault, uint seed)
     {
         // The seeds that docs/HEALING.md names.
