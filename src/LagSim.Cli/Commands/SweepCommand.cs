@@ -22,13 +22,14 @@ internal static class SweepCommand
         Option<double[]> queues = Numbers("--queue-ms", "How long its queues are, in milliseconds at that rate", byDefault.QueueMilliseconds, 0, 10_000);
         Option<bool> noDips = new("--no-dips") { Description = "Only links that always carry the same; else each cell is also played with dips to a fifth for 5 s every 30 s." };
         Option<bool> shared = new("--shared") { Description = "All clients behind one link that carries as much; else each has a link of its own." };
+        Option<bool> bulk = new("--bulk") { Description = "A bulk TCP transfer towards each client through the same queues." };
         Option<double> play = CommonOptions.Number("--play-s", "How long events are done, in seconds", byDefault.PlaySeconds, 1, 3600);
         Option<double> rest = CommonOptions.Number("--rest-s", "How long all rests after that, in seconds", byDefault.RestSeconds, 1, 3600);
         Option<string?> beside = new("--beside") { Description = "What lagsim sweep --json wrote of another run: --out draws it beside this one, dashed.", HelpName = "FILE" };
         Command command = new(
             "sweep",
             "Sessions on links that are full, or nearly, in virtual time: offered against delivered load, round trips, refusals, and whether all agree. 0 if every cell"
-                + " shows what it must: no accepted event lost, no state that differs, at least 90 % of them compared.") { clients, events, rates, queues, noDips, shared, play, rest, beside };
+                + " shows what it must: no accepted event lost, no state that differs, at least 90 % of them compared.") { clients, events, rates, queues, noDips, shared, bulk, play, rest, beside };
         common.AddTo(command);
         command.SetAction(parsed =>
         {
@@ -40,6 +41,7 @@ internal static class SweepCommand
                 QueueMilliseconds = parsed.GetValue(queues)!,
                 Dips = !parsed.GetValue(noDips),
                 IsShared = parsed.GetValue(shared),
+                BulkTransfers = parsed.GetValue(bulk),
                 PlaySeconds = parsed.GetValue(play),
                 RestSeconds = parsed.GetValue(rest),
                 Seed = parsed.GetValue(common.Seed),

@@ -28,6 +28,11 @@ internal static class SweepFiles
             }
         }
 
+        using (StreamWriter table = new(Path.Combine(folder, "cells.md")))
+        {
+            SweepMarkdown.Write(table, outcomes, beside);
+        }
+
         HtmlReport report = new(
             "LagSim: sessions on full links", "A host and its clients in virtual time, each client over a link of its own.", new ReportFooter("lagsim", ToolVersion.Text, options.Seed, null));
         foreach (string line in SweepTables.Footnotes(outcomes))

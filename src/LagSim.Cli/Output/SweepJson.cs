@@ -19,6 +19,8 @@ internal static class SweepJson
                 json.WriteNumber("rate_bit_per_s", o.Cell.RateBitsPerSecond);
                 json.WriteNumber("queue_ms", o.Cell.QueueMilliseconds);
                 json.WriteBoolean("dips", o.Cell.HasDips);
+                json.WriteBoolean("bulk_transfer", o.Cell.HasBulkTransfer);
+                json.WriteBoolean("shared", o.Cell.IsShared);
                 json.WriteNumber("load_share", o.LoadShare);
                 json.WriteNumber("offered_bytes_per_s", o.OfferedBytesPerSecond);
                 json.WriteNumber("delivered_bytes_per_s", o.DeliveredBytesPerSecond);

@@ -10,7 +10,8 @@ namespace LagSim.Harness.Sweep;
 /// <param name="QueueMilliseconds">How long its queues are, at that rate.</param>
 /// <param name="HasDips">Whether it carries a fifth of that for 5 s every 30 s.</param>
 /// <param name="IsShared">Whether all clients share one link, as those behind one line do.</param>
-public sealed record SweepCell(int Clients, double EventsPerSecond, long RateBitsPerSecond, double QueueMilliseconds, bool HasDips, bool IsShared = false)
+/// <param name="HasBulkTransfer">Whether a bulk TCP transfer towards each client goes through the same queues.</param>
+public sealed record SweepCell(int Clients, double EventsPerSecond, long RateBitsPerSecond, double QueueMilliseconds, bool HasDips, bool IsShared = false, bool HasBulkTransfer = false)
 {
     /// <summary>One way, on an empty link, in milliseconds.</summary>
     public const double DelayMilliseconds = 20;
@@ -22,10 +23,13 @@ public sealed record SweepCell(int Clients, double EventsPerSecond, long RateBit
         {
             Dip = HasDips ? new PeriodicDip(periodSeconds: 30, lengthSeconds: 5, rateBitsPerSecond: RateBitsPerSecond / 5) : null,
         },
-    });
+    })
+    {
+        HasBulkTransfer = HasBulkTransfer,
+    };
 
     /// <summary>All of it in a few words.</summary>
     public override string ToString() => string.Create(
         CultureInfo.InvariantCulture,
-        $"{Clients} clients, {EventsPerSecond} events/s each, {RateBitsPerSecond / 1000.0} kbit/s, queue {QueueMilliseconds} ms{(HasDips ? ", dips" : "")}{(IsShared ? ", shared" : "")}");
+        $"{Clients} clients, {EventsPerSecond} events/s each, {RateBitsPerSecond / 1000.0} kbit/s, queue {QueueMilliseconds} ms{(HasDips ? ", dips" : "")}{(IsShared ? ", shared" : "")}{(HasBulkTransfer ? ", beside a bulk transfer" : "")}");
 }

@@ -25,6 +25,9 @@ public sealed record SweepOptions
     /// <summary>Whether all clients of a cell share one link; default false: each has its own.</summary>
     public bool IsShared { get; init; }
 
+    /// <summary>Whether a bulk TCP transfer towards each client goes through the same queues; default false.</summary>
+    public bool BulkTransfers { get; init; }
+
     /// <summary>How long events are done, in seconds; default 120.</summary>
     public double PlaySeconds { get; init; } = 120;
 
@@ -53,7 +56,7 @@ public sealed record SweepOptions
                     {
                         foreach (double events in EventsPerSecond)
                         {
-                            yield return new SweepCell(clients, events, (long)Math.Round(kilobits * 1000), queue, dips, IsShared);
+                            yield return new SweepCell(clients, events, (long)Math.Round(kilobits * 1000), queue, dips, IsShared, BulkTransfers);
                         }
                     }
                 }

@@ -183,7 +183,11 @@ public sealed partial class JoinerSession : Session
 
         link.Acknowledge(Math.Min(update.EventsReceived, LastSequence), now);
         long lost = Counters.EventsLost;
-        TakeEntries(now);
+        if (!TakeEntries(now) && update.Held.Length > 0)
+        {
+            link?.Answer(now); // what came before its turn is acknowledged too, else it goes again (RFC 9000, 13.2.1)
+        }
+
         if (Counters.EventsLost > lost && PromisesAgreement)
         {
             Rejoin(SessionEnd.Failed, "An accepted event came too late for the history that this peer still had.", isLinkGood: false);
@@ -343,7 +347,8 @@ public sealed partial class JoinerSession : Session
         }
     }
 
-    private void TakeEntries(SimTime now)
+    /// <summary>Takes what has come, in order; false if there is nothing.</summary>
+    private bool TakeEntries(SimTime now)
     {
         bool any = incoming.HasNext;
         bool isUrgent = false;
@@ -364,7 +369,7 @@ public sealed partial class JoinerSession : Session
 
         if (!any || link is null) // what was committed may have differed: then this peer has left the link for a fresh copy
         {
-            return;
+            return any;
         }
 
         if (isUrgent)
@@ -375,6 +380,8 @@ public sealed partial class JoinerSession : Session
         {
             link.Hasten(now + UpdateLink.MostAckDelay);
         }
+
+        return true;
     }
 
     private void Take(in UpdateEntry entry)

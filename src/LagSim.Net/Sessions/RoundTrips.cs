@@ -62,9 +62,9 @@ internal sealed class RoundTrips
 
     /// <summary>
     /// Whether there is a queue on the way: a quarter of the shortest round trip, so that a link that holds back then stays well below twice that one, and more than
-    /// jitter.
+    /// jitter. What doubles the shortest is one whatever the jitter: who comes in while a queue goes up and down knows no other spread.
     /// </summary>
-    internal bool HasQueue => Queueing > LeastQueue && Queueing > least.Value / 4 && Queueing > leastSpread.Value * MostOfSpread;
+    internal bool HasQueue => Queueing > LeastQueue && Queueing > least.Value / 4 && Queueing > Lesser(leastSpread.Value * MostOfSpread, least.Value);
 
     internal void Add(SimDuration sample, SimTime now)
     {

@@ -29,10 +29,13 @@ internal sealed class UpdateLink
     private static readonly SimDuration LeastDistance = SimDuration.FromMilliseconds(1);
 
     /// <summary>
-    /// So far ahead of that may what is hastened be: after a pause three go out at once. What one player does then does not wait because an answer to what
+    /// By so many of its distances may what is hastened be ahead: after a pause three go out at once. What one player does then does not wait because an answer to what
     /// another did has just gone.
     /// </summary>
-    private static readonly SimDuration MostAhead = LeastDistance * 2;
+    private const int MostAhead = 2;
+
+    /// <summary>A window's worth of datagrams goes out in four fifths of a round trip, so that it does not overflow a short queue at once (RFC 9002, 7.7).</summary>
+    private const double PaceGain = 1.25;
 
     /// <summary>How long an answer is waited for before a round trip has been measured.</summary>
     private static readonly SimDuration FirstPatience = SimDuration.FromMilliseconds(300);
@@ -49,7 +52,8 @@ internal sealed class UpdateLink
     private uint lastSent;
     private SimTime echoReceived = SimTime.MinValue;
     private SimDuration unheard;
-    private SimTime paced = SimTime.MinValue; // when the next update would be due if all went out in their least distance
+    private SimTime paced = SimTime.MinValue; // when the next update would be due if all kept their distance
+    private SimDuration distance = LeastDistance; // of the last
     private SimTime latest = SimTime.MinValue; // when the last update was sent
     private int atOnce; // how many were sent then
     private SimTime newsSince = SimTime.MaxValue; // since when something new waits
@@ -191,7 +195,7 @@ internal sealed class UpdateLink
     internal void NoteHeard(SimTime now) => Heard = now;
 
     /// <summary>Has the next update sent no later than this, unless so many went out just now that the least distance would not be kept in the mean.</summary>
-    internal void Hasten(SimTime by) => Due = SimTime.Min(Due, SimTime.Max(by, paced == SimTime.MinValue ? by : paced - MostAhead));
+    internal void Hasten(SimTime by) => Due = SimTime.Min(Due, SimTime.Max(by, paced == SimTime.MinValue ? by : paced - (distance * MostAhead)));
 
     /// <summary>Has the other answered: at once, or where that is too much together with what else there is to say soon.</summary>
     internal void Answer(SimTime now) => Hasten(MayHurry(now) ? now : now + MostAckDelay);
@@ -310,10 +314,13 @@ internal sealed class UpdateLink
             (newsBytes, newsSince) = (0, SimTime.MaxValue);
         }
 
-        paced = now == latest ? paced : SimTime.Max(paced, now) + LeastDistance; // those of one moment count as one
+        distance = outgoing.Held.Length > 0 ? Distance(length) : LeastDistance;
+        bool isPaced = distance > LeastDistance;
+        paced = now == latest && !isPaced ? paced : SimTime.Max(paced, now) + distance; // those of one moment count as one, where there is room
         atOnce = now == latest ? atOnce + 1 : 1;
         latest = now;
         Due = !hasNeeded || isHeldBack ? now + (rest > LeastDistance ? rest : LeastDistance)
+            : isPaced ? SimTime.Max(now, paced - (distance * MostAhead))
             : atOnce < SendWindow.MaxDatagramsAtOnce ? now
             : now + LeastDistance;
         if (sent.Waited > 0)
@@ -332,6 +339,13 @@ internal sealed class UpdateLink
         }
 
         return buffer.AsSpan(0, length);
+    }
+
+    /// <summary>How far apart updates with entries go in the mean, by their length.</summary>
+    private SimDuration Distance(int length)
+    {
+        SimDuration even = SimDuration.FromSeconds(trips.Mean.ToSeconds() * (length + CongestionControl.DatagramOverhead) / (PaceGain * congestion.Window));
+        return trips.IsMeasured && even > LeastDistance ? even : LeastDistance;
     }
 
     /// <summary>When the answer to what was sent is overdue; with a queue on the way twice as long after each time that it was.</summary>

@@ -1,0 +1,138 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Harness.Peers;
+using LagSim.Harness.Scenes;
+using LagSim.Harness.Sweep;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Sweep;
+
+/// <summary>What sessions leave each other, and get beside a bulk transfer, where they share a link.</summary>
+public sealed class SharedLinkTests(ITestOutputHelper output)
+{
+    private const double RateBitsPerSecond = 64_000;
+
+    /// <summary>Each of two sessions asks for three fifths of the link; the second comes later, as somebody in the same house does.</summary>
+    [Theory]
+    [InlineData(500, 0.6, 0.6, 2ul, 2)]
+    [InlineData(500, 0.6, 0.6, 3ul, 2)]
+    [InlineData(500, 0.6, 0.6, 6ul, 2)]
+    [InlineData(500, 0.6, 0.6, 7ul, 2)]
+    [InlineData(500, 0.8, 0.4, 5ul, 2)]
+    [InlineData(50, 0.6, 0.6, 1ul, 4)] // of queues this short or long the second takes more: see docs/LINKS.md
+    [InlineData(2000, 0.6, 0.6, 4ul, 4)]
+    public void TwoSessionsOnOneLink_ShareIt(double queueMs, double first, double second, ulong seed, double factor)
+    {
+        (double a, double b) = Share(queueMs, first, second, seed, SessionFault.None);
+        output.WriteLine(FormattableString.Invariant($"{a:0} and {b:0} bytes of events a second"));
+        Assert.InRange(a / b, 1 / factor, factor);
+        Assert.True(a + b > 0.5 * RateBitsPerSecond / 8, "the link is not used");
+    }
+
+    /// <summary>Where one never backs off, most of what it sends is lost, and there are no shares to speak of.</summary>
+    [Fact]
+    public void TwoSessionsOnOneLink_OfWhichOneNeverBacksOff_DoNotShareIt()
+    {
+        (double a, double b) = Share(500, 1.5, 0.75, 2, SessionFault.NeverBacksOff);
+        output.WriteLine(FormattableString.Invariant($"{a:0} and {b:0} bytes of events a second"));
+        Assert.NotInRange(a / b, 0.5, 2);
+    }
+
+    /// <summary>Half of its fair share beside one transfer is a quarter of the link.</summary>
+    [Theory]
+    [InlineData(1_000, 500)]
+    [InlineData(1_000, 2_000)]
+    [InlineData(256, 500)]
+    public void BesideABulkTransfer_HalfOfTheFairShare_ComesThrough(double kilobits, double queueMs)
+    {
+        double events = Math.Floor(0.2 / 3 * kilobits * 125 / 47); // of three clients each
+        SweepOptions options = new()
+        {
+            Clients = [3], EventsPerSecond = [Math.Min(40, events)], KilobitsPerSecond = [kilobits], QueueMilliseconds = [queueMs], Dips = false, BulkTransfers = true,
+            PlaySeconds = 60, RestSeconds = 60, Workers = 1,
+        };
+        SweepOutcome outcome = Assert.Single(LinkSweep.Run(options, null, TestContext.Current.CancellationToken));
+        output.WriteLine(FormattableString.Invariant(
+            $"{outcome.Cell}: load {outcome.LoadShare:P0}, offered {outcome.OfferedBytesPerSecond:0}, came {outcome.DeliveredBytesPerSecond:0}, p50 {outcome.RoundTripP50Ms:0} ms, refused {outcome.Refused} of {outcome.Done}"));
+        Assert.True(outcome.LoadShare <= 0.25 && outcome.Lost == 0 && outcome.Differed == 0 && outcome.Failure is null && outcome.TooSlow == 0);
+        Assert.InRange(outcome.DeliveredBytesPerSecond, 0.95 * outcome.OfferedBytesPerSecond, 1.05 * outcome.OfferedBytesPerSecond);
+    }
+
+    /// <summary>Bytes of events a second that came to a client of each of two sessions, both behind one link.</summary>
+    private static (double First, double Second) Share(double queueMs, double firstLoad, double secondLoad, ulong seed, SessionFault fault)
+    {
+        const double later = 5, from = 15, until = 40; // before anybody is so far behind that it gets a copy
+        const double entry = 47;
+        VirtualClock clock = new(SimTime.FromSeconds(10));
+        VirtualNetwork network = new(clock, seed, LinkProfiles.Lan);
+        VirtualSteps steps = new(network);
+        SeededRandom random = new(seed);
+        Bottleneck narrow = new((long)RateBitsPerSecond, queueMs);
+        LinkProfile link = new("narrow", new LinkLeg(20, 1) { Bottleneck = narrow });
+        LinkQueue up = new(narrow, random.Fork(1)), down = new(narrow, random.Fork(2));
+        double[] came = new double[2];
+        double began = double.MaxValue;
+        List<(JoinerSession Actor, int Number)> actors = [];
+        for (int n = 0; n < 2; n++)
+        {
+            int which = n;
+            network.Connect(4 + n, n, link, up, down);
+            Session host = Add(n, -1, n == 0 ? fault : SessionFault.None);
+            JoinerSession actor = (JoinerSession)Add(2 + n, n, SessionFault.None);
+            actors.Add((actor, steps.Sessions.Count - 1));
+            JoinerSession far = (JoinerSession)Add(4 + n, n, n == 0 ? fault : SessionFault.None);
+            far.Logged += _ => came[which] += clock.Now.ToSeconds() is var now && now > began + from && now <= began + until ? entry : 0;
+        }
+
+        RunUntil(() => steps.Sessions.All(s => s.State == SessionState.Running));
+        began = clock.Now.ToSeconds();
+        double[] next = [began, began + later];
+        double[] rates = [firstLoad * RateBitsPerSecond / 8 / entry, secondLoad * RateBitsPerSecond / 8 / entry];
+        while (clock.Now.ToSeconds() < began + until)
+        {
+            int who = next[0] <= next[1] ? 0 : 1;
+            SimTime at = SimTime.FromSeconds(next[who]);
+            while (clock.Now < at)
+            {
+                steps.Advance(at);
+            }
+
+            next[who] += (0.5 + random.NextDouble()) / rates[who];
+            (JoinerSession actor, int number) = actors[who];
+            actor.Do(PlayerAction.SetVelocity(BodyId.OfScene((int)(random.NextUInt64() % 8)), new Vector3D(random.NextDouble(-1, 1), 0, random.NextDouble(-1, 1))));
+            steps.Wake(number);
+        }
+
+        return (came[0] / (until - from), came[1] / (until - from));
+
+        Session Add(int number, int host, SessionFault faultOfIt)
+        {
+            IDatagramPort port = network.CreatePort(number);
+            SessionOptions options = new() { ExpectedJoiners = 2, Cancellation = TestContext.Current.CancellationToken };
+            Session session = host < 0
+                ? new HostSession(BuiltInScenes.Billiards(), port, clock, options, seed)
+                : new JoinerSession(null, port, clock, options, PeerAddress.Virtual(host), seed + (ulong)number);
+            session.Fault = faultOfIt;
+            steps.Add(session, port);
+            return session;
+        }
+
+        void RunUntil(Func<bool> isSo)
+        {
+            SimTime deadline = clock.Now + SimDuration.FromSeconds(60);
+            while (!isSo() && clock.Now < deadline)
+            {
+                steps.Advance(deadline);
+            }
+
+            Assert.True(isSo());
+        }
+    }
+}
