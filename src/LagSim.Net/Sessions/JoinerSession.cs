@@ -183,7 +183,7 @@ public sealed partial class JoinerSession : Session
 
         link.Acknowledge(Math.Min(update.EventsReceived, LastSequence), now);
         long lost = Counters.EventsLost;
-        if (!TakeEntries(now) && update.Held.Length > 0)
+        if (!TakeEntries(now) && update.Held.Length > 0 && update.FirstIndex > incoming.Received)
         {
             link?.Answer(now); // what came before its turn is acknowledged too, else it goes again (RFC 9000, 13.2.1)
         }
