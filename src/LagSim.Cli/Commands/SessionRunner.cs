@@ -133,7 +133,7 @@ internal sealed class SessionRunner : IDisposable
             TellUndone();
         }
 
-        int code = ExitCodeOf(session.EndedBy, isTimeReached, session.Counters.StatesDiffered, hasFailedDeed, isInterrupted);
+        int code = ExitCodeOf(session.EndedBy, isTimeReached, session.Counters.StatesDiffered + session.Counters.EventsLost, hasFailedDeed, isInterrupted);
         if (session.EndedBy != SessionEnd.Left && code != ExitCode.Done)
         {
             printer.Problem(session.EndReason!);

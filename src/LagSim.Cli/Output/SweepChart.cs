@@ -27,7 +27,7 @@ internal static class SweepChart
                 new ChartPanel("delivered, of what was offered", "share", Curves(o => o.DeliveredBytesPerSecond / o.OfferedBytesPerSecond)) { HasLegendAtRight = true },
                 new ChartPanel("round trip, median, of the idle one", "times the idle one", Curves(o => o.RoundTripP50Ms / o.IdleRoundTripMs)) { HasLegendAtRight = true, Scale = ChartScale.Log10 },
                 new ChartPanel("refused, of what was done", "share", Curves(o => o.Done == 0 ? 0 : o.Refused / (double)o.Done)) { HasLegendAtRight = true },
-                new ChartPanel("lost, of what was done", "share", Curves(o => o.Done == 0 ? 0 : o.Lost / (double)o.Done)) { HasLegendAtRight = true },
+                new ChartPanel("lost, of what clients were to hear of", "share", Curves(o => o.Done == 0 ? 0 : o.Lost / ((double)o.Done * o.Cell.Clients))) { HasLegendAtRight = true },
             ])
         {
             XLabel = "offered load, of what the link carries (in its dips)",

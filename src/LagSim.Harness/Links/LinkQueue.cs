@@ -49,6 +49,9 @@ public sealed class LinkQueue
     /// <summary>What it is.</summary>
     public Bottleneck Bottleneck { get; }
 
+    /// <summary>Whether the line is in a dip at that time.</summary>
+    public bool IsInDip(SimTime at) => bucket.IsInDip(at);
+
     /// <summary>Whether a datagram's fate is known as soon as it comes: with drop-tail.</summary>
     public bool DecidesAtOnce => codel is null;
 

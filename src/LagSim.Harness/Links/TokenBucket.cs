@@ -77,6 +77,18 @@ internal sealed class TokenBucket
         filled = time;
     }
 
+    /// <summary>Whether the rate is that of a dip at a time.</summary>
+    internal bool IsInDip(SimTime time)
+    {
+        if (dip is null)
+        {
+            return false;
+        }
+
+        dips.At(time, out SimDuration into);
+        return into < dip.Length;
+    }
+
     /// <summary>The rate from a time on, and how long it stays.</summary>
     private long RateAt(SimTime time, out SimDuration lasts)
     {

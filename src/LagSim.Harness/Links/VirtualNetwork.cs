@@ -189,6 +189,9 @@ public sealed class VirtualNetwork
         lossRules.Add(rule);
     }
 
+    /// <summary>The queue that what one node sends to another goes through first; null if there is none.</summary>
+    public LinkQueue? Queue(int from, int to) => Link(from, to).Queue;
+
     /// <summary>What went through a node's port so far. Received is what arrived, taken or not.</summary>
     /// <exception cref="KeyNotFoundException">There is no such port.</exception>
     public PortTraffic Traffic(int number) => numbers[number].Traffic;

@@ -67,5 +67,5 @@ public sealed record SweepOutcome
     public double LoadShare { get; init; }
 
     /// <summary>Whether the cell shows what it must: nothing lost, nothing differs, enough compared; on links with less than 80 % of load, nobody too slow either.</summary>
-    public bool IsGood => Failure is null && Lost == 0 && Differed == 0 && (TooSlow > 0 ? LoadShare > 0.8 : ComparedShare >= 0.9);
+    public bool IsGood => Failure is null && Lost == 0 && Differed == 0 && (TooSlow == 0 || LoadShare > 0.8) && ComparedShare >= 0.9;
 }

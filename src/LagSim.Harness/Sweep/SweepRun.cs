@@ -33,6 +33,7 @@ internal sealed class SweepRun
     private readonly List<SimTime> committed = [];
     private readonly HostSession host;
     private readonly UpdateDatagram measured = new();
+    private readonly LinkQueue? down; // that all clients share
     private double needed; // bytes of entries, for all clients together
 
     internal SweepRun(SweepCell cell, SweepOptions options, CancellationToken cancellation)
@@ -59,9 +60,8 @@ internal sealed class SweepRun
         };
         host.StateCommitted += state => committed.Add(state.Time);
         LinkProfile link = cell.Link;
-        (LinkQueue? up, LinkQueue? down) = cell.IsShared
-            ? (new LinkQueue(link.ToHost.Bottleneck!, random.Fork(1)), new LinkQueue(link.FromHost.Bottleneck!, random.Fork(2)))
-            : (null, (LinkQueue?)null);
+        LinkQueue? up = cell.IsShared ? new LinkQueue(link.ToHost.Bottleneck!, random.Fork(1)) : null;
+        down = cell.IsShared ? new LinkQueue(link.FromHost.Bottleneck!, random.Fork(2)) : null;
         for (int n = 1; n <= cell.Clients; n++)
         {
             network.Connect(n, 0, link, up, down);
@@ -108,7 +108,7 @@ internal sealed class SweepRun
                 LookAtQueues();
                 foreach (Client client in clients)
                 {
-                    client.Course.Add(((clock.Now - SimTime.Zero).ToSeconds(), RoundTrip(client)));
+                    client.Course.Add(new RoundTripLook(clock.Now.ToSeconds(), RoundTrip(client), (down ?? network.Queue(0, client.Number)!).IsInDip(clock.Now)));
                 }
 
                 continue;
@@ -134,7 +134,7 @@ internal sealed class SweepRun
             IdleRoundTripMs = idleTrip,
             RoundTripP50Ms = trip.P50,
             RoundTripP99Ms = trip.P99,
-            RecoverySeconds = cell.HasDips ? clients.Max(c => Recovery(c.Course, idleTrip)) : 0,
+            RecoverySeconds = clients.Max(c => RoundTripLook.Recovery(c.Course, 2 * idleTrip)),
             QueuedSeconds = clients.Sum(c => c.QueuedSeconds),
             SentPerNeededByteWhileQueued = clients.Sum(c => c.SentQueued) / Math.Max(1, clients.Sum(c => c.CameQueued)),
             LoadShare = LoadShare(),
@@ -198,25 +198,6 @@ internal sealed class SweepRun
         };
     }
 
-    /// <summary>The longest after a dip until one client's round trip was below twice the idle one again.</summary>
-    private static double Recovery(List<(double At, double Trip)> course, double idle)
-    {
-        double longest = 0;
-        for (int i = 0; i < course.Count; i++)
-        {
-            // A dip begins with each period of the queue's cadence; where that is, the round trips tell: the recovery counts from the last instant above.
-            int from = i;
-            while (i < course.Count && course[i].Trip > 2 * idle)
-            {
-                i++;
-            }
-
-            longest = i > from ? Math.Max(longest, course[Math.Min(i, course.Count - 1)].At - course[from].At) : longest;
-        }
-
-        return Math.Max(0, longest - 5); // what the dip itself takes
-    }
-
     private Session Add(int number, ulong seed)
     {
         IDatagramPort port = network.CreatePort(number);
@@ -259,7 +240,7 @@ internal sealed class SweepRun
             }
 
             bool isQueued = link.Queueing > SimDuration.Zero;
-            if (isQueued && client.WasQueued)
+            if (isQueued && client.WasQueued && link.BytesSent >= client.Sent) // else it is another link, of one who came in again
             {
                 client.QueuedSeconds += LookSeconds;
                 client.SentQueued += link.BytesSent - client.Sent;
@@ -312,8 +293,8 @@ internal sealed class SweepRun
 
         internal double Bytes { get; set; }
 
-        /// <summary>Its round trips as time went by, in seconds and milliseconds.</summary>
-        internal List<(double At, double Trip)> Course { get; } = [];
+        /// <summary>Its round trips as time went by.</summary>
+        internal List<RoundTripLook> Course { get; } = [];
 
         /// <summary>As of the last look, as are the next two: whether a queue showed, what was sent there, and what had come.</summary>
         internal bool WasQueued { get; set; }

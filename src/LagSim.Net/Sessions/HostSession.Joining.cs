@@ -54,8 +54,8 @@ public sealed partial class HostSession
 
         if (known is null)
         {
-            PlayerPlaces.Place? claimed = places.Claimed(join);
             byte keyed = NumberByKey(join);
+            PlayerPlaces.Place? claimed = places.Claimed(join, keyed);
             RefusalReason? refusal = keyed == 0 && !JoinCookies.IsProof(Options.ConnectKey, join) ? RefusalReason.WrongKey
                 : join.FoldVersion != (uint)Simulation.FoldVersion ? RefusalReason.FoldDiffers
                 : join.SceneHash != 0 && join.SceneHash != Scene!.Hash ? RefusalReason.SceneDiffers
@@ -103,14 +103,17 @@ public sealed partial class HostSession
     /// <summary>Why somebody can get no number now; null if it can.</summary>
     private RefusalReason? WhyNoPlace(byte keyed, PlayerPlaces.Place? claimed, PeerAddress from, SimTime now)
     {
-        if (keyed > 0 || claimed is not null)
+        if (keyed > 0)
         {
             return null; // it has one
         }
 
+        // Who shows that it is a player whom nobody else is has a number, but counts: else a machine could collect passes, and then come with all of them.
         PeerAddress address = from;
-        return joiners.Count(j => j.Peer > 0 && j.Link.Other != address && j.Link.Other.IsSameMachine(address)) >= Options.MaxJoinersPerAddress ? RefusalReason.TooManyFromOneAddress
-            : places.Free(now, 0) == 0 && !joiners.Exists(j => j.Peer > 0 && j.Link.Other == address) ? RefusalReason.Full
+        byte own = claimed?.Number ?? 0;
+        return joiners.Count(j => j.Peer > 0 && j.Peer != own && j.Link.Other != address && j.Link.Other.IsSameMachine(address)) >= Options.MaxJoinersPerAddress
+                ? RefusalReason.TooManyFromOneAddress
+            : own == 0 && places.Free(now, 0) == 0 && !joiners.Exists(j => j.Peer > 0 && j.Link.Other == address) ? RefusalReason.Full
             : null;
     }
 
@@ -147,17 +150,14 @@ public sealed partial class HostSession
         PlayerPlaces.Place? claimed = joiner.Claimed is PlayerPlaces.Place former && former.Pass == joiner.ClaimedPass ? former : null; // nobody else got it since
         PlayerPlaces.Place? place = joiner.Keyed > 0 ? places[joiner.Keyed] : claimed;
         LetGo(j => j.Peer > 0 && j.Peer != place?.Number && j.Link.Other == joiner.Link.Other, LeaveReason.Left); // started again, as another player
-        if (place is null)
+        if (WhyNoPlace(joiner.Keyed, claimed, joiner.Link.Other, now) is RefusalReason reason)
         {
-            if (WhyNoPlace(0, null, joiner.Link.Other, now) is RefusalReason reason)
-            {
-                Refuse(joiner.Nonce, reason, joiner.Link.Other);
-                joiners.Remove(joiner);
-                return false;
-            }
-
-            place = places[places.Free(now, joiner.Wanted)];
+            Refuse(joiner.Nonce, reason, joiner.Link.Other);
+            joiners.Remove(joiner);
+            return false;
         }
+
+        place ??= places[places.Free(now, joiner.Wanted)];
 
         if (joiners.Find(j => j.Peer == place.Number) is Joiner before)
         {

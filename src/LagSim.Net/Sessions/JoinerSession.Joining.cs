@@ -99,7 +99,7 @@ public sealed partial class JoinerSession
         {
             Counters.DatagramsIgnored++;
         }
-        else if (State == SessionState.Rejoining && reason is RefusalReason.Full or RefusalReason.TooManyFromOneAddress)
+        else if ((State == SessionState.Rejoining || (Options.Pass.Number > 0 && Clock.Now - began <= Options.RejoinTime)) && reason is RefusalReason.Full or RefusalReason.TooManyFromOneAddress)
         {
             attempt = new JoinAttempt(NextNonce(), Clock.Now + SimDuration.FromSeconds(1)); // somebody may leave
             link = null;

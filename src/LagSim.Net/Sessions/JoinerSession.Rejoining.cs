@@ -96,7 +96,7 @@ public sealed partial class JoinerSession
     /// <summary>What is due while it asks.</summary>
     private void TendRejoining(SimTime now)
     {
-        if (now - rejoining > Options.RejoinTime)
+        if (now - rejoining > Options.RejoinTime && attempt is not { IsWelcome: true }) // a copy may take longer than that
         {
             End(rejoiningFor, FormattableString.Invariant($"{RenewedBecause} It asked for {Options.RejoinTime.ToSeconds():0.###} s to be let in again, in vain."));
         }
@@ -115,6 +115,6 @@ public sealed partial class JoinerSession
         Regained?.Invoke();
     }
 
-    /// <summary>Another number that nobody else can tell.</summary>
+    /// <summary>Another number for an attempt, so that what answers an earlier one is told from what answers this. No secret: who saw one can tell the next.</summary>
     private ulong NextNonce() => nonce = (nonce * 6_364_136_223_846_793_005) + 1_442_695_040_888_963_407;
 }

@@ -31,6 +31,7 @@ public sealed partial class JoinerSession : Session
     private SimTime began = SimTime.MaxValue; // own clock, at the first step: however long that is waited for, nobody was silent
     private SimTime tended; // own clock, when this peer last looked after itself
     private SimDuration asleep; // how long it did not
+    private SimTime awake = SimTime.MinValue; // since when, if it slept
     private uint lastUrgent; // of the own events: the newest that nothing later makes up for
     private volatile object? pass; // a boxed one: other threads read it whole
     private bool isStartTold; // the host tells the start until it has heard that it is known here
@@ -211,6 +212,7 @@ public sealed partial class JoinerSession : Session
             link?.NoteHeard(now); // it was this machine that slept, or whose clock jumped: who was not listened to was not silent
             rejoining += slept;
             asleep += slept;
+            awake = now;
         }
 
         tended = now;
@@ -218,7 +220,7 @@ public sealed partial class JoinerSession : Session
         {
             TendRejoining(now);
         }
-        else if (now - (link?.Heard ?? SimTime.Max(began, attempt?.Began ?? began)) > Options.Timeout)
+        else if (now - (link?.Heard ?? SimTime.Max(awake, SimTime.Max(began, attempt?.Began ?? began))) > Options.Timeout)
         {
             if (World is null)
             {
@@ -312,9 +314,9 @@ public sealed partial class JoinerSession : Session
                 attempt = attempt!.IsWelcome ? new JoinAttempt(NextNonce(), Clock.Now) : attempt;
                 link = null; // what it was is over, or what it was about to be
             }
-            else if (World is null && leave.Reason == LeaveReason.NotJoined && attempt?.IsWelcome == true && Clock.Now - began <= LongestComing)
+            else if (World is null && leave.Reason is LeaveReason.NotJoined or LeaveReason.TimedOut && attempt?.IsWelcome == true && Clock.Now - began <= LongestComing)
             {
-                attempt = new JoinAttempt(NextNonce(), Clock.Now); // others who came in pushed it out, or the host is another one
+                attempt = new JoinAttempt(NextNonce(), Clock.Now); // others who came in pushed it out, or it stood still, or the host is another one
                 link = null;
                 State = SessionState.Joining;
             }

@@ -24,9 +24,14 @@ internal sealed class PlayerPlaces
 
     internal Place this[byte number] => places[number];
 
-    /// <summary>The place of the player that a join says, and shows, that its joiner was; null if it does not.</summary>
-    internal Place? Claimed(in JoinDatagram join) =>
-        join.Player is > 0 and <= SessionOptions.MaxJoiners && places[join.Player].Pass is Token128 pass && JoinCookies.IsProof(pass, join) ? places[join.Player] : null;
+    /// <summary>
+    /// The place of the player that a join says, and shows, that its joiner was; null if it does not. A pass travels in clear, so it opens no number that has a key.
+    /// </summary>
+    /// <param name="join">The join.</param>
+    /// <param name="keyed">The player whose key it shows; 0 for none.</param>
+    internal Place? Claimed(in JoinDatagram join, byte keyed) =>
+        join.Player is > 0 and <= SessionOptions.MaxJoiners && (join.Player == keyed || !options.PlayerKeys.ContainsKey(join.Player))
+            && places[join.Player].Pass is Token128 pass && JoinCookies.IsProof(pass, join) ? places[join.Player] : null;
 
     /// <summary>
     /// The least number that nobody has and that is kept for nobody; if there is none, the one that has been kept the longest; 0 if all are taken. Never one of a

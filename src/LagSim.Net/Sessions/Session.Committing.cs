@@ -43,20 +43,18 @@ public abstract partial class Session
     /// <summary>Notes the states that the host says it has committed.</summary>
     private protected void CompareCommitted(UpdateDatagram update)
     {
-        SimTime time = update.HashTime;
-        foreach (ulong hash in update.Hashes)
+        for (int n = update.Hashes.Length - 1; n >= 0; n--) // the oldest first, so that the first that differs is told
         {
             if (schedule is null || State == SessionState.Rejoining)
             {
                 return;
             }
 
-            if (schedule.TryCompare(time, hash, out CommittedState mine))
+            SimTime time = update.HashTime - (schedule.Interval * n);
+            if (schedule.TryCompare(time, update.Hashes[n], out CommittedState mine))
             {
-                Compare(mine, hash);
+                Compare(mine, update.Hashes[n]);
             }
-
-            time -= schedule.Interval;
         }
     }
 

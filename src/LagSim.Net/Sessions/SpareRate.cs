@@ -6,7 +6,7 @@ namespace LagSim.Net.Sessions;
 /// <summary>How much one link may carry beyond what has to go: repetitions before a loss is known, and small datagrams that could have waited for more.</summary>
 /// <remarks>
 /// A token bucket of one datagram. Its rate grows by a twelfth each tenth of a second, or round trip, while it is used up and no queue shows, and is cut to 0.7 when one
-/// does; while one does nothing flows in. So the links of several sessions find their shares, and what could be left out keeps no queue standing. Where nothing
+/// does; while one does only the least flows in. So the links of several sessions find their shares, and what could be left out keeps no queue standing. Where nothing
 /// is answered any more it goes on at the rate it had: a link that loses many datagrams in a row is lost for longer the fewer are sent.
 /// </remarks>
 internal sealed class SpareRate
@@ -24,6 +24,7 @@ internal sealed class SpareRate
     /// </summary>
     private const double First = 12_000;
 
+    /// <summary>The lowest rate: jitter may be taken for a queue, and a link that loses many datagrams in a row then still needs a repetition now and then.</summary>
     private const double Least = 1_000;
 
     /// <summary>So often the rate is looked at, or each round trip if that is longer: in so long a queue comes and goes.</summary>
@@ -64,7 +65,7 @@ internal sealed class SpareRate
             isUsedUp = false;
         }
 
-        double filling = trips.HasQueue && !neverBacksOff ? 0 : isSilent ? Math.Max(rate, First) : rate;
+        double filling = trips.HasQueue && !neverBacksOff ? Least : isSilent ? Math.Max(rate, First) : rate;
         tokens = Math.Min(Full, tokens + ((now - counted).ToSeconds() * filling));
         counted = now;
     }

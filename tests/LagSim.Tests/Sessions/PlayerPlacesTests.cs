@@ -64,23 +64,35 @@ public sealed class PlayerPlacesTests
         PlayerPlaces places = new(new SessionOptions(), SimTime.Zero);
         places[3].Take(isSamePlayer: false);
         Token128 pass = places[3].Pass!.Value, cookie = new(5, 6), other = new(pass.First ^ 1, pass.Second);
-        Assert.Same(places[3], places.Claimed(Join(3, JoinCookies.Prove(pass, 7, cookie))));
-        Assert.Null(places.Claimed(Join(3, JoinCookies.Prove(other, 7, cookie))));
-        Assert.Null(places.Claimed(Join(3, JoinCookies.Prove(pass, 8, cookie)))); // heard by somebody, and played again
-        Assert.Null(places.Claimed(Join(3, JoinCookies.Prove(pass, 7, other))));
-        Assert.Null(places.Claimed(Join(3, default)));
-        Assert.Null(places.Claimed(Join(4, JoinCookies.Prove(pass, 7, cookie)))); // nobody has had that number
-        Assert.Null(places.Claimed(Join(4, JoinCookies.Prove(default(Token128), 7, cookie))));
-        Assert.Null(places.Claimed(Join(0, JoinCookies.Prove(pass, 7, cookie))));
-        Assert.Null(places.Claimed(Join(255, JoinCookies.Prove(pass, 7, cookie))));
+        Assert.Same(places[3], places.Claimed(Join(3, JoinCookies.Prove(pass, 7, cookie)), 0));
+        Assert.Null(places.Claimed(Join(3, JoinCookies.Prove(other, 7, cookie)), 0));
+        Assert.Null(places.Claimed(Join(3, JoinCookies.Prove(pass, 8, cookie)), 0)); // heard by somebody, and played again
+        Assert.Null(places.Claimed(Join(3, JoinCookies.Prove(pass, 7, other)), 0));
+        Assert.Null(places.Claimed(Join(3, default), 0));
+        Assert.Null(places.Claimed(Join(4, JoinCookies.Prove(pass, 7, cookie)), 0)); // nobody has had that number
+        Assert.Null(places.Claimed(Join(4, JoinCookies.Prove(default(Token128), 7, cookie)), 0));
+        Assert.Null(places.Claimed(Join(0, JoinCookies.Prove(pass, 7, cookie)), 0));
+        Assert.Null(places.Claimed(Join(255, JoinCookies.Prove(pass, 7, cookie)), 0));
         places[3].Leave(isKept: true, 1, LeaveReason.TimedOut, SimTime.Zero);
-        Assert.Same(places[3], places.Claimed(Join(3, JoinCookies.Prove(pass, 7, cookie))));
+        Assert.Same(places[3], places.Claimed(Join(3, JoinCookies.Prove(pass, 7, cookie)), 0));
         places[3].Take(isSamePlayer: true);
         Assert.Equal(pass, places[3].Pass);
         places[3].Take(isSamePlayer: false);
-        Assert.Null(places.Claimed(Join(3, JoinCookies.Prove(pass, 7, cookie))));
+        Assert.Null(places.Claimed(Join(3, JoinCookies.Prove(pass, 7, cookie)), 0));
 
         JoinDatagram Join(byte player, Token128 proof) => new(7, cookie, default, 0, 0, player, proof);
+    }
+
+    [Fact]
+    public void Claimed_NumberWithAKey_OpensToNoPassAlone()
+    {
+        PlayerPlaces places = new(new SessionOptions { PlayerKeys = new Dictionary<byte, string> { [3] = "three" } }, SimTime.Zero);
+        places[3].Take(isSamePlayer: false);
+        Token128 cookie = new(5, 6);
+        JoinDatagram join = new(7, cookie, default, 0, 0, 3, JoinCookies.Prove(places[3].Pass!.Value, 7, cookie));
+        Assert.Null(places.Claimed(join, 0)); // whoever heard the pass has not the key
+        Assert.Null(places.Claimed(join, 4));
+        Assert.Same(places[3], places.Claimed(join, 3));
     }
 
     [Fact]
