@@ -47,7 +47,16 @@ internal static class JoinCommand
                 null, carrier, new StopwatchClock(), request.Options, PeerAddress.From(there), Session.DrawNumber());
             if (passFile is not null)
             {
-                session.PassGiven += given => Keep(console, passFile, given);
+                byte former = request.Options.Pass.Number;
+                session.PassGiven += given =>
+                {
+                    if (former > 0 && given.Number != former)
+                    {
+                        console.Error.WriteLine($"The host does not know the pass of player {former} in '{passFile}': this is player {given.Number}, whose pass is kept there now.");
+                    }
+
+                    Keep(console, passFile, given);
+                };
             }
 
             SessionPrinter printer = new(console, parsed.GetValue(common.Json), "join", parsed.GetValue(common.Seed), request);

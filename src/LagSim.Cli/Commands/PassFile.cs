@@ -1,5 +1,6 @@
 using System;
 using System.IO;
+using System.Text;
 using LagSim.Cli.Output;
 using LagSim.Net.Sessions;
 
@@ -8,6 +9,8 @@ namespace LagSim.Cli.Commands;
 /// <summary>The file that keeps a player's pass from one run of <c>lagsim join</c> to the next.</summary>
 internal static class PassFile
 {
+    private const int MostBytes = 1_000; // a pass is one line of at most 36
+
     /// <summary>The pass in the file; none if there is no such file yet.</summary>
     /// <exception cref="InputException">The file holds something else.</exception>
     /// <exception cref="IOException">It cannot be read.</exception>
@@ -18,7 +21,10 @@ internal static class PassFile
             return default;
         }
 
-        return PlayerPass.TryParse(File.ReadAllText(file), out PlayerPass pass)
+        using FileStream stream = File.OpenRead(file); // what is no plain file may have no end
+        byte[] bytes = new byte[MostBytes];
+        int length = stream.ReadAtLeast(bytes, MostBytes, throwOnEndOfStream: false);
+        return length < MostBytes && PlayerPass.TryParse(Encoding.UTF8.GetString(bytes, 0, length), out PlayerPass pass)
             ? pass
             : throw new InputException($"--pass is '{file}', which holds no player's pass: a number from 1 to 255, a hyphen, and 32 hexadecimal digits.");
     }

@@ -42,11 +42,12 @@ internal static class SweepReader
         }
         catch (Exception mistake) when (mistake is IOException or UnauthorizedAccessException)
         {
-            throw new InputException($"'{path}' cannot be read: {mistake.Message}");
+            throw new InputException(
+                Directory.Exists(path) ? $"--beside is '{path}', which is a folder; it must be a file that lagsim sweep --json wrote." : $"--beside is '{path}', which cannot be read. {mistake.Message}");
         }
         catch (Exception mistake) when (mistake is JsonException or KeyNotFoundException or InvalidOperationException or FormatException)
         {
-            throw new InputException($"'{path}' is not what lagsim sweep --json writes: {mistake.Message}");
+            throw new InputException($"--beside is '{path}', which is not what lagsim sweep --json writes: an object with 'cells', each with the keys of its outcome.", mistake);
         }
     }
 

@@ -25,7 +25,7 @@ internal sealed class SpareRate
     private const double First = 12_000;
 
     /// <summary>The lowest rate: jitter may be taken for a queue, and a link that loses many datagrams in a row then still needs a repetition now and then.</summary>
-    private const double Least = 1_000;
+    private const double Least = 400;
 
     /// <summary>So often the rate is looked at, or each round trip if that is longer: in so long a queue comes and goes.</summary>
     private static readonly SimDuration LookInterval = SimDuration.FromMilliseconds(100);

@@ -161,8 +161,10 @@ public sealed class RejoiningTests
         Assert.Equal(0, group.Host.JoinerCount);
         List<JoinerSession> others = [.. Enumerable.Range(20, SessionOptions.MaxJoiners).Select(node => Running(group, node, default))];
         Assert.Equal(Enumerable.Range(2, 7).Append(1), others.Select(s => (int)s.Peer)); // its number last of all
-        JoinerSession again = group.Join(40, 40, new SessionOptions { Pass = former });
-        Assert.True(group.RunUntil(() => again.State == SessionState.Ended, 2));
+        JoinerSession again = group.Join(40, 40, new SessionOptions { Pass = former, RejoinTime = SimDuration.FromSeconds(3) });
+        group.Run(2);
+        Assert.Equal(SessionState.Joining, again.State); // who had a place asks on: somebody may leave
+        Assert.True(group.RunUntil(() => again.State == SessionState.Ended, 4));
         Assert.Equal("The host at virtual:0 refused: the session is full.", again.EndReason);
         Assert.All(others, s => Assert.Equal(SessionState.Running, s.State));
     }

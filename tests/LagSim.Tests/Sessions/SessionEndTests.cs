@@ -63,8 +63,15 @@ public sealed class SessionEndTests
         clock.Now += SimDuration.FromSeconds(11);
         joiner.Step();
         Assert.Equal(SessionState.Joining, joiner.State);
-        clock.Now += SimDuration.FromSeconds(11);
+        clock.Now += SimDuration.FromSeconds(11); // it sleeps again
         joiner.Step();
+        Assert.Equal(SessionState.Joining, joiner.State);
+        for (int second = 0; second < 11; second++)
+        {
+            clock.Now += SimDuration.FromSeconds(1); // and now it listens
+            joiner.Step();
+        }
+
         Assert.Equal(SessionEnd.HostSilent, joiner.EndedBy);
     }
 
