@@ -66,7 +66,13 @@ public sealed class LinkSweepTests
 
     private static readonly SweepOptions Usual = new()
     {
-        Clients = [3], EventsPerSecond = [20], KilobitsPerSecond = [256], QueueMilliseconds = [500], PlaySeconds = 40, RestSeconds = 20, Workers = 1,
+        Clients = [3],
+        EventsPerSecond = [20],
+        KilobitsPerSecond = [256],
+        QueueMilliseconds = [500],
+        PlaySeconds = 40,
+        RestSeconds = 20,
+        Workers = 1,
     };
 
     private static SweepOutcome Play(SweepOptions options, bool hasDips = false) =>

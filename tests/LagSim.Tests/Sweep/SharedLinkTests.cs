@@ -65,8 +65,15 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
         double events = Math.Floor(0.15 / 3 * kilobits * 125 / 47); // of three clients each
         SweepOptions options = new()
         {
-            Clients = [3], EventsPerSecond = [Math.Min(40, events)], KilobitsPerSecond = [kilobits], QueueMilliseconds = [queueMs], Dips = false, BulkTransfers = true,
-            PlaySeconds = 60, RestSeconds = 60, Workers = 1,
+            Clients = [3],
+            EventsPerSecond = [Math.Min(40, events)],
+            KilobitsPerSecond = [kilobits],
+            QueueMilliseconds = [queueMs],
+            Dips = false,
+            BulkTransfers = true,
+            PlaySeconds = 60,
+            RestSeconds = 60,
+            Workers = 1,
         };
         SweepOutcome outcome = Assert.Single(LinkSweep.Run(options, null, TestContext.Current.CancellationToken));
         output.WriteLine(FormattableString.Invariant(
