@@ -21,7 +21,7 @@ internal static class JoinCommand
             Description = "Where the host is: 192.168.0.7:5000, [::1]:5000, or some.name:5000, of which IPv4 is taken where it has both.",
         };
         Option<string?> pass = CommonOptions.File(
-            "--pass", "Come back as the same player after a restart: the file keeps what shows it, and is made if it is missing. Whoever has it can take the player's place.");
+            "--pass", "Come back as the same player after a restart: the file holds the player's pass, and is created if it is missing. Keep it secret: it is all that is needed to take the player's place.");
         Command command = new(
             "join",
             "Joins a session; the host gives the scene. Ends with 0 when the host ends the session after --for-s, or without it at any time, and with 3"

@@ -32,7 +32,7 @@ internal static class PassFile
     /// <summary>Keeps a pass, in a file that only this user may read where the system knows such a thing.</summary>
     internal static void Write(string file, PlayerPass pass)
     {
-        string draft = file + ".new"; // then put in its place whole: whoever is killed meanwhile has the former one
+        string draft = file + ".new"; // then moved into place, so that a kill in between leaves the old file whole
         FileStreamOptions options = new() { Mode = FileMode.Create, Access = FileAccess.Write };
         if (!OperatingSystem.IsWindows())
         {

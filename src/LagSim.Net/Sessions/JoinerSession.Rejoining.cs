@@ -81,7 +81,7 @@ public sealed partial class JoinerSession
     /// </summary>
     private void AskAgainOrEnd(SimTime now, SessionEnd by, string why)
     {
-        if (Options.Pass.Number == 0 || now - began - asleep > Options.RejoinTime)
+        if (Options.Pass.Number == 0 || now - began > Options.RejoinTime)
         {
             End(by, why);
         }

@@ -28,10 +28,9 @@ public sealed partial class JoinerSession : Session
 
     private readonly PeerAddress host;
     private ulong nonce; // of the newest attempt
-    private SimTime began = SimTime.MaxValue; // own clock, at the first step: however long that is waited for, nobody was silent
+    private SimTime began = SimTime.MaxValue; // own clock, at the first step, later by as long as this machine slept: nobody was silent meanwhile
     private SimTime tended; // own clock, when this peer last looked after itself
-    private SimDuration asleep; // how long it did not
-    private SimTime awake = SimTime.MinValue; // since when, if it slept
+    private SimTime awake = SimTime.MinValue; // own clock, when this machine last woke, if it slept
     private uint lastUrgent; // of the own events: the newest that nothing later makes up for
     private volatile object? pass; // a boxed one: other threads read it whole
     private bool isStartTold; // the host tells the start until it has heard that it is known here
@@ -211,7 +210,7 @@ public sealed partial class JoinerSession : Session
         {
             link?.NoteHeard(now); // it was this machine that slept, or whose clock jumped: who was not listened to was not silent
             rejoining += slept;
-            asleep += slept;
+            began += slept;
             awake = now;
         }
 
