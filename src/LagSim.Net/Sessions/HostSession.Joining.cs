@@ -86,7 +86,7 @@ public sealed partial class HostSession
             // The same address, shown by the cookie, under a new nonce: it started again. One that is in stays until the new one gets its number: if it had only
             // fallen silent, it may be heard again first, and goes on.
             joiners.RemoveAll(j => j.Peer == 0 && j.Link.Other == from);
-            MakeRoom(from);
+            MakeRoom(from, made);
             UpdateLink link = LinkTo(from, cookies.SessionId(sessionId, joins++), 0, made.LogIndex, now);
             known = new Joiner(join, link, made, keyed, claimed, now + PatienceWithCopy(made));
             joiners.Add(known);
@@ -117,31 +117,38 @@ public sealed partial class HostSession
             : null;
     }
 
-    /// <summary>Lets go of the oldest of those that are coming in, if there are too many, of that address or at all: of the address with the most.</summary>
-    private void MakeRoom(PeerAddress from)
+    /// <summary>
+    /// Lets go of the oldest of those that are coming in, of the machine with the most: while there are too many, or their copies take too much memory.
+    /// </summary>
+    /// <param name="from">Who comes.</param>
+    /// <param name="made">What it is to fetch; whoever fetches the same is in nobody's way.</param>
+    private void MakeRoom(PeerAddress from, Copy made)
     {
-        Dictionary<PeerAddress, int> coming = new(); // how many, by machine; each counted once, since a thousand may come a second
-        int all = 0, most = 0;
-        foreach (Joiner joiner in joiners)
+        List<Joiner> coming = joiners.FindAll(j => j.Peer == 0); // the oldest first
+        List<Joiner> ofOne = coming.FindAll(j => j.Link.Other.IsSameMachine(from));
+        if (ofOne.Count >= door.ComingOfOne)
         {
-            if (joiner.Peer == 0)
-            {
-                PeerAddress machine = joiner.Link.Other.Machine;
-                coming.TryGetValue(machine, out int before);
-                coming[machine] = before + 1;
-                most = Math.Max(most, before + 1);
-                all++;
-            }
+            LeaveOut(ofOne[0]);
         }
 
-        coming.TryGetValue(from.Machine, out int ofOne);
-        int leaves = ofOne >= door.ComingOfOne ? joiners.FindIndex(j => j.Peer == 0 && j.Link.Other.IsSameMachine(from))
-            : all >= door.Coming ? joiners.FindIndex(j => j.Peer == 0 && coming[j.Link.Other.Machine] == most)
-            : -1;
-        if (leaves >= 0)
+        while (coming.Count >= door.Coming)
         {
-            joiners.RemoveAt(leaves);
+            LeaveOut(OldestOf(coming));
         }
+
+        while (coming.FindAll(j => j.Copy != made) is { Count: > 0 } others
+            && made.Bytes.Length + others.Select(j => j.Copy!).Distinct().Sum(copy => (long)copy.Bytes.Length) > door.CopyBytes)
+        {
+            LeaveOut(OldestOf(others));
+        }
+
+        void LeaveOut(Joiner joiner)
+        {
+            joiners.Remove(joiner);
+            coming.Remove(joiner);
+        }
+
+        static Joiner OldestOf(List<Joiner> some) => some.GroupBy(j => j.Link.Other.Machine).OrderByDescending(machine => machine.Count()).First().First();
     }
 
     /// <summary>Gives one that has its copy and its clock a number, and tells it; false if there is none, and it was told so.</summary>
@@ -149,7 +156,7 @@ public sealed partial class HostSession
     {
         PlayerPlaces.Place? claimed = joiner.Claimed is PlayerPlaces.Place former && former.Pass == joiner.ClaimedPass ? former : null; // nobody else got it since
         PlayerPlaces.Place? place = joiner.Keyed > 0 ? places[joiner.Keyed] : claimed;
-        LetGo(j => j.Peer > 0 && j.Peer != place?.Number && j.Link.Other == joiner.Link.Other, LeaveReason.Left); // started again, as another player
+        LetGo(j => j.Peer > 0 && j.Peer != place?.Number && j.Link.Other == joiner.Link.Other, LeaveReason.TimedOut); // started again, or gone, and another got its port: it may still come back
         if (WhyNoPlace(joiner.Keyed, claimed, joiner.Link.Other, now) is RefusalReason reason)
         {
             Refuse(joiner.Nonce, reason, joiner.Link.Other);
@@ -165,7 +172,7 @@ public sealed partial class HostSession
             LetGo(j => j == before, LeaveReason.Replaced);
         }
 
-        joiner.Sit(place, now);
+        joiner.Sit(place);
         place.Take(isSamePlayer: claimed == place);
         GiveSeat(joiner);
         JoinerCame?.Invoke(joiner.Link.Traffic);

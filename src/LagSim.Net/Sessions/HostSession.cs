@@ -189,7 +189,7 @@ public sealed partial class HostSession : Session
         SimTime now = Clock.Now;
         if (now - joiner.Link.Heard > Options.Timeout / 2)
         {
-            joiner.NoteSilence(now);
+            joiner.NoteSilence();
         }
 
         if (!joiner.Link.Note(update, now, out _))
@@ -255,7 +255,7 @@ public sealed partial class HostSession : Session
             Joiner joiner = joiners[i];
             if (hasSlept)
             {
-                joiner.NoteSilence(now);
+                joiner.NoteSilence();
                 joiner.Link.NoteHeard(now);
             }
 
@@ -299,12 +299,16 @@ public sealed partial class HostSession : Session
         }
     }
 
-    /// <summary>Whether a joiner has not taken in what happened for so long, or so much of it, that a fresh copy is sooner there.</summary>
-    /// <remarks>Only while it is heard: one that stands still is silent, and not behind a link that is too slow.</remarks>
-    private bool HasFallenBehind(Joiner joiner, SimTime now) =>
-        joiner.Peer > 0 && joiner.Acknowledged < log.Count
-        && (log.Count - joiner.Acknowledged > MaxUnacknowledged
-            || (now - joiner.Link.Heard <= Options.Timeout / 2 && now - SimTime.Max(log.AddedAt(joiner.Acknowledged + 1), joiner.HeardSince) > Options.Timeout));
+    /// <summary>Whether a joiner is so far behind, and comes no nearer, that a fresh copy is sooner there.</summary>
+    /// <remarks>
+    /// By time only while it is heard: one that stands still is silent, and not behind a link that is too slow. One that came in with a large copy starts far behind, and catches up.
+    /// </remarks>
+    private bool HasFallenBehind(Joiner joiner, SimTime now)
+    {
+        SimDuration lag = joiner.Acknowledged < log.Count ? now - log.AddedAt(joiner.Acknowledged + 1) : SimDuration.Zero;
+        bool isHeard = joiner.Peer > 0 && now - joiner.Link.Heard <= Options.Timeout / 2;
+        return log.Count - joiner.Acknowledged > MaxUnacknowledged || (isHeard && joiner.CatchingUp.HasFailed(lag, now, Options.Timeout));
+    }
 
     /// <summary>How long one that is coming in may take, by what it has to fetch.</summary>
     private SimDuration PatienceWithCopy(Copy copy) => Options.Timeout + SilentPlace + SimDuration.FromSeconds(copy.Bytes.Length / door.SlowestCopy);
@@ -517,8 +521,8 @@ public sealed partial class HostSession : Session
         /// <summary>When it is given up if it has no number by then.</summary>
         internal SimTime ComesUntil { get; }
 
-        /// <summary>When it got its number, or was heard again after a silence: since then it can follow.</summary>
-        internal SimTime HeardSince { get; private set; }
+        /// <summary>How it follows the log, since it got its number, or was heard again after a silence.</summary>
+        internal CatchingUp CatchingUp { get; private set; } = new();
 
         /// <summary>What it fetches; null once it has it.</summary>
         internal Copy? Copy { get; set; }
@@ -570,15 +574,15 @@ public sealed partial class HostSession : Session
         }
 
         /// <summary>Gives it a number.</summary>
-        internal void Sit(PlayerPlaces.Place place, SimTime now)
+        internal void Sit(PlayerPlaces.Place place)
         {
             Link.Peer = place.Number;
             FirstSequence = place.LastSequence;
             Incoming = new ReceiveWindow(FirstSequence);
-            HeardSince = now;
+            CatchingUp = new CatchingUp();
         }
 
         /// <summary>Notes that it was silent, or not listened to, for long until now.</summary>
-        internal void NoteSilence(SimTime now) => HeardSince = now;
+        internal void NoteSilence() => CatchingUp = new CatchingUp();
     }
 }

@@ -7,7 +7,7 @@ namespace LagSim.Net.Sessions;
 /// <remarks>
 /// A token bucket of one datagram. Its rate grows by a twelfth each tenth of a second, or round trip, while it is used up and no queue shows, and is cut to 0.7 when one
 /// does; while one does only the least flows in. So the links of several sessions find their shares, and what could be left out keeps no queue standing. Where nothing
-/// is answered any more it goes on at the rate it had: a link that loses many datagrams in a row is lost for longer the fewer are sent.
+/// is answered any more it goes on at the rate it had for a while, for a link that loses many datagrams in a row is lost for longer the fewer are sent, then at less and less.
 /// </remarks>
 internal sealed class SpareRate
 {
@@ -32,6 +32,7 @@ internal sealed class SpareRate
 
     private readonly bool neverBacksOff;
     private double rate = First;
+    private double filling = First; // by what is known now: the rate, or less
     private double tokens = Full;
     private bool isUsedUp; // since the rate was last looked at
     private SimTime counted = SimTime.MinValue;
@@ -47,7 +48,8 @@ internal sealed class SpareRate
     /// <param name="now">By the own clock.</param>
     /// <param name="trips">What is known of the link's round trips.</param>
     /// <param name="isSilent">Whether answers are overdue.</param>
-    internal void Advance(SimTime now, RoundTrips trips, bool isSilent)
+    /// <param name="halvings">How often the rate is halved meanwhile, since nobody may be there.</param>
+    internal void Advance(SimTime now, RoundTrips trips, bool isSilent, int halvings = 0)
     {
         if (counted == SimTime.MinValue)
         {
@@ -65,8 +67,8 @@ internal sealed class SpareRate
             isUsedUp = false;
         }
 
-        double filling = trips.HasQueue && !neverBacksOff ? Least : isSilent ? Math.Max(rate, First) : rate;
         tokens = Math.Min(Full, tokens + ((now - counted).ToSeconds() * filling));
+        filling = trips.HasQueue && !neverBacksOff ? Least : isSilent ? Math.Max(rate, First) / (1 << halvings) : rate;
         counted = now;
     }
 
@@ -75,7 +77,7 @@ internal sealed class SpareRate
     {
         double missing = Math.Min(bytes, Full) - tokens;
         isUsedUp |= missing > 0;
-        return SimDuration.FromSeconds(Math.Max(0, missing / rate));
+        return SimDuration.FromSeconds(Math.Max(0, missing / filling));
     }
 
     /// <summary>Notes what went.</summary>

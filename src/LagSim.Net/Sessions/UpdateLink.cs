@@ -237,7 +237,7 @@ internal sealed class UpdateLink
         if (sent.Waited > 0 && now >= AnswerDue())
         {
             unanswered = Math.Min(unanswered + 1, MostDoublings + Silent);
-            if (unanswered == Silent && trips.HasQueue)
+            if (unanswered == Silent)
             {
                 congestion.OnSilence(now);
             }
@@ -275,7 +275,7 @@ internal sealed class UpdateLink
     /// <summary>Puts entries into the composed update.</summary>
     internal void Fill(IEntrySource source, SimTime now)
     {
-        spare.Advance(now, trips, unanswered > 0);
+        spare.Advance(now, trips, unanswered > 0, Doublings);
         if (!congestion.HasRoom)
         {
             outgoing.FirstIndex = Outgoing.Sent + 1;
@@ -348,14 +348,19 @@ internal sealed class UpdateLink
         return trips.IsMeasured && even > LeastDistance ? even : LeastDistance;
     }
 
-    /// <summary>When the answer to what was sent is overdue; with a queue on the way twice as long after each time that it was.</summary>
-    private SimTime AnswerDue() =>
-        sent.TryPeekOldest(out SimTime at) ? at + (Patience * (1L << (trips.HasQueue ? Math.Min(unanswered, MostDoublings) : 0))) : SimTime.MaxValue;
+    /// <summary>
+    /// How often what is not answered is sent half as often: each time that an answer was overdue where there is a queue on the way, and where there is none each time after the
+    /// link counts as silent. A link that loses several in a row is not silent yet, and lost for longer the fewer are sent.
+    /// </summary>
+    private int Doublings => Math.Clamp(trips.HasQueue ? unanswered : unanswered - Silent, 0, MostDoublings);
+
+    /// <summary>When the answer to what was sent is overdue.</summary>
+    private SimTime AnswerDue() => sent.TryPeekOldest(out SimTime at) ? at + (Patience * (1L << Doublings)) : SimTime.MaxValue;
 
     /// <summary>Whether an update may go for little.</summary>
     private bool MayHurry(SimTime now)
     {
-        spare.Advance(now, trips, unanswered > 0);
+        spare.Advance(now, trips, unanswered > 0, Doublings);
         return spare.WaitFor(OwnBytes) == SimDuration.Zero;
     }
 

@@ -64,6 +64,26 @@ public sealed class SpareRateTests
         Assert.Equal(12_000, Rate(spare, trips, now), 50.0);
     }
 
+    /// <summary>To one who is not there any more less and less is sent.</summary>
+    [Theory]
+    [InlineData(0, 12_000)]
+    [InlineData(1, 6_000)]
+    [InlineData(3, 1_500)]
+    public void Advance_OfSilence_HalvesWhatMayGo(int halvings, double expected)
+    {
+        SpareRate spare = new();
+        RoundTrips trips = new();
+        SimTime now = SimTime.FromSeconds(1);
+        Add(trips, ref now, 40, 100);
+        spare.Advance(now, trips, isSilent: false);
+        spare.Spend(spare.Bytes);
+        int before = spare.Bytes;
+        spare.Advance(now, trips, isSilent: true, halvings);
+        spare.Advance(now + SimDuration.FromMilliseconds(50), trips, isSilent: true, halvings);
+
+        Assert.Equal(expected * 0.05, spare.Bytes - before, 2.0);
+    }
+
     private static void Add(RoundTrips trips, ref SimTime now, double milliseconds, int count)
     {
         for (int n = 0; n < count; n++)
