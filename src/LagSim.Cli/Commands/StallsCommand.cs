@@ -1,11 +1,13 @@
 using System;
 using System.Collections.Generic;
 using System.CommandLine;
+using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Cli.Output;
+using LagSim.Harness.Reports;
 using LagSim.Harness.Stalls;
 
 namespace LagSim.Cli.Commands;
@@ -18,7 +20,8 @@ internal static class StallsCommand
 
     /// <param name="console">Where it writes.</param>
     /// <param name="change">For tests: has the check meet a fault.</param>
-    internal static Command Create(ToolConsole console, Func<StallOptions, StallOptions>? change = null)
+    /// <param name="tool">For tests: what is started as the processes; null for this very program.</param>
+    internal static Command Create(ToolConsole console, Func<StallOptions, StallOptions>? change = null, string[]? tool = null)
     {
         CommonOptions common = new();
         Option<int> sessions = CommonOptions.Whole(
@@ -44,12 +47,12 @@ internal static class StallsCommand
                     $"--processes is '{again}'; processes are stopped by signals, which this system does not have: it takes 0 here.");
             }
 
-            return Run(console, change?.Invoke(options) ?? options, parsed.GetValue(worst), again, parsed.GetValue(common.Json));
+            return Run(console, change?.Invoke(options) ?? options, parsed.GetValue(worst), again, tool, parsed.GetValue(common.Json));
         });
         return command;
     }
 
-    private static int Run(ToolConsole console, StallOptions options, int worst, int again, bool json)
+    private static int Run(ToolConsole console, StallOptions options, int worst, int again, string[]? tool, bool json)
     {
         int done = 0;
         IReadOnlyList<StallOutcome> outcomes = console.WithProgress(
@@ -70,7 +73,7 @@ internal static class StallsCommand
                 console.Stop));
         StallOutcome[] ranked = [.. outcomes.OrderBy(o => o.IsGood).ThenByDescending(o => o.WorstSeconds).ThenBy(o => o.Case.Seed)];
         bool isStopped = outcomes.Count < options.Sessions;
-        IReadOnlyList<StallProcessOutcome> played = again == 0 || isStopped ? [] : PlayAgain(console, [.. ranked.Take(again)]);
+        IReadOnlyList<StallProcessOutcome> played = again == 0 || isStopped ? [] : PlayAgain(console, [.. ranked.Take(again)], tool ?? ThisTool());
         if (json)
         {
             StallsJson.Write(console.Output, options, outcomes, [.. ranked.Take(worst)], played);
@@ -85,16 +88,33 @@ internal static class StallsCommand
             : ExitCode.CheckFailed;
     }
 
-    private static IReadOnlyList<StallProcessOutcome> PlayAgain(ToolConsole console, StallOutcome[] chosen) => console.WithProgress(
-        "the worst again, with processes",
-        chosen.Length,
-        progress =>
+    /// <summary>How long all of them take together, in seconds, when so many are played at a time and each worker takes the next as it is done.</summary>
+    internal static double SecondsOfAll(IEnumerable<double> each, int workers)
+    {
+        double[] busyUntil = new double[workers];
+        foreach (double seconds in each)
+        {
+            busyUntil[Array.IndexOf(busyUntil, busyUntil.Min())] += seconds;
+        }
+
+        return busyUntil.Max();
+    }
+
+    /// <summary>Plays sessions with processes: which begins, what happens in it, and how far it is, stands on the error stream.</summary>
+    private static IReadOnlyList<StallProcessOutcome> PlayAgain(ToolConsole console, StallOutcome[] chosen, string[] tool)
+    {
+        double[] lengths = [.. chosen.Select(o => StallProcessRun.SecondsOf(o.Case, o.WorstSeconds))];
+        int workers = Math.Min(ProcessSessionsAtOnce, chosen.Length);
+        string title = string.Create(
+            CultureInfo.InvariantCulture,
+            $"{NumberText.Count(chosen.Length, "session")} again with processes, {workers} at a time, in about {SecondsOfAll(lengths, workers):0} s");
+        return console.WithProgress(title, lengths.Sum(), progress =>
         {
             StallProcessOutcome?[] outcomes = new StallProcessOutcome?[chosen.Length];
+            double[] played = new double[chosen.Length];
             object gate = new();
             int next = -1;
             int done = 0;
-            int workers = Math.Min(ProcessSessionsAtOnce, chosen.Length);
             Task.WaitAll([.. Enumerable.Range(0, workers).Select(_ => Task.Factory.StartNew(Work, TaskCreationOptions.LongRunning))]);
             return outcomes.OfType<StallProcessOutcome>().ToArray();
 
@@ -105,7 +125,10 @@ internal static class StallsCommand
                     string folder = Directory.CreateTempSubdirectory("lagsim-stalls-").FullName;
                     try
                     {
-                        using StallProcessRun run = new(chosen[n].Case, chosen[n].WorstSeconds, ThisTool(), folder, console.Stop);
+                        Tell(n, 0, string.Create(CultureInfo.InvariantCulture, $"begins, and takes about {lengths[n]:0} s: {chosen[n].Case}"));
+                        using StallProcessRun run = new(
+                            chosen[n].Case, chosen[n].WorstSeconds, tool, folder, console.Stop,
+                            (seconds, what) => Tell(n, seconds, what is null ? null : string.Create(CultureInfo.InvariantCulture, $"{seconds:0} of {lengths[n]:0} s: {what}")));
                         outcomes[n] = run.Play();
                     }
                     catch (OperationCanceledException) when (console.Stop.IsCancellationRequested)
@@ -117,15 +140,27 @@ internal static class StallsCommand
                         Directory.Delete(folder, recursive: true);
                     }
 
-                    lock (gate)
+                    StallProcessOutcome outcome = outcomes[n]!;
+                    string how = outcome.IsGood ? "good" : $"not good: {string.Join(" ", outcome.Failures)}";
+                    Tell(n, lengths[n], string.Create(CultureInfo.InvariantCulture, $"{how} ({Interlocked.Increment(ref done)} of {chosen.Length} done)"));
+                }
+            }
+
+            void Tell(int n, double seconds, string? what)
+            {
+                lock (gate)
+                {
+                    if (what is not null)
                     {
-                        string how = outcomes[n]!.IsGood ? "" : $" is not good: {string.Join(" ", outcomes[n]!.Failures)}";
-                        console.Begin(FormattableString.Invariant($"{++done} of {chosen.Length}: seed {chosen[n].Case.Seed}{how}"));
-                        progress(done);
+                        console.Begin(string.Create(CultureInfo.InvariantCulture, $"seed {chosen[n].Case.Seed}: {what}"));
                     }
+
+                    played[n] = seconds;
+                    progress(played.Sum());
                 }
             }
         });
+    }
 
     /// <summary>How this very program is started: by itself, or by the runtime's host.</summary>
     private static string[] ThisTool()

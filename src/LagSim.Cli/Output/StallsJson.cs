@@ -46,6 +46,10 @@ internal static class StallsJson
                 json.WriteNumber("events_lost", o.Lost);
                 json.WriteNumber("recovery_s", o.WorstSeconds);
                 End(json, o.Failures, o.IsGood);
+                json.WriteNumber("events_accepted", o.Accepted);
+                json.WriteNumber("events_refused", o.Refused);
+                json.WriteNumber("events_refused_too_late", o.RefusedTooLate);
+                json.WriteEndObject();
             }
 
             json.WriteEndArray();
@@ -55,10 +59,13 @@ internal static class StallsJson
                 json.WriteStartObject();
                 Begin(json, o.Case, o.Compared, o.Differed, StallsText.Replay(o.Case, hasProcesses: true));
                 End(json, o.Failures, o.IsGood);
+                json.WriteEndObject();
             }
 
             json.WriteEndArray();
             json.WriteBoolean("stopped_early", outcomes.Count < options.Sessions);
+            json.WriteNumber("events_refused", outcomes.Sum(o => o.Refused));
+            json.WriteNumber("events_refused_too_late", outcomes.Sum(o => o.RefusedTooLate));
         });
 
     private static void Begin(Utf8JsonWriter json, StallCase drawn, long compared, long differed, string replay)
@@ -80,6 +87,5 @@ internal static class StallsJson
 
         json.WriteEndArray();
         json.WriteBoolean("passed", isGood);
-        json.WriteEndObject();
     }
 }

@@ -3,6 +3,7 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using LagSim.Harness.Metrics;
+using LagSim.Harness.Reports;
 using LagSim.Harness.Stalls;
 
 namespace LagSim.Cli.Output;
@@ -14,15 +15,25 @@ internal static class StallsText
     internal static string Replay(StallCase drawn, bool hasProcesses = false) =>
         string.Create(CultureInfo.InvariantCulture, $"lagsim stalls --sessions 1 --seed {drawn.Seed}{(hasProcesses ? " --processes 1" : "")}");
 
+    /// <summary>How many events hosts refused, and why, where it is the link's doing: else "0 of 0 lost" of a slow link would have no reason.</summary>
+    private static string Refused(IReadOnlyList<StallOutcome> outcomes)
+    {
+        long refused = outcomes.Sum(o => o.Refused), late = outcomes.Sum(o => o.RefusedTooLate);
+        string why = refused == 0 ? "" : late == refused ? " (they came too late)" : string.Create(CultureInfo.InvariantCulture, $" ({late} of them came too late)");
+        return string.Create(CultureInfo.InvariantCulture, $"{refused} refused{why}");
+    }
+
     internal static void Write(
         TextWriter output, IReadOnlyList<StallOutcome> outcomes, IReadOnlyList<StallOutcome> worst, IReadOnlyList<StallProcessOutcome> played)
     {
         Percentiles recovery = Percentiles.Of(outcomes.SelectMany(o => o.RecoverySeconds));
         output.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
-            $"{outcomes.Count} sessions, {outcomes.Sum(o => o.Case.Stalls.Count)} stalls: {outcomes.Sum(o => o.Compared)} states compared, {outcomes.Sum(o => o.Differed)} differ;"
-                + $" {outcomes.Sum(o => o.Lost)} of {outcomes.Sum(o => o.Accepted)} accepted events lost; {outcomes.Sum(o => o.Copies)} fresh copies,"
-                + $" {outcomes.Sum(o => o.Regained)} times none was needed"));
+            $"{NumberText.Count(outcomes.Count, "session")}, {NumberText.Count(outcomes.Sum(o => o.Case.Stalls.Count), "stall")}:"
+                + $" {outcomes.Sum(o => o.Compared)} states compared, {outcomes.Sum(o => o.Differed)} differ;"
+                + $" {outcomes.Sum(o => o.Lost)} of {outcomes.Sum(o => o.Accepted)} accepted events lost, {Refused(outcomes)};"
+                + $" {NumberText.Count(outcomes.Sum(o => o.Copies), "fresh copy", many: "fresh copies")},"
+                + $" {NumberText.Count(outcomes.Sum(o => o.Regained), "interruption")} that ended without one"));
         output.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
             $"up to date after the end of a stall: {recovery.P50:0.00} s at the median, {recovery.P99:0.0} s at the 99th percentile, {recovery.Max:0.0} s at most"));
@@ -30,11 +41,12 @@ internal static class StallsText
         {
             output.WriteLine(string.Create(
                 CultureInfo.InvariantCulture, $"  {o.WorstSeconds:0.0} s{(o.IsGood ? "" : ", NOT GOOD")}: {o.Case}"));
+            output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"    {o.Lost} of {o.Accepted} accepted events lost, {Refused([o])}"));
             output.WriteLine($"    {Replay(o.Case)}");
         }
 
         StallOutcome[] bad = [.. outcomes.Where(o => !o.IsGood)];
-        output.WriteLine(bad.Length == 0 ? "All of them are as they should be." : $"{bad.Length} of them are not as they should be:");
+        output.WriteLine(bad.Length == 0 ? "All of them are as they should be." : $"Not as they should be: {bad.Length} of {outcomes.Count}:");
         foreach (StallOutcome o in bad)
         {
             output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"  {Replay(o.Case)}: {o.Differed} states differ, {o.Lost} events lost. {string.Join(" ", o.Failures)}"));

@@ -21,6 +21,12 @@ internal sealed class StallHostLog
     /// <summary>Of all hosts.</summary>
     internal long AcceptedInAll => logs.Sum(log => (long)log.Count);
 
+    /// <summary>How many events the hosts refused, of all hosts.</summary>
+    internal long RefusedInAll { get; private set; }
+
+    /// <summary>How many of those because they came too late.</summary>
+    internal long TooLateInAll { get; private set; }
+
     internal void Follow(HostSession host)
     {
         HashSet<uint> log = [];
@@ -30,6 +36,11 @@ internal sealed class StallHostLog
             if (entry.Verdict == Verdict.Accepted)
             {
                 log.Add(entry.Index);
+            }
+            else
+            {
+                RefusedInAll++;
+                TooLateInAll += entry.Verdict == Verdict.TooLate ? 1 : 0;
             }
         };
         host.StateCommitted += state => states[(host.World!.Simulation.Start, state.Time)] = state.StateHash;

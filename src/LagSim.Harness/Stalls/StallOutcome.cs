@@ -21,6 +21,12 @@ public sealed record StallOutcome
     /// <summary>Accepted events in the logs of all hosts there were.</summary>
     public long Accepted { get; init; }
 
+    /// <summary>Events in those logs that the host refused.</summary>
+    public long Refused { get; init; }
+
+    /// <summary>Those of them that came too late: over a link that takes longer than the host's history, that is all of them.</summary>
+    public long RefusedTooLate { get; init; }
+
     /// <summary>How often a client got a fresh copy of the world.</summary>
     public long Copies { get; init; }
 

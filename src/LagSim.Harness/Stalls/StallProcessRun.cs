@@ -19,6 +19,8 @@ public sealed class StallProcessRun : IDisposable
     /// <summary>How long processes may take to start and to get in, on links that take seconds and behind ports that change meanwhile.</summary>
     private const double StartSeconds = 180;
 
+    private const double LookSeconds = 0.5;
+
     private readonly StallCase drawn;
     private readonly IReadOnlyList<string> tool;
     private readonly string folder;
@@ -33,6 +35,7 @@ public sealed class StallProcessRun : IDisposable
     private readonly List<string> failures = [];
     private readonly UdpRelay[] relays; // of each client
     private readonly string?[] numbers; // that they got first
+    private readonly Action<double, string?>? progress;
     private string port = "0";
 
     /// <summary>Makes ready to play a session.</summary>
@@ -41,7 +44,11 @@ public sealed class StallProcessRun : IDisposable
     /// <param name="tool">The tool's program, and the arguments that it needs before its own.</param>
     /// <param name="folder">Where passes are kept; it must be there.</param>
     /// <param name="cancellation">Ends it early.</param>
-    public StallProcessRun(StallCase drawn, double recoverySeconds, IReadOnlyList<string> tool, string folder, CancellationToken cancellation)
+    /// <param name="progress">
+    /// Told, on the thread that plays, how many seconds of <see cref="SecondsOf"/> have gone by, and what happens then where anything does; null for nobody.
+    /// </param>
+    public StallProcessRun(
+        StallCase drawn, double recoverySeconds, IReadOnlyList<string> tool, string folder, CancellationToken cancellation, Action<double, string?>? progress = null)
     {
         ArgumentNullException.ThrowIfNull(drawn);
         ArgumentNullException.ThrowIfNull(tool);
@@ -50,12 +57,22 @@ public sealed class StallProcessRun : IDisposable
         this.tool = tool;
         this.folder = folder;
         this.cancellation = cancellation;
-        length = Math.Ceiling(drawn.EndSeconds + (1.5 * recoverySeconds) + 30);
+        this.progress = progress;
+        length = SecondsOf(drawn, recoverySeconds);
         random = new SeededRandom(drawn.Seed).Fork(0x9C);
         clients = [.. Enumerable.Range(0, drawn.Clients).Select(_ => new List<StallProcess>())];
         relays = new UdpRelay[drawn.Clients];
         numbers = new string?[drawn.Clients];
         deeds = [.. clients.Select(_ => Draw())];
+    }
+
+    /// <summary>How long a session is played, in seconds from the moment that all are in: some more until the processes have started and got in.</summary>
+    /// <param name="drawn">Which session.</param>
+    /// <param name="recoverySeconds">How long it takes at worst until all are up to date after the last stall, as far as is known.</param>
+    public static double SecondsOf(StallCase drawn, double recoverySeconds)
+    {
+        ArgumentNullException.ThrowIfNull(drawn);
+        return Math.Ceiling(drawn.EndSeconds + (1.5 * recoverySeconds) + 30);
     }
 
     /// <summary>Plays it.</summary>
@@ -64,6 +81,7 @@ public sealed class StallProcessRun : IDisposable
         if (Start())
         {
             watch.Start();
+            Tell("all are in");
             List<(double At, Action What)> plan = [.. drawn.Stalls.Select(s => (s.AtSeconds, (Action)(() => Begin(s))))];
             plan.AddRange(drawn.Stalls.Select(s => (s.EndSeconds, (Action)(() => End(s)))));
             foreach (Stall stall in drawn.Stalls.Where(s => s.Kind == StallKind.PortChanges))
@@ -150,8 +168,11 @@ public sealed class StallProcessRun : IDisposable
         return process;
     }
 
+    private void Tell(string? what) => progress?.Invoke(Math.Min(watch.Elapsed.TotalSeconds, length), what);
+
     private void Begin(Stall stall)
     {
+        Tell(stall.ToString());
         if (stall.Kind is StallKind.HostFrozen or StallKind.ClientFrozen)
         {
             Of(stall.Player).Signal("STOP");
@@ -164,6 +185,7 @@ public sealed class StallProcessRun : IDisposable
 
     private void End(Stall stall)
     {
+        Tell($"over: {stall}");
         switch (stall.Kind)
         {
             case StallKind.HostFrozen or StallKind.ClientFrozen:
@@ -182,7 +204,12 @@ public sealed class StallProcessRun : IDisposable
 
     private void AwaitEnds()
     {
-        if (!hosts[^1].AwaitEnd(length + StartSeconds, cancellation))
+        for (double seconds = 0; seconds < length + StartSeconds && !hosts[^1].AwaitEnd(LookSeconds, cancellation); seconds += LookSeconds)
+        {
+            Tell(null);
+        }
+
+        if (!hosts[^1].AwaitEnd(0, cancellation))
         {
             failures.Add("The host did not end.");
         }
@@ -277,8 +304,9 @@ public sealed class StallProcessRun : IDisposable
         double left;
         while ((left = seconds - watch.Elapsed.TotalSeconds) > 0)
         {
-            cancellation.WaitHandle.WaitOne(TimeSpan.FromSeconds(Math.Min(left, 0.5)));
+            cancellation.WaitHandle.WaitOne(TimeSpan.FromSeconds(Math.Min(left, LookSeconds)));
             cancellation.ThrowIfCancellationRequested();
+            Tell(null);
         }
     }
 

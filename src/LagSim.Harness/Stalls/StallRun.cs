@@ -94,6 +94,8 @@ internal sealed class StallRun
             Differed = clients.Sum(c => c.Differed),
             Lost = clients.Sum(c => c.Lost),
             Accepted = hostLog.AcceptedInAll,
+            Refused = hostLog.RefusedInAll,
+            RefusedTooLate = hostLog.TooLateInAll,
             Copies = clients.Sum(c => c.Copies),
             Regained = clients.Sum(c => c.Regained),
             RecoverySeconds = recoveries,

@@ -1,5 +1,11 @@
+using System;
+using System.CommandLine;
+using System.IO;
 using System.Linq;
 using System.Text.Json;
+using LagSim.Cli.Commands;
+using LagSim.Cli.Output;
+using LagSim.Harness.Stalls;
 using Xunit;
 
 namespace LagSim.Tests.Cli;
@@ -47,5 +53,48 @@ public sealed class StallsCommandTests
         Assert.Contains("states compared, 0 differ;", tool.Output);
         Assert.Contains("lagsim stalls --sessions 1 --seed 9", tool.Output);
         Assert.Contains("All of them are as they should be.", tool.Output);
+        Assert.StartsWith("1 session, ", tool.Output, StringComparison.Ordinal);
+    }
+
+    [Theory]
+    [InlineData(38, true)] // over a link of 2 s each way every event comes too late
+    [InlineData(9, false)] // the control: over this one some are accepted
+    public void Stalls_EventsThatHostsRefused_AreToldWithTheReason(int seed, bool isAllRefused)
+    {
+        string[] call = ["stalls", "--sessions", "1", "--seed", $"{seed}"];
+        using JsonDocument document = JsonDocument.Parse(Tool.Run([.. call, "--json"]).Done().Output);
+        JsonElement root = document.RootElement, row = root.GetProperty("worst")[0];
+        long accepted = root.GetProperty("events_accepted").GetInt64(), refused = root.GetProperty("events_refused").GetInt64();
+        Assert.Equal(isAllRefused, accepted == 0);
+        Assert.Equal((accepted, refused), (row.GetProperty("events_accepted").GetInt64(), row.GetProperty("events_refused").GetInt64()));
+        Assert.InRange(root.GetProperty("events_refused_too_late").GetInt64(), isAllRefused ? refused : 0, refused);
+        Assert.True(refused > 0 || !isAllRefused);
+        string text = Tool.Run(call).Done().Output;
+        Assert.Equal(2, text.Split($" 0 of {accepted} accepted events lost, {refused} refused").Length - 1); // in the sum and in the row
+        Assert.Equal(refused > 0, text.Contains(" came too late)", StringComparison.Ordinal));
+    }
+
+    [Fact]
+    public void Stalls_WithProcesses_TellsWhichSessionIsPlayedAndHowLongItTakes()
+    {
+        Assert.SkipWhen(OperatingSystem.IsWindows(), "Windows has no signals to stop processes by.");
+        using StringWriter output = new(), error = new();
+        ToolConsole console = new(output, error, TestContext.Current.CancellationToken);
+        Command command = StallsCommand.Create(console, null, ["false"]); // so that no session begins, and none takes its time
+        int code = command.Parse(["--sessions", "1", "--seed", "9", "--processes", "1"])
+            .Invoke(new InvocationConfiguration { Output = output, Error = error, EnableDefaultExceptionHandler = false });
+        Assert.Equal(1, code);
+        string[] lines = error.ToString().Split(Environment.NewLine);
+        Assert.Contains(lines, line => line.StartsWith("1 session again with processes, 1 at a time, in about ", StringComparison.Ordinal));
+        Assert.Contains(lines, line => line.StartsWith("  seed 9: begins, and takes about ", StringComparison.Ordinal) && line.EndsWith($" s: {new StallCase(9)}", StringComparison.Ordinal));
+        Assert.Contains("  seed 9: not good: The host does not listen: it said nothing. (1 of 1 done)", lines);
+    }
+
+    [Fact]
+    public void SecondsOfAll_SeveralAtATime_IsUntilTheLastIsDone()
+    {
+        Assert.Equal(60, StallsCommand.SecondsOfAll([10, 20, 30, 40], 2));
+        Assert.Equal(100, StallsCommand.SecondsOfAll([10, 20, 30, 40], 1));
+        Assert.Equal(40, StallsCommand.SecondsOfAll([10, 20, 30, 40], 4));
     }
 }
