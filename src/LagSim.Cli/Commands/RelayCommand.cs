@@ -72,6 +72,7 @@ internal static class RelayCommand
                     document.WriteNumber("forwarded_from_host", traffic.ForwardedFromHost);
                     document.WriteNumber("lost_from_host", traffic.LostFromHost);
                     document.WriteNumber("refused", traffic.Refused);
+                    document.WriteNumber("port_changes", traffic.PortChanges);
                 });
             }
             else
@@ -79,7 +80,8 @@ internal static class RelayCommand
                 console.Output.WriteLine(string.Create(
                     CultureInfo.InvariantCulture,
                     $"{link.Name}, {NumberText.Count(traffic.Clients, "joiner")}; to the host {NumberText.Count(traffic.ForwardedToHost, "datagram")},"
-                        + $" {traffic.LostToHost} lost; from the host {traffic.ForwardedFromHost}, {traffic.LostFromHost} lost; {traffic.Refused} refused"));
+                        + $" {traffic.LostToHost} lost; from the host {traffic.ForwardedFromHost}, {traffic.LostFromHost} lost; {traffic.Refused} refused"
+                        + $"{(changing is null ? "" : $"; {NumberText.Count(traffic.PortChanges, "port change")}")}"));
             }
 
             return console.Stop.IsCancellationRequested ? ExitCode.Interrupted : ExitCode.Done;

@@ -19,12 +19,13 @@ internal sealed class RelayCore : IDisposable
     private readonly SimDuration? change;
     private readonly HeldDatagrams toHost;
     private readonly Dictionary<PeerAddress, Client> clients = [];
-    private readonly object gate = new(); // six counters that belong together; taken only to replace or copy them
+    private readonly object gate = new(); // seven counters that belong together; taken only to replace or copy them
     private SimTime polled;
     private int changesAsked; // 1 if so
     private RelayTraffic traffic;
     private long forwardedToHost;
     private long forwardedFromHost;
+    private long portChanges;
 
     /// <summary>A relay without clients.</summary>
     /// <param name="front">Where clients send to; owned from now on.</param>
@@ -143,6 +144,7 @@ internal sealed class RelayCore : IDisposable
         {
             client.Port.Dispose();
             client.Port = port;
+            portChanges++;
             client.NextChange = now + change;
         }
     }
@@ -155,7 +157,8 @@ internal sealed class RelayCore : IDisposable
             toHost.Lost,
             forwardedFromHost,
             clients.Values.Sum(client => client.FromHost.Lost),
-            toHost.Refused + clients.Values.Sum(client => client.FromHost.Refused));
+            toHost.Refused + clients.Values.Sum(client => client.FromHost.Refused),
+            portChanges);
         lock (gate)
         {
             traffic = now;

@@ -213,11 +213,12 @@ public sealed class RelayCoreTests : IDisposable
         clock.Now += SimDuration.FromMilliseconds(5);
         Turn();
         Assert.Equal([11], Drain(clients[0]).Select(datagram => datagram.Number));
-        Assert.Equal(1, relay!.Traffic.Clients);
+        Assert.Equal((1, 1), (relay!.Traffic.Clients, relay.Traffic.PortChanges));
 
         relay.ChangePorts(); // or when it is told to
         Turn();
         Assert.Equal(3, backs.Count);
+        Assert.Equal(2, relay.Traffic.PortChanges);
     }
 
     [Fact]
