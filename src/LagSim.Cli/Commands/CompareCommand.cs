@@ -25,7 +25,7 @@ internal static class CompareCommand
         Option<string> scene = new("--scene")
         {
             Description = $"What is played in: {string.Join(", ", BuiltInScenes.Names)}, or any other scene by name or file, of at most"
-                + $" {CompareOptions.MaxBodies} bodies with those that the players spawn; default pair.",
+                + $" {CompareOptions.MaxBodies} bodies with those that the players spawn.",
             DefaultValueFactory = _ => "pair",
             HelpName = "NAME",
         };

@@ -35,10 +35,10 @@ internal static class SweepCommand
         {
             SweepOptions options = new()
             {
-                Clients = [.. parsed.GetValue(clients)!.Select(n => n == Math.Floor(n) ? (int)n : throw new UsageException($"--clients is {n}; it takes whole numbers from 1 to 8."))],
-                EventsPerSecond = parsed.GetValue(events)!,
-                KilobitsPerSecond = parsed.GetValue(rates)!,
-                QueueMilliseconds = parsed.GetValue(queues)!,
+                Clients = [.. Given(parsed, clients, byDefault.Clients.Select(n => (double)n)).Select(n => n == Math.Floor(n) ? (int)n : throw new UsageException($"--clients is {n}; it takes whole numbers from 1 to 8."))],
+                EventsPerSecond = Given(parsed, events, byDefault.EventsPerSecond),
+                KilobitsPerSecond = Given(parsed, rates, byDefault.KilobitsPerSecond),
+                QueueMilliseconds = Given(parsed, queues, byDefault.QueueMilliseconds),
                 Dips = !parsed.GetValue(noDips),
                 IsShared = parsed.GetValue(shared),
                 BulkTransfers = parsed.GetValue(bulk),
@@ -96,7 +96,12 @@ internal static class SweepCommand
         return outcomes.All(outcome => outcome.IsGood) ? ExitCode.Done : ExitCode.CheckFailed;
     }
 
+    /// <summary>The numbers that were given, or the default.</summary>
+    private static IReadOnlyList<double> Given(ParseResult parsed, Option<double[]> option, IEnumerable<double> byDefault) =>
+        parsed.GetResult(option) is null ? [.. byDefault] : parsed.GetValue(option)!;
+
     /// <summary>An option that takes numbers, with commas between them.</summary>
+    /// <remarks>Its default is in the description: the parser would print it as <c>3|8</c>, which is not how it is written.</remarks>
     private static Option<double[]> Numbers(string name, string description, IEnumerable<double> byDefault, double least, double most)
     {
         string text = string.Join(",", byDefault.Select(n => n.ToString("0.###", CultureInfo.InvariantCulture)));
@@ -104,7 +109,6 @@ internal static class SweepCommand
         {
             Description = FormattableString.Invariant($"{description}: numbers from {least} to {most} with commas between them; default {text}."),
             HelpName = "N,N",
-            DefaultValueFactory = _ => [.. byDefault],
             CustomParser = result => Parse(result, name, least, most),
         };
     }

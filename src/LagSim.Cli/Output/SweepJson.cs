@@ -40,7 +40,7 @@ internal static class SweepJson
                 json.WriteNumber("links_too_slow", o.TooSlow);
                 json.WriteNumber("queued_s", o.QueuedSeconds);
                 json.WriteNumber("queued_sent_per_needed_byte", o.SentPerNeededByteWhileQueued);
-                json.WriteString("failure", o.Failure);
+                json.WriteString("failure", o.Shortfall);
                 json.WriteBoolean("passed", o.IsGood);
                 json.WriteEndObject();
             }

@@ -1,5 +1,6 @@
 using System.Globalization;
 using LagSim.Harness.Links;
+using LagSim.Harness.Reports;
 
 namespace LagSim.Harness.Sweep;
 
@@ -31,5 +32,5 @@ public sealed record SweepCell(int Clients, double EventsPerSecond, long RateBit
     /// <summary>All of it in a few words.</summary>
     public override string ToString() => string.Create(
         CultureInfo.InvariantCulture,
-        $"{Clients} clients, {EventsPerSecond} events/s each, {RateBitsPerSecond / 1000.0} kbit/s, queue {QueueMilliseconds} ms{(HasDips ? ", dips" : "")}{(IsShared ? ", shared" : "")}{(HasBulkTransfer ? ", beside a bulk transfer" : "")}");
+        $"{NumberText.Count(Clients, "client")}, {EventsPerSecond} events/s each, {RateBitsPerSecond / 1000.0} kbit/s, queue {QueueMilliseconds} ms{(HasDips ? ", dips" : "")}{(IsShared ? ", shared" : "")}{(HasBulkTransfer ? ", beside a bulk transfer" : "")}");
 }

@@ -1,3 +1,7 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+
 namespace LagSim.Harness.Sweep;
 
 /// <summary>What came of one cell of the sweep over full links.</summary>
@@ -63,9 +67,44 @@ public sealed record SweepOutcome
     /// <summary>What went wrong otherwise, as a sentence; null if nothing did.</summary>
     public string? Failure { get; init; }
 
+    /// <summary>The least <see cref="ComparedShare"/> that a cell must show.</summary>
+    public const double LeastComparedShare = 0.9;
+
+    /// <summary>The load up to which no link may be too slow for a client.</summary>
+    public const double LoadForAll = 0.8;
+
     /// <summary>How much of the link the events and what one update for each three of them adds would take, in the direction that carries more.</summary>
     public double LoadShare { get; init; }
 
     /// <summary>Whether the cell shows what it must: nothing lost, nothing differs, enough compared; on links with less than 80 % of load, nobody too slow either.</summary>
-    public bool IsGood => Failure is null && Lost == 0 && Differed == 0 && (TooSlow == 0 || LoadShare > 0.8) && ComparedShare >= 0.9;
+    public bool IsGood => Shortfall is null;
+
+    /// <summary>What of that it does not show, as sentences, <see cref="Failure"/> first; null if it shows all of it.</summary>
+    public string? Shortfall
+    {
+        get
+        {
+            List<string> sentences = Failure is null ? [] : [Failure];
+            Add(Lost > 0, $"{Lost} of the accepted events did not reach a client; all must.");
+            Add(Differed > 0, $"{Differed} of the committed states compared differed; none may.");
+            Add(
+                Failure is null && !(ComparedShare >= LeastComparedShare),
+                $"A client compared only {PercentBelow(ComparedShare)} % of the host's committed states; at least {100 * LeastComparedShare:0} % must be compared.");
+            Add(
+                TooSlow > 0 && LoadShare <= LoadForAll,
+                $"The link was too slow for {TooSlow} of the clients at {100 * LoadShare:0} % load; up to {100 * LoadForAll:0} % it must not be.");
+            return sentences.Count == 0 ? null : string.Join(" ", sentences);
+
+            void Add(bool isSo, FormattableString sentence)
+            {
+                if (isSo)
+                {
+                    sentences.Add(FormattableString.Invariant(sentence));
+                }
+            }
+        }
+    }
+
+    /// <summary>A share in percent, rounded down to a tenth, so that what is below a bound never reads as if it reached it.</summary>
+    internal static string PercentBelow(double share) => (Math.Floor(1000 * share) / 10).ToString("0.#", CultureInfo.InvariantCulture);
 }

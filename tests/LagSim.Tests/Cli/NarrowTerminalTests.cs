@@ -4,6 +4,7 @@ using System.Linq;
 using LagSim.Cli.Output;
 using LagSim.Harness.Accuracy;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Sweep;
 using Spectre.Console;
 using Xunit;
 
@@ -54,6 +55,29 @@ public sealed class NarrowTerminalTests
         Assert.Single(lines, line => line.Contains("LagSim", StringComparison.Ordinal)); // named once
 
         static double ErrorOf(string kind, int n) => kind.Contains("pairs", StringComparison.Ordinal) ? 123 : (n + 1.23456) * 1e-15;
+    }
+
+    [Theory]
+    [InlineData(80, 3)]
+    [InlineData(120, 2)]
+    [InlineData(200, 1)]
+    public void Sweep_InAWindow_HasEveryHeadingWholeInAsManyTablesAsItTakes(int width, int tables)
+    {
+        SweepOutcome[] outcomes = [.. new[] { 3, 8 }.Select(clients => new SweepOutcome
+        {
+            Cell = new SweepCell(clients, 40, 10_000_000, 2000, true), LoadShare = 16.15, OfferedBytesPerSecond = 13_367, DeliveredBytesPerSecond = 13_366,
+            SentBytesPerSecond = 49_554, IdleRoundTripMs = 40, RoundTripP50Ms = 1_306, RoundTripP99Ms = 5_285, Done = 11_220, Refused = 10_966, ComparedShare = 1,
+        })];
+        using StringWriter output = new(), error = new();
+        ToolConsole console = new(output, error, TestContext.Current.CancellationToken);
+        console.Rich.Profile.Width = width;
+        SweepTables.Write(console, outcomes, null);
+        string[] lines = [.. output.ToString().Split('\n').TakeWhile(line => !line.StartsWith("Offered", StringComparison.Ordinal))];
+        Assert.All(lines, line => Assert.True(line.TrimEnd().Length <= width, line));
+        string[] words = string.Join(' ', lines).Split(' ', StringSplitOptions.RemoveEmptyEntries);
+        Assert.All(SweepTables.Headings.SelectMany(heading => heading.Split(' ')), word => Assert.Contains(word, words));
+        Assert.Equal(tables, words.Count(word => word == "clients"));
+        Assert.Equal(2 * tables, lines.Count(line => line.Contains(" 10000 ", StringComparison.Ordinal)));
     }
 
     private static string[] Written(int width, int columns)
