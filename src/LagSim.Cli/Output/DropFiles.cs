@@ -30,10 +30,14 @@ internal static class DropFiles
             report.AddHeading(name).AddChart(chart).AddTable(ErrorTable.Of("Height error between peers, in metres", run));
         }
 
-        LineChart compared = DropChart.OfStrategies(strategies);
-        compared.Save(Path.Combine(folder, "drop-strategies.svg"));
-        StrategySamples(Path.Combine(folder, "drop-strategies.csv"), strategies);
-        report.AddHeading("Every strategy on the teleport case, in virtual time").AddChart(compared).AddTable(StrategyErrors(strategies));
+        if (strategies.Count > 0)
+        {
+            LineChart compared = DropChart.OfStrategies(strategies);
+            compared.Save(Path.Combine(folder, "drop-strategies.svg"));
+            StrategySamples(Path.Combine(folder, "drop-strategies.csv"), strategies);
+            report.AddHeading("Every strategy on the teleport case, in virtual time").AddChart(compared).AddTable(StrategyErrors(strategies));
+        }
+
         report.Save(Path.Combine(folder, "report.html"));
     }
 

@@ -29,7 +29,11 @@ internal static class DropTables
             WriteFacts(console, run);
         }
 
-        console.Write(Strategies(strategies));
+        if (strategies.Count > 0)
+        {
+            console.Write(Strategies(strategies));
+        }
+
         foreach (DropRun late in strategies.Where(run => DelayOf(run) > SimDuration.Zero))
         {
             console.Output.WriteLine($"{late.Options.Strategy} shows everything {NumberText.Short(DelayOf(late).ToMilliseconds())} ms late, what a player"

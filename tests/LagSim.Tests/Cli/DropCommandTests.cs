@@ -98,6 +98,18 @@ public sealed class DropCommandTests
         Assert.Equal(Text(document, "state_hash"), run.GetProperty("state_hashes")[0].GetString());
     }
 
+    [Theory]
+    [InlineData("same-start", false)]
+    [InlineData("teleport", true)]
+    public void Case_Alone_ComparesStrategiesOnlyWhereOneBallIsLifted(string which, bool isCompared)
+    {
+        using TemporaryFolder folder = new();
+        Tool tool = Tool.Run("drop", "--time", "virtual", "--motion", "ballistic", "--case", which, "--out", folder.Path).Done();
+        Assert.Equal(isCompared, tool.Output.Contains("every strategy", StringComparison.Ordinal));
+        Assert.Equal(isCompared, tool.Error.Contains("every strategy", StringComparison.Ordinal));
+        Assert.Equal(isCompared, File.Exists(folder["drop-strategies.csv"]));
+    }
+
     [Fact]
     public void Strategy_None_IsReportedAsItIsAndIsNoFailure()
     {
