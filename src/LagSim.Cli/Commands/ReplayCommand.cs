@@ -1,3 +1,4 @@
+using System;
 using System.CommandLine;
 using LagSim.Cli.Output;
 using LagSim.Net.Recordings;
@@ -21,7 +22,7 @@ internal static class ReplayCommand
             RecordingReplay found = console.WithProgress($"replay {name}", 1, _ => RecordingReplay.Run(recording, console.Stop));
             if (found.Outcome == ReplayOutcome.CannotRun)
             {
-                throw new InputException($"{name}: {found.Message}");
+                throw new InputException($"{name}: {WhyNot(recording, found)}");
             }
 
             RecordingOutput.WarnUnlessWhole(console.Error, name, recording);
@@ -38,4 +39,10 @@ internal static class ReplayCommand
         });
         return command;
     }
+
+    /// <summary>Of a file that is no recording, or none up to its scene, only what is wrong with it: that it cannot be run needs no sentence more.</summary>
+    private static string WhyNot(Recording recording, RecordingReplay found) =>
+        recording is not { Scene: null, Damage: RecordingDamage damage } ? found.Message
+        : damage.Offset == 0 ? damage.Reason
+        : FormattableString.Invariant($"Damaged at byte {damage.Offset}, before its scene ends: {damage.Reason}");
 }

@@ -70,7 +70,7 @@ internal sealed class RecordingReader
         }
         else if (!prefix.Slice(0, magic).SequenceEqual(RecordingFormat.Magic.Slice(0, magic)))
         {
-            Damaged("This is no recording of LagSim: its first eight bytes are others.");
+            Damaged("This is no recording of LagSim: its first eight bytes are not those of one.");
         }
         else if (length < RecordingFormat.PrefixBytes)
         {
