@@ -3,9 +3,10 @@ using LagSim.Time;
 
 namespace LagSim.Net.Clocks;
 
-/// <summary>The session's time, made from one's own clock: set once, from then on bent gently towards each newer estimate.</summary>
+/// <summary>The session's time, made from one's own clock: set at the start of a world, from then on bent gently towards each newer estimate.</summary>
 /// <remarks>
-/// <para>It never steps and never goes back, as long as one's own clock does not. It runs with the drift of the newest estimate, so that it stays right
+/// <para>While a world lasts it never steps and never goes back, as long as one's own clock does not. Where a session goes on with a fresh copy of the world
+/// (<see cref="Sessions.Session.Renewed"/>), it is set anew, and steps once, forwards or back, to the estimate of the copy's host. It runs with the drift of the newest estimate, so that it stays right
 /// between two of them; on top of that at most 0.5 % fast or slow, or 5 % while it is more than <see cref="FastAbove"/> off.</para>
 /// <para>How it runs does not depend on how often it is read, but for one tick a reading. Integers only; may be used from any thread.</para>
 /// </remarks>
@@ -88,7 +89,9 @@ public sealed class SharedClock : IClock
 
     private SimDuration CurrentOffset => target.OffsetAt(read) - remaining;
 
-    /// <summary>Gives the clock the newest estimate: the first sets it at once, any later one is approached.</summary>
+    /// <summary>
+    /// Gives the clock the newest estimate: the first sets it at once, as does the first for a fresh copy of the world, and any other one is approached.
+    /// </summary>
     /// <param name="estimate">Shared time minus own time, within 48 days of zero, with its drift.</param>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="estimate"/> is further from zero by now.</exception>
     public void Adjust(in ClockEstimate estimate)
