@@ -19,8 +19,9 @@ public sealed class SessionRecorder : IDisposable
     internal const int MaxWaiting = 1 << 16;
 
     private readonly Session session;
-    private readonly Func<int, Stream> open; // by which recording of the session it is, from 1
+    private readonly Func<int, (Stream Stream, string? File)> open; // by which recording of the session it is, from 1
     private int count;
+    private volatile string[] files = Array.Empty<string>(); // replaced, never changed, so that any thread may read it
     private readonly SimDuration length;
     private readonly List<LogEntry> waiting = new();
     private RecordingWriter? writer;
@@ -36,11 +37,16 @@ public sealed class SessionRecorder : IDisposable
     /// <param name="length">Committed states later after the session's start than this are left out; null takes in all.</param>
     /// <exception cref="InvalidOperationException">The session has a world already: what happened before would be missing.</exception>
     public SessionRecorder(Session session, string path, SimDuration? length = null)
-        : this(session, Opener(path ?? throw new ArgumentNullException(nameof(path))), length)
+        : this(session, length, Opener(path ?? throw new ArgumentNullException(nameof(path))))
     {
     }
 
     internal SessionRecorder(Session session, Func<int, Stream> open, SimDuration? length = null)
+        : this(session, length, number => (open(number), null))
+    {
+    }
+
+    private SessionRecorder(Session session, SimDuration? length, Func<int, (Stream Stream, string? File)> open)
     {
         this.session = session ?? throw new ArgumentNullException(nameof(session));
         this.open = open;
@@ -64,6 +70,12 @@ public sealed class SessionRecorder : IDisposable
     /// <summary>Why nothing more is recorded, as a sentence; null while all is well. From any thread.</summary>
     public string? Failure => failure;
 
+    /// <summary>
+    /// The files written so far, in order: none before there is a world, then the one that was asked for, and one more for each fresh copy that took the place
+    /// of the world. From any thread.
+    /// </summary>
+    public IReadOnlyList<string> Files => files;
+
     /// <summary>Ends the recording with the session's reason to end, and closes the file.</summary>
     public void Dispose()
     {
@@ -81,8 +93,11 @@ public sealed class SessionRecorder : IDisposable
         Close();
     }
 
-    private static Func<int, Stream> Opener(string path) => number => new FileStream(
-        number == 1 ? path : Path.ChangeExtension(path, FormattableString.Invariant($"{number}{Path.GetExtension(path)}")), FileMode.Create, FileAccess.Write, FileShare.Read);
+    private static Func<int, (Stream Stream, string? File)> Opener(string path) => number =>
+    {
+        string file = number == 1 ? path : Path.ChangeExtension(path, FormattableString.Invariant($"{number}{Path.GetExtension(path)}"));
+        return (new FileStream(file, FileMode.Create, FileAccess.Write, FileShare.Read), file);
+    };
 
     private void OnRenewed(string why)
     {
@@ -95,7 +110,8 @@ public sealed class SessionRecorder : IDisposable
     {
         SimTime start = session.World!.Simulation.Start;
         JoinedState? joined = session.LogStart > 0 || session.BegunFrom is not null ? new JoinedState(session.LogStart + 1, session.BegunFrom) : null;
-        Stream stream = open(++count);
+        (Stream stream, string? file) = open(++count);
+        files = file is null ? files : [.. files, file];
         try
         {
             writer = new RecordingWriter(stream, session.Peer, session.Scene!, start, joined);

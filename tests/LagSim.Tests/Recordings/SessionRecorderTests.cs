@@ -180,6 +180,29 @@ public sealed class SessionRecorderTests
     }
 
     [Fact]
+    public void Files_AfterAFreshCopy_NameTheFurtherFileToo()
+    {
+        using TemporaryFolder folder = new();
+        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(2));
+        using SessionRecorder recorder = new(group.Sessions[1], folder["mine.lagsim"]), hosts = new(group.Host, folder["hosts.lagsim"]);
+        Assert.Empty(recorder.Files);
+        group.Connect();
+        group.Run(5);
+        Assert.Equal([folder["mine.lagsim"]], recorder.Files);
+        group.Cut(0, 1);
+        group.Cut(1, 0);
+        group.Run(15);
+        group.Restore(0, 1);
+        group.Restore(1, 0);
+        Assert.True(group.RunUntil(() => group.Sessions[1].Counters.Renewals == 1));
+        group.Run(3);
+        Assert.Equal([folder["mine.lagsim"], folder["mine.2.lagsim"]], recorder.Files);
+        Assert.Equal([folder["hosts.lagsim"]], hosts.Files); // the control: nothing took the place of its world
+        recorder.Dispose();
+        Assert.All(recorder.Files, file => Assert.Equal(ReplayOutcome.Agrees, Replayed(Recording.Read(file)).Outcome));
+    }
+
+    [Fact]
     public void Record_ForALength_LeavesLaterStatesOut()
     {
         SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(2));
