@@ -39,9 +39,11 @@ internal static class JoinCommand
             if (passFile is not null)
             {
                 request.Options.Pass = PassFile.Read(passFile);
+                PassFile.ThrowIfNotWritable(passFile); // to be said before anybody has joined
             }
 
             IPEndPoint there = EndPointText.Resolve(parsed.GetValue(host)!, "join", console.Stop);
+            request = request with { Host = there };
             using UdpPort carrier = new(UdpDestination.Facing(there.Address));
             JoinerSession session = new(
                 null, carrier, new StopwatchClock(), request.Options, PeerAddress.From(there), Session.DrawNumber());

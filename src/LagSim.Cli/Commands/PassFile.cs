@@ -29,10 +29,37 @@ internal static class PassFile
             : throw new InputException($"--pass is '{file}', which holds no player's pass: a number from 1 to 255, a hyphen, and 32 hexadecimal digits.");
     }
 
+    /// <summary>Tries out whether a pass could be kept, and leaves everything as it was.</summary>
+    /// <exception cref="UsageException">That is no name of a file.</exception>
+    /// <exception cref="IOException">It could not; the message names the option, the file and the cause.</exception>
+    internal static void ThrowIfNotWritable(string file)
+    {
+        if (file == ResultFile.StandardOutput)
+        {
+            throw new UsageException("--pass is '-'; a pass is not for stdout, it must be a file.");
+        }
+
+        if (File.Exists(file))
+        {
+            ResultFile.ThrowIfNotWritable("--pass", file);
+        }
+
+        try
+        {
+            ResultFile.ThrowIfNotWritable("--pass", DraftOf(file)); // it is written beside the file first
+        }
+        catch (IOException failure) when (failure.InnerException is not null)
+        {
+            throw WriteFailure.Of("--pass", file, "a file that can be written", failure.InnerException);
+        }
+    }
+
+    private static string DraftOf(string file) => file + ".new";
+
     /// <summary>Keeps a pass, in a file that only this user may read where the system knows such a thing.</summary>
     internal static void Write(string file, PlayerPass pass)
     {
-        string draft = file + ".new"; // then moved into place, so that a kill in between leaves the old file whole
+        string draft = DraftOf(file); // then moved into place, so that a kill in between leaves the old file whole
         FileStreamOptions options = new() { Mode = FileMode.Create, Access = FileAccess.Write };
         if (!OperatingSystem.IsWindows())
         {

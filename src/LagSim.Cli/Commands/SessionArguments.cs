@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.CommandLine;
 using System.Globalization;
 using System.Linq;
+using System.Net;
 using LagSim.Cli.Output;
 using LagSim.Net.Sessions;
 using LagSim.Time;
@@ -26,8 +27,9 @@ internal sealed class SessionArguments
 
     private readonly Option<string[]> deeds = new("--do") { Description = $"Do something: {Deed.Syntax}", HelpName = "DEED" };
     private readonly Option<double?> length = Seconds("--for-s", "How long to take part, counted from the session's start; by default until Ctrl-C.", LeastLength, Deed.MostSeconds);
-    private readonly Option<string?> record = CommonOptions.File("--record", "Record the session in this file, .lagsim by custom; one that is there is"
-        + " replaced.");
+    private readonly Option<string?> record = CommonOptions.File("--record", "Record the session in this file, whose name usually ends in .lagsim; an"
+        + " existing file is replaced. Each time a fresh copy of the world is taken, as after a rejoin, the recording goes on in another file: after game.lagsim"
+        + " come game.2.lagsim, game.3.lagsim and so on. The summary names them all.");
     private readonly Option<double> timeout = CommonOptions.Number(
         "--timeout-s", "After how much silence another peer is given up; to be the same everywhere", DefaultTimeoutSeconds, 0.5, 600);
 
@@ -120,6 +122,9 @@ internal sealed class SessionArguments
 /// <param name="RecordFile">Where to record; null for nowhere.</param>
 internal sealed record SessionRequest(SessionOptions Options, IReadOnlyList<Deed> Deeds, double? Seconds, string? RecordFile)
 {
+    /// <summary>Where a joiner asks to be let in; null for a host.</summary>
+    internal IPEndPoint? Host { get; init; }
+
     /// <summary>The same as <see cref="Seconds"/>.</summary>
     internal SimDuration? Length => Seconds is double seconds ? SimDuration.FromSeconds(seconds) : null;
 }

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Concurrent;
 using System.Collections.Generic;
+using System.Diagnostics;
 using System.Linq;
 using System.Threading;
 using System.Threading.Tasks;
@@ -19,6 +20,9 @@ namespace LagSim.Cli.Commands;
 internal sealed class SessionRunner : IDisposable
 {
     private static readonly TimeSpan LookInterval = TimeSpan.FromMilliseconds(250);
+    /// <summary>After so long without an answer it is told that there is none.</summary>
+    private static readonly TimeSpan SilenceToTell = TimeSpan.FromMilliseconds(450);
+
     private static readonly TimeSpan LeavePatience = TimeSpan.FromSeconds(1);
 
     /// <summary>How long a host whose time is up waits for its joiners to leave, besides some round trips.</summary>
@@ -52,6 +56,7 @@ internal sealed class SessionRunner : IDisposable
     private bool hasFailedDeed;
     private readonly PaceWatch pace = new();
     private SimTime? patienceEnd;
+    private bool hasToldSilence;
 
     internal SessionRunner(Session session, UdpPort port, SessionRequest request, SessionPrinter printer, CancellationToken stop)
     {
@@ -77,7 +82,7 @@ internal sealed class SessionRunner : IDisposable
             joiner.Diverged += _ => TellDifference();
             joiner.Interrupted += why => Tell(() => printer.Problem($"{why} Asking to be let in again."));
             joiner.Regained += () => Tell(() => printer.Problem("The host is there again; all goes on."));
-            joiner.Renewed += _ => Tell(() => printer.Problem($"In again as player {joiner.Peer}, with a fresh copy of the world."));
+            joiner.Renewed += _ => OnRenewed(joiner.Peer);
         }
 
         if (request.RecordFile is string file)
@@ -90,11 +95,11 @@ internal sealed class SessionRunner : IDisposable
         onStop = stop.Register(Wake);
     }
 
-    /// <summary>What a session that ended so is to the shell. That states differ is told whatever else there is.</summary>
-    internal static int ExitCodeOf(SessionEnd by, bool isTimeReached, long statesDiffered, bool hasFailedDeed, bool isInterrupted)
+    /// <summary>What a session that ended so is to the shell. That states differ, or accepted events are lost, counts whatever else there is.</summary>
+    internal static int ExitCodeOf(SessionEnd by, bool isTimeReached, long statesDiffered, long eventsLost, bool hasFailedDeed, bool isInterrupted)
     {
         bool isOrderly = by is SessionEnd.Left || (by == SessionEnd.HostEnded && isTimeReached);
-        return statesDiffered > 0 ? ExitCode.CheckFailed
+        return statesDiffered > 0 || eventsLost > 0 ? ExitCode.CheckFailed
             : isInterrupted ? ExitCode.Interrupted
             : isOrderly && !hasFailedDeed ? ExitCode.Done
             : ExitCode.Input;
@@ -108,6 +113,7 @@ internal sealed class SessionRunner : IDisposable
     {
         thread.Start();
         TimeSpan? wait = TimeSpan.Zero;
+        Stopwatch asking = Stopwatch.StartNew();
         try
         {
             while (wait is TimeSpan span && !stop.IsCancellationRequested && thread.State != SessionState.Ended)
@@ -117,6 +123,7 @@ internal sealed class SessionRunner : IDisposable
                 LookAtAttempts();
                 LookAtLinks();
                 LookAtPace();
+                LookAtSilence(asking.Elapsed);
                 wait = session.World is null ? LookInterval : Tend(session.World.Simulation.Start);
             }
         }
@@ -133,7 +140,8 @@ internal sealed class SessionRunner : IDisposable
             TellUndone();
         }
 
-        int code = ExitCodeOf(session.EndedBy, isTimeReached, session.Counters.StatesDiffered + session.Counters.EventsLost, hasFailedDeed, isInterrupted);
+        SessionCounters counters = session.Counters;
+        int code = ExitCodeOf(session.EndedBy, isTimeReached, counters.StatesDiffered, counters.EventsLost, hasFailedDeed, isInterrupted);
         if (session.EndedBy != SessionEnd.Left && code != ExitCode.Done)
         {
             printer.Problem(session.EndReason!);
@@ -141,7 +149,7 @@ internal sealed class SessionRunner : IDisposable
 
         if (session.World is not null)
         {
-            printer.Summary(session, port, recorder?.Failure);
+            printer.Summary(session, port, recorder);
         }
         else if (isInterrupted)
         {
@@ -203,6 +211,18 @@ internal sealed class SessionRunner : IDisposable
         if (pace.Finds(now, behind))
         {
             printer.Problem(FormattableString.Invariant($"The world is {behind.ToSeconds():0.0} s behind: this machine cannot simulate it in real time."));
+        }
+    }
+
+    /// <summary>Tells, once and soon, that no host answers, and for how long it will be asked: with a pass that is minutes.</summary>
+    private void LookAtSilence(TimeSpan asked)
+    {
+        if (!hasToldSilence && asked >= SilenceToTell && session is JoinerSession { State: SessionState.Joining } && session.Counters.DatagramsReceived == 0)
+        {
+            hasToldSilence = true;
+            SessionOptions options = request.Options;
+            SimDuration most = options.Pass.Number > 0 && options.RejoinTime > options.Timeout ? options.RejoinTime : options.Timeout;
+            printer.Problem(FormattableString.Invariant($"No host answers at {request.Host} yet; asking for up to {most.ToSeconds():0.###} s. Ctrl-C ends it."));
         }
     }
 
@@ -358,6 +378,22 @@ internal sealed class SessionRunner : IDisposable
             {
                 Tell(() => Fail($"The host refused --do {deed.Text}: {Why(entry.Verdict)}."));
             }
+        }
+    }
+
+    /// <summary>
+    /// Gives up the verdicts that were still to come: the host's log begins anew for this peer, and so may the numbers of its events, so that a verdict by that
+    /// number would be on another one.
+    /// </summary>
+    private void OnRenewed(byte player)
+    {
+        Tell(() => printer.Problem($"In again as player {player}, with a fresh copy of the world."));
+        if (unjudged.Count > 0)
+        {
+            string texts = Texts(unjudged.OrderBy(d => d.Key).Select(d => d.Value));
+            unjudged.Clear();
+            isAwaitingVerdict = false;
+            Tell(() => Fail($"Done here, but a fresh copy took the place of the world before the host's verdict came: {texts}."));
         }
     }
 

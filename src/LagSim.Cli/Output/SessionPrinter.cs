@@ -6,6 +6,7 @@ using System.Text.Json;
 using LagSim.Cli.Commands;
 using LagSim.Harness.Reports;
 using LagSim.Net.Carriers;
+using LagSim.Net.Recordings;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -101,17 +102,17 @@ internal sealed class SessionPrinter
     }
 
     /// <summary>What it came to. The session's thread must have stopped.</summary>
-    internal void Summary(Session session, UdpPort port, string? recordFailure)
+    internal void Summary(Session session, UdpPort port, SessionRecorder? recorder)
     {
         if (json)
         {
             CommittedState? last = states.Count > 0 ? states[^1].State : null;
             JsonDocumentWriter.Write(
-                console.Output, command, seed, session.Scene!.Name, session.Scene.Hash, last?.StateHash, document => Write(document, session, port, recordFailure));
+                console.Output, command, seed, session.Scene!.Name, session.Scene.Hash, last?.StateHash, document => Write(document, session, port, recorder));
         }
         else
         {
-            WriteText(session, port, recordFailure);
+            WriteText(session, port, recorder);
         }
     }
 
@@ -129,7 +130,7 @@ internal sealed class SessionPrinter
         console.Error.Flush();
     }
 
-    private void WriteText(Session session, UdpPort port, string? recordFailure)
+    private void WriteText(Session session, UdpPort port, SessionRecorder? recorder)
     {
         TextWriter to = console.Output;
         Scene scene = session.Scene!;
@@ -165,7 +166,8 @@ internal sealed class SessionPrinter
 
         if (request.RecordFile is string file)
         {
-            to.WriteLine(recordFailure is null ? $"recorded in {file}" : $"recorded in {file} only in part: {recordFailure}");
+            string files = recorder?.Files.Count > 1 ? string.Join(", ", recorder.Files) : file;
+            to.WriteLine(recorder?.Failure is null ? $"recorded in {files}" : $"recorded in {files} only in part: {recorder.Failure}");
         }
 
         to.Flush();
@@ -173,7 +175,7 @@ internal sealed class SessionPrinter
 
     private static string PerSecond(double bytes) => double.IsNaN(bytes) ? "- B/s" : $"{NumberText.Short(bytes)} B/s";
 
-    private void Write(Utf8JsonWriter document, Session session, UdpPort port, string? recordFailure)
+    private void Write(Utf8JsonWriter document, Session session, UdpPort port, SessionRecorder? recorder)
     {
         SessionCounters counters = session.Counters;
         document.WriteNumber("peer", session.Peer);
@@ -226,7 +228,14 @@ internal sealed class SessionPrinter
 
         document.WriteEndObject();
         document.WriteString("recording", request.RecordFile);
-        document.WriteString("recording_failure", recordFailure);
+        document.WriteString("recording_failure", recorder?.Failure);
+        document.WriteStartArray("recordings");
+        foreach (string file in recorder?.Files ?? [])
+        {
+            document.WriteStringValue(file);
+        }
+
+        document.WriteEndArray();
     }
 
     private static string Words(SessionEnd end) => end switch

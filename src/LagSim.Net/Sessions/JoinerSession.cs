@@ -226,7 +226,7 @@ public sealed partial class JoinerSession : Session
                 AskAgainOrEnd(
                     now,
                     SessionEnd.HostSilent,
-                    link is null ? FormattableString.Invariant($"No answer from {host} within {Options.Timeout.ToSeconds():0.###} s.") : Silence);
+                    link is null ? NoAnswer(now) : Silence);
             }
             else
             {
@@ -259,6 +259,14 @@ public sealed partial class JoinerSession : Session
 
     /// <summary>How long one that is coming in, and is pushed out, asks again.</summary>
     private SimDuration LongestComing => Options.RejoinTime > Options.Timeout ? Options.RejoinTime : Options.Timeout;
+
+    /// <summary>Names the longest of the times for which there was certainly no answer: who has a pass asks for more than the time-out.</summary>
+    private string NoAnswer(SimTime now)
+    {
+        SimDuration asked = now - SimTime.Max(awake, SimTime.Max(began, attempt?.Began ?? began));
+        SimDuration named = Options.Pass.Number > 0 && asked > Options.RejoinTime ? LongestComing : Options.Timeout;
+        return FormattableString.Invariant($"No answer from {host} within {named.ToSeconds():0.###} s.");
+    }
 
     private string Silence => FormattableString.Invariant($"The host at {host} fell silent for {Options.Timeout.ToSeconds():0.###} s.");
 

@@ -165,6 +165,72 @@ public sealed class SessionCommandTests
         Tool.Refuses(3, ["join", silent.LocalAddress.ToString(), "--timeout-s", "0.5", "--json"], $"No answer from {silent.LocalAddress} within 0.5 s.");
     }
 
+    [Theory]
+    [InlineData(true, "1.6")]
+    [InlineData(false, "0.8")] // the control: without a pass the time-out is all there is
+    public void Join_NobodyThere_SaysAtOnceForHowLongItAsksAndNamesThatTimeAtTheEnd(bool hasPass, string seconds)
+    {
+        using TemporaryFolder folder = new();
+        File.WriteAllText(folder["pass"], $"1-{new string('0', 31)}7");
+        using UdpPort silent = new(new IPEndPoint(IPAddress.Loopback, 0));
+        string[] pass = hasPass ? ["--pass", folder["pass"]] : [];
+        Tool tool = Tool.Run(["join", $"{silent.LocalAddress}", "--timeout-s", "0.8", "--rejoin-s", "1.6", .. pass]);
+        Assert.Equal(3, tool.ExitCode);
+        Assert.Equal(
+            [$"No host answers at {silent.LocalAddress} yet; asking for up to {seconds} s. Ctrl-C ends it.", $"No answer from {silent.LocalAddress} within {seconds} s."],
+            tool.Error.Split(Environment.NewLine, StringSplitOptions.RemoveEmptyEntries));
+    }
+
+    [Theory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public async Task Join_EventThatComesTooLateForTheHistoryHere_IsLostAndACheckThatFailed(bool isAged)
+    {
+        using TemporaryFolder folder = new();
+        using EventAgingPort port = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0))) { IsAging = isAged };
+        HostSession session = new(
+            BuiltInScenes.Drop(), port, new StopwatchClock(), new SessionOptions { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
+        using PeerThread host = new(session, port, "host");
+        host.Start();
+        using LiveTool joiner = LiveTool.Run($"join {port.LocalAddress} --for-s 4 --record", folder["mine.lagsim"]);
+        Assert.NotNull(joiner.Output.WaitFor(line => line.StartsWith("T 1 s ", StringComparison.Ordinal), LiveTool.Deadline));
+        await host.Do(PlayerAction.SetVelocity(BodyId.OfScene(0), new Vector3D(2, 5, 0)));
+        joiner.Ends(isAged ? 1 : 0);
+        string said = joiner.Output.ToString();
+        Assert.True(said.Contains(" 0 differed", StringComparison.Ordinal), $"{joiner}"); // the fresh copy came before anything was compared
+        Assert.Equal(isAged, said.Contains("events lost 1", StringComparison.Ordinal));
+
+        // The recording goes on in another file with the fresh copy, and both are named.
+        string[] files = isAged ? [folder["mine.lagsim"], folder["mine.2.lagsim"]] : [folder["mine.lagsim"]];
+        Assert.Contains($"recorded in {string.Join(", ", files)}\n", said.Replace("\r", "", StringComparison.Ordinal), StringComparison.Ordinal);
+        Assert.Equal(files.Order(StringComparer.Ordinal), Directory.GetFiles(folder.Path).Order(StringComparer.Ordinal));
+    }
+
+    [Fact]
+    public void Deed_WhoseVerdictAFreshCopyOvertook_IsToldOnceAndNotMistakenForALaterOne()
+    {
+        // What is done while nothing gets through is never heard of, and the next deed after it bears the same number.
+        using CutPort port = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0)));
+        SessionOptions options = new() { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3), Timeout = SimDuration.FromSeconds(2) };
+        HostSession session = new(BuiltInScenes.Drop(), port, new StopwatchClock(), options, 5);
+        using ManualResetEventSlim gone = new();
+        session.JoinerGone += _ => gone.Set();
+        using PeerThread host = new(session, port, "host");
+        host.Start();
+        using LiveTool joiner = LiveTool.Run($"join {port.LocalAddress} --timeout-s 2 --for-s 9 --do set-velocity@2:1,3,0 --do set-velocity@8:0,3,0");
+        Assert.NotNull(joiner.Output.WaitFor(line => line.StartsWith("T 1 s ", StringComparison.Ordinal), LiveTool.Deadline));
+        port.IsCut = true;
+        Assert.NotNull(joiner.Error.WaitFor(line => line.EndsWith("Asking to be let in again.", StringComparison.Ordinal), LiveTool.Deadline));
+        Assert.True(gone.Wait(LiveTool.Deadline, TestContext.Current.CancellationToken));
+        port.IsCut = false;
+        joiner.Ends(3);
+        Assert.Equal(
+            ["Done here, but a fresh copy took the place of the world before the host's verdict came: --do set-velocity@2:1,3,0."],
+            joiner.Error.Lines.Where(line => line.Contains("--do", StringComparison.Ordinal)));
+        Assert.Contains("events: 1 accepted, 0 refused", joiner.Output.ToString(), StringComparison.Ordinal);
+        Assert.Contains("events unanswered 1", joiner.Output.ToString(), StringComparison.Ordinal);
+    }
+
     [Fact]
     public void Deeds_ThatMayNotBeDone_AreToldAndAnError()
     {
@@ -262,7 +328,30 @@ public sealed class SessionCommandTests
         using LiveTool brief = LiveTool.Run($"relay {host.LocalAddress} --profile awful --for-s 0.1").Ends(0);
         Assert.StartsWith("listening on 127.0.0.1:", brief.Output.ToString(), StringComparison.Ordinal);
         Assert.Contains("awful, 0 joiners; to the host 0 datagrams, 0 lost", brief.Output.ToString(), StringComparison.Ordinal);
+        Assert.DoesNotContain("port change", brief.Output.ToString(), StringComparison.Ordinal); // none was asked for
         Tool.Refuses(3, ["relay", "0.0.0.0:7", "--profile", "lan"], "'0.0.0.0:7' is no host to relay to");
+    }
+
+    [Theory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public void Relay_ThatChangesPorts_CountsTheChanges(bool isJson)
+    {
+        using UdpPort host = new(new IPEndPoint(IPAddress.Loopback, 0)), client = new(new IPEndPoint(IPAddress.Loopback, 0));
+        using LiveTool relay = LiveTool.Run($"relay {host.LocalAddress} --profile loopback --change-port-s 0.5 --for-s 2{(isJson ? " --json" : "")}");
+        LineWriter said = isJson ? relay.Error : relay.Output;
+        string? listening = said.WaitFor(line => line.StartsWith("listening on ", StringComparison.Ordinal), LiveTool.Deadline);
+        client.Send([1, 2, 3], PeerAddress.From(IPEndPoint.Parse(listening!.Split(' ')[2])));
+        relay.Ends(0);
+        if (isJson)
+        {
+            using JsonDocument document = JsonDocument.Parse(relay.Output.ToString());
+            Assert.InRange(document.RootElement.GetProperty("port_changes").GetInt64(), 1, 4);
+        }
+        else
+        {
+            Assert.Matches("; 0 refused; (1 port change|[2-4] port changes)\r?\n", relay.Output.ToString());
+        }
     }
 
     private static bool CanBind(IPAddress address)
@@ -302,6 +391,76 @@ public sealed class SessionCommandTests
             update.ClearEntries();
             return entries.Count(entry => update.TryAdd(Verdict.Invalid, entry.Event)) > 0;
         }
+    }
+
+    /// <summary>A port through which each event goes out as one of long ago, which nobody's history reaches back to; until its joiner comes in again.</summary>
+    private sealed class EventAgingPort(UdpPort inner) : ChangingPort(inner)
+    {
+        private ulong? first; // the joiner's session by then
+
+        internal bool IsAging { get; init; }
+
+        protected override bool Change(UpdateDatagram update)
+        {
+            UpdateEntry[] entries = update.Entries.ToArray();
+            first ??= update.SessionId;
+            if (!IsAging || entries.Length == 0 || update.SessionId != first)
+            {
+                return false;
+            }
+
+            update.ClearEntries();
+            foreach (UpdateEntry entry in entries)
+            {
+                SimTime old = entry.Event.Time - SimDuration.FromSeconds(0.9);
+                Assert.True(update.TryAdd(entry.Verdict, PlayerAction.SetVelocity(entry.Event.Body, new Vector3D(2, 5, 0)).Stamp(old, entry.Event.Peer, entry.Event.Sequence)));
+            }
+
+            return true;
+        }
+    }
+
+    /// <summary>A port through which nothing goes while it is cut.</summary>
+    private sealed class CutPort(UdpPort inner) : IDatagramPort
+    {
+        private volatile bool isCut;
+
+        public event Action? Arrived
+        {
+            add => inner.Arrived += value;
+            remove => inner.Arrived -= value;
+        }
+
+        public PeerAddress LocalAddress => inner.LocalAddress;
+
+        internal bool IsCut
+        {
+            get => isCut;
+            set => isCut = value;
+        }
+
+        public void Send(ReadOnlySpan<byte> datagram, PeerAddress to)
+        {
+            if (!isCut)
+            {
+                inner.Send(datagram, to);
+            }
+        }
+
+        public bool TryReceive(Span<byte> buffer, out int length, out PeerAddress from)
+        {
+            while (inner.TryReceive(buffer, out length, out from))
+            {
+                if (!isCut)
+                {
+                    return true;
+                }
+            }
+
+            return false;
+        }
+
+        public void Dispose() => inner.Dispose();
     }
 
     /// <summary>A port whose updates go out changed.</summary>

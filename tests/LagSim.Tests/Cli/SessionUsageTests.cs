@@ -32,6 +32,8 @@ public sealed class SessionUsageTests
     [InlineData("join", "'join'")]
     [InlineData("join 127.0.0.1:9 --for-s 0", "--for-s is '0'")]
     [InlineData("join 127.0.0.1:9 --scene drop", "'--scene'")]
+    [InlineData("join 127.0.0.1:9 --pass -", "--pass is '-'; a pass is not for stdout, it must be a file.")]
+    [InlineData("join 127.0.0.1:9 --pass .", "--pass is '.'; that is a folder, it must be a file.")]
     [InlineData("relay 127.0.0.1:9", "--profile")]
     [InlineData("relay 127.0.0.1:9 --profile dreadful", "There is no link profile 'dreadful'; there are loopback")]
     [InlineData("relay :9 --profile lan", "':9' does not say where the host is")]
@@ -48,6 +50,7 @@ public sealed class SessionUsageTests
     [InlineData("host --scene crowd-10001", "it has 10001 bodies; at most 10000 are allowed")]
     [InlineData("host --scene drop --address 192.0.2.77", "UDP port 192.0.2.77:0 cannot be opened")]
     [InlineData("host --scene drop --record never-made/x.lagsim", "never-made")]
+    [InlineData("join 127.0.0.1:9 --pass never-made/x.pass", "--pass is 'never-made/x.pass'; it must be a file that can be written. There is no folder")]
     [InlineData("diff no-such.lagsim no-such.lagsim", "no-such.lagsim")]
     [InlineData("replay no-such.lagsim", "no-such.lagsim")]
     public void Call_OfWhatIsNotThere_IsRefusedWithItsName(string line, string says) => Tool.Refuses(Input, line.Split(' '), says);
@@ -61,6 +64,28 @@ public sealed class SessionUsageTests
         Tool.Refuses(Input, ["join", "no-such-host.invalid:5", "--record", folder["new"]], "not known");
         Assert.Equal([folder["kept"]], Directory.GetFileSystemEntries(folder.Path));
         Assert.Equal("of yesterday", File.ReadAllText(folder["kept"]));
+    }
+
+    [Fact]
+    public void Pass_OfACallThatIsRefused_LeavesNoFile()
+    {
+        using TemporaryFolder folder = new();
+        Tool.Refuses(Input, ["join", "no-such-host.invalid:5", "--pass", folder["new"]], "not known");
+        Assert.Empty(Directory.GetFileSystemEntries(folder.Path));
+    }
+
+    [Fact]
+    public void Replay_OfWhatIsNoRecording_SaysItInOneSentence()
+    {
+        using TemporaryFolder folder = new();
+        File.WriteAllText(folder["none"], "of yesterday");
+        Assert.Equal(
+            $"{folder["none"]}: This is no recording of LagSim: its first eight bytes are not those of one.",
+            LastLine(Tool.Run("replay", folder["none"])));
+
+        // The control: what is a recording, and is damaged further on, is told with the place.
+        File.WriteAllBytes(folder["cut"], Recorded.Small()[..30]);
+        Assert.StartsWith($"{folder["cut"]}: Damaged at byte 10, before its scene ends: ", LastLine(Tool.Run("replay", folder["cut"])), StringComparison.Ordinal);
     }
 
     [Fact]
@@ -196,18 +221,20 @@ public sealed class SessionUsageTests
     }
 
     [Theory]
-    [InlineData(SessionEnd.Left, true, 0, false, false, ExitCode.Done)]
-    [InlineData(SessionEnd.Left, false, 0, false, true, ExitCode.Interrupted)]
-    [InlineData(SessionEnd.Left, true, 0, true, false, ExitCode.Input)]
-    [InlineData(SessionEnd.Left, true, 1, true, true, ExitCode.CheckFailed)]
-    [InlineData(SessionEnd.HostEnded, true, 0, false, false, ExitCode.Done)]
-    [InlineData(SessionEnd.HostEnded, false, 0, false, false, ExitCode.Input)]
-    [InlineData(SessionEnd.HostEnded, true, 2, false, false, ExitCode.CheckFailed)]
-    [InlineData(SessionEnd.HostSilent, true, 0, false, false, ExitCode.Input)]
-    [InlineData(SessionEnd.HostSilent, true, 1, false, false, ExitCode.CheckFailed)]
-    [InlineData(SessionEnd.Refused, true, 0, false, false, ExitCode.Input)]
-    [InlineData(SessionEnd.LetGo, true, 0, false, false, ExitCode.Input)]
-    [InlineData(SessionEnd.Failed, true, 0, false, false, ExitCode.Input)]
-    public void ExitCodeOf_EveryEnd_IsTheDocumentedOne(SessionEnd by, bool isTimeReached, long differed, bool hasFailedDeed, bool isInterrupted, int expected) =>
-        Assert.Equal(expected, SessionRunner.ExitCodeOf(by, isTimeReached, differed, hasFailedDeed, isInterrupted));
+    [InlineData(SessionEnd.Left, true, 0, 0, false, false, ExitCode.Done)]
+    [InlineData(SessionEnd.Left, false, 0, 0, false, true, ExitCode.Interrupted)]
+    [InlineData(SessionEnd.Left, true, 0, 0, true, false, ExitCode.Input)]
+    [InlineData(SessionEnd.Left, true, 1, 0, true, true, ExitCode.CheckFailed)]
+    [InlineData(SessionEnd.HostEnded, true, 0, 0, false, false, ExitCode.Done)]
+    [InlineData(SessionEnd.HostEnded, false, 0, 0, false, false, ExitCode.Input)]
+    [InlineData(SessionEnd.HostEnded, true, 2, 0, false, false, ExitCode.CheckFailed)]
+    [InlineData(SessionEnd.HostSilent, true, 0, 0, false, false, ExitCode.Input)]
+    [InlineData(SessionEnd.HostSilent, true, 1, 0, false, false, ExitCode.CheckFailed)]
+    [InlineData(SessionEnd.Refused, true, 0, 0, false, false, ExitCode.Input)]
+    [InlineData(SessionEnd.LetGo, true, 0, 0, false, false, ExitCode.Input)]
+    [InlineData(SessionEnd.Failed, true, 0, 0, false, false, ExitCode.Input)]
+    [InlineData(SessionEnd.Left, true, 0, 1, false, false, ExitCode.CheckFailed)]
+    [InlineData(SessionEnd.HostSilent, true, 0, 1, true, true, ExitCode.CheckFailed)]
+    public void ExitCodeOf_EveryEnd_IsTheDocumentedOne(SessionEnd by, bool isTimeReached, long differed, long lost, bool hasFailedDeed, bool isInterrupted, int expected) =>
+        Assert.Equal(expected, SessionRunner.ExitCodeOf(by, isTimeReached, differed, lost, hasFailedDeed, isInterrupted));
 }
