@@ -30,5 +30,21 @@ public sealed class FigureTests
         }
     }
 
+    [Fact]
+    public void Idle_BytesASecondOfReadmeAndLinks_AreWhatTheSweepGivesWithAndWithoutHeaders()
+    {
+        const double Headers = 28 * 0.5; // of UDP and IP, for the datagram that goes each way every 2 s
+        JsonElement cell = Json("sweep", "--clients", "3", "--events", "0", "--rate-kbps", "256", "--queue-ms", "50", "--no-dips", "--play-s", "60", "--rest-s", "1", "--json")
+            .GetProperty("cells")[0];
+        double down = cell.GetProperty("sent_bytes_per_s").GetDouble(), up = cell.GetProperty("sent_up_bytes_per_s").GetDouble();
+        string both = $"{Whole(up - Headers)} bytes a second up and {Whole(down - Headers)} down, or {Whole(up)} and {Whole(down)} with UDP and IP headers";
+        Assert.Contains(both, SnippetTests.Read("README.md"), System.StringComparison.Ordinal);
+        Assert.Contains(both, SnippetTests.Read("docs/ARCHITECTURE.md"), System.StringComparison.Ordinal);
+        Assert.Contains(
+            $"sent {Whole(down)} bytes a second with those headers ({Whole(down - Headers)} without", SnippetTests.Read("docs/LINKS.md"), System.StringComparison.Ordinal);
+
+        static string Whole(double bytes) => System.Math.Round(bytes, System.MidpointRounding.AwayFromZero).ToString(CultureInfo.InvariantCulture);
+    }
+
     private static string Metres(JsonElement figure) => figure.GetDouble() == 0 ? "0" : figure.GetDouble().ToString("F2", CultureInfo.InvariantCulture);
 }
