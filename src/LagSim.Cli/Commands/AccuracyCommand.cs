@@ -21,15 +21,15 @@ internal static class AccuracyCommand
             Description = $"{All}, or one of {string.Join(", ", WorkScenes.All.Select(scene => scene.Name))}.",
             DefaultValueFactory = _ => All,
         };
-        Option<string> peers = CommonOptions.Word("--peers", $"Which engines and integrators besides LagSim: {All}, {None}, or one of"
+        Option<string> peers = CommonOptions.Word("--peers", $"Which engines and integrators to compare with LagSim: {All}, {None}, or one of"
             + $" {string.Join(", ", WorkMethods.Peers)}.", All, [All, None, .. WorkMethods.Peers]);
         Option<bool> quick = new("--quick")
         {
-            Description = "Few settings and short runs: some seconds in all, figures of speed not to be trusted. Not with --longest-s.",
+            Description = "Few settings and short runs: takes some seconds, but its figures of speed cannot be trusted. Cannot be combined with --longest-s.",
         };
-        Option<double> longest = CommonOptions.Number("--longest-s", "The longest that a single run may take by its coarser neighbour; finer settings are"
-            + " left out. Not with --quick", new WorkOptions().LongestSeconds, 1e-3, 1e5);
-        Command command = new("accuracy", "Speed against error: each scene by each method, its step swept; tables, CSV and charts.") { which, peers, quick, longest };
+        Option<double> longest = CommonOptions.Number("--longest-s", "How long a single run may take, estimated from the next coarser setting; what would"
+            + " take longer is left out. Cannot be combined with --quick", new WorkOptions().LongestSeconds, 1e-3, 1e5);
+        Command command = new("accuracy", "Speed against error: runs each scene with each method at a range of step sizes; gives tables, CSV and charts.") { which, peers, quick, longest };
         common.AddTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {

@@ -21,7 +21,7 @@ internal static class CheckCommand
     internal static Command Create(ToolConsole console, Func<CheckOptions, CheckOptions>? change = null)
     {
         CommonOptions common = new();
-        Option<int> sessions = CommonOptions.Whole("--sessions", "How many sessions; each has the next seed", 1000, 1, 10_000_000);
+        Option<int> sessions = CommonOptions.Whole("--sessions", "How many sessions; each takes the next seed", 1000, 1, 10_000_000);
         Option<string> peers = new("--peers")
         {
             Description = $"How many peers a session has, the host included: a number, or a range ({CheckOptions.FewestPeers} to {CheckOptions.MostPeers}).",
@@ -31,14 +31,15 @@ internal static class CheckCommand
         Option<string> profile = new("--profile")
         {
             Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, {LinkProfiles.AnyDelay};"
-                + $" or {All}: each joiner another.",
+                + $" or {All}: a different one for each joiner.",
             HelpName = "NAME",
             DefaultValueFactory = _ => All,
         };
-        Option<string> strategy = CommonOptions.Word("--strategy", "What a peer does with an event that comes late.", LateEventStrategies.Default, [.. LateEventStrategies.Names]);
-        Option<string?> bodies = new("--bodies") { Description = "Of one session alone: the bodies of its scene that take part, by number.", HelpName = "N,N,..." };
-        Option<string?> events = new("--events") { Description = $"Of one session alone: what is done of all that was drawn, by number, or {None}.", HelpName = "N,N,..." };
-        Command command = new("check", "Random seeded sessions, each peer held against one that never had a delay; a failing seed is shrunk and replays.")
+        Option<string> strategy = CommonOptions.Word("--strategy", "What a peer does with an event that arrives late.", LateEventStrategies.Default, [.. LateEventStrategies.Names]);
+        Option<string?> bodies = new("--bodies") { Description = "For a single session: the numbers of the bodies of its scene that take part.", HelpName = "N,N,..." };
+        Option<string?> events = new("--events") { Description = $"For a single session: the numbers of the drawn events that are done, or {None}.", HelpName = "N,N,..." };
+        Command command = new("check", "Plays random seeded sessions and compares every peer with one that never had any delay; a failing seed is shrunk to a smaller case"
+            + " that can be replayed.")
         {
             sessions, peers, profile, strategy, bodies, events,
         };

@@ -26,13 +26,13 @@ internal sealed class CommonOptions
 
     internal Option<ulong> Seed { get; } = new(SeedName)
     {
-        Description = "What chance decides: links, clocks, random cases. The same seed gives the same run.",
+        Description = "The seed for everything random: links, clocks, cases. The same seed gives the same run.",
         DefaultValueFactory = _ => 1,
         HelpName = "N",
         CustomParser = ParseSeed,
     };
 
-    internal Option<string?> Out { get; } = Folder("--out", "A folder for CSV and SVG files and a report.html that shows them; files there that have the same names are replaced.");
+    internal Option<string?> Out { get; } = Folder("--out", "A folder for CSV and SVG files and a report.html that shows them; existing files of the same names are replaced.");
 
     internal Option<bool> Json { get; } = new(JsonName) { Description = "Print one JSON document and nothing else on stdout." };
 
@@ -47,7 +47,7 @@ internal sealed class CommonOptions
     /// <summary>For a command that has nothing to put into a folder.</summary>
     internal void AddSeedAndJsonTo(Command command, bool isSeedDrawnFrom = true)
     {
-        Seed.Description = isSeedDrawnFrom ? Seed.Description : "Only told again in results: every command takes it, and here nothing is drawn.";
+        Seed.Description = isSeedDrawnFrom ? Seed.Description : "Only repeated in the results: every command takes a seed, but nothing here is random.";
         command.Options.Add(Seed);
         command.Options.Add(Json);
     }
@@ -71,7 +71,7 @@ internal sealed class CommonOptions
 
     /// <summary>How far behind <c>interpolation</c> shows the world.</summary>
     internal static Option<double> DisplayDelay() => Number(
-        DisplayDelayName, "How far behind shared time the strategy interpolation shows the world", Math.Round(Interpolation.DefaultDelay.ToMilliseconds(), 6), 0, Interpolation.MaxDelay.ToMilliseconds());
+        DisplayDelayName, "How far behind shared time the interpolation strategy shows the world", Math.Round(Interpolation.DefaultDelay.ToMilliseconds(), 6), 0, Interpolation.MaxDelay.ToMilliseconds());
 
     /// <summary>A display delay that nothing would use is a mistake.</summary>
     /// <exception cref="UsageException">It was given, and the strategy is another than <c>interpolation</c> alone or among all.</exception>
@@ -87,7 +87,7 @@ internal sealed class CommonOptions
     /// <summary>The delay of every joiner's link.</summary>
     internal static Option<double?> Delay(string otherwise) => new("--delay-ms")
     {
-        Description = $"Delay added one way, without jitter or loss (0 to 2000); {otherwise}. Excludes --profile.",
+        Description = $"Delay added one way, without jitter or loss (0 to 2000); {otherwise}. Cannot be combined with --profile.",
         HelpName = "NUMBER",
         CustomParser = result => ParseNumber(result, "--delay-ms", 0, LinkProfiles.MaxPureDelay),
     };

@@ -24,22 +24,22 @@ internal static class CompareCommand
         CommonOptions common = new();
         Option<string> scene = new("--scene")
         {
-            Description = $"What is played in: {string.Join(", ", BuiltInScenes.Names)}, or any other scene by name or file, of at most"
-                + $" {CompareOptions.MaxBodies} bodies with those that the players spawn.",
+            Description = $"The scene to play in: {string.Join(", ", BuiltInScenes.Names)}, or any other scene by name or file, with at most"
+                + $" {CompareOptions.MaxBodies} bodies, including those that players spawn.",
             DefaultValueFactory = _ => "pair",
             HelpName = "NAME",
         };
         Option<string> profile = new("--profile")
         {
             Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, {LinkProfiles.AnyDelay},"
-                + " or all of the named.",
+                + " or all the named ones.",
             DefaultValueFactory = _ => All,
             HelpName = "NAME",
         };
-        Option<string> strategy = CommonOptions.Word("--strategy", "What a peer does with an event that comes late.", All, [.. LateEventStrategies.Names, All]);
+        Option<string> strategy = CommonOptions.Word("--strategy", "What a peer does with an event that arrives late.", All, [.. LateEventStrategies.Names, All]);
         Option<int> peers = CommonOptions.Whole("--peers", "How many peers, the host included", 4, 2, 9);
         Option<double> delay = CommonOptions.DisplayDelay();
-        Command command = new("compare", "Every strategy for late events on every link, in virtual time, side by side.") { scene, profile, strategy, peers, delay };
+        Command command = new("compare", "Compares every strategy for late events on every link, side by side, in virtual time.") { scene, profile, strategy, peers, delay };
         common.AddTo(command);
         command.SetAction(parsed =>
         {

@@ -11,11 +11,12 @@ namespace LagSim.Cli.Commands;
 internal sealed class Deed
 {
     internal const string Syntax =
-        "KIND@SECONDS[:BODY][:X,Y,Z], counted from the session's start. KIND is teleport (to, in m), set-velocity (m/s), impulse (N s), "
-        + "spawn (a body like BODY, at, in m), grab (by the point that far from its centre, in m), "
-        + "knot (the hand that holds it is there, in m, at rest; without one for a second it lets go), release (with, in m/s) or remove (without X,Y,Z). "
-        + "BODY is the name of one of the scene's, by default its first, or PEER.SEQUENCE.0 of what was spawned. "
-        + "As: teleport@3:0,15,0, impulse@2.5:ball:0,4,0, remove@9:ball. May be repeated.";
+        "KIND@SECONDS[:BODY][:X,Y,Z], with SECONDS counted from the session's start. KIND is teleport (to a point, in m), set-velocity (in m/s), "
+        + "impulse (in N s), spawn (a body like BODY, at a point, in m), grab (BODY by the point at this distance from its centre, in m), "
+        + "knot (the hand that holds BODY is at a point, in m, at rest; without a knot for a second it lets go), release (with a velocity, in m/s) "
+        + "or remove (without X,Y,Z). "
+        + "BODY is the name of a body of the scene, by default the first, or PEER.SEQUENCE.0 for a spawned one. "
+        + "Examples: teleport@3:0,15,0, impulse@2.5:ball:0,4,0, remove@9:ball. May be repeated.";
 
     internal const double MostSeconds = 1e6;
 

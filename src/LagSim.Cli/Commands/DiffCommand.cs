@@ -11,10 +11,10 @@ internal static class DiffCommand
     {
         CommonOptions common = new();
         Argument<string> first = new("A") { Description = "A recording." };
-        Argument<string> second = new("B") { Description = "Another peer's of the same session." };
-        Command command = new("diff", "Compares two recordings and names the first thing that differs, or up to where they agree: 0 they agree in at least"
-            + " one committed state, 1 they do not or hold none in common, 3 one cannot be read. One that is damaged or has no end record counts as far"
-            + " as it holds, which is told ('whole' in JSON).")
+        Argument<string> second = new("B") { Description = "Another peer's recording of the same session." };
+        Command command = new("diff", "Compares two recordings and names the first thing that differs, or says how far they agree. Exits with 0 if they agree"
+            + " in at least one committed state, with 1 if they differ or have no committed state in common, and with 3 if one cannot be read. A recording that is"
+            + " damaged or has no end record is compared as far as it goes, and the output says so ('whole' in JSON).")
         {
             first, second,
         };

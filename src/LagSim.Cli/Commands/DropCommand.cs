@@ -20,19 +20,19 @@ internal static class DropCommand
     internal static Command Create(ToolConsole console)
     {
         CommonOptions common = new();
-        Option<string> which = CommonOptions.Word("--case", "Which half of the test: both start equal (Fig 2), or one side lifts its ball (Fig 3).", All, "same-start", "teleport", All);
-        Option<string> strategy = CommonOptions.Word("--strategy", "What a peer does with an event that comes late.", LateEventStrategies.Default, [.. LateEventStrategies.Names, All]);
+        Option<string> which = CommonOptions.Word("--case", "Which half of the test to run: both sides start equal (Fig 2), or one side lifts its ball (Fig 3).", All, "same-start", "teleport", All);
+        Option<string> strategy = CommonOptions.Word("--strategy", "What a peer does with an event that arrives late.", LateEventStrategies.Default, [.. LateEventStrategies.Names, All]);
         Option<double> displayDelay = CommonOptions.DisplayDelay();
         Option<string> motion = CommonOptions.Word("--motion", "How the ball flies: integrated in steps as in the thesis, or in closed form.", "rk4", "rk4", "ballistic");
-        Option<double> rate = CommonOptions.Number("--rate-hz", "Steps a second of rk4; ballistic motion has none", 200, 1, 1e4);
+        Option<double> rate = CommonOptions.Number("--rate-hz", "Steps per second of rk4; ballistic motion has none", 200, 1, 1e4);
         Option<double?> delay = CommonOptions.Delay("default 25");
         Option<string?> profile = CommonOptions.Profile();
         Option<int> peers = CommonOptions.Whole("--peers", "How many peers, the host included", 2, 2, 9);
         Option<string> time = CommonOptions.Time("real");
-        Option<string> transport = CommonOptions.Word("--transport", "What carries datagrams in real time; in virtual time nothing does but the simulated"
+        Option<string> transport = CommonOptions.Word("--transport", "What carries the datagrams in real time; in virtual time they only cross the simulated"
             + " link.", Carrier.Udp.Name, BuiltCarriers.Names);
-        Option<double> height = CommonOptions.Number("--height-m", "Where the ball's centre falls from", 10, 0.5, 1e6);
-        Option<double> second = CommonOptions.Number("--second-height-m", "Where it is lifted to", 15, 0.5, 1e6);
+        Option<double> height = CommonOptions.Number("--height-m", "The height from which the ball's centre falls", 10, 0.5, 1e6);
+        Option<double> second = CommonOptions.Number("--second-height-m", "The height to which it is lifted", 15, 0.5, 1e6);
         Option<double> restitution = CommonOptions.Number("--restitution", "Restitution of ball and floor", 0.8, 0, 1);
 
         Command command = new("drop", "The thesis's drop test: two instances of a world, a ball that falls, and one side that lifts it.")

@@ -12,7 +12,7 @@ internal static class ExplainCommand
     {
         CommonOptions common = new();
         Argument<string> scene = new("SCENE") { Description = CommonOptions.SceneText };
-        Command command = new("explain", "Says what is modelled for a scene, what not, and why.") { scene };
+        Command command = new("explain", "Explains what is modelled for a scene, what is not, and why.") { scene };
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {

@@ -22,9 +22,9 @@ internal static class HardCommand
             DefaultValueFactory = _ => All,
         };
         Option<string> scale = CommonOptions.Word(
-            "--scale", "full: the sizes of the catalogue, some minutes; small: what tests run, some seconds.", "full", "full", "small");
+            "--scale", "full: the sizes of the catalogue, which take some minutes; small: the sizes that the tests run, which take some seconds.", "full", "full", "small");
         Option<bool> controls = new("--controls") { Description = "Run deliberately wrong methods through the same checks; each of them must fail." };
-        Command command = new("hard", "Numerical hard cases against exact references, each with a bound that is argued from rounding or order.")
+        Command command = new("hard", "Checks numerically hard cases against exact references, each with a bound that is argued from rounding or order.")
         {
             which, scale, controls,
         };

@@ -33,25 +33,25 @@ internal static class HoldCommand
             HelpName = "slow|random|FILE.csv",
         };
         string delays = string.Join(", ", Delays.Select(delay => delay.ToString(CultureInfo.InvariantCulture)));
-        Option<double?> delay = CommonOptions.Delay($"default one run each of {delays} in virtual time, {RealDelay} in real time");
+        Option<double?> delay = CommonOptions.Delay($"by default one run each of {delays} in virtual time, {RealDelay} in real time");
         Option<string?> profile = CommonOptions.Profile();
         Option<string> time = CommonOptions.Time("virtual");
         Option<double?> hold = new("--hold-s")
         {
             Description = FormattableString.Invariant(
-                $"How many seconds of the motion the ball is held ({HoldOptions.ShortestSeconds} to {HoldOptions.LongestSeconds}); ")
-                + FormattableString.Invariant($"default all, up to {HoldOptions.LongestSeconds} in virtual time, {HoldOptions.RealSeconds} in real."),
+                $"For how many seconds of the motion the ball is held ({HoldOptions.ShortestSeconds} to {HoldOptions.LongestSeconds}); ")
+                + FormattableString.Invariant($"by default all of it, up to {HoldOptions.LongestSeconds} s in virtual time and {HoldOptions.RealSeconds} s in real time."),
             HelpName = "NUMBER",
             CustomParser = result => CommonOptions.ParseNumber(result, "--hold-s", HoldOptions.ShortestSeconds, HoldOptions.LongestSeconds),
         };
         Option<double> distance = CommonOptions.Number(
-            "--knot-distance-m", "How far off the others may be before the hand tells where it is", new HandSenderOptions().Distance, 1e-6, 1);
-        Option<string> strategy = CommonOptions.Word("--strategy", "What a peer does with an event that comes late.", LateEventStrategies.Default, [.. LateEventStrategies.Names]);
+            "--knot-distance-m", "How far off the others' view of the hand may be before the hand sends where it is", new HandSenderOptions().Distance, 1e-6, 1);
+        Option<string> strategy = CommonOptions.Word("--strategy", "What a peer does with an event that arrives late.", LateEventStrategies.Default, [.. LateEventStrategies.Names]);
         Option<double> displayDelay = CommonOptions.DisplayDelay();
         Option<int> peers = CommonOptions.Whole("--peers", "How many peers, the host included", 2, 2, 9);
 
-        Command command = new("hold", "A hand that others see late holds and throws a ball: what they see of it, by delay, and how well a hand can be"
-            + " predicted (Fig 4, 5).")
+        Command command = new("hold", "A hand holds and throws a ball, which others see late: reports what they see of it at each delay, and how well a hand"
+            + " can be predicted (Fig 4, 5).")
         {
             input, delay, profile, time, hold, distance, strategy, displayDelay, peers,
         };

@@ -19,17 +19,17 @@ internal static class HostCommand
         CommonOptions common = new();
         SessionArguments shared = new();
         Option<string> scene = new("--scene") { Description = CommonOptions.SceneText, HelpName = "SCENE", Required = true };
-        Option<int> port = CommonOptions.Whole("--port", "The UDP port; 0 takes any free one", 0, 0, 65535);
+        Option<int> port = CommonOptions.Whole("--port", "The UDP port; 0 picks a free one", 0, 0, 65535);
         Option<string> address = new("--address")
         {
-            Description = "The address of this machine to listen on; 0.0.0.0 or :: for all, to be reached from others.",
+            Description = "The address of this machine to listen on; 0.0.0.0 or :: for all of them, so that other machines can join.",
             DefaultValueFactory = _ => IPAddress.Loopback.ToString(),
             HelpName = "ADDRESS",
         };
-        Option<int> joiners = CommonOptions.Whole("--joiners", "Start once so many have joined; further ones may come at any time", 0, 0, SessionOptions.MaxJoiners);
-        Option<double> history = CommonOptions.Number("--history-s", "How late an event may come and still be accepted", 1, 0.05, 5);
+        Option<int> joiners = CommonOptions.Whole("--joiners", "Start once this many have joined; more may join at any time", 0, 0, SessionOptions.MaxJoiners);
+        Option<double> history = CommonOptions.Number("--history-s", "How late an event may arrive and still be accepted", 1, 0.05, 5);
         Option<int> perAddress = CommonOptions.Whole(
-            "--per-address", "How many may join from one address; 0 for half of the places, or --joiners if that is more", 0, 0, SessionOptions.MaxJoiners);
+            "--per-address", "How many may join from one address; 0 means half of the places, or --joiners if that is more", 0, 0, SessionOptions.MaxJoiners);
         Command command = new("host", "Opens a session that others join over UDP, and takes part in it. Ctrl-C ends it for everyone.")
         {
             scene, port, address, joiners, history, perAddress,

@@ -18,15 +18,15 @@ internal static class JoinCommand
         SessionArguments shared = new();
         Argument<string> host = new("ADDRESS:PORT")
         {
-            Description = "Where the host is: 192.168.0.7:5000, [::1]:5000, or some.name:5000, of which IPv4 is taken where it has both.",
+            Description = "Where the host is: 192.168.0.7:5000, [::1]:5000, or some.name:5000; if a name has addresses of both kinds, IPv4 is used.",
         };
         Option<string?> pass = CommonOptions.File(
             "--pass", "Come back as the same player after a restart: the file holds the player's pass, and is created if it is missing. Keep it secret: it is all that is needed to take the player's place.");
         Command command = new(
             "join",
-            "Joins a session; the host gives the scene. Ends with 0 when the host ends the session after --for-s, or without it at any time, and with 3"
-                + " before, or if a --do was refused or not done. Below each T line: the host's clock minus this one's, by how much that may be wrong"
-                + " at most, and half a round trip.")
+            "Joins a session; the scene comes from the host. Exits with 0 if this peer stays for --for-s or, without it, until the host ends the session; with 3"
+                + " if the session ends earlier, or if a --do was refused or not done. The line below each T line gives the host's clock minus this one's, the"
+                + " most by which that may be wrong, and half a round trip.")
         {
             host, pass,
         };

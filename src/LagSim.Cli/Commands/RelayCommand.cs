@@ -20,24 +20,24 @@ internal static class RelayCommand
     internal static Command Create(ToolConsole console)
     {
         CommonOptions common = new();
-        Argument<string> host = new("ADDRESS:PORT") { Description = "Where the host is; joiners are to be given the relay's own address instead." };
+        Argument<string> host = new("ADDRESS:PORT") { Description = "Where the host is; joiners join the relay's own address instead." };
         Option<string> profile = new("--profile")
         {
             Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, or {LinkProfiles.AnyDelay}.",
             HelpName = "NAME",
             Required = true,
         };
-        Option<int> port = CommonOptions.Whole("--port", "The UDP port; 0 takes any free one", 0, 0, 65535);
+        Option<int> port = CommonOptions.Whole("--port", "The UDP port; 0 picks a free one", 0, 0, 65535);
         Option<string> address = new("--address")
         {
             Description = "The address of this machine to listen on.",
             DefaultValueFactory = _ => IPAddress.Loopback.ToString(),
             HelpName = "ADDRESS",
         };
-        Option<double?> length = SessionArguments.Seconds("--for-s", "How long; by default until Ctrl-C.", SessionArguments.LeastLength, Deed.MostSeconds);
+        Option<double?> length = SessionArguments.Seconds("--for-s", "How long to run; by default until Ctrl-C.", SessionArguments.LeastLength, Deed.MostSeconds);
         Option<double?> change = SessionArguments.Seconds(
-            "--change-port-s", "After how long the host sees each joiner at another port, again and again; by default never.", 0.5, 3600);
-        Command command = new("relay", "Passes datagrams between joiners and a host on, as late and with as many losses as a link profile says.")
+            "--change-port-s", "How often the host sees each joiner move to another port; by default never.", 0.5, 3600);
+        Command command = new("relay", "Passes datagrams between joiners and a host, with the delays and losses of a link profile.")
         {
             host, profile, port, address, length, change,
         };

@@ -12,8 +12,9 @@ internal static class ReplayCommand
     {
         CommonOptions common = new();
         Argument<string> file = new("FILE") { Description = "A recording." };
-        Command command = new("replay", "Runs a recording again; it must give its hashes: 0 it does, 1 it does not or has none, 3 it cannot be run,"
-            + " as one of another fold version. One that is damaged or has no end record counts as far as it holds, which is told ('whole' in JSON).") { file };
+        Command command = new("replay", "Runs a recording again and checks that it gives the same hashes. Exits with 0 if it does, with 1 if it does not or has"
+            + " no hashes, and with 3 if it cannot be run, for instance because its fold version is another. A recording that is damaged or has no end record is"
+            + " replayed as far as it goes, and the output says so ('whole' in JSON).") { file };
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {

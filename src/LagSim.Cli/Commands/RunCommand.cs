@@ -28,12 +28,12 @@ internal static class RunCommand
         CommonOptions common = new();
         Argument<string> scene = new("SCENE") { Description = CommonOptions.SceneText };
         Option<double> until = CommonOptions.Number("--until-s", "How long to run", 10, 0, 1e6);
-        Option<string> motion = CommonOptions.Word("--motion", "The law of all bodies; by default the scene's own.", "scene", ["scene", .. MotionNames.Flight]);
-        Option<string?> events = CommonOptions.File("--events", "Write every event to this CSV file; - is stdout.");
-        Option<string?> samples = CommonOptions.File("--samples", "Write the state of all bodies, every so often, to this CSV file; - is stdout.");
+        Option<string> motion = CommonOptions.Word("--motion", "The law of motion of all bodies; by default the scene's own.", "scene", ["scene", .. MotionNames.Flight]);
+        Option<string?> events = CommonOptions.File("--events", "Write every event to this CSV file; - means stdout.");
+        Option<string?> samples = CommonOptions.File("--samples", "Write the state of all bodies at regular intervals to this CSV file; - means stdout.");
         Option<double> every = CommonOptions.Number("--every-s", "The time between samples", 0.01, 1e-9, 1e6);
-        Option<int> repeat = CommonOptions.Whole("--repeat", "The scene is run once for what is written, then so many times again to be timed, with one before them as a"
-            + " warm-up where the first took less than a second; wall_s is the least. With 0 nothing runs again, and wall_s is that of the run that was written", 1, 0, 1_000_000);
+        Option<int> repeat = CommonOptions.Whole("--repeat", "How many times to run the scene again to time it, after the run whose results are written; wall_s is the shortest."
+            + " If the first run took less than a second, one more comes before these as a warm-up. With 0 nothing runs again, and wall_s is the first run's", 1, 0, 1_000_000);
         Command command = new("run", "Runs one scene in virtual time.") { scene, until, motion, events, samples, every, repeat };
         common.AddTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>

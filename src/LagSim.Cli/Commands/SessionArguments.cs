@@ -21,7 +21,7 @@ internal sealed class SessionArguments
 
     private readonly Option<string?> key = new("--key")
     {
-        Description = $"What only those may know who shall join; up to {SessionOptions.MaxKeyLength} characters. By default none.",
+        Description = $"A secret that joiners must know; up to {SessionOptions.MaxKeyLength} characters. None by default.",
         HelpName = "TEXT",
     };
 
@@ -31,10 +31,10 @@ internal sealed class SessionArguments
         + " existing file is replaced. Each time a fresh copy of the world is taken, as after a rejoin, the recording goes on in another file: after game.lagsim"
         + " come game.2.lagsim, game.3.lagsim and so on. The summary names them all.");
     private readonly Option<double> timeout = CommonOptions.Number(
-        "--timeout-s", "After how much silence another peer is given up; to be the same everywhere", DefaultTimeoutSeconds, 0.5, 600);
+        "--timeout-s", "How long another peer may be silent before it is given up; must be the same for all", DefaultTimeoutSeconds, 0.5, 600);
 
     private readonly Option<double> rejoin = CommonOptions.Number(
-        "--rejoin-s", "How long one that lost the other asks to be let in again, and how long a host keeps its number for it", DefaultRejoinSeconds, 0, 3600);
+        "--rejoin-s", "How long a joiner that lost its host asks to be let in again, and how long a host keeps a lost joiner's number", DefaultRejoinSeconds, 0, 3600);
 
     internal SessionArguments()
     {

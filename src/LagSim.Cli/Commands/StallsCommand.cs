@@ -25,17 +25,17 @@ internal static class StallsCommand
     {
         CommonOptions common = new();
         Option<int> sessions = CommonOptions.Whole(
-            "--sessions", "How many sessions are drawn; the seed is the first one's, each further one has the next", 200, 1, 1_000_000);
+            "--sessions", "How many sessions to draw; the first takes the given seed, and each further one the next", 200, 1, 1_000_000);
         Option<int> worst = CommonOptions.Whole(
-            "--worst", "How many of them are told one by one, those that took the longest to recover", 20, 0, 1_000);
+            "--worst", "How many of them to list one by one, beginning with those that took longest to recover", 20, 0, 1_000);
         Option<int> processes = CommonOptions.Whole(
-            "--processes", "How many of the worst are played again with real processes, by SIGSTOP, kill -9 and a relay that changes its ports", 0, 0, 1_000);
+            "--processes", "How many of the worst to play again with real processes, using SIGSTOP, kill -9 and a relay that changes ports; each takes minutes", 0, 0, 1_000);
         Command command = new(
             "stalls",
-            "Drawn sessions, in virtual time, in which host or clients stand still for 1 to 60 s, are killed and started again, or change their"
+            "Plays randomly drawn sessions, in virtual time, in which the host or clients freeze for 1 to 60 s, are killed and restarted, or change"
                 + " ports every 10 s."
-                + " 0 if play goes on in all: no accepted event lost, no state that differs, who was away is back by itself as the same player,"
-                + " and to nobody else anything happened.") { sessions, worst, processes };
+                + " Exits with 0 if play goes on in all of them: no accepted event is lost, no state differs, whoever was away comes back without help as"
+                + " the same player, and nobody else is interrupted.") { sessions, worst, processes };
         common.AddSeedAndJsonTo(command);
         command.SetAction(parsed =>
         {

@@ -19,17 +19,18 @@ internal static class SweepCommand
         Option<double[]> clients = Numbers("--clients", "How many clients, each with a link of its own", byDefault.Clients.Select(n => (double)n), 1, 8);
         Option<double[]> events = Numbers("--events", "How many events each client does a second", byDefault.EventsPerSecond, 0, 200);
         Option<double[]> rates = Numbers("--rate-kbps", "What each link carries in each direction, in kbit/s", byDefault.KilobitsPerSecond, 16, 1_000_000);
-        Option<double[]> queues = Numbers("--queue-ms", "How long its queues are, in milliseconds at that rate", byDefault.QueueMilliseconds, 0, 10_000);
-        Option<bool> noDips = new("--no-dips") { Description = "Only links that always carry the same; else each cell is also played with dips to a fifth for 5 s every 30 s." };
-        Option<bool> shared = new("--shared") { Description = "All clients behind one link that carries as much; else each has a link of its own." };
-        Option<bool> bulk = new("--bulk") { Description = "A bulk TCP transfer towards each client through the same queues." };
-        Option<double> play = CommonOptions.Number("--play-s", "How long events are done, in seconds", byDefault.PlaySeconds, 1, 3600);
-        Option<double> rest = CommonOptions.Number("--rest-s", "How long all rests after that, in seconds", byDefault.RestSeconds, 1, 3600);
-        Option<string?> beside = new("--beside") { Description = "What lagsim sweep --json wrote of another run: --out draws it beside this one, dashed.", HelpName = "FILE" };
+        Option<double[]> queues = Numbers("--queue-ms", "How long each link's queues are, in milliseconds at that rate", byDefault.QueueMilliseconds, 0, 10_000);
+        Option<bool> noDips = new("--no-dips") { Description = "Only links of a constant rate; otherwise each cell is also played with dips to a fifth of the rate for 5 s every 30 s." };
+        Option<bool> shared = new("--shared") { Description = "All clients share one link of that rate; otherwise each has a link of its own." };
+        Option<bool> bulk = new("--bulk") { Description = "Adds a bulk TCP transfer to each client through the same queues." };
+        Option<double> play = CommonOptions.Number("--play-s", "How long players do things, in seconds", byDefault.PlaySeconds, 1, 3600);
+        Option<double> rest = CommonOptions.Number("--rest-s", "How long everyone then rests, in seconds", byDefault.RestSeconds, 1, 3600);
+        Option<string?> beside = new("--beside") { Description = "The output of lagsim sweep --json from another run: --out draws it dashed beside this one.", HelpName = "FILE" };
         Command command = new(
             "sweep",
-            "Sessions on links that are full, or nearly, in virtual time: offered against delivered load, round trips, refusals, and whether all agree. 0 if every cell"
-                + " shows what it must: no accepted event lost, no state that differs, at least 90 % of them compared.") { clients, events, rates, queues, noDips, shared, bulk, play, rest, beside };
+            "Plays sessions over links that are full or nearly full, in virtual time, and reports offered and delivered load, round trips, refusals, and whether"
+                + " all peers agree. Exits with 0 if every cell passes: no accepted event lost, no state that differs, and at least 90 % of the host's states"
+                + " compared by each client.") { clients, events, rates, queues, noDips, shared, bulk, play, rest, beside };
         common.AddTo(command);
         command.SetAction(parsed =>
         {
@@ -107,7 +108,7 @@ internal static class SweepCommand
         string text = string.Join(",", byDefault.Select(n => n.ToString("0.###", CultureInfo.InvariantCulture)));
         return new Option<double[]>(name)
         {
-            Description = FormattableString.Invariant($"{description}: numbers from {least} to {most} with commas between them; default {text}."),
+            Description = FormattableString.Invariant($"{description}: comma-separated numbers from {least} to {most}; default {text}."),
             HelpName = "N,N",
             CustomParser = result => Parse(result, name, least, most),
         };
@@ -121,7 +122,7 @@ internal static class SweepCommand
         {
             if (!double.TryParse(part, NumberStyles.Float, CultureInfo.InvariantCulture, out double number) || !(number >= least && number <= most))
             {
-                result.AddError(FormattableString.Invariant($"{name} is '{part}' in '{text}'; it takes numbers from {least} to {most} with commas between them."));
+                result.AddError(FormattableString.Invariant($"{name} is '{part}' in '{text}'; it takes comma-separated numbers from {least} to {most}."));
                 return [];
             }
 

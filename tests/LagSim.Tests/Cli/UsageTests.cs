@@ -73,13 +73,13 @@ public sealed class UsageTests
     [InlineData("check", false)]
     [InlineData("hard", false)]
     public void Seed_WhereNothingIsDrawn_SaysSoInTheHelp(string command, bool isIdle) =>
-        Assert.Equal(isIdle, Tool.Run(command, "--help").Done().Output.Contains("here nothing is drawn", StringComparison.Ordinal));
+        Assert.Equal(isIdle, Tool.Run(command, "--help").Done().Output.Contains("nothing here is random", StringComparison.Ordinal));
 
     [Fact]
     public void Help_OfAnOptionThatHasNoEffectOnSome_SaysSo()
     {
-        Assert.Contains("Steps a second of rk4; ballistic motion has none", Tool.Run("drop", "--help").Output, StringComparison.Ordinal);
-        Assert.Contains("one that is there is replaced", Tool.Run("host", "--help").Output, StringComparison.Ordinal);
+        Assert.Contains("Steps per second of rk4; ballistic motion has none", Tool.Run("drop", "--help").Output, StringComparison.Ordinal);
+        Assert.Contains("an existing file is replaced", Tool.Run("host", "--help").Output, StringComparison.Ordinal);
     }
 
     [Theory]

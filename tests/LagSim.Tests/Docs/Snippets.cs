@@ -36,24 +36,24 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
 
     internal Simulation HearLate(BodyId ball)
     {
-        Simulation world = new(scene, new SimulationOptions(history: SimDuration.FromSeconds(2))); // so late may news be; 1 s if nothing is said
+        Simulation world = new(scene, new SimulationOptions(history: SimDuration.FromSeconds(2))); // how late news may be; 1 s by default
         world.Healed += heal => Console.WriteLine($"{heal.Bodies} bodies looked at anew, {heal.Events} events run again");
         world.AdvanceTo(SimTime.FromSeconds(3));
 
-        // at 3 s it is heard that peer 1 kicked the ball at 2.2 s, by the first thing that it has done
+        // at 3 s news arrives that peer 1 kicked the ball at 2.2 s, which is the first thing it did
         ExternalEvent kick = PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)).Stamp(SimTime.FromSeconds(2.2), peer: 1, sequence: 1);
         if (world.Submit(kick) == SubmitResult.TooOld)
         {
             throw new InvalidOperationException("It lies before the history; nothing has changed.");
         }
 
-        world.AdvanceTo(SimTime.FromSeconds(3)); // to the bit what it would be if it had heard of it in time
+        world.AdvanceTo(SimTime.FromSeconds(3)); // to the bit what it would be if the news had come in time
         return world;
     }
 
     internal void Contacts()
     {
-        ContactNotices contacts = new(minClosingSpeed: 0.2); // m/s; what is slower is not told
+        ContactNotices contacts = new(minClosingSpeed: 0.2); // m/s; slower contacts are not reported
         using SimulationHost host = new(scene, new StopwatchClock(), contacts: contacts);
 
         // each frame
