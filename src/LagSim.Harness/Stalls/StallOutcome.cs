@@ -24,7 +24,7 @@ public sealed record StallOutcome
     /// <summary>Events in those logs that the host refused.</summary>
     public long Refused { get; init; }
 
-    /// <summary>Those of them that came too late: over a link that takes longer than the host's history, that is all of them.</summary>
+    /// <summary>Those of them that came too late: over a link that takes longer than the host's history, that is nearly all of them.</summary>
     public long RefusedTooLate { get; init; }
 
     /// <summary>How often a client got a fresh copy of the world.</summary>

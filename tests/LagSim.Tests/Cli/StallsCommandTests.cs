@@ -58,7 +58,7 @@ public sealed class StallsCommandTests
 
     [Theory]
     [InlineData(38, true)] // over a link of 2 s each way every event comes too late
-    [InlineData(9, false)] // the control: over this one some are accepted
+    [InlineData(9, false)] // the control: here one is accepted
     public void Stalls_EventsThatHostsRefused_AreToldWithTheReason(int seed, bool isAllRefused)
     {
         string[] call = ["stalls", "--sessions", "1", "--seed", $"{seed}"];
