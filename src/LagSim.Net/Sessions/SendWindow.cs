@@ -18,7 +18,8 @@ internal sealed class SendWindow
     /// <summary>So many datagrams go out at a time at most; the next a millisecond later.</summary>
     internal const int MaxDatagramsAtOnce = 4;
 
-    private const int Room = WireFormat.MaxBytes - WireFormat.EmptyUpdateBytes - WireFormat.MostHashBytes - WireFormat.StartBytes;
+    /// <summary>What the entries of one update take at most, in bytes.</summary>
+    internal const int Room = WireFormat.MaxBytes - WireFormat.EmptyUpdateBytes - WireFormat.MostHashBytes - WireFormat.StartBytes;
 
     private readonly List<(uint First, uint Last)> lost = new(); // ascending, apart, above what is acknowledged
     private uint sent;
@@ -124,14 +125,16 @@ internal sealed class SendWindow
     /// <param name="source">The entries.</param>
     /// <param name="repetition">How many bytes may be repetition; of an update that is nothing else, its own bytes among them.</param>
     /// <param name="own">How many bytes an update has beside its entries, UDP and IP included.</param>
+    /// <param name="room">How many bytes its entries may take; one always goes.</param>
     /// <returns>How many were.</returns>
-    internal int Fill(UpdateDatagram update, IEntrySource source, int repetition, int own)
+    internal int Fill(UpdateDatagram update, IEntrySource source, int repetition, int own, int room = Room)
     {
         uint last = LastOf(source);
         (uint first, uint end) = lost.Count > 0 ? lost[0] : (sent + 1, last);
         end = end == sent ? last : end; // what is new follows at once
         bool isNeeded = first <= end && (lost.Count > 0 || sent < last);
         int allowed = isNeeded ? repetition : repetition - own;
+        room = isNeeded ? Math.Clamp(room, UpdateDatagram.LengthOf(source[first]), Room) : Math.Min(room, Room);
 
         // All that is not acknowledged, if that is one datagram and not too much repetition.
         bool isMadeUpFor = !HasLost && AreKnots(source, last);
@@ -144,9 +147,9 @@ internal sealed class SendWindow
         uint from = isMadeUpFor ? Math.Max(Acknowledged + 1, Math.Min(sent, last)) : Acknowledged + 1;
         int all = Length(source, from, last);
         int needed = LengthNeeded(source, from, last);
-        if (from <= last && all <= Room && all - needed <= allowed && (isNeeded || all > 0))
+        if (from <= last && all <= room && all - needed <= allowed && (isNeeded || all > 0))
         {
-            Carry(update, source, from, last);
+            Carry(update, source, from, last, room);
             lost.RemoveAll(range => range.First >= from);
             sent = Math.Max(sent, last);
             return all - needed + (isNeeded ? 0 : own);
@@ -155,7 +158,7 @@ internal sealed class SendWindow
         if (!isNeeded)
         {
             // The oldest, which keep the others waiting.
-            uint held = Carry(update, source, Acknowledged + 1, sent, allowed);
+            uint held = Carry(update, source, Acknowledged + 1, sent, Math.Min(room, allowed));
             if (held > Acknowledged)
             {
                 return own + Length(source, Acknowledged + 1, held);
@@ -166,12 +169,12 @@ internal sealed class SendWindow
         }
 
         int repeated = 0;
-        if (Length(source, first, end) is int length && length <= Room)
+        if (Length(source, first, end) is int length && length <= room)
         {
             while (first > Acknowledged + 1)
             {
                 int more = UpdateDatagram.LengthOf(source[first - 1]);
-                if (length + more > Room || repeated + more > allowed)
+                if (length + more > room || repeated + more > allowed)
                 {
                     break;
                 }
@@ -180,7 +183,7 @@ internal sealed class SendWindow
             }
         }
 
-        uint carried = Carry(update, source, first, end);
+        uint carried = Carry(update, source, first, end, room);
         if (lost.Count > 0)
         {
             lost[0] = (Math.Min(carried, lost[0].Last) + 1, lost[0].Last);

@@ -59,6 +59,7 @@ internal sealed class UpdateLink
     private SimTime newsSince = SimTime.MaxValue; // since when something new waits
     private int newsBytes; // how much, in entries
     private int unanswered; // how many times in a row answers were overdue
+    private SimTime answered; // when something was answered, or began to be waited for
     private bool isHeldBack; // something has to go and may not yet
     private long datagramsSent;
     private long bytesSent;
@@ -182,7 +183,7 @@ internal sealed class UpdateLink
         while (sent.TryTakeCovered(Outgoing.Acknowledged, out SentDatagrams.Datagram covered))
         {
             congestion.OnAcknowledged(covered.Bytes, trips.HasQueue);
-            unanswered = 0;
+            (unanswered, answered) = (0, now);
         }
 
         if (isHeldBack && congestion.HasRoom)
@@ -234,10 +235,10 @@ internal sealed class UpdateLink
         }
 
         TakeLost(now);
-        if (sent.Waited > 0 && now >= AnswerDue())
+        if (sent.Waited > 0 && now >= AnswerDue(now))
         {
             unanswered = Math.Min(unanswered + 1, MostDoublings + Silent);
-            if (unanswered == Silent)
+            if (unanswered == Silent && trips.HasQueue)
             {
                 congestion.OnSilence(now);
             }
@@ -247,7 +248,7 @@ internal sealed class UpdateLink
             bool isProbe = trips.HasQueue;
             while (sent.TryPeekOldest(out SimTime at) && at <= before && sent.TryTakeOldest(out SentDatagrams.Datagram oldest))
             {
-                Lose(oldest, now, hasQueue: false);
+                Lose(oldest, now);
                 if (isProbe)
                 {
                     break;
@@ -275,7 +276,7 @@ internal sealed class UpdateLink
     /// <summary>Puts entries into the composed update.</summary>
     internal void Fill(IEntrySource source, SimTime now)
     {
-        spare.Advance(now, trips, unanswered > 0, Doublings);
+        spare.Advance(now, trips, unanswered > 0, Doublings(now));
         if (!congestion.HasRoom)
         {
             outgoing.FirstIndex = Outgoing.Sent + 1;
@@ -283,7 +284,7 @@ internal sealed class UpdateLink
         }
 
         // What has to go finds the window half empty. An update that is worth its own bytes is none that could have waited.
-        int repeated = Outgoing.Fill(outgoing, source, congestion.IsHalfFull ? 0 : spare.Bytes, OwnBytes);
+        int repeated = Outgoing.Fill(outgoing, source, congestion.IsHalfFull ? 0 : spare.Bytes, OwnBytes, congestion.DatagramBytes - OwnBytes);
         int needed = outgoing.EncodedLength - WireFormat.EmptyUpdateBytes - repeated;
         spare.Spend(repeated + Math.Max(0, OwnBytes - (Math.Max(0, needed) / 2)));
     }
@@ -296,10 +297,11 @@ internal sealed class UpdateLink
     internal ReadOnlySpan<byte> Seal(IEntrySource source, SimTime now, SimDuration rest, bool isUrgent)
     {
         int length = outgoing.Encode(buffer);
+        answered = sent.Waited == 0 && unanswered == 0 ? now : answered;
         uint last = outgoing.FirstIndex + (uint)outgoing.Held.Length - 1;
         if (sent.Add(lastSent, now, length + CongestionControl.DatagramOverhead, outgoing.FirstIndex, last) is SentDatagrams.Datagram forgotten)
         {
-            Lose(forgotten, now, trips.HasQueue);
+            Lose(forgotten, now);
         }
 
         if (outgoing.Held.Length > 0)
@@ -325,7 +327,7 @@ internal sealed class UpdateLink
             : now + LeastDistance;
         if (sent.Waited > 0)
         {
-            Hasten(AnswerDue());
+            Hasten(AnswerDue(now));
             if (sent.TryGetOvertaken(out SimTime at))
             {
                 Hasten(at + LongestTrip + (LongestTrip / 8));
@@ -348,30 +350,39 @@ internal sealed class UpdateLink
         return trips.IsMeasured && even > LeastDistance ? even : LeastDistance;
     }
 
-    /// <summary>
-    /// How often what is not answered is sent half as often: each time that an answer was overdue where there is a queue on the way, and where there is none each time after the
-    /// link counts as silent. A link that loses several in a row is not silent yet, and lost for longer the fewer are sent.
-    /// </summary>
-    private int Doublings => Math.Clamp(trips.HasQueue ? unanswered : unanswered - Silent, 0, MostDoublings);
-
     /// <summary>When the answer to what was sent is overdue.</summary>
-    private SimTime AnswerDue() => sent.TryPeekOldest(out SimTime at) ? at + (Patience * (1L << Doublings)) : SimTime.MaxValue;
+    private SimTime AnswerDue(SimTime now) => sent.TryPeekOldest(out SimTime at) ? at + (Patience * (1L << Doublings(now))) : SimTime.MaxValue;
+
+    /// <summary>
+    /// How often what is not answered is sent half as often: where there is a queue on the way each time that an answer was overdue. Where there is none a link that loses several in a row
+    /// is lost for longer the fewer are sent, so it is after eight times as long as an answer takes, then after twice that, and so on: nobody may be there.
+    /// </summary>
+    private int Doublings(SimTime now)
+    {
+        int doublings = 0;
+        while (doublings < MostDoublings && doublings < unanswered && (trips.HasQueue || now - answered > Patience * (8L << doublings)))
+        {
+            doublings++;
+        }
+
+        return doublings;
+    }
 
     /// <summary>Whether an update may go for little.</summary>
     private bool MayHurry(SimTime now)
     {
-        spare.Advance(now, trips, unanswered > 0, Doublings);
+        spare.Advance(now, trips, unanswered > 0, Doublings(now));
         return spare.WaitFor(OwnBytes) == SimDuration.Zero;
     }
 
     private void TakeAcknowledgements(UpdateDatagram update, SimTime now)
     {
-        Acknowledge(update.EchoNumber);
+        AcknowledgeUpdate(update.EchoNumber, now);
         for (int n = 0; n < 32 && update.EchoBits >> n != 0; n++)
         {
             if ((update.EchoBits >> n & 1) != 0)
             {
-                Acknowledge(update.EchoNumber - 1 - (uint)n);
+                AcknowledgeUpdate(update.EchoNumber - 1 - (uint)n, now);
             }
         }
 
@@ -382,12 +393,12 @@ internal sealed class UpdateLink
         }
     }
 
-    private void Acknowledge(uint number)
+    private void AcknowledgeUpdate(uint number, SimTime now)
     {
         if (sent.TryAcknowledge(number, out SentDatagrams.Datagram came))
         {
             congestion.OnAcknowledged(came.Bytes, trips.HasQueue);
-            unanswered = 0;
+            (unanswered, answered) = (0, now);
         }
     }
 
@@ -395,15 +406,15 @@ internal sealed class UpdateLink
     {
         while (sent.TryTakeLost(now, LongestTrip, out SentDatagrams.Datagram datagram))
         {
-            Lose(datagram, now, trips.HasQueue);
+            Lose(datagram, now);
         }
     }
 
-    private void Lose(in SentDatagrams.Datagram datagram, SimTime now, bool hasQueue)
+    private void Lose(in SentDatagrams.Datagram datagram, SimTime now)
     {
-        if (congestion.OnLost(datagram.Bytes, datagram.At, now, hasQueue))
+        if (congestion.OnLost(datagram.Bytes, datagram.At, now) && trips.HasQueue)
         {
-            spare.Cut();
+            spare.Cut(); // where none shows repetition is what hides losses
         }
 
         sent.NoteLost(datagram);

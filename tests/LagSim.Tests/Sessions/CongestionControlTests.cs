@@ -43,24 +43,26 @@ public sealed class CongestionControlTests(ITestOutputHelper output)
                     onTheirWay.RemoveAt(0);
                     bool isUsed = 2 * inFlight >= before;
                     inFlight -= bytes;
-                    if (random.Next(12) > 0) // few enough that without a queue they are no congestion
+                    if (random.Next(12) > 0)
                     {
                         control.OnAcknowledged(bytes, hasQueue);
                         Assert.InRange(control.Window, before, isUsed ? before + bytes + 1 : before); // no growth for what is not used
                     }
                     else
                     {
-                        control.OnLost(bytes, sent, now, hasQueue);
+                        control.OnLost(bytes, sent, now);
                         Assert.InRange(control.Window, 2 * Full, before);
-                        bool mayCut = hasQueue && sent > cut; // once for all that was on its way then
+                        bool mayCut = sent > cut; // once for all that was on its way then
                         int most = (int)Math.Max(2 * Full, (before * 0.7) + 1);
-                        Assert.True(mayCut ? control.Window <= most : !hasQueue || control.Window == before);
-                        cut = control.Window < before || mayCut ? now : cut;
+                        Assert.True(mayCut ? control.Window <= most : control.Window == before);
+                        cut = mayCut ? now : cut;
                     }
                 }
 
                 Assert.Equal(inFlight, control.InFlight);
                 Assert.InRange(control.Window, 2 * Full, 400 * Full);
+                Assert.InRange(control.DatagramBytes, 1, Full);
+                Assert.True(control.Window >= 8 * control.DatagramBytes); // what comes after a lost one shows that it is lost
                 Assert.Equal(inFlight + Full <= control.Window || inFlight == 0, control.HasRoom);
             }
         }
@@ -90,7 +92,7 @@ public sealed class CongestionControlTests(ITestOutputHelper output)
                 onTheirWay.Dequeue();
                 if (next.IsLost && backsOff)
                 {
-                    control.OnLost(next.Bytes, next.Sent, now, trips.HasQueue);
+                    control.OnLost(next.Bytes, next.Sent, now);
                 }
                 else
                 {
