@@ -6,8 +6,8 @@ namespace LagSim.Net.Sessions;
 /// <summary>How many bytes may be on their way over one link: a window, as in TCP and QUIC (RFC 9002, section 7).</summary>
 /// <remarks>
 /// It doubles a round trip while no queue shows and it was never cut, else grows by a datagram a round trip, and is cut to 0.7 (CUBIC, RFC 9438) of what is used, at most
-/// once a round trip, when datagrams are lost, whatever it is that loses them: a queue that was full when this link began shows by nothing else. It grows only while it
-/// is used.
+/// once a round trip, when datagrams are lost. It grows only while it is used. A loss counts as congestion where there is a queue, or where more than a bad radio link loses are
+/// lost: drop-tail queues lose when they are full, and one that was full when this link began shows by nothing else.
 /// </remarks>
 internal sealed class CongestionControl
 {
@@ -36,10 +36,19 @@ internal sealed class CongestionControl
     private const int MostWindow = 400 * Full; // below what SentDatagrams remembers
     private const double CutTo = 0.7;
 
+    /// <summary>
+    /// Half as much again as <c>awful</c> loses, the worst link that is reported on (WebRTC's controller bears a tenth, BBR a fiftieth). Of 120 pairs of sessions behind one link 114
+    /// share it within a factor of two; with twice as much 106, with none 111, and then <c>awful</c> carries 400 of 490 events a second.
+    /// </summary>
+    private const double BearableLoss = 0.15;
+
+    private const double LossMemory = 1.0 / 128;
+
     private readonly bool neverBacksOff;
     private double window = InitialWindow;
     private double threshold = double.PositiveInfinity; // below it the window doubles a round trip: what it was last cut to
     private int peak; // the most that was on its way since the window was last cut: what of the window was used (RFC 7661)
+    private double lossShare;
     private SimTime cut = SimTime.MinValue; // what was sent before that is not counted against the window again
 
     /// <param name="fault">What is done wrong on purpose.</param>
@@ -71,6 +80,7 @@ internal sealed class CongestionControl
     {
         bool isUsed = 2 * InFlight >= window; // before this one left
         InFlight -= bytes;
+        lossShare -= lossShare * LossMemory;
         if (isUsed)
         {
             window = Math.Min(MostWindow, window + (hasQueue || window >= threshold ? (double)Full * bytes / window : bytes));
@@ -79,10 +89,11 @@ internal sealed class CongestionControl
 
     /// <summary>What was sent has not come.</summary>
     /// <returns>Whether the window was cut for it.</returns>
-    internal bool OnLost(int bytes, SimTime sent, SimTime now)
+    internal bool OnLost(int bytes, SimTime sent, SimTime now, bool hasQueue)
     {
         InFlight -= bytes;
-        if (sent <= cut || neverBacksOff)
+        lossShare += (1 - lossShare) * LossMemory;
+        if (!(hasQueue || lossShare > BearableLoss) || sent <= cut || neverBacksOff)
         {
             return false;
         }

@@ -248,7 +248,7 @@ internal sealed class UpdateLink
             bool isProbe = trips.HasQueue;
             while (sent.TryPeekOldest(out SimTime at) && at <= before && sent.TryTakeOldest(out SentDatagrams.Datagram oldest))
             {
-                Lose(oldest, now);
+                Lose(oldest, now, hasQueue: false);
                 if (isProbe)
                 {
                     break;
@@ -301,7 +301,7 @@ internal sealed class UpdateLink
         uint last = outgoing.FirstIndex + (uint)outgoing.Held.Length - 1;
         if (sent.Add(lastSent, now, length + CongestionControl.DatagramOverhead, outgoing.FirstIndex, last) is SentDatagrams.Datagram forgotten)
         {
-            Lose(forgotten, now);
+            Lose(forgotten, now, trips.HasQueue);
         }
 
         if (outgoing.Held.Length > 0)
@@ -406,15 +406,15 @@ internal sealed class UpdateLink
     {
         while (sent.TryTakeLost(now, LongestTrip, out SentDatagrams.Datagram datagram))
         {
-            Lose(datagram, now);
+            Lose(datagram, now, trips.HasQueue);
         }
     }
 
-    private void Lose(in SentDatagrams.Datagram datagram, SimTime now)
+    private void Lose(in SentDatagrams.Datagram datagram, SimTime now, bool hasQueue)
     {
-        if (congestion.OnLost(datagram.Bytes, datagram.At, now) && trips.HasQueue)
+        if (congestion.OnLost(datagram.Bytes, datagram.At, now, hasQueue) && trips.HasQueue)
         {
-            spare.Cut(); // where none shows repetition is what hides losses
+            spare.Cut(); // where none shows, repetition is what hides losses
         }
 
         sent.NoteLost(datagram);

@@ -40,8 +40,23 @@ public sealed class ComingAndGoingTests
         group.DropLast(); // it crashed, and nobody was told
         group.Join(1, 4242);
         group.Run(1);
-        Assert.Equal(["1 gone", "1 came"], told);
+        Assert.Equal(["1 gone", "2 came"], told); // the number is kept for the former, who may come back from elsewhere
         Assert.Equal(1, group.Host.JoinerCount);
+    }
+
+    /// <summary>Routers give a port to another machine when the former one has been silent: the player who had it is still somebody.</summary>
+    [Fact]
+    public void Pass_OfOneWhosePortAnotherGot_GivesItsNumberBack()
+    {
+        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
+        PlayerPass pass = group.Joiner(1).Pass!.Value;
+        group.DropLast();
+        JoinerSession other = group.Join(1, 4242);
+        group.Run(1);
+        JoinerSession former = group.Join(2, 77, new SessionOptions { Pass = pass });
+        group.Run(1);
+        Assert.Equal((2, 1), (other.Peer, former.Peer));
+        Assert.Equal(2, group.Host.JoinerCount);
     }
 
     [Fact]

@@ -50,12 +50,12 @@ public sealed class CongestionControlTests(ITestOutputHelper output)
                     }
                     else
                     {
-                        control.OnLost(bytes, sent, now);
+                        control.OnLost(bytes, sent, now, hasQueue);
                         Assert.InRange(control.Window, 2 * Full, before);
-                        bool mayCut = sent > cut; // once for all that was on its way then
+                        bool mayCut = hasQueue && sent > cut; // once for all that was on its way then
                         int most = (int)Math.Max(2 * Full, (before * 0.7) + 1);
-                        Assert.True(mayCut ? control.Window <= most : control.Window == before);
-                        cut = mayCut ? now : cut;
+                        Assert.True(mayCut ? control.Window <= most : !hasQueue || control.Window == before);
+                        cut = control.Window < before || mayCut ? now : cut;
                     }
                 }
 
@@ -66,6 +66,33 @@ public sealed class CongestionControlTests(ITestOutputHelper output)
                 Assert.Equal(inFlight + Full <= control.Window || inFlight == 0, control.HasRoom);
             }
         }
+    }
+
+    /// <summary>A bad radio link loses a tenth, and no queue shows: that is borne. What loses more is a queue that was full from the start.</summary>
+    [Theory]
+    [InlineData(0.10, true)]
+    [InlineData(0.35, false)]
+    public void Loss_WithoutAQueue_IsBorneUpToAShare(double share, bool isBorne)
+    {
+        CongestionControl control = new();
+        Random random = new(1);
+        SimTime now = SimTime.FromSeconds(1);
+        int first = control.Window;
+        for (int n = 0; n < 400; n++)
+        {
+            now += Trip;
+            control.OnSent(Full);
+            if (random.NextDouble() < share)
+            {
+                control.OnLost(Full, now - (Trip / 2), now, hasQueue: false);
+            }
+            else
+            {
+                control.OnAcknowledged(Full, hasQueue: false);
+            }
+        }
+
+        Assert.Equal(isBorne, control.Window == first);
     }
 
     /// <summary>
@@ -92,7 +119,7 @@ public sealed class CongestionControlTests(ITestOutputHelper output)
                 onTheirWay.Dequeue();
                 if (next.IsLost && backsOff)
                 {
-                    control.OnLost(next.Bytes, next.Sent, now);
+                    control.OnLost(next.Bytes, next.Sent, now, trips.HasQueue);
                 }
                 else
                 {

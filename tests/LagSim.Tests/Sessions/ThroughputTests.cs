@@ -39,7 +39,7 @@ public sealed class ThroughputTests(ITestOutputHelper output)
     }
 
     [Fact]
-    public void Check_OneDatagramOfEntriesInARoundTrip_RefusesMost()
+    public void Check_OneDatagramOfEntriesInARoundTrip_TakesNextToNothing()
     {
         // As if each update began at the first entry that is not acknowledged, and had no other after it.
         SessionGroup group = Group("3g", 2, 2);
@@ -58,7 +58,7 @@ public sealed class ThroughputTests(ITestOutputHelper output)
         Play(group, Push, 490, 1);
         group.Run(10);
         Report("one datagram", group);
-        Assert.True(group.Host.Counters.EventsRefused > 5 * group.Host.Counters.EventsAccepted, $"{group.Host.Counters.EventsRefused} refused");
+        Assert.True(group.Host.Counters.EventsAccepted < Count(490) / 20, $"{group.Host.Counters.EventsAccepted} accepted");
         Assert.True(group.Host.LogLength < Count(490) / 3, $"{group.Host.LogLength} judged");
     }
 
