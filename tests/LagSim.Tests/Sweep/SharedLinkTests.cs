@@ -20,15 +20,15 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
     private const double RateBitsPerSecond = 64_000;
 
     /// <summary>
-    /// Two sessions ask for more than the link carries; the second comes later, as somebody in the same house does. In the median of a dozen seeds the shares are within a factor
-    /// of two; of single seeds that cannot be said (docs/LINKS.md).
+    /// Two sessions ask for more than the link carries; the second comes later, as somebody in the same house does. What comes through to either is within a factor of two; in one run of
+    /// twenty it may be a little more (docs/LINKS.md).
     /// </summary>
     [Theory]
     [InlineData(50, 0.6, 0.6)]
     [InlineData(500, 0.6, 0.6)]
     [InlineData(2000, 0.6, 0.6)]
     [InlineData(500, 0.8, 0.4)]
-    public void TwoSessionsOnOneLink_ShareItInTheMedian(double queueMs, double first, double second)
+    public void TwoSessionsOnOneLink_ShareIt(double queueMs, double first, double second)
     {
         const int seeds = 12;
         List<double> ratios = [];
@@ -44,14 +44,18 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
         output.WriteLine(FormattableString.Invariant(
             $"queue {queueMs} ms, {first} and {second}: the greater share is {ratios[0]:0.0} to {ratios[^1]:0.0} times the other, median {ratios[seeds / 2]:0.0}; {used:P0} of the link used; {ratios.Count(r => r <= 2)} of {seeds} within 2"));
         Assert.InRange(ratios[seeds / 2], 1, 2);
+        Assert.True(ratios.Count(r => r > 2) <= 1 && ratios[^1] < 3);
     }
 
-    /// <summary>Where one never backs off, most of what it sends is lost, and there are no shares to speak of.</summary>
-    [Fact]
-    public void TwoSessionsOnOneLink_OfWhichOneNeverBacksOff_DoNotShareIt()
+    /// <summary>One that never backs off hurts itself: its large datagrams are the ones that a full queue drops.</summary>
+    [Theory]
+    [InlineData(1)]
+    [InlineData(2)]
+    [InlineData(3)]
+    public void TwoSessionsOnOneLink_OfWhichOneNeverBacksOff_DoNotShareIt(ulong seed)
     {
-        (double a, double b) = Share(500, 1.5, 0.75, 2, SessionFault.NeverBacksOff);
-        output.WriteLine(FormattableString.Invariant($"{a:0} and {b:0} bytes of events a second"));
+        (double a, double b) = Share(500, 3, 0.5, seed, SessionFault.NeverBacksOff);
+        output.WriteLine(FormattableString.Invariant($"the one that never backs off gets {a:0} bytes a second, the other {b:0}"));
         Assert.NotInRange(a / b, 0.5, 2);
     }
 
