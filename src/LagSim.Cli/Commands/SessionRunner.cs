@@ -201,9 +201,9 @@ internal sealed class SessionRunner : IDisposable
     /// <summary>Tells, once, of a world that this machine cannot simulate as fast as time passes.</summary>
     private void LookAtPace()
     {
-        if (session.World is not { } world)
+        if (session.World is not { } world || session.State != SessionState.Running)
         {
-            return; // and there is no shared time yet either
+            return; // there is no shared time yet, or the world waits for a host that is silent
         }
 
         SimTime now = session.SharedTime.Now;

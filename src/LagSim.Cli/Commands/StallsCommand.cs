@@ -47,6 +47,11 @@ internal static class StallsCommand
                     $"--processes is '{again}'; processes are stopped by signals, which this system does not have: it takes 0 here.");
             }
 
+            if (again > options.Sessions)
+            {
+                throw new UsageException(FormattableString.Invariant($"--processes is '{again}'; of {options.Sessions} sessions it takes 0 to {options.Sessions}."));
+            }
+
             return Run(console, change?.Invoke(options) ?? options, parsed.GetValue(worst), again, tool, parsed.GetValue(common.Json));
         });
         return command;
@@ -74,13 +79,19 @@ internal static class StallsCommand
         StallOutcome[] ranked = [.. outcomes.OrderBy(o => o.IsGood).ThenByDescending(o => o.WorstSeconds).ThenBy(o => o.Case.Seed)];
         bool isStopped = outcomes.Count < options.Sessions;
         IReadOnlyList<StallProcessOutcome> played = again == 0 || isStopped ? [] : PlayAgain(console, [.. ranked.Take(again)], tool ?? ThisTool());
+        int notPlayed = options.Sessions - outcomes.Count, notPlayedAgain = again - played.Count;
         if (json)
         {
-            StallsJson.Write(console.Output, options, outcomes, [.. ranked.Take(worst)], played);
+            StallsJson.Write(console.Output, options, outcomes, [.. ranked.Take(worst)], played, notPlayed > 0 || notPlayedAgain > 0);
         }
         else
         {
             StallsText.Write(console.Output, outcomes, [.. ranked.Take(worst)], played);
+            if (notPlayed > 0 || notPlayedAgain > 0)
+            {
+                console.Output.WriteLine(FormattableString.Invariant(
+                    $"stopped early: {outcomes.Count} of {options.Sessions} sessions played, and {played.Count} of {again} with processes"));
+            }
         }
 
         return outcomes.All(o => o.IsGood) && played.All(o => o.IsGood)

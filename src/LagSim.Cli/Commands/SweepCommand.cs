@@ -79,6 +79,11 @@ internal static class SweepCommand
                 },
                 console.Stop));
         bool isStopped = outcomes.Count < count;
+        if (outcomes.Count == 0)
+        {
+            console.Stop.ThrowIfCancellationRequested(); // there is nothing to tell
+        }
+
         if (folder is not null && outcomes.Count > 0)
         {
             SweepFiles.Write(folder, options, outcomes, beside);
@@ -90,11 +95,10 @@ internal static class SweepCommand
         }
         else
         {
-            SweepTables.Write(console, outcomes, folder);
+            SweepTables.Write(console, outcomes, folder, count);
         }
 
-        console.Stop.ThrowIfCancellationRequested();
-        return outcomes.All(outcome => outcome.IsGood) ? ExitCode.Done : ExitCode.CheckFailed;
+        return !outcomes.All(outcome => outcome.IsGood) ? ExitCode.CheckFailed : isStopped ? ExitCode.Interrupted : ExitCode.Done;
     }
 
     /// <summary>The numbers that were given, or the default.</summary>

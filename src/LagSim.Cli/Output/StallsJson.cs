@@ -15,7 +15,8 @@ internal static class StallsJson
         StallOptions options,
         IReadOnlyList<StallOutcome> outcomes,
         IReadOnlyList<StallOutcome> worst,
-        IReadOnlyList<StallProcessOutcome> played) => JsonDocumentWriter.Write(output, "stalls", options.Seed, null, null, null, json =>
+        IReadOnlyList<StallProcessOutcome> played,
+        bool isStopped) => JsonDocumentWriter.Write(output, "stalls", options.Seed, null, null, null, json =>
         {
             Percentiles recovery = Percentiles.Of(outcomes.SelectMany(o => o.RecoverySeconds));
             json.WriteNumber("sessions", outcomes.Count);
@@ -63,7 +64,7 @@ internal static class StallsJson
             }
 
             json.WriteEndArray();
-            json.WriteBoolean("stopped_early", outcomes.Count < options.Sessions);
+            json.WriteBoolean("stopped_early", isStopped);
             json.WriteNumber("events_refused", outcomes.Sum(o => o.Refused));
             json.WriteNumber("events_refused_too_late", outcomes.Sum(o => o.RefusedTooLate));
         });

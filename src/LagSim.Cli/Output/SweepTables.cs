@@ -24,7 +24,7 @@ internal static class SweepTables
     /// <summary>What stands between two columns, and at both edges.</summary>
     private const int Gap = 2;
 
-    internal static void Write(ToolConsole console, IReadOnlyList<SweepOutcome> outcomes, string? folder)
+    internal static void Write(ToolConsole console, IReadOnlyList<SweepOutcome> outcomes, string? folder, int? count = null)
     {
         string[][] rows = [.. outcomes.Select(Cells)];
         foreach (int[] columns in Parts(console, rows))
@@ -35,6 +35,11 @@ internal static class SweepTables
         foreach (string line in Footnotes(outcomes))
         {
             console.Output.WriteLine(line);
+        }
+
+        if (outcomes.Count < count)
+        {
+            console.Output.WriteLine(FormattableString.Invariant($"stopped early: {outcomes.Count} of {count} cells played"));
         }
 
         if (folder is not null)

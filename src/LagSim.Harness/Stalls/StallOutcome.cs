@@ -43,5 +43,5 @@ public sealed record StallOutcome
     public double WorstSeconds => RecoverySeconds.DefaultIfEmpty(0).Max();
 
     /// <summary>Whether all is as it should be.</summary>
-    public bool IsGood => Failures.Count == 0 && Differed == 0 && Lost == 0;
+    public bool IsGood => Failures.Count == 0 && Compared > 0 && Differed == 0 && Lost == 0;
 }

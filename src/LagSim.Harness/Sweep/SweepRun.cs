@@ -176,11 +176,16 @@ internal sealed class SweepRun
     {
         long lost = 0;
         double share = 1;
-        foreach (Client client in clients.Where(c => c.Session.State != SessionState.Ended))
+        foreach (Client client in clients)
         {
             lost += client.Coverage.CountLost(accepted);
+            if (client.Session.State == SessionState.Ended)
+            {
+                continue; // what came after its end it was never to have
+            }
+
             lost += client.Session.LogLength < host.LogLength ? host.LogLength - client.Session.LogLength : 0;
-            share = Math.Min(share, committed.Count == 0 ? 1 : client.Session.Counters.StatesAgreed / (double)committed.Count);
+            share = Math.Min(share, committed.Count == 0 ? 0 : client.Session.Counters.StatesAgreed / (double)committed.Count);
         }
 
         Client[] ended = [.. clients.Where(c => c.Session.State == SessionState.Ended && c.Session.EndedBy != SessionEnd.LinkTooSlow)];

@@ -113,7 +113,7 @@ public sealed partial class HostSession
         byte own = claimed?.Number ?? 0;
         return joiners.Count(j => j.Peer > 0 && j.Peer != own && j.Link.Other != address && j.Link.Other.IsSameMachine(address)) >= Options.MaxJoinersPerAddress
                 ? RefusalReason.TooManyFromOneAddress
-            : own == 0 && places.Free(now, 0) == 0 && !joiners.Exists(j => j.Peer > 0 && j.Link.Other == address) ? RefusalReason.Full
+            : own == 0 && places.Free(now, 0, address.Machine) == 0 && !joiners.Exists(j => j.Peer > 0 && j.Link.Other == address) ? RefusalReason.Full
             : null;
     }
 
@@ -148,7 +148,8 @@ public sealed partial class HostSession
             coming.Remove(joiner);
         }
 
-        static Joiner OldestOf(List<Joiner> some) => some.GroupBy(j => j.Link.Other.Machine).OrderByDescending(machine => machine.Count()).First().First();
+        Joiner OldestOf(List<Joiner> some) => some.GroupBy(j => j.Link.Other.Machine)
+            .OrderByDescending(machine => machine.Count() + (machine.Key == from.Machine ? 1 : 0)).First().First();
     }
 
     /// <summary>Gives one that has its copy and its clock a number, and tells it; false if there is none, and it was told so.</summary>
@@ -164,7 +165,7 @@ public sealed partial class HostSession
             return false;
         }
 
-        place ??= places[places.Free(now, joiner.Wanted)];
+        place ??= places[places.Free(now, joiner.Wanted, joiner.Link.Other.Machine)];
 
         if (joiners.Find(j => j.Peer == place.Number) is Joiner before)
         {
@@ -173,7 +174,7 @@ public sealed partial class HostSession
         }
 
         joiner.Sit(place);
-        place.Take(isSamePlayer: claimed == place);
+        place.Take(isSamePlayer: claimed == place, joiner.Link.Other.Machine);
         GiveSeat(joiner);
         JoinerCame?.Invoke(joiner.Link.Traffic);
         return true;

@@ -1,4 +1,5 @@
 using System.Security.Cryptography;
+using LagSim.Net.Carriers;
 using LagSim.Net.Wire;
 using LagSim.Time;
 
@@ -42,13 +43,32 @@ internal sealed class PlayerPlaces
     /// The number that whoever is to get it says it had; 0 for none. A host that was ended and started again knows no pass that it gave before, so for as long
     /// as a number is kept it gives that one, if it is free: who comes back is who it was, though it shows nothing. Where that must be sure players have keys.
     /// </param>
-    internal byte Free(SimTime now, byte wanted)
+    /// <param name="machine">
+    /// Where whoever is to get it comes from. One machine has, and has kept for it, no more numbers than one may have: then it gets the one that has been kept the longest of its own, so
+    /// that coming again and again takes nobody else's.
+    /// </param>
+    internal byte Free(SimTime now, byte wanted, PeerAddress machine)
     {
-        Place? kept = null;
+        Place? kept = null, own = null;
+        int ofOne = 0;
         if (wanted is > 0 and <= SessionOptions.MaxJoiners && now - began <= options.RejoinTime && places[wanted] is { IsTaken: false, Pass: null }
             && !options.PlayerKeys.ContainsKey(wanted))
         {
             return wanted;
+        }
+
+        foreach (Place place in places)
+        {
+            if (place?.Machine is PeerAddress its && its == machine && (place.IsTaken || place.IsKept(now, options.RejoinTime)))
+            {
+                ofOne++;
+                own = place.IsTaken || (own is not null && own.LeftAt <= place.LeftAt) ? own : place;
+            }
+        }
+
+        if (ofOne >= options.MaxJoinersPerAddress && own is not null)
+        {
+            return own.Number;
         }
 
         for (byte number = 1; number < places.Length; number++)
@@ -59,12 +79,12 @@ internal sealed class PlayerPlaces
                 continue;
             }
 
-            if (place.Pass is null || place.LeftAt is not SimTime left || now - left > options.RejoinTime)
+            if (!place.IsKept(now, options.RejoinTime))
             {
                 return number;
             }
 
-            kept = kept is null || left < kept.LeftAt ? place : kept;
+            kept = kept is null || place.LeftAt < kept.LeftAt ? place : kept;
         }
 
         return kept?.Number ?? 0;
@@ -110,10 +130,17 @@ internal sealed class PlayerPlaces
         /// <summary>The secret of its player; null if it has none.</summary>
         internal Token128? Pass { get; private set; }
 
+        /// <summary>Where its player is, or was; null if nobody had it.</summary>
+        internal PeerAddress? Machine { get; private set; }
+
+        /// <summary>Whether it is kept for a player that fell silent.</summary>
+        internal bool IsKept(SimTime now, SimDuration time) => !IsTaken && Pass is not null && LeftAt is SimTime left && now - left <= time;
+
         /// <summary>Gives it to the player who has its pass, or to a new one, who gets another.</summary>
-        internal void Take(bool isSamePlayer)
+        internal void Take(bool isSamePlayer, PeerAddress machine)
         {
             IsTaken = true;
+            Machine = machine;
             LeftAt = null;
             if (!isSamePlayer || Pass is null)
             {

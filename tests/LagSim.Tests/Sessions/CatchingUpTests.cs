@@ -14,10 +14,10 @@ public sealed class CatchingUpTests
     [InlineData(9, 0, null)] // is behind, and not too far
     [InlineData(60, -0.2, null)] // came in with a large copy
     [InlineData(60, -0.11, null)]
-    [InlineData(60, -0.09, 10.01)] // too slowly
-    [InlineData(60, 0, 10.01)]
+    [InlineData(60, -0.09, 20.0)] // too slowly
+    [InlineData(60, 0, 20.0)]
     [InlineData(0, 1, 10.01)] // hears nothing of what happens
-    [InlineData(5, 0.5, 10.01)]
+    [InlineData(5, 0.5, 10.01)] // was never far behind before
     public void Lag_OfOneWho(double lag, double perSecond, double? failsAfter)
     {
         CatchingUp catching = new();
@@ -31,6 +31,25 @@ public sealed class CatchingUpTests
 
         Assert.Equal(failsAfter is null, failed is null);
         Assert.Equal(failsAfter ?? 0, failed ?? 0, 0.02);
+    }
+
+    /// <summary>One that catches up, and hears nothing for five seconds of every thirty.</summary>
+    [Theory]
+    [InlineData(1, false)]
+    [InlineData(0.6, false)]
+    [InlineData(0.1, true)] // comes nearer no more
+    public void Lag_WithDips_IsMadeGoodInBetween(double perSecond, bool fails)
+    {
+        CatchingUp catching = new();
+        double lag = 60;
+        bool failed = false;
+        for (int n = 0; n < 12_000 && !failed; n++)
+        {
+            lag = System.Math.Max(0, lag + (n % 3000 >= 2500 ? 0.01 : -0.01 * perSecond));
+            failed = lag > 0.1 && catching.HasFailed(SimDuration.FromSeconds(lag), SimTime.FromSeconds(n * 0.01), SimDuration.FromSeconds(Limit));
+        }
+
+        Assert.Equal(fails, failed);
     }
 
     /// <summary>Acknowledgements come in bursts, and in between everybody falls behind a little.</summary>

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Time;
@@ -21,7 +22,7 @@ public sealed class PlayerPlacesTests
             Random random = new(seed);
             byte keyed = (byte)random.Next(0, 9);
             Dictionary<byte, string> keys = keyed == 0 ? [] : new() { [keyed] = "key" };
-            SessionOptions options = new() { RejoinTime = Kept, PlayerKeys = keys };
+            SessionOptions options = new() { RejoinTime = Kept, PlayerKeys = keys, MaxJoinersPerAddress = SessionOptions.MaxJoiners };
             SimTime now = SimTime.FromSeconds(100);
             PlayerPlaces places = new(options, now);
             Dictionary<byte, SimTime?> left = []; // of those that nobody has: since when kept, or null
@@ -33,11 +34,11 @@ public sealed class PlayerPlacesTests
                 byte[] free = [.. numbers.Where(n => !taken.Contains(n) && n != keyed)];
                 byte[] unkept = [.. free.Where(n => left.GetValueOrDefault(n) is not SimTime since || now - since > Kept)];
                 byte expected = unkept.Length > 0 ? unkept.Min() : free.OrderBy(n => left[n]).FirstOrDefault();
-                Assert.Equal(expected, places.Free(now, 0));
+                Assert.Equal(expected, places.Free(now, 0, default));
                 if (expected > 0 && random.Next(2) == 0)
                 {
                     Token128? before = places[expected].Pass;
-                    places[expected].Take(isSamePlayer: false);
+                    places[expected].Take(isSamePlayer: false, default);
                     Assert.True(places[expected].IsTaken && places[expected].Pass is not null && places[expected].Pass != before);
                     taken.Add(expected);
                 }
@@ -62,7 +63,7 @@ public sealed class PlayerPlacesTests
     public void Claimed_OnlyWithTheProofOfItsPass_OverThatNonceAndCookie()
     {
         PlayerPlaces places = new(new SessionOptions(), SimTime.Zero);
-        places[3].Take(isSamePlayer: false);
+        places[3].Take(isSamePlayer: false, default);
         Token128 pass = places[3].Pass!.Value, cookie = new(5, 6), other = new(pass.First ^ 1, pass.Second);
         Assert.Same(places[3], places.Claimed(Join(3, JoinCookies.Prove(pass, 7, cookie)), 0));
         Assert.Null(places.Claimed(Join(3, JoinCookies.Prove(other, 7, cookie)), 0));
@@ -75,9 +76,9 @@ public sealed class PlayerPlacesTests
         Assert.Null(places.Claimed(Join(255, JoinCookies.Prove(pass, 7, cookie)), 0));
         places[3].Leave(isKept: true, 1, LeaveReason.TimedOut, SimTime.Zero);
         Assert.Same(places[3], places.Claimed(Join(3, JoinCookies.Prove(pass, 7, cookie)), 0));
-        places[3].Take(isSamePlayer: true);
+        places[3].Take(isSamePlayer: true, default);
         Assert.Equal(pass, places[3].Pass);
-        places[3].Take(isSamePlayer: false);
+        places[3].Take(isSamePlayer: false, default);
         Assert.Null(places.Claimed(Join(3, JoinCookies.Prove(pass, 7, cookie)), 0));
 
         JoinDatagram Join(byte player, Token128 proof) => new(7, cookie, default, 0, 0, player, proof);
@@ -87,7 +88,7 @@ public sealed class PlayerPlacesTests
     public void Claimed_NumberWithAKey_OpensToNoPassAlone()
     {
         PlayerPlaces places = new(new SessionOptions { PlayerKeys = new Dictionary<byte, string> { [3] = "three" } }, SimTime.Zero);
-        places[3].Take(isSamePlayer: false);
+        places[3].Take(isSamePlayer: false, default);
         Token128 cookie = new(5, 6);
         JoinDatagram join = new(7, cookie, default, 0, 0, 3, JoinCookies.Prove(places[3].Pass!.Value, 7, cookie));
         Assert.Null(places.Claimed(join, 0)); // whoever heard the pass has not the key
@@ -100,6 +101,30 @@ public sealed class PlayerPlacesTests
     {
         PlayerPlaces places = new(new SessionOptions(), SimTime.Zero);
         places[1].LastSequence = uint.MaxValue;
-        Assert.Equal(2, places.Free(SimTime.Zero, 0));
+        Assert.Equal(2, places.Free(SimTime.Zero, 0, default));
+    }
+
+    /// <summary>Whoever comes again and again from one machine, each time as somebody else, uses up its own numbers, and not that of one who stands still meanwhile.</summary>
+    [Theory]
+    [InlineData(4, true)]
+    [InlineData(SessionOptions.MaxJoiners, false)] // the limit taken away
+    public void Free_OneMachineThatComesAgainAndAgain_TakesNobodyElsesNumber(int perAddress, bool isLeft)
+    {
+        SessionOptions options = new() { RejoinTime = Kept, MaxJoinersPerAddress = perAddress };
+        SimTime now = SimTime.FromSeconds(100);
+        PlayerPlaces places = new(options, now);
+        PeerAddress honest = PeerAddress.Virtual(1).Machine, greedy = PeerAddress.Virtual(2).Machine;
+        places[1].Take(isSamePlayer: false, honest);
+        Token128? pass = places[1].Pass;
+        places[1].Leave(isKept: true, 1, LeaveReason.TimedOut, now);
+        for (int n = 0; n < 20; n++)
+        {
+            now += SimDuration.FromMilliseconds(20);
+            byte number = places.Free(now, 0, greedy);
+            places[number].Take(isSamePlayer: false, greedy);
+            places[number].Leave(isKept: true, 2, LeaveReason.TimedOut, now);
+        }
+
+        Assert.Equal(isLeft, places[1].Pass == pass);
     }
 }
