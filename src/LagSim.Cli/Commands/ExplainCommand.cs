@@ -12,7 +12,7 @@ internal static class ExplainCommand
     {
         CommonOptions common = new();
         Argument<string> scene = new("SCENE") { Description = CommonOptions.SceneText };
-        Command command = new("explain", "Explains what is modelled for a scene, what is not, and why.") { scene };
+        Command command = new("explain", "Explains what LagSim models in a scene, what it leaves out, and why.") { scene };
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {

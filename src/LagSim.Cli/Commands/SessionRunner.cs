@@ -382,8 +382,8 @@ internal sealed class SessionRunner : IDisposable
     }
 
     /// <summary>
-    /// Gives up the verdicts that were still to come: the host's log begins anew for this peer, and so may the numbers of its events, so that a verdict by that
-    /// number would be on another one.
+    /// Stops waiting for the verdicts that had not come yet. With a fresh copy the numbers of this peer's events may start again, so a later verdict on one of these
+    /// numbers would be about another event.
     /// </summary>
     private void OnRenewed(byte player)
     {

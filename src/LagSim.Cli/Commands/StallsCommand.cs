@@ -34,8 +34,8 @@ internal static class StallsCommand
             "stalls",
             "Plays randomly drawn sessions, in virtual time, in which the host or clients freeze for 1 to 60 s, are killed and restarted, or change"
                 + " ports every 10 s."
-                + " Exits with 0 if play goes on in all of them: no accepted event is lost, no state differs, whoever was away comes back without help as"
-                + " the same player, and nobody else is interrupted.") { sessions, worst, processes };
+                + " Exits with 0 if play goes on in all of them: no accepted event is lost, no state differs, every client that was away comes back without"
+                + " help as the same player, and no other is interrupted.") { sessions, worst, processes };
         common.AddSeedAndJsonTo(command);
         command.SetAction(parsed =>
         {
@@ -77,17 +77,16 @@ internal static class StallsCommand
                 },
                 console.Stop));
         StallOutcome[] ranked = [.. outcomes.OrderBy(o => o.IsGood).ThenByDescending(o => o.WorstSeconds).ThenBy(o => o.Case.Seed)];
-        bool isStopped = outcomes.Count < options.Sessions;
-        IReadOnlyList<StallProcessOutcome> played = again == 0 || isStopped ? [] : PlayAgain(console, [.. ranked.Take(again)], tool ?? ThisTool());
-        int notPlayed = options.Sessions - outcomes.Count, notPlayedAgain = again - played.Count;
+        IReadOnlyList<StallProcessOutcome> played = again == 0 || outcomes.Count < options.Sessions ? [] : PlayAgain(console, [.. ranked.Take(again)], tool ?? ThisTool());
+        bool isStopped = outcomes.Count < options.Sessions || played.Count < again;
         if (json)
         {
-            StallsJson.Write(console.Output, options, outcomes, [.. ranked.Take(worst)], played, notPlayed > 0 || notPlayedAgain > 0);
+            StallsJson.Write(console.Output, options, outcomes, [.. ranked.Take(worst)], played, isStopped);
         }
         else
         {
             StallsText.Write(console.Output, outcomes, [.. ranked.Take(worst)], played);
-            if (notPlayed > 0 || notPlayedAgain > 0)
+            if (isStopped)
             {
                 console.Output.WriteLine(FormattableString.Invariant(
                     $"stopped early: {outcomes.Count} of {options.Sessions} sessions played, and {played.Count} of {again} with processes"));

@@ -24,7 +24,7 @@ internal static class SweepTables
     /// <summary>What stands between two columns, and at both edges.</summary>
     private const int Gap = 2;
 
-    internal static void Write(ToolConsole console, IReadOnlyList<SweepOutcome> outcomes, string? folder, int? count = null)
+    internal static void Write(ToolConsole console, IReadOnlyList<SweepOutcome> outcomes, string? folder, int count)
     {
         string[][] rows = [.. outcomes.Select(Cells)];
         foreach (int[] columns in Parts(console, rows))

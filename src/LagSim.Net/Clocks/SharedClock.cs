@@ -6,8 +6,8 @@ namespace LagSim.Net.Clocks;
 /// <summary>The session's time, made from one's own clock: set at the start of a world, from then on bent gently towards each newer estimate.</summary>
 /// <remarks>
 /// <para>While a world lasts it never steps and never goes back, as long as one's own clock does not. Where a session goes on with a fresh copy of the world
-/// (<see cref="Sessions.Session.Renewed"/>), it is set anew, and steps once, forwards or back, to the estimate of the copy's host. It runs with the drift of the newest estimate, so that it stays right
-/// between two of them; on top of that at most 0.5 % fast or slow, or 5 % while it is more than <see cref="FastAbove"/> off.</para>
+/// (<see cref="Sessions.Session.Renewed"/>), it steps once, forwards or back, to the time of the copy's host. It runs with the drift of the newest estimate, so that
+/// it stays right between two of them; on top of that at most 0.5 % fast or slow, or 5 % while it is more than <see cref="FastAbove"/> off.</para>
 /// <para>How it runs does not depend on how often it is read, but for one tick a reading. Integers only; may be used from any thread.</para>
 /// </remarks>
 public sealed class SharedClock : IClock

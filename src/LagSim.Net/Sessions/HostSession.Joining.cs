@@ -24,7 +24,7 @@ public sealed partial class HostSession
     private readonly CopyPaces paces;
     private readonly JoinCookies cookies;
     private readonly byte[] sceneCopy;
-    private Copy? newestCopy;
+    private JoinCopy? newestCopy;
     private SimTime settledTo = SimTime.MinValue;
 
     private protected override void OnOtherVersion(ReadOnlySpan<byte> datagram, PeerAddress from)
@@ -67,7 +67,7 @@ public sealed partial class HostSession
                 return;
             }
 
-            Copy? made;
+            JoinCopy? made;
             try
             {
                 made = CopyFor(now);
@@ -92,7 +92,7 @@ public sealed partial class HostSession
             joiners.Add(known);
         }
 
-        if (known.Copy is Copy copy)
+        if (known.Copy is JoinCopy copy)
         {
             Span<byte> bytes = stackalloc byte[WireFormat.WelcomeBytes];
             WelcomeDatagram welcome = new(nonce, known.Link.SessionId, Options.Window.History, copy.Bytes.Length, copy.Hash, copy.LogIndex);
@@ -121,8 +121,8 @@ public sealed partial class HostSession
     /// Lets go of the oldest of those that are coming in, of the machine with the most: while there are too many, or their copies take too much memory.
     /// </summary>
     /// <param name="from">Who comes.</param>
-    /// <param name="made">What it is to fetch; whoever fetches the same is in nobody's way.</param>
-    private void MakeRoom(PeerAddress from, Copy made)
+    /// <param name="made">What it is to fetch. Others who fetch the same copy take no more memory for it.</param>
+    private void MakeRoom(PeerAddress from, JoinCopy made)
     {
         List<Joiner> coming = joiners.FindAll(j => j.Peer == 0); // the oldest first
         List<Joiner> ofOne = coming.FindAll(j => j.Link.Other.IsSameMachine(from));
@@ -266,7 +266,7 @@ public sealed partial class HostSession
     /// What someone who joins now has to fetch: the scene, and once what is committed lies past the start the state then. Null while the
     /// world is behind what it had committed to.
     /// </summary>
-    private Copy? CopyFor(SimTime now)
+    private JoinCopy? CopyFor(SimTime now)
     {
         ForgetCopies(now);
         if (newestCopy is null)
@@ -280,7 +280,7 @@ public sealed partial class HostSession
                 return null;
             }
 
-            newestCopy = new Copy(hasState ? WorldCopy.Encode(Scene!, world!.Snapshot(settledTo)) : sceneCopy, log.Settled, now);
+            newestCopy = new JoinCopy(hasState ? WorldCopy.Encode(Scene!, world!.Snapshot(settledTo)) : sceneCopy, log.Settled, now);
         }
 
         return newestCopy;
@@ -301,25 +301,5 @@ public sealed partial class HostSession
         {
             joiner.Copy = joiner.IsReady ? null : joiner.Copy;
         }
-    }
-
-    private sealed class Copy
-    {
-        internal Copy(byte[] bytes, uint logIndex, SimTime made)
-        {
-            Bytes = bytes;
-            Hash = CopyFetch.HashOf(bytes);
-            LogIndex = logIndex;
-            Made = made;
-        }
-
-        internal byte[] Bytes { get; }
-
-        internal ulong Hash { get; }
-
-        /// <summary>How many entries of the log are in it, or can be left out for another reason.</summary>
-        internal uint LogIndex { get; }
-
-        internal SimTime Made { get; }
     }
 }

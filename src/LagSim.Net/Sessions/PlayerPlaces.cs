@@ -1,3 +1,5 @@
+using System.Collections.Generic;
+using System.Linq;
 using System.Security.Cryptography;
 using LagSim.Net.Carriers;
 using LagSim.Net.Wire;
@@ -44,50 +46,26 @@ internal sealed class PlayerPlaces
     /// as a number is kept it gives that one, if it is free: who comes back is who it was, though it shows nothing. Where that must be sure players have keys.
     /// </param>
     /// <param name="machine">
-    /// Where whoever is to get it comes from. One machine has, and has kept for it, no more numbers than one may have: then it gets the one that has been kept the longest of its own, so
-    /// that coming again and again takes nobody else's.
+    /// Where whoever is to get it comes from. A machine whose players have, or have kept for them, as many numbers as one machine may have, gets one of those that
+    /// are kept for it: coming again and again takes nobody else's.
     /// </param>
     internal byte Free(SimTime now, byte wanted, PeerAddress machine)
     {
-        Place? kept = null, own = null;
-        int ofOne = 0;
         if (wanted is > 0 and <= SessionOptions.MaxJoiners && now - began <= options.RejoinTime && places[wanted] is { IsTaken: false, Pass: null }
             && !options.PlayerKeys.ContainsKey(wanted))
         {
             return wanted;
         }
 
-        foreach (Place place in places)
-        {
-            if (place?.Machine is PeerAddress its && its == machine && (place.IsTaken || place.IsKept(now, options.RejoinTime)))
-            {
-                ofOne++;
-                own = place.IsTaken || (own is not null && own.LeftAt <= place.LeftAt) ? own : place;
-            }
-        }
-
-        if (ofOne >= options.MaxJoinersPerAddress && own is not null)
-        {
-            return own.Number;
-        }
-
-        for (byte number = 1; number < places.Length; number++)
-        {
-            Place place = places[number];
-            if (place.IsTaken || options.PlayerKeys.ContainsKey(number) || place.LastSequence == uint.MaxValue)
-            {
-                continue;
-            }
-
-            if (!place.IsKept(now, options.RejoinTime))
-            {
-                return number;
-            }
-
-            kept = kept is null || place.LeftAt < kept.LeftAt ? place : kept;
-        }
-
-        return kept?.Number ?? 0;
+        bool IsKept(Place place) => place.IsKept(now, options.RejoinTime);
+        List<Place> free = places.Skip(1)
+            .Where(place => !place.IsTaken && !options.PlayerKeys.ContainsKey(place.Number) && place.LastSequence != uint.MaxValue)
+            .ToList();
+        List<Place> keptHere = free.FindAll(place => place.Machine == machine && IsKept(place));
+        bool hasEnough = places.Skip(1).Count(place => place.Machine == machine && (place.IsTaken || IsKept(place))) >= options.MaxJoinersPerAddress;
+        List<Place> choice = hasEnough && keptHere.Count > 0 ? keptHere : free;
+        Place? chosen = choice.Find(place => !IsKept(place)) ?? choice.OrderBy(place => place.LeftAt).FirstOrDefault();
+        return chosen?.Number ?? 0;
     }
 
     /// <summary>Why the one that had that link was let go, if that was not long ago; else that there is none.</summary>

@@ -19,7 +19,7 @@ internal sealed class SendWindow
     internal const int MaxDatagramsAtOnce = 4;
 
     /// <summary>What the entries of one update take at most, in bytes.</summary>
-    internal const int Room = WireFormat.MaxBytes - WireFormat.EmptyUpdateBytes - WireFormat.MostHashBytes - WireFormat.StartBytes;
+    private const int Room = WireFormat.MaxBytes - WireFormat.EmptyUpdateBytes - WireFormat.MostHashBytes - WireFormat.StartBytes;
 
     private readonly List<(uint First, uint Last)> lost = new(); // ascending, apart, above what is acknowledged
     private uint sent;
@@ -127,7 +127,7 @@ internal sealed class SendWindow
     /// <param name="own">How many bytes an update has beside its entries, UDP and IP included.</param>
     /// <param name="room">How many bytes its entries may take; one always goes.</param>
     /// <returns>How many were.</returns>
-    internal int Fill(UpdateDatagram update, IEntrySource source, int repetition, int own, int room = Room)
+    internal int Fill(UpdateDatagram update, IEntrySource source, int repetition, int own, int room)
     {
         uint last = LastOf(source);
         (uint first, uint end) = lost.Count > 0 ? lost[0] : (sent + 1, last);

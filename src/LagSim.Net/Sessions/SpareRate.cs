@@ -7,7 +7,8 @@ namespace LagSim.Net.Sessions;
 /// <remarks>
 /// A token bucket of one datagram. Its rate grows by a twelfth each tenth of a second, or round trip, while it is used up and no queue shows, and is cut to 0.7 when one
 /// does; while one does only the least flows in. So the links of several sessions find their shares, and what could be left out keeps no queue standing. Where nothing
-/// is answered any more it goes on at the rate it had for a while, for a link that loses many datagrams in a row is lost for longer the fewer are sent, then at less and less.
+/// is answered any more it goes on at the rate it had for a while, since a link that loses many datagrams in a row is lost for longer the fewer are sent; then the
+/// rate is halved step by step.
 /// </remarks>
 internal sealed class SpareRate
 {

@@ -354,8 +354,8 @@ internal sealed class UpdateLink
     private SimTime AnswerDue(SimTime now) => sent.TryPeekOldest(out SimTime at) ? at + (Patience * (1L << Doublings(now))) : SimTime.MaxValue;
 
     /// <summary>
-    /// How often what is not answered is sent half as often: where there is a queue on the way each time that an answer was overdue. Where there is none a link that loses several in a row
-    /// is lost for longer the fewer are sent, so it is after eight times as long as an answer takes, then after twice that, and so on: nobody may be there.
+    /// How many times the wait for an answer has doubled. Where there is a queue it doubles each time that an answer was overdue. Where there is none it first does
+    /// after eight times the wait, since a link that loses several datagrams in a row is lost for longer the fewer are sent; by then nobody may be there.
     /// </summary>
     private int Doublings(SimTime now)
     {

@@ -71,7 +71,7 @@ public sealed class NarrowTerminalTests
         using StringWriter output = new(), error = new();
         ToolConsole console = new(output, error, TestContext.Current.CancellationToken);
         console.Rich.Profile.Width = width;
-        SweepTables.Write(console, outcomes, null);
+        SweepTables.Write(console, outcomes, null, outcomes.Length);
         string[] lines = [.. output.ToString().Split('\n').TakeWhile(line => !line.StartsWith("Offered", StringComparison.Ordinal))];
         Assert.All(lines, line => Assert.True(line.TrimEnd().Length <= width, line));
         string[] words = string.Join(' ', lines).Split(' ', StringSplitOptions.RemoveEmptyEntries);

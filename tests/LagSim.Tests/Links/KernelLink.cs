@@ -111,7 +111,7 @@ internal static class KernelLink
                 passages[number] = passages[number] with { Arrived = at };
             }
 
-            Thread.Sleep(1);
+            receiver.Poll(1_000, SelectMode.SelectRead); // until something comes, a millisecond at most
         }
 
         return passages;

@@ -38,6 +38,9 @@ internal sealed class Intruder
     /// <summary>The number that it was given; 0 while it has none.</summary>
     internal byte Peer { get; private set; }
 
+    /// <summary>How long the copy is that it was welcomed to last.</summary>
+    internal int CopyBytes { get; private set; }
+
     internal long BytesIn { get; private set; }
 
     internal long BytesOut { get; private set; }
@@ -90,7 +93,7 @@ internal sealed class Intruder
             }
             else if (WelcomeDatagram.TryDecode(datagram, out WelcomeDatagram welcome, out _))
             {
-                (SessionId, Peer, number, fetches) = (welcome.SessionId, 0, 0, 0);
+                (SessionId, Peer, number, fetches, CopyBytes) = (welcome.SessionId, 0, 0, 0, welcome.CopyLength);
                 if (sits)
                 {
                     Update(isReady: true);

@@ -127,4 +127,16 @@ public sealed class PlayerPlacesTests
 
         Assert.Equal(isLeft, places[1].Pass == pass);
     }
+
+    /// <summary>However many its machine has, a number with a key goes to nobody without it.</summary>
+    [Fact]
+    public void Free_NumberWithAKey_IsNotGivenToItsMachineEither()
+    {
+        PeerAddress machine = PeerAddress.Virtual(1).Machine;
+        SessionOptions options = new() { MaxJoinersPerAddress = 1, RejoinTime = Kept, PlayerKeys = new Dictionary<byte, string> { [3] = "three" } };
+        PlayerPlaces places = new(options, SimTime.Zero);
+        places[3].Take(isSamePlayer: false, machine);
+        places[3].Leave(isKept: true, 1, LeaveReason.TimedOut, SimTime.Zero);
+        Assert.Equal(1, places.Free(SimTime.Zero, 0, machine));
+    }
 }

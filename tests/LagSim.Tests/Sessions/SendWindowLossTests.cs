@@ -62,7 +62,7 @@ public sealed class SendWindowLossTests
             if (window.HasNeeded(entries) || random.Next(4) == 0)
             {
                 update.Clear();
-                window.Fill(update, entries, hasComfort && random.Next(3) == 0 ? random.Next(1000) : 0, 100);
+                window.Fill(update, entries, hasComfort && random.Next(3) == 0 ? random.Next(1000) : 0, 100, random.Next(-50, 1500));
                 (uint first, uint last) = (update.FirstIndex, update.FirstIndex + (uint)update.Held.Length - 1);
                 Lose(sent.Add(++number, now, 100, first, last));
                 if (random.NextDouble() >= loss)

@@ -13,6 +13,7 @@ namespace LagSim.Tests.Sessions;
 public sealed class SendWindowTests
 {
     private const uint Many = 10_000;
+    private const int Wide = 2000; // more than fits
     private const int Own = 100;
 
     private readonly UpdateDatagram update = new();
@@ -57,10 +58,10 @@ public sealed class SendWindowTests
         Assert.Equal((1u, 10u), Next(window, entries, 0));
         entries.Last = 11;
         update.Clear();
-        Assert.Equal(15, window.Fill(update, entries, 16, Own));
+        Assert.Equal(15, window.Fill(update, entries, 16, Own, Wide));
         Assert.Equal((8u, 11u), Carried());
         update.Clear();
-        Assert.Equal(Own + 20, window.Fill(update, entries, Own + 24, Own)); // nothing new: the oldest
+        Assert.Equal(Own + 20, window.Fill(update, entries, Own + 24, Own, Wide)); // nothing new: the oldest
         Assert.Equal((1u, 4u), Carried());
     }
 
@@ -181,6 +182,27 @@ public sealed class SendWindowTests
         Assert.Equal((uint.MaxValue, uint.MaxValue), Next(window, entries, 0));
     }
 
+    /// <summary>A link that carries little gets short updates, and every entry goes all the same.</summary>
+    [Theory]
+    [InlineData(-50, 1)] // one always goes
+    [InlineData(12, 2)] // entries of 5 bytes each
+    [InlineData(25, 5)]
+    [InlineData(Wide, 10)]
+    public void WithLittleRoomInAnUpdate_EachCarriesWhatFits_AndAllGo(int room, int each)
+    {
+        SendWindow window = new(0);
+        Entries entries = new() { Last = 10 };
+        uint sent = 0;
+        while (window.HasNeeded(entries))
+        {
+            (uint first, uint last) = Next(window, entries, 0, room);
+            Assert.Equal((sent + 1, (uint)System.Math.Min(10, sent + each)), (first, last));
+            sent = last;
+        }
+
+        Assert.Equal(10u, sent);
+    }
+
     private static void AreInOneRow(List<(uint First, uint Last)> sent, uint first, uint last)
     {
         Assert.Equal(first, sent[0].First);
@@ -189,10 +211,10 @@ public sealed class SendWindowTests
     }
 
     /// <summary>The numbers of the next datagram; the second is the lesser where it carries none.</summary>
-    private (uint First, uint Last) Next(SendWindow window, Entries entries, int repetition = 10_000)
+    private (uint First, uint Last) Next(SendWindow window, Entries entries, int repetition = 10_000, int room = Wide)
     {
         update.Clear();
-        window.Fill(update, entries, repetition, Own);
+        window.Fill(update, entries, repetition, Own, room);
         return Carried();
     }
 

@@ -61,6 +61,40 @@ public sealed class UpdateLinkTests
         Assert.Equal(Start, link.Due); // what goes out in one moment counts once, so that one who is pressed has two more
     }
 
+    /// <summary>Into a silence of ten seconds goes less and less; to one who answers as much in the last second as in the first.</summary>
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Silence_HalvesWhatIsSent_StepByStep(bool isAnswered)
+    {
+        UpdateLink link = Link();
+        UpdateDatagram answer = new() { SessionId = 1, Peer = 1 };
+        Entries entries = new() { Last = 40 };
+        int[] bytes = new int[10];
+        SimTime end = Start + SimDuration.FromSeconds(10);
+        uint answers = 0;
+        for (SimTime now = Start; now < end; now += SimDuration.FromMilliseconds(1))
+        {
+            if (!link.IsDue(now))
+            {
+                continue;
+            }
+
+            uint number = link.Compose(now).Number;
+            link.Fill(entries, now);
+            bytes[(int)(now - Start).ToSeconds()] += link.Seal(entries, now, SimDuration.FromSeconds(1), isUrgent: true).Length;
+            bool isEarly = (now - Start).ToSeconds() < 0.2; // by then the round trip is known
+            if (isEarly || isAnswered)
+            {
+                // It says that it is there, and has none of the entries yet.
+                (answer.Number, answer.EchoNumber, answer.Sent, answer.EchoReceived) = (++answers, number, now, now);
+                link.Note(answer, now, out _);
+            }
+        }
+
+        Assert.Equal(isAnswered, bytes[8] > bytes[1] / 2);
+    }
+
     private static UpdateLink Link() => new(1, 0, 1, PeerAddress.Virtual(1), 0, SimDuration.FromMilliseconds(30), new UpdateDatagram(), new byte[WireFormat.MaxBytes], Start);
 
     private static void Send(UpdateLink link, SimTime now)
