@@ -67,6 +67,7 @@ internal static class StallsJson
             json.WriteBoolean("stopped_early", isStopped);
             json.WriteNumber("events_refused", outcomes.Sum(o => o.Refused));
             json.WriteNumber("events_refused_too_late", outcomes.Sum(o => o.RefusedTooLate));
+            json.WriteNumber("events_expected", outcomes.Sum(o => o.Expected));
         });
 
     private static void Begin(Utf8JsonWriter json, StallCase drawn, long compared, long differed, string replay)

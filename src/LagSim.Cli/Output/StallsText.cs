@@ -23,6 +23,11 @@ internal static class StallsText
         return string.Create(CultureInfo.InvariantCulture, $"{refused} refused{why}");
     }
 
+    private static string Lost(IReadOnlyList<StallOutcome> outcomes) => string.Create(
+        CultureInfo.InvariantCulture,
+        $"{NumberText.Count(outcomes.Sum(o => o.Accepted), "event")} accepted, {outcomes.Sum(o => o.Lost)} of {outcomes.Sum(o => o.Expected)} lost on the way to clients,"
+            + $" {Refused(outcomes)}");
+
     internal static void Write(
         TextWriter output, IReadOnlyList<StallOutcome> outcomes, IReadOnlyList<StallOutcome> worst, IReadOnlyList<StallProcessOutcome> played)
     {
@@ -31,7 +36,7 @@ internal static class StallsText
             CultureInfo.InvariantCulture,
             $"{NumberText.Count(outcomes.Count, "session")}, {NumberText.Count(outcomes.Sum(o => o.Case.Stalls.Count), "stall")}:"
                 + $" {outcomes.Sum(o => o.Compared)} states compared, {outcomes.Sum(o => o.Differed)} differ;"
-                + $" {outcomes.Sum(o => o.Lost)} of {outcomes.Sum(o => o.Accepted)} accepted events lost, {Refused(outcomes)};"
+                + $" {Lost(outcomes)};"
                 + $" {NumberText.Count(outcomes.Sum(o => o.Copies), "fresh copy", many: "fresh copies")},"
                 + $" {NumberText.Count(outcomes.Sum(o => o.Regained), "interruption")} that ended without one"));
         output.WriteLine(string.Create(
@@ -41,7 +46,7 @@ internal static class StallsText
         {
             output.WriteLine(string.Create(
                 CultureInfo.InvariantCulture, $"  {o.WorstSeconds:0.0} s{(o.IsGood ? "" : ", NOT GOOD")}: {o.Case}"));
-            output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"    {o.Lost} of {o.Accepted} accepted events lost, {Refused([o])}"));
+            output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"    {Lost([o])}"));
             output.WriteLine($"    {Replay(o.Case)}");
         }
 

@@ -11,9 +11,10 @@ internal sealed class StallClient
     private readonly StallHostLog host;
     private readonly int overlooked;
     private readonly List<(SimTime Start, SimTime Time, ulong Hash)> states = [];
-    private readonly HashSet<uint> heard = []; // of the log of the world that it is in
-    private SimTime world = SimTime.MinValue; // the start of it
+    private readonly HashSet<uint> heard = []; // of the log, since it last began
+    private SimTime world; // the start of the one that it is in
     private uint copied; // up to where that log is in its copy
+    private uint reached; // up to where it has the log
 
     internal StallClient(int address, StallHostLog host, int overlooked)
     {
@@ -57,6 +58,10 @@ internal sealed class StallClient
 
     internal long Differed { get; private set; }
 
+    /// <summary>How many accepted events it was to hear of.</summary>
+    internal long Expected { get; private set; }
+
+    /// <summary>Of how many of those it did not.</summary>
     internal long Lost { get; private set; }
 
     internal void Follow(JoinerSession session)
@@ -73,6 +78,7 @@ internal sealed class StallClient
         session.Interrupted += Interruptions.Add;
         session.Logged += entry =>
         {
+            reached = entry.Index;
             if (overlooked == 0 || entry.Index < 5 || entry.Index >= 5 + overlooked)
             {
                 heard.Add(entry.Index);
@@ -82,8 +88,9 @@ internal sealed class StallClient
     }
 
     /// <summary>At the end: holds what it had against what the hosts had.</summary>
-    internal void CountLost()
+    internal void Compare()
     {
+        CountLost();
         foreach ((SimTime start, SimTime time, ulong hash) in states)
         {
             if (host.TryGet(start, time, out ulong theirs))
@@ -92,19 +99,24 @@ internal sealed class StallClient
                 Differed += hash == theirs ? 0 : 1;
             }
         }
-
-        Lost = host.Accepted.Count(index => index > copied && index <= Session.LogLength && !heard.Contains(index));
     }
 
     private void Begin(JoinerSession session)
     {
-        SimTime start = session.World!.Simulation.Start;
-        if (start != world)
-        {
-            heard.Clear();
-            world = start;
-        }
+        CountLost();
+        heard.Clear();
+        world = session.World!.Simulation.Start;
+        copied = reached = session.LogStart;
+    }
 
-        copied = session.LogStart;
+    /// <summary>What it missed of the log since it last began counts, also where a copy, or another host, has made up for it since.</summary>
+    private void CountLost()
+    {
+        if (reached > copied)
+        {
+            uint[] expected = [.. host.AcceptedOf(world).Where(index => index > copied && index <= reached)];
+            Expected += expected.Length;
+            Lost += expected.Count(index => !heard.Contains(index));
+        }
     }
 }

@@ -10,16 +10,10 @@ namespace LagSim.Harness.Stalls;
 internal sealed class StallHostLog
 {
     private readonly Dictionary<(SimTime Start, SimTime Time), ulong> states = []; // a host that was started anew has a world of another start
-    private readonly List<HashSet<uint>> logs = [];
+    private readonly List<(HostSession Host, HashSet<uint> Log)> logs = [];
 
-    /// <summary>How many hosts there were; the last is there now.</summary>
-    internal int Hosts => logs.Count;
-
-    /// <summary>The accepted lines of the log of the host that is there now.</summary>
-    internal IReadOnlySet<uint> Accepted => logs[^1];
-
-    /// <summary>Of all hosts.</summary>
-    internal long AcceptedInAll => logs.Sum(log => (long)log.Count);
+    /// <summary>How many lines of their logs are accepted events, of all hosts.</summary>
+    internal long AcceptedInAll => logs.Sum(log => (long)log.Log.Count);
 
     /// <summary>How many events the hosts refused, of all hosts.</summary>
     internal long RefusedInAll { get; private set; }
@@ -30,7 +24,7 @@ internal sealed class StallHostLog
     internal void Follow(HostSession host)
     {
         HashSet<uint> log = [];
-        logs.Add(log);
+        logs.Add((host, log));
         host.Logged += entry =>
         {
             if (entry.Verdict == Verdict.Accepted)
@@ -45,6 +39,9 @@ internal sealed class StallHostLog
         };
         host.StateCommitted += state => states[(host.World!.Simulation.Start, state.Time)] = state.StateHash;
     }
+
+    /// <summary>The accepted lines of the log of the host that has, or had, the world with that start.</summary>
+    internal IReadOnlySet<uint> AcceptedOf(SimTime start) => logs.First(log => log.Host.World?.Simulation.Start == start).Log;
 
     /// <summary>The host's state of that world at that time, if it got there.</summary>
     internal bool TryGet(SimTime start, SimTime time, out ulong hash) => states.TryGetValue((start, time), out hash);

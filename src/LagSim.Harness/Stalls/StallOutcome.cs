@@ -15,7 +15,10 @@ public sealed record StallOutcome
     /// <summary>How many of them were not the host's.</summary>
     public long Differed { get; init; }
 
-    /// <summary>Accepted events in the host's log that came to a client neither by the log nor in a copy.</summary>
+    /// <summary>How many accepted events the log of a client was to have, from each copy that it got up to where it came, over all clients.</summary>
+    public long Expected { get; init; }
+
+    /// <summary>How many of those it did not have, whether a later copy made up for them or not.</summary>
     public long Lost { get; init; }
 
     /// <summary>Accepted events in the logs of all hosts there were.</summary>

@@ -93,6 +93,7 @@ internal sealed class StallRun
             Compared = clients.Sum(c => c.Compared),
             Differed = clients.Sum(c => c.Differed),
             Lost = clients.Sum(c => c.Lost),
+            Expected = clients.Sum(c => c.Expected),
             Accepted = hostLog.AcceptedInAll,
             Refused = hostLog.RefusedInAll,
             RefusedTooLate = hostLog.TooLateInAll,
@@ -188,7 +189,7 @@ internal sealed class StallRun
             failures.Add($"Client {client.Address}, to whom nothing happened, was interrupted: {client.Interruptions[0]}");
         }
 
-        client.CountLost();
+        client.Compare();
     }
 
     private void Begin(Stall stall)

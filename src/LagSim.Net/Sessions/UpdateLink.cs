@@ -60,6 +60,8 @@ internal sealed class UpdateLink
     private int newsBytes; // how much, in entries
     private int unanswered; // how many times in a row answers were overdue
     private SimTime answered; // when something was answered, or began to be waited for
+    private SimTime probed = SimTime.MinValue; // when a silence was last asked into
+    private bool isProbe; // the next update goes whatever the window
     private bool isHeldBack; // something has to go and may not yet
     private long datagramsSent;
     private long bytesSent;
@@ -243,9 +245,11 @@ internal sealed class UpdateLink
                 congestion.OnSilence(now);
             }
 
-            // With a queue on the way the answer is more likely late than lost: the oldest goes again, as a probe (RFC 9002, 6.2.4), and nothing else.
+            // With a queue on the way the answer is more likely late than lost: the oldest goes again, as a probe that the window does not hold back
+            // (RFC 9002, 6.2.4 and 7.5), and nothing else until that should be answered.
             SimTime before = now - Patience;
-            bool isProbe = trips.HasQueue;
+            isProbe = trips.HasQueue;
+            probed = isProbe ? now : probed;
             while (sent.TryPeekOldest(out SimTime at) && at <= before && sent.TryTakeOldest(out SentDatagrams.Datagram oldest))
             {
                 Lose(oldest, now, hasQueue: false);
@@ -277,11 +281,13 @@ internal sealed class UpdateLink
     internal void Fill(IEntrySource source, SimTime now)
     {
         spare.Advance(now, trips, unanswered > 0, Doublings(now));
-        if (!congestion.HasRoom)
+        if (!congestion.HasRoom && !isProbe)
         {
             outgoing.FirstIndex = Outgoing.Sent + 1;
             return;
         }
+
+        isProbe = false;
 
         // What has to go finds the window half empty. An update that is worth its own bytes is none that could have waited.
         int repeated = Outgoing.Fill(outgoing, source, congestion.IsHalfFull ? 0 : spare.Bytes, OwnBytes, congestion.DatagramBytes - OwnBytes);
@@ -350,8 +356,9 @@ internal sealed class UpdateLink
         return trips.IsMeasured && even > LeastDistance ? even : LeastDistance;
     }
 
-    /// <summary>When the answer to what was sent is overdue.</summary>
-    private SimTime AnswerDue(SimTime now) => sent.TryPeekOldest(out SimTime at) ? at + (Patience * (1L << Doublings(now))) : SimTime.MaxValue;
+    /// <summary>When the answer to what was sent, or to the last probe, is overdue.</summary>
+    private SimTime AnswerDue(SimTime now) =>
+        sent.TryPeekOldest(out SimTime at) ? SimTime.Max(at, probed) + (Patience * (1L << Doublings(now))) : SimTime.MaxValue;
 
     /// <summary>
     /// How many times the wait for an answer has doubled. Where there is a queue it doubles each time that an answer was overdue. Where there is none it first does

@@ -1,3 +1,5 @@
+using System;
+using System.Collections.Generic;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
@@ -95,6 +97,63 @@ public sealed class UpdateLinkTests
         Assert.Equal(isAnswered, bytes[8] > bytes[1] / 2);
     }
 
+    /// <summary>
+    /// A queue filled the window, and then nothing is answered: each probe carries an entry though more is in flight than the window has become, and between
+    /// probes, which are further and further apart, no empty updates go.
+    /// </summary>
+    [Fact]
+    public void Silence_BehindAQueue_ProbesCarryEntriesWhateverTheWindow()
+    {
+        UpdateLink link = Link();
+        Queue<(SimTime At, uint Number, uint Last)> answers = new();
+        Entries entries = new();
+        UpdateDatagram answer = new() { SessionId = 1, Peer = 1 };
+        SimTime silent = Start + SimDuration.FromSeconds(6);
+        SimTime end = silent + SimDuration.FromSeconds(10);
+        (int carrying, int empty) = (0, 0);
+        SimTime lastCarrying = SimTime.MinValue;
+        for (SimTime now = Start; now < end; now += SimDuration.FromMilliseconds(1))
+        {
+            while (now < silent && answers.Count > 0 && answers.Peek().At <= now)
+            {
+                (_, uint number, uint last) = answers.Dequeue();
+                (answer.Number, answer.EchoNumber) = (answer.Number + 1, number);
+                (answer.Sent, answer.EchoReceived) = (now, now);
+                answer.EchoBits = uint.MaxValue;
+                link.Note(answer, now, out _);
+                link.Acknowledge(last, now);
+            }
+
+            if (now < silent)
+            {
+                entries.Last += 2;
+                link.NoteNews(8, now);
+            }
+
+            if (!link.IsDue(now))
+            {
+                continue;
+            }
+
+            UpdateDatagram update = link.Compose(now);
+            link.Fill(entries, now);
+            link.Seal(entries, now, SimDuration.FromSeconds(1), isUrgent: true);
+            double since = (now - Start).ToSeconds();
+            answers.Enqueue((now + SimDuration.FromMilliseconds(since < 2 ? 50 : 50 + Math.Min(400, (since - 2) * 400)), update.Number, link.Outgoing.Sent));
+            if (now > silent + SimDuration.FromSeconds(1)) // what was answered before is known by then
+            {
+                bool carries = update.Held.Length > 0;
+                (carrying, empty) = (carrying + (carries ? 1 : 0), empty + (carries ? 0 : 1));
+                lastCarrying = carries ? now : lastCarrying;
+            }
+        }
+
+        Assert.True(link.Traffic.Queueing > SimDuration.Zero, "no queue showed, so nothing was tested");
+        Assert.InRange(carrying, 2, 12);
+        Assert.True(lastCarrying > end - SimDuration.FromSeconds(6), $"the last probe with an entry went at {(lastCarrying - silent).ToSeconds()} s");
+        Assert.InRange(empty, 0, 12); // one a second, as an idle link sends
+    }
+
     private static UpdateLink Link() => new(1, 0, 1, PeerAddress.Virtual(1), 0, SimDuration.FromMilliseconds(30), new UpdateDatagram(), new byte[WireFormat.MaxBytes], Start);
 
     private static void Send(UpdateLink link, SimTime now)
@@ -105,7 +164,7 @@ public sealed class UpdateLinkTests
 
     private sealed class Entries : IEntrySource
     {
-        public uint Last { get; init; }
+        public uint Last { get; set; }
 
         public UpdateEntry this[uint number] => new(Verdict.Accepted, number);
     }
