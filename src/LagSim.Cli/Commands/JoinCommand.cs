@@ -49,15 +49,16 @@ internal static class JoinCommand
                 null, carrier, new StopwatchClock(), request.Options, PeerAddress.From(there), Session.DrawNumber());
             if (passFile is not null)
             {
-                byte former = request.Options.Pass.Number;
+                PlayerPass former = request.Options.Pass;
                 session.PassGiven += given =>
                 {
-                    if (former > 0 && given.Number != former)
+                    if (former.Number > 0 && given != former)
                     {
-                        console.Error.WriteLine($"The host does not know the pass of player {former} in '{passFile}': this is player {given.Number}, whose pass is kept there now.");
+                        console.Error.WriteLine($"The host does not know the pass of player {former.Number} in '{passFile}'; this is player {given.Number} of its session, whose pass is kept there now.");
                     }
 
                     Keep(console, passFile, given);
+                    former = given;
                 };
             }
 

@@ -20,6 +20,7 @@ namespace LagSim.Cli.Commands;
 internal sealed class SessionRunner : IDisposable
 {
     private static readonly TimeSpan LookInterval = TimeSpan.FromMilliseconds(250);
+
     /// <summary>After so long without an answer it is told that there is none.</summary>
     private static readonly TimeSpan SilenceToTell = TimeSpan.FromMilliseconds(450);
 
@@ -237,6 +238,10 @@ internal sealed class SessionRunner : IDisposable
         {
             actions = request.Deeds.Select(deed => deed.ActionIn(session.Scene!)).ToArray();
             SkipPast(passed);
+            if (passed > request.Seconds)
+            {
+                Fail(FormattableString.Invariant($"--for-s {request.Seconds} was over when this peer came in at T {passed:0.000} s."));
+            }
         }
 
         for (; done < actions.Length && request.Deeds[done].Seconds <= passed; done++)

@@ -11,7 +11,7 @@ internal sealed class DoorLimits
     /// <summary>So many of them from one machine.</summary>
     internal int ComingOfOne { get; set; } = 16;
 
-    /// <summary>What they fetch takes no more memory than this, in bytes, unless all fetch the same copy: a new one is made each second that somebody comes.</summary>
+    /// <summary>What they fetch takes about so much memory at most, in bytes: a new copy is made each second that somebody comes, while it has room beside the others.</summary>
     internal long CopyBytes { get; set; } = 64 << 20;
 
     /// <summary>Who comes in on the slowest link that is counted on gets so many bytes of its copy a second.</summary>

@@ -86,7 +86,7 @@ public sealed partial class HostSession
             // The same address, shown by the cookie, under a new nonce: it started again. One that is in stays until the new one gets its number: if it had only
             // fallen silent, it may be heard again first, and goes on.
             joiners.RemoveAll(j => j.Peer == 0 && j.Link.Other == from);
-            MakeRoom(from, made);
+            MakeRoom(from);
             UpdateLink link = LinkTo(from, cookies.SessionId(sessionId, joins++), 0, made.LogIndex, now);
             known = new Joiner(join, link, made, keyed, claimed, now + PatienceWithCopy(made));
             joiners.Add(known);
@@ -118,11 +118,10 @@ public sealed partial class HostSession
     }
 
     /// <summary>
-    /// Lets go of the oldest of those that are coming in, of the machine with the most: while there are too many, or their copies take too much memory.
+    /// Lets go of the oldest of those that are coming in, of the machine with the most, while there are too many.
     /// </summary>
     /// <param name="from">Who comes.</param>
-    /// <param name="made">What it is to fetch. Others who fetch the same copy take no more memory for it.</param>
-    private void MakeRoom(PeerAddress from, JoinCopy made)
+    private void MakeRoom(PeerAddress from)
     {
         List<Joiner> coming = joiners.FindAll(j => j.Peer == 0); // the oldest first
         List<Joiner> ofOne = coming.FindAll(j => j.Link.Other.IsSameMachine(from));
@@ -133,13 +132,7 @@ public sealed partial class HostSession
 
         while (coming.Count >= door.Coming)
         {
-            LeaveOut(OldestOf(coming));
-        }
-
-        while (coming.FindAll(j => j.Copy != made) is { Count: > 0 } others
-            && made.Bytes.Length + others.Select(j => j.Copy!).Distinct().Sum(copy => (long)copy.Bytes.Length) > door.CopyBytes)
-        {
-            LeaveOut(OldestOf(others));
+            LeaveOut(coming.GroupBy(j => j.Link.Other.Machine).OrderByDescending(m => m.Count() + (m.Key == from.Machine ? 1 : 0)).First().First());
         }
 
         void LeaveOut(Joiner joiner)
@@ -147,9 +140,6 @@ public sealed partial class HostSession
             joiners.Remove(joiner);
             coming.Remove(joiner);
         }
-
-        Joiner OldestOf(List<Joiner> some) => some.GroupBy(j => j.Link.Other.Machine)
-            .OrderByDescending(machine => machine.Count() + (machine.Key == from.Machine ? 1 : 0)).First().First();
     }
 
     /// <summary>Gives one that has its copy and its clock a number, and tells it; false if there is none, and it was told so.</summary>
@@ -296,10 +286,21 @@ public sealed partial class HostSession
 
     private void ForgetCopies(SimTime now)
     {
-        newestCopy = newestCopy is not null && now - newestCopy.Made <= CopyAge ? newestCopy : null;
         foreach (Joiner joiner in joiners)
         {
             joiner.Copy = joiner.IsReady ? null : joiner.Copy;
         }
+
+        newestCopy = newestCopy is not null && (now - newestCopy.Made <= CopyAge || HasNoRoomBeside(newestCopy, now)) ? newestCopy : null;
     }
+
+    /// <summary>
+    /// Whether another copy has no room beside those that are being fetched, the newest among them. Then who comes gets that one, and the log from there on: nobody has to
+    /// begin anew because others come.
+    /// </summary>
+    private bool HasNoRoomBeside(JoinCopy newest, SimTime now) =>
+        joiners.Exists(j => j.Copy == newest) && now - newest.Made <= PatienceWithCopy(newest) && newest.Bytes.Length + BytesOf(joiners) > door.CopyBytes;
+
+    /// <summary>What the copies take that some fetch, in bytes.</summary>
+    private static long BytesOf(IEnumerable<Joiner> some) => some.Select(j => j.Copy).OfType<JoinCopy>().Distinct().Sum(copy => (long)copy.Bytes.Length);
 }

@@ -60,7 +60,6 @@ internal sealed class UpdateLink
     private int newsBytes; // how much, in entries
     private int unanswered; // how many times in a row answers were overdue
     private SimTime answered; // when something was answered, or began to be waited for
-    private SimTime probed = SimTime.MinValue; // when a silence was last asked into
     private bool isProbe; // the next update goes whatever the window
     private bool isHeldBack; // something has to go and may not yet
     private long datagramsSent;
@@ -246,10 +245,9 @@ internal sealed class UpdateLink
             }
 
             // With a queue on the way the answer is more likely late than lost: the oldest goes again, as a probe that the window does not hold back
-            // (RFC 9002, 6.2.4 and 7.5), and nothing else until that should be answered.
+            // (RFC 9002, 6.2.4 and 7.5), and nothing else.
             SimTime before = now - Patience;
             isProbe = trips.HasQueue;
-            probed = isProbe ? now : probed;
             while (sent.TryPeekOldest(out SimTime at) && at <= before && sent.TryTakeOldest(out SentDatagrams.Datagram oldest))
             {
                 Lose(oldest, now, hasQueue: false);
@@ -356,9 +354,8 @@ internal sealed class UpdateLink
         return trips.IsMeasured && even > LeastDistance ? even : LeastDistance;
     }
 
-    /// <summary>When the answer to what was sent, or to the last probe, is overdue.</summary>
-    private SimTime AnswerDue(SimTime now) =>
-        sent.TryPeekOldest(out SimTime at) ? SimTime.Max(at, probed) + (Patience * (1L << Doublings(now))) : SimTime.MaxValue;
+    /// <summary>When the answer to what was sent is overdue.</summary>
+    private SimTime AnswerDue(SimTime now) => sent.TryPeekOldest(out SimTime at) ? at + (Patience * (1L << Doublings(now))) : SimTime.MaxValue;
 
     /// <summary>
     /// How many times the wait for an answer has doubled. Where there is a queue it doubles each time that an answer was overdue. Where there is none it first does

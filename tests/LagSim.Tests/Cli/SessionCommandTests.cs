@@ -59,6 +59,25 @@ public sealed class SessionCommandTests
         Assert.Contains("3 log entries and 2 committed states", Tool.Run("diff", folder["host.lagsim"], folder["join.lagsim"]).Done().Output, StringComparison.Ordinal);
     }
 
+    /// <summary>With a pass of another host's player, and after all the time that it was to stay for: it says both, and keeps the pass that it got.</summary>
+    [Fact]
+    public void Join_TooLateAndWithAForeignPass_SaysSo()
+    {
+        using TemporaryFolder folder = new();
+        string foreign = $"1-{new string('0', 31)}7";
+        File.WriteAllText(folder["pass"], foreign);
+        using LiveTool host = LiveTool.Run("host --scene drop --history-s 0.5 --joiners 0 --for-s 20");
+        string address = host.Address;
+        host.Output.WaitFor(line => line.StartsWith("T 1 ", StringComparison.Ordinal), LiveTool.Deadline);
+        using LiveTool joiner = LiveTool.Run($"join {address} --for-s 0.5 --pass", folder["pass"]);
+        joiner.Ends(3);
+        host.Stop();
+        host.Ends(130);
+        Assert.Matches("--for-s 0.5 was over when this peer came in at T [0-9.]+ s[.]", joiner.Error.ToString());
+        Assert.Matches("The host does not know the pass of player 1 in '.+'; this is player 1 of its session, whose pass is kept there now[.]", joiner.Error.ToString());
+        Assert.NotEqual(foreign, File.ReadAllText(folder["pass"]).Trim());
+    }
+
     [Fact]
     public void HostAndJoin_AsJson_PrintOneDocumentAndNothingElse()
     {

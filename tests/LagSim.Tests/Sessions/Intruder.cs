@@ -41,6 +41,9 @@ internal sealed class Intruder
     /// <summary>How long the copy is that it was welcomed to last.</summary>
     internal int CopyBytes { get; private set; }
 
+    /// <summary>What tells that copy from others.</summary>
+    internal ulong CopyHash { get; private set; }
+
     internal long BytesIn { get; private set; }
 
     internal long BytesOut { get; private set; }
@@ -93,7 +96,7 @@ internal sealed class Intruder
             }
             else if (WelcomeDatagram.TryDecode(datagram, out WelcomeDatagram welcome, out _))
             {
-                (SessionId, Peer, number, fetches, CopyBytes) = (welcome.SessionId, 0, 0, 0, welcome.CopyLength);
+                (SessionId, Peer, number, fetches, CopyBytes, CopyHash) = (welcome.SessionId, 0, 0, 0, welcome.CopyLength, welcome.CopyHash);
                 if (sits)
                 {
                     Update(isReady: true);

@@ -98,8 +98,8 @@ public sealed class UpdateLinkTests
     }
 
     /// <summary>
-    /// A queue filled the window, and then nothing is answered: each probe carries an entry though more is in flight than the window has become, and between
-    /// probes, which are further and further apart, no empty updates go.
+    /// A queue filled the window, and then nothing is answered: what goes carries entries, though more is in flight than the window has become, and of each datagram
+    /// that was on its way less and less often.
     /// </summary>
     [Fact]
     public void Silence_BehindAQueue_ProbesCarryEntriesWhateverTheWindow()
@@ -149,7 +149,7 @@ public sealed class UpdateLinkTests
         }
 
         Assert.True(link.Traffic.Queueing > SimDuration.Zero, "no queue showed, so nothing was tested");
-        Assert.InRange(carrying, 2, 12);
+        Assert.InRange(carrying, 2, 60);
         Assert.True(lastCarrying > end - SimDuration.FromSeconds(6), $"the last probe with an entry went at {(lastCarrying - silent).ToSeconds()} s");
         Assert.InRange(empty, 0, 12); // one a second, as an idle link sends
     }
