@@ -88,18 +88,28 @@ public sealed partial class Simulation
     }
 
     /// <summary>A body's events that are kept, in order, each with the state right after it. Empty for an unknown body.</summary>
-    /// <remarks>For reports and tests; allocates.</remarks>
-    public IReadOnlyList<TimelineEntry> Timeline(BodyId body)
+    /// <remarks>For reports and tests; allocates. Cost: the number of the body's segments.</remarks>
+    public IReadOnlyList<TimelineEntry> Timeline(BodyId body) => Timeline(body, SimTime.MinValue);
+
+    /// <summary>Of a body's events that are kept the last one up to and including <paramref name="from"/>, whose motion it is in then, and all after it.</summary>
+    /// <param name="body">The body. Of an unknown one there are none.</param>
+    /// <param name="from">From when on, in simulated time; any instant, also one that is no longer kept or not simulated yet.</param>
+    /// <returns>In order, each with the state right after it.</returns>
+    /// <remarks>For reports that go along with the simulation; allocates. Cost: the number of the events returned, however long the history is.</remarks>
+    public IReadOnlyList<TimelineEntry> Timeline(BodyId body, SimTime from)
     {
         List<TimelineEntry> entries = new();
         int slot = SlotOf(body);
-        for (int at = slot < 0 ? TimelineStore.None : timelines.First(slot); at != TimelineStore.None; at = timelines.Next(at))
+        int at = slot < 0 ? TimelineStore.None : timelines.Last(slot);
+        for (bool isBefore = false; at != TimelineStore.None && !isBefore; at = timelines.Previous(at))
         {
             MotionSegment segment = timelines.Segment(at);
             double seconds = SecondsInto(at, timelines.Key(at).Time);
             entries.Add(new TimelineEntry(timelines.Key(at), StateOf(segment, seconds, timelines.Dense(at), Scene.Box, timelines.SpinOf(at))));
+            isBefore = timelines.Key(at).Time <= from;
         }
 
+        entries.Reverse();
         return entries;
     }
 

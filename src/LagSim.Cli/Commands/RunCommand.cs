@@ -34,7 +34,9 @@ internal static class RunCommand
         Option<double> every = CommonOptions.Number("--every-s", "The time between samples", 0.01, 1e-9, 1e6);
         Option<int> repeat = CommonOptions.Whole("--repeat", "How many times to run the scene again to time it, after the run whose results are written; wall_s is the shortest."
             + " If the first run took less than a second, one more comes before these as a warm-up. With 0 nothing runs again, and wall_s is the first run's", 1, 0, 1_000_000);
-        Command command = new("run", "Runs one scene in virtual time.") { scene, until, motion, events, samples, every, repeat };
+        Option<double> history = CommonOptions.Number(
+            "--history-s", "How much of its past the simulation keeps; less needs less memory where millions of events happen in a second", 1, 1e-6, 1e6);
+        Command command = new("run", "Runs one scene in virtual time.") { scene, until, motion, events, samples, every, repeat, history };
         common.AddTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {
@@ -68,7 +70,7 @@ internal static class RunCommand
 
             Request request = new(
                 loaded, SimDuration.FromSeconds(parsed.GetValue(until)), eventFile, sampleFile, parsed.GetValue(every),
-                streams > 0 ? 0 : parsed.GetValue(repeat), folder, parsed.GetValue(common.Seed));
+                streams > 0 ? 0 : parsed.GetValue(repeat), folder, parsed.GetValue(common.Seed), SimDuration.FromSeconds(parsed.GetValue(history)));
             RunSummary summary = Run(console, request, isBarShown: streams == 0 || !console.IsTerminal);
             if (json)
             {
@@ -133,7 +135,7 @@ internal static class RunCommand
             Simulation end = Write(console, request, done => progress(done.ToSeconds()));
             double written = Lap(ref began);
             double wall = request.Timed == 0 ? written : SceneRun.LeastSeconds(
-                scene, length, request.Timed, done => progress(once + done), isWarm: written > LongEnoughToWarmUp, console.Stop);
+                scene, length, request.Timed, done => progress(once + done), isWarm: written > LongEnoughToWarmUp, request.History, console.Stop);
             double timed = Lap(ref began);
             RunSummary summary = new(end, SimTime.Zero + length, start, SceneEnergy.Of(end, SimTime.Zero + length), wall)
             {
@@ -143,7 +145,7 @@ internal static class RunCommand
             };
             if (request.Folder is not null)
             {
-                RunReport.Write(request.Folder, scene, summary, request.Seed, request.SampleFile, done => progress(once + timing + done.ToSeconds()));
+                RunReport.Write(request.Folder, scene, summary, request.Seed, request.SampleFile, request.History, done => progress(once + timing + done.ToSeconds()));
                 summary = summary with { PictureSeconds = Lap(ref began) };
             }
 
@@ -175,6 +177,7 @@ internal static class RunCommand
         return new SceneRun(scene)
         {
             Cancellation = console.Stop,
+            History = request.History,
             SampleEverySeconds = request.Every,
             OnEvent = eventCsv is null ? null : e => eventCsv.WriteRow(
                 [e.Key.Time.ToSeconds(), e.Kind, scene.Bodies[e.Body.Index].Name, e.Other, .. Numbers(e.State)]),
@@ -199,5 +202,5 @@ internal static class RunCommand
 
     /// <summary>What is asked for; timed so many times, 0 for a run that only streams.</summary>
     private sealed record Request(
-        Scene Scene, SimDuration Length, string? EventFile, string? SampleFile, double Every, int Timed, string? Folder, ulong Seed);
+        Scene Scene, SimDuration Length, string? EventFile, string? SampleFile, double Every, int Timed, string? Folder, ulong Seed, SimDuration History);
 }

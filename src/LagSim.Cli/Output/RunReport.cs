@@ -17,7 +17,7 @@ internal static class RunReport
     private const int Samples = 2000;
     private const int MostBodies = 7;
 
-    internal static void Write(string folder, Scene scene, RunSummary run, ulong seed, string? sampleFile, Action<SimDuration> progress)
+    internal static void Write(string folder, Scene scene, RunSummary run, ulong seed, string? sampleFile, SimDuration history, Action<SimDuration> progress)
     {
         HtmlReport report = new(
             $"LagSim run of {scene.Name}",
@@ -26,7 +26,7 @@ internal static class RunReport
             new ReportFooter("lagsim", ToolVersion.Text, seed, JsonDocumentWriter.Hash(scene.Hash)));
         if (scene.Bodies.Count > 0 && run.Until > SimTime.Zero)
         {
-            LineChart chart = Heights(scene, run.Until - SimTime.Zero, progress);
+            LineChart chart = Heights(scene, run.Until - SimTime.Zero, history, progress);
             chart.Save(Path.Combine(folder, "heights.svg"));
             report.AddChart(chart);
         }
@@ -34,13 +34,14 @@ internal static class RunReport
         report.Save(Path.Combine(folder, "report.html"));
     }
 
-    private static LineChart Heights(Scene scene, SimDuration length, Action<SimDuration> progress)
+    private static LineChart Heights(Scene scene, SimDuration length, SimDuration history, Action<SimDuration> progress)
     {
         int bodies = Math.Min(scene.Bodies.Count, MostBodies);
         List<double> seconds = [];
         List<double>[] heights = Enumerable.Range(0, bodies).Select(_ => new List<double>()).ToArray();
         new SceneRun(scene)
         {
+            History = history,
             SampleEverySeconds = Math.Max(1e-9, length.ToSeconds() / Samples),
             OnSample = (time, simulation) =>
             {

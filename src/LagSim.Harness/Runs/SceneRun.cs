@@ -13,8 +13,14 @@ namespace LagSim.Harness.Runs;
 /// <summary>One instance of a scene in virtual time, with its events and samples reported as it goes.</summary>
 public sealed class SceneRun
 {
-    /// <summary>How far it is advanced at a time when events are reported: memory is bounded by this, not by the run's length.</summary>
-    private static readonly SimDuration Stride = SimDuration.FromMilliseconds(250);
+    /// <summary>It is advanced by a quarter of the history at a time at most: so all that happened since the last time is there to be reported.</summary>
+    private const int StridesInHistory = 4;
+
+    /// <summary>
+    /// And by how many events at most, or of four a body: what a body was before an event is read from its newest back, so more at a time would cost the square of
+    /// their number, and fewer would have most bodies looked at for nothing.
+    /// </summary>
+    private const long EventsAtOnce = 256;
 
     /// <summary>In how many parts it is advanced when it is timed: so few that starting and stopping the watch is nothing.</summary>
     private const int TimedParts = 20;
@@ -42,6 +48,9 @@ public sealed class SceneRun
     /// <summary>The distance between samples in seconds; at least 1e-9. Each sample's time is rounded to a tick by itself, so no error adds up.</summary>
     public double SampleEverySeconds { get; init; } = 0.01;
 
+    /// <summary>How much of its past the simulation keeps; default 1 s, at least 4 ticks. Its memory is that of the events in it, not of the run's.</summary>
+    public SimDuration History { get; init; } = SimDuration.FromSeconds(1);
+
     /// <summary>Ends the run early, by an <see cref="OperationCanceledException"/>; default never.</summary>
     public CancellationToken Cancellation { get; init; }
 
@@ -49,16 +58,24 @@ public sealed class SceneRun
     public Simulation Run(SimDuration length, Action<SimDuration>? progress = null)
     {
         SimTime end = SimTime.Zero + length;
-        Simulation simulation = new(scene, new SimulationOptions(SimTime.Zero, Stride * 4, cancellation: Cancellation));
+        Simulation simulation = new(scene, new SimulationOptions(SimTime.Zero, History, cancellation: Cancellation));
+        SimDuration stride = History / StridesInHistory;
         SimTime reported = SimTime.Zero - SimDuration.OneTick;
         SimTime sample = SimTime.Zero;
         long samples = 0;
         SimTime now = SimTime.Zero;
         while (true)
         {
-            simulation.AdvanceTo(now);
-            Report(simulation, reported, now);
-            reported = now;
+            bool isThere;
+            do
+            {
+                long events = OnEvent is null ? long.MaxValue : Math.Max(EventsAtOnce, 4 * scene.Bodies.Count);
+                isThere = simulation.TryAdvanceTo(now, ref events);
+                Report(simulation, reported, simulation.SimulatedTo);
+                reported = simulation.SimulatedTo;
+            }
+            while (!isThere);
+
             if (OnSample is not null && now == sample)
             {
                 OnSample(now, simulation);
@@ -72,7 +89,7 @@ public sealed class SceneRun
             }
 
             // Up to its horizon nothing happens, so a world at rest takes no time.
-            SimTime next = SimTime.Min(end, SimTime.Max(now + Stride, simulation.Horizon));
+            SimTime next = SimTime.Min(end, SimTime.Max(now + stride, simulation.Horizon));
             now = OnSample is null ? next : SimTime.Min(next, sample);
         }
     }
@@ -83,9 +100,10 @@ public sealed class SceneRun
     /// <param name="times">How often it counts.</param>
     /// <param name="progress">Is told how many seconds have been simulated in all runs so far; its own time does not count.</param>
     /// <param name="isWarm">Whether the same has run for so long already that there need not be one that is not counted.</param>
+    /// <param name="history">How much of its past each keeps; null for 1 s.</param>
     /// <param name="cancellation">Ends it early, by an <see cref="OperationCanceledException"/>.</param>
     public static double LeastSeconds(
-        Scene scene, SimDuration length, int times, Action<double>? progress = null, bool isWarm = false, CancellationToken cancellation = default)
+        Scene scene, SimDuration length, int times, Action<double>? progress = null, bool isWarm = false, SimDuration? history = null, CancellationToken cancellation = default)
     {
         ArgumentNullException.ThrowIfNull(scene);
         SimTime end = SimTime.Zero + length;
@@ -95,7 +113,7 @@ public sealed class SceneRun
         for (int i = 0; i < before + times; i++)
         {
             long began = Stopwatch.GetTimestamp();
-            Simulation simulation = new(scene, new SimulationOptions(cancellation: cancellation));
+            Simulation simulation = new(scene, new SimulationOptions(history: history, cancellation: cancellation));
             TimeSpan spent = Stopwatch.GetElapsedTime(began);
             do
             {
@@ -124,7 +142,7 @@ public sealed class SceneRun
         {
             BodyId id = BodyId.OfScene(body);
             TimelineEntry? last = null;
-            foreach (TimelineEntry entry in simulation.Timeline(id))
+            foreach (TimelineEntry entry in simulation.Timeline(id, after))
             {
                 if (entry.Key.Time > after && entry.Key.Time <= upTo)
                 {

@@ -56,6 +56,18 @@ public sealed class RunCommandTests
         Assert.InRange(document.GetProperty("timed_runs_wall_s").GetDouble(), 0, 1e-3); // between two looks at the clock
     }
 
+    /// <summary>What is kept of the past, and so how far the run goes at a time, changes no event of it.</summary>
+    [Theory]
+    [InlineData("crowd")]
+    [InlineData("billiards")]
+    public void History_OfAnyLength_TellsTheSameEvents(string scene)
+    {
+        string[] told = [.. new[] { "1e6", "1", "1e-3", "1e-6" }.Select(history =>
+            Tool.Run("run", scene, "--until-s", "1.5", "--events", "-", "--history-s", history).Done().Output)];
+        Assert.All(told, one => Assert.Equal(told[0], one));
+        Assert.True(told[0].Split('\n').Length > 100);
+    }
+
     [Fact]
     public void Energy_OfASpringAndAPull_HasTheirPotentials()
     {

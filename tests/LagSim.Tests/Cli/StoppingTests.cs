@@ -152,7 +152,7 @@ public sealed class StoppingTests
         SceneRun.LeastSeconds(BuiltInScenes.Pair(), SimDuration.FromSeconds(25), 2, told.Add, cancellation: TestContext.Current.CancellationToken);
         Assert.Equal(Enumerable.Range(1, 60).Select(n => n * 1.25), told); // twenty parts of each of two, and of one before them
         told.Clear();
-        SceneRun.LeastSeconds(BuiltInScenes.Pair(), SimDuration.FromSeconds(25), 2, told.Add, isWarm: true, TestContext.Current.CancellationToken);
+        SceneRun.LeastSeconds(BuiltInScenes.Pair(), SimDuration.FromSeconds(25), 2, told.Add, isWarm: true, cancellation: TestContext.Current.CancellationToken);
         Assert.Equal(40, told.Count);
     }
 
