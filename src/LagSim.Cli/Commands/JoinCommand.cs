@@ -38,6 +38,7 @@ internal static class JoinCommand
             string? passFile = parsed.GetValue(pass);
             if (passFile is not null)
             {
+                ThrowIfSame(passFile, request.RecordFile);
                 request.Options.Pass = PassFile.Read(passFile);
                 PassFile.ThrowIfNotWritable(passFile); // to be said before anybody has joined
             }
@@ -54,7 +55,8 @@ internal static class JoinCommand
                 {
                     if (former.Number > 0 && given != former)
                     {
-                        console.Error.WriteLine($"The host does not know the pass of player {former.Number} in '{passFile}'; this is player {given.Number} of its session, whose pass is kept there now.");
+                        string kept = PassFile.KeepFormer(passFile) is string other ? $"; the former one is in '{other}'" : "";
+                        console.Error.WriteLine($"The host does not know the pass of player {former.Number} in '{passFile}'; this is player {given.Number} of its session, whose pass is kept there now{kept}.");
                     }
 
                     Keep(console, passFile, given);
@@ -67,6 +69,15 @@ internal static class JoinCommand
             return runner.Run();
         });
         return command;
+    }
+
+    /// <summary>A recording would take the place of the pass.</summary>
+    private static void ThrowIfSame(string passFile, string? recordFile)
+    {
+        if (recordFile is not null && Path.GetFullPath(passFile) == Path.GetFullPath(recordFile))
+        {
+            throw new UsageException($"--pass and --record are both '{passFile}'; they must be different files.");
+        }
     }
 
     private static void Keep(ToolConsole console, string file, PlayerPass given)

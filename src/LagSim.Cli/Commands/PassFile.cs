@@ -54,6 +54,22 @@ internal static class PassFile
         }
     }
 
+    /// <summary>Keeps a copy of a pass that is about to be replaced by another player's, which may be of use at another host.</summary>
+    /// <returns>The copy's name; null if it could not be made.</returns>
+    internal static string? KeepFormer(string file)
+    {
+        string copy = file + ".old";
+        try
+        {
+            File.Copy(file, copy, overwrite: true); // with the same rights
+            return copy;
+        }
+        catch (Exception failure) when (failure is IOException or UnauthorizedAccessException)
+        {
+            return null;
+        }
+    }
+
     private static string DraftOf(string file) => file + ".new";
 
     /// <summary>Keeps a pass, in a file that only this user may read where the system knows such a thing.</summary>

@@ -228,7 +228,7 @@ internal sealed class CheckCase
         long rate = (long)LogUniform(random, LowestRate, HighestRate);
         double queue = LogUniform(random, 50, 2000);
         bool hasDips = random.IsLucky(30);
-        PeriodicDip? dip = hasDips ? new PeriodicDip(random.NextDouble(6, 30), 5, Math.Max(16_000, rate / 5)) : null;
+        PeriodicDip? dip = hasDips ? new PeriodicDip(random.NextDouble(6, 30), 5, rate / 5) : null;
         QueueDiscipline discipline = random.IsLucky(20) ? QueueDiscipline.CoDel : QueueDiscipline.DropTail;
         return new LinkProfile("full", new LinkLeg(delay, jitter, loss) { Bottleneck = new Bottleneck(rate, queue, discipline) { Dip = dip } });
     }

@@ -192,7 +192,8 @@ internal sealed class CheckSession
         session.StateCommitted += member.Committed.Add;
         if (session is JoinerSession joiner)
         {
-            member.Coverage = new LogCoverage(joiner);
+            member.Coverage = new LogCoverage(_ => acceptedEntries);
+            member.Coverage.Follow(joiner);
             joiner.Interrupted += _ =>
             {
                 // What is repaired still counts: the world as it was is held against the one that never had a delay.
@@ -376,7 +377,7 @@ internal sealed class CheckSession
             comparison.Take(member.Peer, member.Session.World!.Simulation);
         }
 
-        long lost = members.Sum(m => m.Session.Counters.EventsLost + (m.Coverage?.CountLost(acceptedEntries) ?? 0));
+        long lost = members.Sum(m => m.Coverage?.Count().Lost ?? m.Session.Counters.EventsLost);
         bool mayBeRefused = drawn.HasFullLinks || drawn.HasStops; // who could not be heard in time is refused, and knows it
         string? failure = comparison.Differing > 0 ? string.Create(CultureInfo.InvariantCulture, $"{comparison.Differing} of {comparison.Compared} compared"
             + $" states and events differ. {comparison.FirstHash}").TrimEnd()

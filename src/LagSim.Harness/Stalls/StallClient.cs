@@ -1,5 +1,5 @@
 using System.Collections.Generic;
-using System.Linq;
+using LagSim.Harness.Peers;
 using LagSim.Net.Sessions;
 using LagSim.Time;
 
@@ -9,18 +9,14 @@ namespace LagSim.Harness.Stalls;
 internal sealed class StallClient
 {
     private readonly StallHostLog host;
-    private readonly int overlooked;
+    private readonly LogCoverage coverage;
     private readonly List<(SimTime Start, SimTime Time, ulong Hash)> states = [];
-    private readonly HashSet<uint> heard = []; // of the log, since it last began
-    private SimTime world; // the start of the one that it is in
-    private uint copied; // up to where that log is in its copy
-    private uint reached; // up to where it has the log
 
     internal StallClient(int address, StallHostLog host, int overlooked)
     {
         Address = address;
         this.host = host;
-        this.overlooked = overlooked;
+        coverage = new LogCoverage(host.AcceptedOf, index => index >= 5 && index < 5 + overlooked);
     }
 
     /// <summary>Which client it is, from 1.</summary>
@@ -68,29 +64,17 @@ internal sealed class StallClient
     {
         Session = session;
         session.PassGiven += pass => Pass = pass;
-        session.Begun += () => Begin(session);
-        session.Renewed += _ =>
-        {
-            Copies++;
-            Begin(session);
-        };
+        coverage.Follow(session);
+        session.Renewed += _ => Copies++;
         session.Regained += () => Regained++;
         session.Interrupted += Interruptions.Add;
-        session.Logged += entry =>
-        {
-            reached = entry.Index;
-            if (overlooked == 0 || entry.Index < 5 || entry.Index >= 5 + overlooked)
-            {
-                heard.Add(entry.Index);
-            }
-        };
         session.StateCommitted += state => states.Add((session.World!.Simulation.Start, state.Time, state.StateHash));
     }
 
     /// <summary>At the end: holds what it had against what the hosts had.</summary>
     internal void Compare()
     {
-        CountLost();
+        (Expected, Lost) = coverage.Count();
         foreach ((SimTime start, SimTime time, ulong hash) in states)
         {
             if (host.TryGet(start, time, out ulong theirs))
@@ -98,25 +82,6 @@ internal sealed class StallClient
                 Compared++;
                 Differed += hash == theirs ? 0 : 1;
             }
-        }
-    }
-
-    private void Begin(JoinerSession session)
-    {
-        CountLost();
-        heard.Clear();
-        world = session.World!.Simulation.Start;
-        copied = reached = session.LogStart;
-    }
-
-    /// <summary>What it missed of the log since it last began counts, also where a copy, or another host, has made up for it since.</summary>
-    private void CountLost()
-    {
-        if (reached > copied)
-        {
-            uint[] expected = [.. host.AcceptedOf(world).Where(index => index > copied && index <= reached)];
-            Expected += expected.Length;
-            Lost += expected.Count(index => !heard.Contains(index));
         }
     }
 }

@@ -1,4 +1,5 @@
 using System;
+using LagSim.Net.Sessions;
 using LagSim.Net.Strategies;
 
 namespace LagSim.Harness.Stalls;
@@ -26,4 +27,7 @@ public sealed record StallOptions
 
     /// <summary>How many of its accepted entries of the log each client's check overlooks, from the 5th on; to see that what is lost is found.</summary>
     public int Overlooked { get; init; }
+
+    /// <summary>Called with each session that a client opens, before it is stepped; for tests, to put in a fault.</summary>
+    internal Action<JoinerSession>? PrepareClient { get; init; }
 }

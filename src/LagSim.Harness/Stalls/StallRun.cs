@@ -155,8 +155,12 @@ internal sealed class StallRun
     /// <summary>Until all have heard of all that was done, and the last of it is committed.</summary>
     private void Settle()
     {
-        RunUntil(
-            () => clients.All(c => c.Session is { State: SessionState.Running, UnjudgedEvents: 0 } && c.Session.LogLength == Host.LogLength), Patience);
+        if (!RunUntil(
+            () => clients.All(c => c.Session is { State: SessionState.Running, UnjudgedEvents: 0 } && c.Session.LogLength == Host.LogLength), Patience))
+        {
+            failures.Add($"Not all was heard and judged {Patience} s after the last action: {States()}.");
+        }
+
         RunUntil(() => false, 4);
     }
 
@@ -290,6 +294,7 @@ internal sealed class StallRun
         chosen.Pass = options.KeepsPasses ? client.Pass : default;
         JoinerSession session = new(
             null, ports[client.Address], clocks[client.Address], chosen, PeerAddress.Virtual(0), drawn.Seed + (1000 * ++sessions));
+        options.PrepareClient?.Invoke(session);
         client.Follow(session);
         return session;
     }
@@ -340,5 +345,5 @@ internal sealed class StallRun
         }
     }
 
-    private string States() => string.Join("; ", clients.Select(c => $"client {c.Address} {c.Session.State} {c.Session.EndReason}"));
+    private string States() => string.Join("; ", clients.Select(c => $"client {c.Address} {c.Session.State} {c.Session.EndReason} log {c.Session.LogLength}, {c.Session.UnjudgedEvents} unjudged"));
 }

@@ -66,7 +66,9 @@ internal sealed class SweepRun
         {
             network.Connect(n, 0, link, up, down);
             JoinerSession session = (JoinerSession)Add(n, seed);
-            Client client = new(session, n);
+            LogCoverage coverage = new(_ => accepted);
+            coverage.Follow(session);
+            Client client = new(session, n, coverage);
             clients.Add(client);
             session.Logged += entry => client.Bytes += Length(entry, session.Peer);
         }
@@ -178,7 +180,7 @@ internal sealed class SweepRun
         double share = 1;
         foreach (Client client in clients)
         {
-            lost += client.Coverage.CountLost(accepted);
+            lost += client.Coverage.Count().Lost;
             if (client.Session.State == SessionState.Ended)
             {
                 continue; // what came after its end it was never to have
@@ -194,7 +196,7 @@ internal sealed class SweepRun
             Done = clients.Sum(c => c.Done),
             Refused = host.Counters.EventsRefused,
             Unanswered = clients.Sum(c => c.Session.Counters.EventsUnanswered),
-            Lost = lost + clients.Sum(c => c.Session.Counters.EventsLost),
+            Lost = lost,
             Differed = clients.Sum(c => c.Session.Counters.StatesDiffered),
             ComparedShare = share,
             Copies = clients.Sum(c => c.Session.Counters.Renewals),
@@ -288,13 +290,13 @@ internal sealed class SweepRun
 
     private string States() => string.Join("; ", clients.Select(c => $"client {c.Number} {c.Session.State} {c.Session.EndReason}"));
 
-    private sealed class Client(JoinerSession session, int number)
+    private sealed class Client(JoinerSession session, int number, LogCoverage coverage)
     {
         internal JoinerSession Session { get; } = session;
 
         internal int Number { get; } = number;
 
-        internal LogCoverage Coverage { get; } = new(session);
+        internal LogCoverage Coverage { get; } = coverage;
 
         internal double Bytes { get; set; }
 

@@ -74,11 +74,11 @@ public sealed class RecordingWriter : IDisposable
     /// <param name="start">The shared time at which the session started, within 48 days of the origin.</param>
     /// <param name="joined">What a peer that joined late began with; null for one that has the log from entry 1 on.</param>
     /// <exception cref="ArgumentException">The scene or the start cannot travel, or the joined state is of a world with another start.</exception>
-    /// <exception cref="IOException">The file cannot be made or written.</exception>
+    /// <exception cref="IOException">The file cannot be made or written, or another process is writing it.</exception>
     /// <exception cref="UnauthorizedAccessException">The file may not be written.</exception>
     public static RecordingWriter Create(string path, byte peer, Scene scene, SimTime start, JoinedState? joined = null)
     {
-        FileStream file = new(path, FileMode.Create, FileAccess.Write, FileShare.Read);
+        FileStream file = RecordingFileStream.Open(path);
         try
         {
             return new RecordingWriter(file, peer, scene, start, joined);

@@ -96,7 +96,7 @@ public sealed class SessionRecorder : IDisposable
     private static Func<int, (Stream Stream, string? File)> Opener(string path) => number =>
     {
         string file = number == 1 ? path : Path.ChangeExtension(path, FormattableString.Invariant($"{number}{Path.GetExtension(path)}"));
-        return (new FileStream(file, FileMode.Create, FileAccess.Write, FileShare.Read), file);
+        return (RecordingFileStream.Open(file), file);
     };
 
     private void OnRenewed(string why)

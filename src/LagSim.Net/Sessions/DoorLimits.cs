@@ -11,8 +11,13 @@ internal sealed class DoorLimits
     /// <summary>So many of them from one machine.</summary>
     internal int ComingOfOne { get; set; } = 16;
 
-    /// <summary>What they fetch takes about so much memory at most, in bytes: a new copy is made each second that somebody comes, while it has room beside the others.</summary>
+    /// <summary>
+    /// What they fetch takes no more memory than this, in bytes, unless a few copies are larger: a new one is made each second that somebody comes, while it has room.
+    /// </summary>
     internal long CopyBytes { get; set; } = 64 << 20;
+
+    /// <summary>However large they are, so many copies have room: whoever fetches has three time-outs until it has to make room for others.</summary>
+    internal int CopiesAtLeast { get; set; } = 4;
 
     /// <summary>Who comes in on the slowest link that is counted on gets so many bytes of its copy a second.</summary>
     internal double SlowestCopy { get; set; } = 1_000;

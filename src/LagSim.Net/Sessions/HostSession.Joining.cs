@@ -86,7 +86,7 @@ public sealed partial class HostSession
             // The same address, shown by the cookie, under a new nonce: it started again. One that is in stays until the new one gets its number: if it had only
             // fallen silent, it may be heard again first, and goes on.
             joiners.RemoveAll(j => j.Peer == 0 && j.Link.Other == from);
-            MakeRoom(from);
+            MakeRoom(from, made);
             UpdateLink link = LinkTo(from, cookies.SessionId(sessionId, joins++), 0, made.LogIndex, now);
             known = new Joiner(join, link, made, keyed, claimed, now + PatienceWithCopy(made));
             joiners.Add(known);
@@ -118,10 +118,11 @@ public sealed partial class HostSession
     }
 
     /// <summary>
-    /// Lets go of the oldest of those that are coming in, of the machine with the most, while there are too many.
+    /// Lets go of the oldest of those that are coming in, of the machine with the most: while there are too many, or their copies take too much memory.
     /// </summary>
     /// <param name="from">Who comes.</param>
-    private void MakeRoom(PeerAddress from)
+    /// <param name="made">What it is to fetch. Others who fetch the same copy take no more memory for it.</param>
+    private void MakeRoom(PeerAddress from, JoinCopy made)
     {
         List<Joiner> coming = joiners.FindAll(j => j.Peer == 0); // the oldest first
         List<Joiner> ofOne = coming.FindAll(j => j.Link.Other.IsSameMachine(from));
@@ -132,7 +133,12 @@ public sealed partial class HostSession
 
         while (coming.Count >= door.Coming)
         {
-            LeaveOut(coming.GroupBy(j => j.Link.Other.Machine).OrderByDescending(m => m.Count() + (m.Key == from.Machine ? 1 : 0)).First().First());
+            LeaveOut(OldestOf(coming));
+        }
+
+        while (coming.FindAll(j => j.Copy != made) is { Count: > 0 } others && made.Bytes.Length + BytesOf(others) > RoomForCopiesLike(made))
+        {
+            LeaveOut(OldestOf(others));
         }
 
         void LeaveOut(Joiner joiner)
@@ -140,6 +146,9 @@ public sealed partial class HostSession
             joiners.Remove(joiner);
             coming.Remove(joiner);
         }
+
+        Joiner OldestOf(List<Joiner> some) => some.GroupBy(j => j.Link.Other.Machine)
+            .OrderByDescending(machine => machine.Count() + (machine.Key == from.Machine ? 1 : 0)).First().First();
     }
 
     /// <summary>Gives one that has its copy and its clock a number, and tells it; false if there is none, and it was told so.</summary>
@@ -259,7 +268,7 @@ public sealed partial class HostSession
     private JoinCopy? CopyFor(SimTime now)
     {
         ForgetCopies(now);
-        if (newestCopy is null)
+        if (newestCopy is null || !Serves(newestCopy, now))
         {
             // One instant for both: the log goes on from where the state ends, however the clock runs on meanwhile.
             SettleLog();
@@ -291,15 +300,19 @@ public sealed partial class HostSession
             joiner.Copy = joiner.IsReady ? null : joiner.Copy;
         }
 
-        newestCopy = newestCopy is not null && (now - newestCopy.Made <= CopyAge || HasNoRoomBeside(newestCopy, now)) ? newestCopy : null;
+        bool isFetched = joiners.Exists(j => j.Copy == newestCopy);
+        newestCopy = newestCopy is not null && now - newestCopy.Made <= (isFetched ? Options.Timeout : CopyAge) ? newestCopy : null;
     }
 
     /// <summary>
-    /// Whether another copy has no room beside those that are being fetched, the newest among them. Then who comes gets that one, and the log from there on: nobody has to
-    /// begin anew because others come.
+    /// Whether a copy serves who comes now: for a second, and where another has no room beside those that are being fetched, for as long as a time-out. So those who
+    /// fetch are not left out for each one who comes; and nobody gets an old world, and the log of long since, because others keep fetching it.
     /// </summary>
-    private bool HasNoRoomBeside(JoinCopy newest, SimTime now) =>
-        joiners.Exists(j => j.Copy == newest) && now - newest.Made <= PatienceWithCopy(newest) && newest.Bytes.Length + BytesOf(joiners) > door.CopyBytes;
+    private bool Serves(JoinCopy newest, SimTime now) =>
+        now - newest.Made <= CopyAge || newest.Bytes.Length + BytesOf(joiners) > RoomForCopiesLike(newest);
+
+    /// <summary>How much memory copies may take, in bytes: the limit, or what a few as large as that one take.</summary>
+    private long RoomForCopiesLike(JoinCopy copy) => Math.Max(door.CopyBytes, (long)copy.Bytes.Length * door.CopiesAtLeast);
 
     /// <summary>What the copies take that some fetch, in bytes.</summary>
     private static long BytesOf(IEnumerable<Joiner> some) => some.Select(j => j.Copy).OfType<JoinCopy>().Distinct().Sum(copy => (long)copy.Bytes.Length);

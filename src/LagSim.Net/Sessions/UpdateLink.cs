@@ -244,10 +244,10 @@ internal sealed class UpdateLink
                 congestion.OnSilence(now);
             }
 
-            // With a queue on the way the answer is more likely late than lost: the oldest goes again, as a probe that the window does not hold back
-            // (RFC 9002, 6.2.4 and 7.5), and nothing else.
+            // With a queue on the way the answer is more likely late than lost. So twice only the oldest goes again, as a probe that the window does not hold back
+            // (RFC 9002, 6.2.4 and 7.5); then all that is overdue is lost, and what goes is what the least window lets (7.6).
             SimTime before = now - Patience;
-            isProbe = trips.HasQueue;
+            isProbe = trips.HasQueue && unanswered < Silent;
             while (sent.TryPeekOldest(out SimTime at) && at <= before && sent.TryTakeOldest(out SentDatagrams.Datagram oldest))
             {
                 Lose(oldest, now, hasQueue: false);

@@ -123,6 +123,21 @@ public sealed class ProcessTests
         }
     }
 
+    /// <summary>A second process does not write into a recording of another; it says so, and the first one's stays whole.</summary>
+    [Fact]
+    public void HostAndJoin_RecordingToOneFile_TheSecondSaysSoAndLeavesIt()
+    {
+        Assert.SkipUnless(OperatingSystem.IsLinux(), "Linux locks files only for those who ask; Windows does by itself.");
+        using TemporaryFolder folder = new();
+        using ToolProcess host = ToolProcess.Start($"host --scene pair --joiners 1 --for-s 2 --record {folder["both"]}");
+        using ToolProcess joiner = ToolProcess.Start($"join {host.Address} --for-s 2 --record {folder["both"]}");
+        ToolProcess[] all = [host, joiner];
+        Assert.Equal([0, 3], all.Select(process => process.ExitCode()).Order());
+        Assert.Single(all, process => process.ToString().Contains("another process is writing it", StringComparison.Ordinal));
+        Assert.Contains("2 committed states", Tool.Run("diff", folder["both"], folder["both"]).Done().Output, StringComparison.Ordinal);
+        Assert.DoesNotContain("damaged", Tool.Run("replay", folder["both"]).Done().Output, StringComparison.Ordinal);
+    }
+
     /// <summary>That all print the same at each time that they share, which must be so many.</summary>
     private static void AssertSame(IReadOnlyList<ToolProcess> processes, int least)
     {

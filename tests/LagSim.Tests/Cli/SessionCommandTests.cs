@@ -74,8 +74,9 @@ public sealed class SessionCommandTests
         host.Stop();
         host.Ends(130);
         Assert.Matches("--for-s 0.5 was over when this peer came in at T [0-9.]+ s[.]", joiner.Error.ToString());
-        Assert.Matches("The host does not know the pass of player 1 in '.+'; this is player 1 of its session, whose pass is kept there now[.]", joiner.Error.ToString());
+        Assert.Matches("The host does not know the pass of player 1 in '.+'; this is player 1 of its session, whose pass is kept there now; the former one is in '.+pass[.]old'[.]", joiner.Error.ToString());
         Assert.NotEqual(foreign, File.ReadAllText(folder["pass"]).Trim());
+        Assert.Equal(foreign, File.ReadAllText(folder["pass.old"]));
     }
 
     [Fact]

@@ -33,6 +33,7 @@ public sealed class SessionUsageTests
     [InlineData("join 127.0.0.1:9 --for-s 0", "--for-s is '0'")]
     [InlineData("join 127.0.0.1:9 --scene drop", "'--scene'")]
     [InlineData("join 127.0.0.1:9 --pass -", "--pass is '-'; a pass is not for stdout, it must be a file.")]
+    [InlineData("join 127.0.0.1:9 --pass x.pass --record ./x.pass", "--pass and --record are both 'x.pass'; they must be different files.")]
     [InlineData("join 127.0.0.1:9 --pass .", "--pass is '.'; that is a folder, it must be a file.")]
     [InlineData("relay 127.0.0.1:9", "--profile")]
     [InlineData("relay 127.0.0.1:9 --profile dreadful", "There is no link profile 'dreadful'; there are loopback")]

@@ -77,10 +77,17 @@ internal sealed class ToolProcess : IDisposable
     /// <summary>Waits for the end.</summary>
     internal ToolProcess Ends(int code)
     {
+        int ended = ExitCode();
+        Assert.True(ended == code, $"'{line}' ended with {ended}, not {code}: {this}");
+        return this;
+    }
+
+    /// <summary>Waits for the end, and for all that it said.</summary>
+    internal int ExitCode()
+    {
         Assert.True(process.WaitForExit(LiveTool.Deadline), $"'{line}' does not end: {this}");
         process.WaitForExit(); // until all it said is here
-        Assert.True(process.ExitCode == code, $"'{line}' ended with {process.ExitCode}, not {code}: {this}");
-        return this;
+        return process.ExitCode;
     }
 
     public override string ToString() => $"\n{Output}{Error}";

@@ -123,12 +123,13 @@ public sealed class PlacesTests(ITestOutputHelper output)
 
     /// <summary>They come a second apart, so that each would have a copy of its own: no more are held than have room, and nobody is left out for another.</summary>
     [Theory]
-    [InlineData(2, 2)]
+    [InlineData(2.2, 2)]
     [InlineData(1e6, 4)] // the limit taken away
     public void CopiesOfHalfOpenJoins_TakeBoundedMemory(double room, int copies)
     {
-        DoorLimits door = new();
+        DoorLimits door = new() { CopiesAtLeast = 1 };
         (SessionGroup group, NatPort nat) = Host(1, door: door);
+        group.Run(3); // so that all copies have a world in them, and are of one length
         HashSet<ulong> hashes = [];
         for (int n = 0; n < 4; n++)
         {
@@ -140,6 +141,28 @@ public sealed class PlacesTests(ITestOutputHelper output)
         }
 
         Assert.Equal((copies, 4), (hashes.Count, group.Host.ComingCount));
+    }
+
+    /// <summary>Half-open joins that leave no room for another copy do not have whoever comes fetch one that is older than a time-out.</summary>
+    [Fact]
+    public void CopiesOfHalfOpenJoins_AreNotGivenForLong()
+    {
+        DoorLimits door = new() { CopiesAtLeast = 1 };
+        (SessionGroup group, NatPort nat) = Host(1, door: door);
+        group.Run(3);
+        List<ulong> hashes = [];
+        for (int n = 0; n < 20; n++)
+        {
+            Intruder one = Intrude(group, nat, n, false);
+            one.Knock();
+            group.Run(3);
+            hashes.Add(one.CopyHash);
+            door.CopyBytes = (long)(1.5 * one.CopyBytes);
+        }
+
+        int[] shared = [.. Enumerable.Range(1, 19).Where(n => hashes[n] == hashes[n - 1])];
+        Assert.InRange(shared.Length, 4, 16); // so there was no room
+        Assert.All(Enumerable.Range(4, 16), n => Assert.NotEqual(hashes[n - 4], hashes[n])); // 12 s before
     }
 
     [Theory]

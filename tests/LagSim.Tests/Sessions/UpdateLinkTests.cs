@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
@@ -98,11 +99,13 @@ public sealed class UpdateLinkTests
     }
 
     /// <summary>
-    /// A queue filled the window, and then nothing is answered: what goes carries entries, though more is in flight than the window has become, and of each datagram
-    /// that was on its way less and less often.
+    /// A queue filled the window, and then nothing is answered: what asks into the silence carries entries, though more is in flight than the window has become, and
+    /// more and more seldom, however much was on its way.
     /// </summary>
-    [Fact]
-    public void Silence_BehindAQueue_ProbesCarryEntriesWhateverTheWindow()
+    [Theory]
+    [InlineData(2u)]
+    [InlineData(8u)]
+    public void Silence_BehindAQueue_ProbesCarryEntriesWhateverTheWindow(uint each)
     {
         UpdateLink link = Link();
         Queue<(SimTime At, uint Number, uint Last)> answers = new();
@@ -111,6 +114,7 @@ public sealed class UpdateLinkTests
         SimTime silent = Start + SimDuration.FromSeconds(6);
         SimTime end = silent + SimDuration.FromSeconds(10);
         (int carrying, int empty) = (0, 0);
+        int[] bytes = new int[10]; // in each second of the silence
         SimTime lastCarrying = SimTime.MinValue;
         for (SimTime now = Start; now < end; now += SimDuration.FromMilliseconds(1))
         {
@@ -126,8 +130,8 @@ public sealed class UpdateLinkTests
 
             if (now < silent)
             {
-                entries.Last += 2;
-                link.NoteNews(8, now);
+                entries.Last += each;
+                link.NoteNews((int)each * 4, now);
             }
 
             if (!link.IsDue(now))
@@ -137,7 +141,8 @@ public sealed class UpdateLinkTests
 
             UpdateDatagram update = link.Compose(now);
             link.Fill(entries, now);
-            link.Seal(entries, now, SimDuration.FromSeconds(1), isUrgent: true);
+            int length = link.Seal(entries, now, SimDuration.FromSeconds(1), isUrgent: true).Length;
+            bytes[now >= silent ? (int)(now - silent).ToSeconds() : 0] += now >= silent ? length : 0;
             double since = (now - Start).ToSeconds();
             answers.Enqueue((now + SimDuration.FromMilliseconds(since < 2 ? 50 : 50 + Math.Min(400, (since - 2) * 400)), update.Number, link.Outgoing.Sent));
             if (now > silent + SimDuration.FromSeconds(1)) // what was answered before is known by then
@@ -149,7 +154,9 @@ public sealed class UpdateLinkTests
         }
 
         Assert.True(link.Traffic.Queueing > SimDuration.Zero, "no queue showed, so nothing was tested");
-        Assert.InRange(carrying, 2, 60);
+        string course = string.Join(" ", bytes);
+        Assert.True(bytes.Skip(3).Sum() < 3 * 7 * WireFormat.MaxBytes / 2, course);
+        Assert.True(carrying is >= 2 and <= 24, $"{carrying} carry entries: {course}");
         Assert.True(lastCarrying > end - SimDuration.FromSeconds(6), $"the last probe with an entry went at {(lastCarrying - silent).ToSeconds()} s");
         Assert.InRange(empty, 0, 12); // one a second, as an idle link sends
     }

@@ -1,6 +1,7 @@
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Harness.Stalls;
+using LagSim.Net.Sessions;
 using Xunit;
 
 namespace LagSim.Tests.Stalls;
@@ -34,6 +35,15 @@ public sealed class StallTests
     [Fact]
     public void Run_AClientThatMissesAnEvent_ItIsFound() =>
         Assert.All(Play(new StallOptions { Sessions = 3, Seed = SeedWith(StallKind.PortChanges), Overlooked = 8 }).Take(1), o => Assert.True(o.Lost > 0 && !o.IsGood));
+
+    /// <summary>What comes too late for a client's world is lost, though it is in its log, and though a fresh copy makes up for it.</summary>
+    [Fact]
+    public void Run_ClientsThatForgetTooEarly_AreFoundToLoseEvents()
+    {
+        StallOptions options = new() { Sessions = 6, Seed = 1000, PrepareClient = session => session.Fault = SessionFault.ForgetsTooEarly };
+        Assert.Contains(Play(options), o => o.Lost > 0 && !o.IsGood);
+        Assert.All(Play(options with { PrepareClient = null }), o => Assert.Equal(0, o.Lost));
+    }
 
     [Fact]
     public void Run_AKilledClientWithoutItsPass_IsFoundToBeAnotherPlayer()
