@@ -15,11 +15,12 @@ internal static class HermiteError
     /// <summary>The longest step, in seconds, within which the polynomial is off by no more than a tolerance, or by rounding where that is more.</summary>
     /// <param name="tolerance">What may be, in metres and in m/s.</param>
     /// <param name="size">What the position is rounded as, in metres.</param>
-    /// <param name="speed">What the velocity is rounded as, in m/s.</param>
+    /// <param name="speed">What the velocity is rounded as, in m/s, at the start.</param>
+    /// <param name="acceleration">By how much it changes in a second, in m/s²: at a turning point there is no speed, but after a step there is this much.</param>
     /// <param name="sixth">The sixth derivative's size at the start.</param>
     /// <param name="seventh">How fast the sixth changes at most: |x^(6)| stays below sixth + t seventh.</param>
     /// <param name="most">No longer than this, in seconds.</param>
-    internal static double LongestStep(double tolerance, double size, double speed, double sixth, double seventh, double most)
+    internal static double LongestStep(double tolerance, double size, double speed, double acceleration, double sixth, double seventh, double most)
     {
         const double rounding = 2.220446049250313e-16;
         double x = 0.5 * Position * Math.Max(tolerance, rounding * size); // half for each of the two terms
@@ -27,8 +28,8 @@ internal static class HermiteError
         double h = most;
         h = Shorter(h, x, sixth, 6);
         h = Shorter(h, x, seventh, 7);
-        h = Shorter(h, v, sixth, 5);
-        return Shorter(h, v, seventh, 6);
+        double change = 0.5 * Velocity * rounding * acceleration; // in a second: of both conditions a power of h goes
+        return Math.Max(Shorter(Shorter(h, v, sixth, 5), v, seventh, 6), Shorter(Shorter(h, change, sixth, 4), change, seventh, 5));
     }
 
     /// <summary>

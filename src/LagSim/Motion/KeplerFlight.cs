@@ -115,6 +115,6 @@ internal readonly struct KeplerFlight
 
         double most = PartOfTime * Math.Min(Math.Sqrt(r * r * r / mu), r / v.Length);
         return HermiteError.LongestStep(
-            spec.Tolerance, (x + centre).Length + spec.Radius, v.Length, Growth * 720 * path[6].Length, Growth * 5040 * path[7].Length, most);
+            spec.Tolerance, (x + centre).Length + spec.Radius, v.Length, 2 * path[2].Length, Growth * 720 * path[6].Length, Growth * 5040 * path[7].Length, most);
     }
 }

@@ -77,7 +77,7 @@ internal readonly struct LinearFlight
         Vector3D fifth = Damped(fourth) - (third * kappa);
         Vector3D sixth = Damped(fifth) - (fourth * kappa);
         Vector3D seventh = Damped(sixth) - (fifth * kappa);
-        double h = HermiteError.LongestStep(spec.Tolerance, x.Length + spec.Radius, v.Length, sixth.Length, seventh.Length, 1);
+        double h = HermiteError.LongestStep(spec.Tolerance, x.Length + spec.Radius, v.Length, a.Length, sixth.Length, seventh.Length, 1);
         return StepSize.Scaled(StepSize.Longest, h);
     }
 

@@ -46,6 +46,19 @@ public sealed class ClosedFormTests
         }
     }
 
+    /// <summary>Let go at rest, where it has no speed to be rounded as, it comes in as few pieces as one that moves, and is as exact.</summary>
+    [Fact]
+    public void Spring_LetGoAtRest_ToRounding_TakesNoMorePiecesThanOneThatMoves()
+    {
+        Force spring = Force.Spring("spring", default, 100);
+        Simulation still = Fly(spring, V(1), default, 10, out int ofStill, tolerance: 0);
+        Fly(spring, V(1), V(10), 10, out int ofMoving, tolerance: 0);
+        Assert.InRange(ofStill, 1000, 4 * ofMoving);
+        double cos = (1 - Math.Pow(Math.Sin(50), 2)) - Math.Pow(Math.Sin(50), 2);
+        Near(V(cos), Read(still, First, 10).Position, 1e-12);
+        Near(V(-20 * Math.Sin(50) * Math.Sqrt(1 - Math.Pow(Math.Sin(50), 2))), Read(still, First, 10).Velocity, 1e-11);
+    }
+
     [Theory]
     [InlineData(0, 1e-12)]
     [InlineData(1e-9, 1e-8)]
