@@ -30,9 +30,10 @@ internal static class HostCommand
         Option<double> history = CommonOptions.Number("--history-s", "How late an event may arrive and still be accepted", 1, 0.05, 5);
         Option<int> perAddress = CommonOptions.Whole(
             "--per-address", "How many may join from one address; 0 means half of the places, or --joiners if that is more", 0, 0, SessionOptions.MaxJoiners);
+        Option<bool> admin = new("--admin") { Description = $"Read commands from standard input while the session runs, one a line: {HostAdmin.Syntax}." };
         Command command = new("host", "Opens a session that others join over UDP, and takes part in it. Ctrl-C ends it for everyone.")
         {
-            scene, port, address, joiners, history, perAddress,
+            scene, port, address, joiners, history, perAddress, admin,
         };
         shared.AddTo(command);
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
@@ -62,6 +63,12 @@ internal static class HostCommand
             };
             printer.Line($"listening on {printer.ListeningOn}");
             using SessionRunner runner = new(session, carrier, request, printer, console.Stop);
+            if (parsed.GetValue(admin))
+            {
+                HostAdmin commands = new();
+                HostAdmin.Read(console.Input, line => runner.Have(peer => commands.Do(line, (HostSession)peer)));
+            }
+
             return runner.Run();
         });
         return command;

@@ -164,6 +164,24 @@ internal sealed class SessionRunner : IDisposable
         return code == ExitCode.Done && recorder?.Failure is not null ? ExitCode.Input : code;
     }
 
+    /// <summary>Has the session's thread do something, and prints what it says of it; from any thread, at any time.</summary>
+    internal void Have(Func<Session, string> what)
+    {
+        try
+        {
+            thread.Ask(peer =>
+            {
+                string answer = what(peer);
+                Tell(() => printer.Line(answer));
+                return true;
+            });
+        }
+        catch (Exception gone) when (gone is InvalidOperationException or ObjectDisposedException)
+        {
+            // The session is over; nobody prints any more.
+        }
+    }
+
     public void Dispose()
     {
         SayGoodbye(); // where something went wrong, the others are told even so

@@ -45,6 +45,9 @@ internal sealed class ToolConsole
     /// <summary>Whether somebody watches the results as they come.</summary>
     internal bool IsTerminal { get; }
 
+    /// <summary>What somebody types, or pipes in.</summary>
+    internal TextReader Input => Console.In;
+
     /// <summary>Results, as plain text.</summary>
     internal TextWriter Output { get; }
 

@@ -131,7 +131,7 @@ public sealed class HostileDatagrams
             1 => new ChallengeDatagram(random.NextUInt64(), Token()).Encode(buffer),
             2 => Join().Encode(buffer),
             3 => new FetchDatagram(Session(), (byte)Below(10), (uint)Below(100), (uint)Below(100), random.NextUInt64()).Encode(buffer),
-            4 => new LeaveDatagram(random.NextUInt64(), (byte)Below(10), (LeaveReason)(1 + Below(6))).Encode(buffer),
+            4 => new LeaveDatagram(random.NextUInt64(), (byte)Below(10), (LeaveReason)(1 + Below(7))).Encode(buffer),
             5 => new WelcomeDatagram(
                 random.NextUInt64(), Session(), SimDuration.FromSeconds(1), 1 + Below(WorldCopy.MaxBytes), random.NextUInt64(), (uint)Below(9)).Encode(buffer),
             6 => new DoubtDatagram(

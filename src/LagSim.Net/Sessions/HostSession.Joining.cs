@@ -56,7 +56,8 @@ public sealed partial class HostSession
         {
             byte keyed = NumberByKey(join);
             PlayerPlaces.Place? claimed = places.Claimed(join, keyed);
-            RefusalReason? refusal = keyed == 0 && !JoinCookies.IsProof(Options.ConnectKey, join) ? RefusalReason.WrongKey
+            RefusalReason? refusal = banned.Contains(from.Machine) ? RefusalReason.Banned
+                : keyed == 0 && !JoinCookies.IsProof(Options.ConnectKey, join) ? RefusalReason.WrongKey
                 : join.FoldVersion != (uint)Simulation.FoldVersion ? RefusalReason.FoldDiffers
                 : join.SceneHash != 0 && join.SceneHash != Scene!.Hash ? RefusalReason.SceneDiffers
                 : WhyNoPlace(keyed, claimed, from, now);

@@ -24,6 +24,7 @@ public sealed partial class HostSession : Session
     private readonly List<Joiner> joiners = new(); // those that are still coming in among them
     private readonly PlayerPlaces places;
     private readonly ulong sessionId;
+    private readonly HashSet<PeerAddress> banned = new(); // machines
     private ulong joins;
     private SimTime tended; // own clock, when this host last looked after its joiners
     private SimTime watermark = SimTime.MinValue;
@@ -113,6 +114,98 @@ public sealed partial class HostSession : Session
         {
             joiner.Link.Hasten(now);
         }
+    }
+
+    /// <summary>Sends a player away: it is told so, and its session ends. Its number is free from then on and its pass void; it may come in again as a new player.</summary>
+    /// <remarks>What it did stays, and so do the bodies that it spawned: see <see cref="RemoveBodiesOf"/>. On the session's thread.</remarks>
+    /// <param name="player">The player's number.</param>
+    /// <returns>False if nobody has that number now.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">It is not from 1 to <see cref="SessionOptions.MaxJoiners"/>.</exception>
+    public bool Kick(byte player)
+    {
+        ThrowIfNoPlayer(player);
+        return SendAway(j => j.Peer == player) > 0;
+    }
+
+    /// <summary>
+    /// Sends away all players from the machine of one, as <see cref="Kick"/> does, and lets nobody in from there as long as this session lasts. A machine is an IP address,
+    /// of IPv6 its first 64 bits: whoever shares it is shut out too.
+    /// </summary>
+    /// <remarks>On the session's thread.</remarks>
+    /// <param name="player">The player's number.</param>
+    /// <returns>The machine, for <see cref="Unban"/>; null if nobody has that number now.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">It is not from 1 to <see cref="SessionOptions.MaxJoiners"/>.</exception>
+    public PeerAddress? Ban(byte player)
+    {
+        ThrowIfNoPlayer(player);
+        if (joiners.Find(j => j.Peer == player) is not Joiner found)
+        {
+            return null;
+        }
+
+        PeerAddress machine = found.Link.Other.Machine;
+        banned.Add(machine);
+        SendAway(j => j.Link.Other.Machine == machine);
+        return machine;
+    }
+
+    /// <summary>Lets players in again from a machine.</summary>
+    /// <param name="machine">What <see cref="Ban"/> gave.</param>
+    /// <returns>False if it was not shut out.</returns>
+    public bool Unban(PeerAddress machine) => banned.Remove(machine);
+
+    /// <summary>
+    /// Removes all bodies that were spawned under a player's number, whether somebody has it now or not, as events of this host: all peers see them go, at the same time.
+    /// </summary>
+    /// <remarks>On the session's thread. Cost: the bodies that are known, and a removal for each.</remarks>
+    /// <param name="player">The player's number.</param>
+    /// <returns>How many are removed.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">It is not from 1 to <see cref="SessionOptions.MaxJoiners"/>.</exception>
+    /// <exception cref="InvalidOperationException">The session is not running.</exception>
+    public int RemoveBodiesOf(byte player)
+    {
+        ThrowIfNoPlayer(player);
+        Simulation? world = World?.Simulation;
+        List<BodyId> spawned = [];
+        for (int n = 0; n < (world?.BodyCount ?? 0); n++)
+        {
+            BodyId body = world!.BodyAt(n);
+            if (body.Peer == player && world.TryRead(body, world.SimulatedTo, out _))
+            {
+                spawned.Add(body);
+            }
+        }
+
+        foreach (BodyId body in spawned)
+        {
+            Do(PlayerAction.Remove(body));
+        }
+
+        return spawned.Count;
+    }
+
+    private static void ThrowIfNoPlayer(byte player)
+    {
+        if (player is 0 or > SessionOptions.MaxJoiners)
+        {
+            throw new ArgumentOutOfRangeException(nameof(player), player, $"A player's number is 1 to {SessionOptions.MaxJoiners}.");
+        }
+    }
+
+    private int SendAway(Predicate<Joiner> isIt)
+    {
+        List<Joiner> all = joiners.FindAll(isIt);
+        foreach (Joiner joiner in all)
+        {
+            for (int n = 0; n < Goodbyes; n++)
+            {
+                SayGoodbye(joiner.Link, LeaveReason.Kicked);
+            }
+
+            LetGo(j => j == joiner, LeaveReason.Kicked);
+        }
+
+        return all.Count;
     }
 
     private protected override void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from)
@@ -353,14 +446,14 @@ public sealed partial class HostSession : Session
     }
 
     /// <param name="index">Which.</param>
-    /// <param name="why">Its number is kept for it unless it left.</param>
+    /// <param name="why">Its number is kept for it unless it left or was sent away.</param>
     private void LetGo(int index, LeaveReason why)
     {
         Joiner joiner = joiners[index];
         joiners.RemoveAt(index);
         if (joiner.Peer > 0)
         {
-            places[joiner.Peer].Leave(why != LeaveReason.Left, joiner.Link.SessionId, why, Clock.Now);
+            places[joiner.Peer].Leave(why is not (LeaveReason.Left or LeaveReason.Kicked), joiner.Link.SessionId, why, Clock.Now);
             JoinerGone?.Invoke(joiner.Link.Traffic);
         }
     }

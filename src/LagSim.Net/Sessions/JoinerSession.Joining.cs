@@ -31,6 +31,7 @@ public sealed partial class JoinerSession
         RefusalReason.Full => "the session is full.",
         RefusalReason.TooLarge => "its world is too large to be copied.",
         RefusalReason.FoldDiffers => $"it computes worlds by other rules than this peer, whose fold version is {Simulation.FoldVersion}. Both need the same version of LagSim.",
+        RefusalReason.Banned => "it lets nobody in from this address.",
         RefusalReason.TooManyFromOneAddress => "as many as may join from one address have joined from this one (the host's MaxJoinersPerAddress).",
         _ => $"reason {(int)reason}.",
     };

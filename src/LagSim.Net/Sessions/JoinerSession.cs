@@ -310,11 +310,12 @@ public sealed partial class JoinerSession : Session
                 LeaveReason.NotJoined => $"The host at {host} does not have this peer among its joiners, or no longer.",
                 LeaveReason.FellBehind => FormattableString.Invariant(
                     $"The link to the host at {host} is too slow: what happened {Options.Timeout.ToSeconds():0.###} s ago has not come over it yet."),
+                LeaveReason.Kicked => $"The host at {host} sent this player away.",
                 _ => $"The host at {host} ended the session.",
             };
             if (leave.Reason is not (LeaveReason.TimedOut or LeaveReason.NotJoined or LeaveReason.FellBehind))
             {
-                End(leave.Reason == LeaveReason.HostEnded ? SessionEnd.HostEnded : SessionEnd.LetGo, why);
+                End(leave.Reason == LeaveReason.HostEnded ? SessionEnd.HostEnded : leave.Reason == LeaveReason.Kicked ? SessionEnd.Kicked : SessionEnd.LetGo, why);
             }
             else if (State == SessionState.Rejoining)
             {

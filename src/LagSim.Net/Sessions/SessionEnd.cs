@@ -29,4 +29,7 @@ public enum SessionEnd
 
     /// <summary>What the host sent makes no world, or the world cannot be simulated any further.</summary>
     Failed,
+
+    /// <summary>The host sent this player away.</summary>
+    Kicked,
 }

@@ -23,7 +23,7 @@ public readonly struct LeaveDatagram
     /// <summary>Why.</summary>
     public LeaveReason Reason { get; }
 
-    private bool IsWellFormed => Reason is >= LeaveReason.Left and <= LeaveReason.NotJoined;
+    private bool IsWellFormed => Reason is >= LeaveReason.Left and <= LeaveReason.Kicked;
 
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.LeaveBytes"/>.</returns>

@@ -20,4 +20,7 @@ public enum LeaveReason : byte
 
     /// <summary>It is not, or no longer, among the host's joiners; the answer to an update of somebody who thinks so.</summary>
     NotJoined = 6,
+
+    /// <summary>The host sent it away: <see cref="Sessions.HostSession.Kick"/> or <see cref="Sessions.HostSession.Ban"/>.</summary>
+    Kicked = 7,
 }

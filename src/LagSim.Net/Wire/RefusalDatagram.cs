@@ -19,7 +19,7 @@ public readonly struct RefusalDatagram
     /// <summary>Why not.</summary>
     public RefusalReason Reason { get; }
 
-    private bool IsWellFormed => Reason is >= RefusalReason.VersionDiffers and <= RefusalReason.TooManyFromOneAddress;
+    private bool IsWellFormed => Reason is >= RefusalReason.VersionDiffers and <= RefusalReason.Banned;
 
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.RefusalBytes"/>.</returns>

@@ -23,4 +23,7 @@ public enum RefusalReason : byte
 
     /// <summary>As many as may come from one address are there.</summary>
     TooManyFromOneAddress = 7,
+
+    /// <summary>The host lets nobody in from where the joiner is: <see cref="Sessions.HostSession.Ban"/>.</summary>
+    Banned = 8,
 }

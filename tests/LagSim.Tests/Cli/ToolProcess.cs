@@ -57,6 +57,13 @@ internal sealed class ToolProcess : IDisposable
     /// <summary>Starts the tool with a command line, split at blanks.</summary>
     internal static ToolProcess Start(string line) => new(line);
 
+    /// <summary>Types a line.</summary>
+    internal void Types(string text)
+    {
+        process.StandardInput.WriteLine(text);
+        process.StandardInput.Flush();
+    }
+
     /// <summary>Waits for a line that begins like this.</summary>
     internal void Says(string begin) => Assert.True(
         Output.WaitFor(said => said.StartsWith(begin, StringComparison.Ordinal), LiveTool.Deadline) is not null, $"'{line}' does not say '{begin}': {this}");

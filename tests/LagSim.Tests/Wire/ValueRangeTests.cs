@@ -185,14 +185,14 @@ public class ValueRangeTests
         byte[] join = AnyDatagram.Bytes(new JoinDatagram(1, default, default, 2, 3).Encode);
         join[^1] = 1; // a proof of no player
         AssertRefused(join);
-        foreach (byte reason in new byte[] { 0, 8, 255 })
+        foreach (byte reason in new byte[] { 0, 9, 255 })
         {
             byte[] answer = AnyDatagram.Bytes(new RefusalDatagram(1, RefusalReason.Full).Encode);
             answer[^1] = reason;
             AssertRefused(answer);
         }
 
-        foreach (byte reason in new byte[] { 0, 7, 255 })
+        foreach (byte reason in new byte[] { 0, 8, 255 })
         {
             byte[] leave = AnyDatagram.Bytes(new LeaveDatagram(1, 2, LeaveReason.Left).Encode);
             leave[^1] = reason;

@@ -139,10 +139,10 @@ internal static class WireGen
         select new WelcomeDatagram(nonce, session, SimDuration.FromTicks(history), length, hash, index);
 
     internal static readonly Gen<RefusalDatagram> Refusal =
-        from nonce in Bits64 from reason in Gen.Choose(1, 5) select new RefusalDatagram(nonce, (RefusalReason)reason);
+        from nonce in Bits64 from reason in Gen.Choose(1, 8) select new RefusalDatagram(nonce, (RefusalReason)reason);
 
     internal static readonly Gen<LeaveDatagram> Leave =
-        from session in Bits64 from peer in Byte from reason in Gen.Choose(1, 6) select new LeaveDatagram(session, peer, (LeaveReason)reason);
+        from session in Bits64 from peer in Byte from reason in Gen.Choose(1, 7) select new LeaveDatagram(session, peer, (LeaveReason)reason);
 
     internal static readonly Gen<UpdateDatagram> Update =
         from session in Bits64

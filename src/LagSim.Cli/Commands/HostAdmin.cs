@@ -1,0 +1,89 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using System.Threading;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary>What whoever runs a host tells it while it runs, a line each: who is there, and who is to go.</summary>
+internal sealed class HostAdmin
+{
+    internal const string Syntax = "players, kick PLAYER, ban PLAYER, unban ADDRESS, remove-bodies PLAYER";
+
+    private readonly Dictionary<string, PeerAddress> banned = []; // by how it was told
+
+    /// <summary>Reads lines until there are no more, on a thread of its own, which ends with the program.</summary>
+    /// <param name="input">Where they come from.</param>
+    /// <param name="say">What to do with each: <see cref="Do"/> it on the session's thread, and print the answer.</param>
+    internal static void Read(TextReader input, Action<string> say)
+    {
+        new Thread(ReadAll) { IsBackground = true, Name = "LagSim admin" }.Start();
+
+        void ReadAll()
+        {
+            while (input.ReadLine() is string line)
+            {
+                if (line.Trim().Length > 0)
+                {
+                    say(line.Trim());
+                }
+            }
+        }
+    }
+
+    /// <summary>Does what a line says, on the session's thread.</summary>
+    /// <returns>What came of it, as a sentence.</returns>
+    internal string Do(string line, HostSession host)
+    {
+        string[] words = line.Split(' ', StringSplitOptions.RemoveEmptyEntries | StringSplitOptions.TrimEntries);
+        if (words is ["players"])
+        {
+            return host.Links.Count == 0 ? "There is no player." : string.Join("; ", host.Links.Select(link => $"player {link.Peer} at {link.Address}"));
+        }
+
+        if (words is ["unban", string address])
+        {
+            return banned.Remove(address, out PeerAddress machine) && host.Unban(machine) ? $"Players from {address} may come in again."
+                : $"'{address}' is not banned; banned are: {(banned.Count == 0 ? "none" : string.Join(", ", banned.Keys.Order()))}.";
+        }
+
+        if (words is not ["kick" or "ban" or "remove-bodies", string number])
+        {
+            return $"'{line}' is no command; there are: {Syntax}.";
+        }
+
+        if (!byte.TryParse(number, NumberStyles.None, CultureInfo.InvariantCulture, out byte player) || player is 0 or > SessionOptions.MaxJoiners)
+        {
+            return $"'{number}' is no player's number; it must be 1 to {SessionOptions.MaxJoiners}.";
+        }
+
+        switch (words[0])
+        {
+            case "kick":
+                return host.Kick(player) ? $"Player {player} is sent away." : $"There is no player {player}.";
+            case "ban":
+                string? from = host.Links.Where(link => link.Peer == player).Select(link => link.Address.ToEndPoint().Address.ToString()).FirstOrDefault();
+                if (from is null || host.Ban(player) is not PeerAddress its)
+                {
+                    return $"There is no player {player}.";
+                }
+
+                banned[from] = its;
+                return $"Player {player} is sent away, and nobody is let in from {from} any more.";
+            default:
+                try
+                {
+                    int bodies = host.RemoveBodiesOf(player);
+                    return string.Create(CultureInfo.InvariantCulture, $"{bodies} bodies of player {player} are removed.");
+                }
+                catch (InvalidOperationException why)
+                {
+                    return why.Message;
+                }
+        }
+    }
+}

@@ -1,0 +1,122 @@
+using System;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using Xunit;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>Players whom the host sends away, whom it shuts out, and what it removes of theirs.</summary>
+public sealed class SentAwayTests
+{
+    private static readonly BodySpec Ball = new(0.25, 1, 0.5);
+
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)] // the goodbyes are lost: it is told in answer to what it says next
+    public void Kick_APlayer_EndsItsSessionWithASentenceAndNobodyElses(bool isLost)
+    {
+        SessionGroup group = Three();
+        if (isLost)
+        {
+            group.Cut(0, 1);
+        }
+
+        byte player = group.Joiner(1).Peer;
+        Assert.True(group.Host.Kick(player));
+        group.Run(0.2);
+        if (isLost)
+        {
+            group.Restore(0, 1);
+            group.Run(6);
+        }
+
+        Assert.Equal((SessionState.Ended, SessionEnd.Kicked), (group.Sessions[1].State, group.Sessions[1].EndedBy));
+        Assert.Equal("The host at virtual:0 sent this player away.", group.Sessions[1].EndReason);
+        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.False(group.Host.Kick(player));
+        group.Do(2, PlayerAction.SetVelocity(BodyId.OfScene(0), new Vector3D(1, 0, 0)));
+        group.Settle(1);
+        group.Run(3);
+        Assert.Equal((SessionState.Running, 0, true), (group.Sessions[2].State, group.Sessions[2].Counters.StatesDiffered, group.Sessions[2].Counters.StatesAgreed > 0));
+    }
+
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Kick_OrBan_ItComesAgain_OnlyIfNotBanned(bool isBanned)
+    {
+        SessionGroup group = Three();
+        byte player = group.Joiner(1).Peer;
+        PeerAddress? machine = isBanned ? group.Host.Ban(player) : group.Host.Kick(player) ? null : throw new InvalidOperationException();
+        group.Run(0.2);
+        JoinerSession again = Again(group, 77);
+        Assert.Equal(isBanned ? (SessionState.Ended, SessionEnd.Refused) : (SessionState.Running, SessionEnd.None), (again.State, again.EndedBy));
+        if (isBanned)
+        {
+            Assert.Equal("The host at virtual:0 refused: it lets nobody in from this address.", again.EndReason);
+            Assert.True(group.Host.Unban(machine!.Value));
+            Assert.False(group.Host.Unban(machine.Value));
+            Assert.Equal(SessionState.Running, Again(group, 78).State);
+        }
+    }
+
+    [Fact]
+    public void RemoveBodiesOf_APlayerWhoIsGone_RemovesWhatItSpawnedAndNothingElseForAll()
+    {
+        SessionGroup group = Three();
+        for (int n = 0; n < 5; n++)
+        {
+            group.Do(1, PlayerAction.Spawn(Ball, new Vector3D((0.7 * n) - 1.4, 3, 0.5), default));
+        }
+
+        BodyId other = group.Do(2, PlayerAction.Spawn(Ball, new Vector3D(0, 4, -0.5), default)).Body;
+        group.Settle(6);
+        byte player = group.Joiner(1).Peer;
+        group.Host.Kick(player);
+        group.Run(0.5);
+        Assert.Equal(5, group.Host.RemoveBodiesOf(player));
+        group.Settle(11);
+        Assert.Equal(0, group.Host.RemoveBodiesOf(player));
+        foreach (int peer in new[] { 0, 2 })
+        {
+            Simulation world = group.Sessions[peer].World!.Simulation;
+            BodyId[] there = [.. Enumerable.Range(0, world.BodyCount).Select(world.BodyAt).Where(body => world.TryRead(body, world.SimulatedTo, out _))];
+            Assert.DoesNotContain(there, body => body.Peer == player);
+            Assert.Contains(other, there);
+        }
+
+        Assert.Null(group.Difference());
+    }
+
+    [Fact]
+    public void Kick_NoPlayersNumber_IsRefusedWithTheRange()
+    {
+        SessionGroup group = Three();
+        foreach (Action call in new Action[] { () => group.Host.Kick(0), () => group.Host.Ban(SessionOptions.MaxJoiners + 1), () => group.Host.RemoveBodiesOf(255) })
+        {
+            Assert.Contains($"1 to {SessionOptions.MaxJoiners}", Assert.Throws<ArgumentOutOfRangeException>(call).Message);
+        }
+
+        Assert.False(group.Host.Kick(SessionOptions.MaxJoiners));
+        Assert.Null(group.Host.Ban(SessionOptions.MaxJoiners));
+    }
+
+    /// <summary>From the address of the one that was sent away.</summary>
+    private static JoinerSession Again(SessionGroup group, ulong nonce)
+    {
+        group.Steps.Replace(1, new JoinerSession(null, group.Ports[1], new SkewedClock(group.Clock, 0, default), new SessionOptions(), PeerAddress.Virtual(0), nonce), group.Ports[1]);
+        group.Run(3);
+        return group.Joiner(1);
+    }
+
+    private static SessionGroup Three()
+    {
+        SessionGroup group = new(Deeds.Box(), 3, LinkProfiles.PureDelay(20));
+        group.Connect();
+        return group;
+    }
+}
