@@ -9,7 +9,7 @@ using LagSim.Net.Sessions;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary>What whoever runs a host tells it while it runs, a line each: who is there, and who is to go.</summary>
+/// <summary>The commands of <c>lagsim host --admin</c>: list players, send them away, shut machines out, remove bodies.</summary>
 internal sealed class HostAdmin
 {
     internal const string Syntax = "players, kick PLAYER, ban PLAYER, unban ADDRESS, remove-bodies PLAYER";

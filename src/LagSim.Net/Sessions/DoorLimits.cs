@@ -12,11 +12,11 @@ internal sealed class DoorLimits
     internal int ComingOfOne { get; set; } = 16;
 
     /// <summary>
-    /// What they fetch takes no more memory than this, in bytes, unless a few copies are larger: a new one is made each second that somebody comes, while it has room.
+    /// The most memory, in bytes, that the copies being fetched may take, unless <see cref="CopiesAtLeast"/> of them are larger. A host makes at most one copy a second.
     /// </summary>
     internal long CopyBytes { get; set; } = 64 << 20;
 
-    /// <summary>However large they are, so many copies have room: whoever fetches has three time-outs until it has to make room for others.</summary>
+    /// <summary>This many copies always fit, however large they are, so a joiner has at least three time-outs to fetch its copy before it can be dropped for others.</summary>
     internal int CopiesAtLeast { get; set; } = 4;
 
     /// <summary>Who comes in on the slowest link that is counted on gets so many bytes of its copy a second.</summary>

@@ -306,15 +306,15 @@ public sealed partial class HostSession
     }
 
     /// <summary>
-    /// Whether a copy serves who comes now: for a second, and where another has no room beside those that are being fetched, for as long as a time-out. So those who
-    /// fetch are not left out for each one who comes; and nobody gets an old world, and the log of long since, because others keep fetching it.
+    /// Whether a new joiner can be given this copy. A copy is shared for a second; and while there is no memory for another one, until it is as old as the time-out.
+    /// So joiners are not dropped each time that another one comes, and no joiner gets a world older than that because others keep fetching it.
     /// </summary>
     private bool Serves(JoinCopy newest, SimTime now) =>
         now - newest.Made <= CopyAge || newest.Bytes.Length + BytesOf(joiners) > RoomForCopiesLike(newest);
 
-    /// <summary>How much memory copies may take, in bytes: the limit, or what a few as large as that one take.</summary>
+    /// <summary>How much memory copies of that size may take, in bytes; see <see cref="DoorLimits.CopyBytes"/>.</summary>
     private long RoomForCopiesLike(JoinCopy copy) => Math.Max(door.CopyBytes, (long)copy.Bytes.Length * door.CopiesAtLeast);
 
-    /// <summary>What the copies take that some fetch, in bytes.</summary>
+    /// <summary>How many bytes the copies take that these joiners are fetching; a shared one counts once.</summary>
     private static long BytesOf(IEnumerable<Joiner> some) => some.Select(j => j.Copy).OfType<JoinCopy>().Distinct().Sum(copy => (long)copy.Bytes.Length);
 }

@@ -116,7 +116,7 @@ public sealed partial class HostSession : Session
         }
     }
 
-    /// <summary>Sends a player away: it is told so, and its session ends. Its number is free from then on and its pass void; it may come in again as a new player.</summary>
+    /// <summary>Sends a player away. It is told so, and its session ends. Its number becomes free and its pass void; it may join again as a new player.</summary>
     /// <remarks>What it did stays, and so do the bodies that it spawned: see <see cref="RemoveBodiesOf"/>. On the session's thread.</remarks>
     /// <param name="player">The player's number.</param>
     /// <returns>False if nobody has that number now.</returns>
@@ -129,7 +129,7 @@ public sealed partial class HostSession : Session
 
     /// <summary>
     /// Sends away all players from the machine of one, as <see cref="Kick"/> does, and lets nobody in from there as long as this session lasts. A machine is an IP address,
-    /// of IPv6 its first 64 bits: whoever shares it is shut out too.
+    /// of IPv6 its first 64 bits: everybody who shares it is shut out.
     /// </summary>
     /// <remarks>On the session's thread.</remarks>
     /// <param name="player">The player's number.</param>
@@ -155,7 +155,8 @@ public sealed partial class HostSession : Session
     public bool Unban(PeerAddress machine) => banned.Remove(machine);
 
     /// <summary>
-    /// Removes all bodies that were spawned under a player's number, whether somebody has it now or not, as events of this host: all peers see them go, at the same time.
+    /// Removes all bodies that are there and were spawned under a player's number, whether or not somebody has it now. The removals are events of this host, so all peers see
+    /// them at the same simulated time. A body whose spawn is not simulated yet stays.
     /// </summary>
     /// <remarks>On the session's thread. Cost: the bodies that are known, and a removal for each.</remarks>
     /// <param name="player">The player's number.</param>

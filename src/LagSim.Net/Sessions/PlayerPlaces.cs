@@ -46,7 +46,7 @@ internal sealed class PlayerPlaces
     /// as a number is kept it gives that one, if it is free: who comes back is who it was, though it shows nothing. Where that must be sure players have keys.
     /// </param>
     /// <param name="machine">
-    /// Where whoever is to get it comes from. A machine whose players have, or have kept for them, as many numbers as one machine may have, gets one of those that
+    /// Where the new player comes from. A machine whose players have, or have kept for them, as many numbers as one machine may have, gets one of those that
     /// are kept for it: coming again and again takes nobody else's.
     /// </param>
     internal byte Free(SimTime now, byte wanted, PeerAddress machine)

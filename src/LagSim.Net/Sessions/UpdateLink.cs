@@ -9,7 +9,7 @@ namespace LagSim.Net.Sessions;
 /// <remarks>
 /// What is new goes at once, and what is not acknowledged again each resend interval, as far as the link's <see cref="SpareRate"/> allows. Beyond that nothing is repeated
 /// before it is known to be lost, and what is new waits until it is worth a datagram: two thirds of its bytes are entries, or half of what it will wait in the
-/// queue, or a tenth of a second, has passed. In any case no more is on its way than <see cref="CongestionControl"/> lets.
+/// queue, or a tenth of a second, has passed. No more is on its way than <see cref="CongestionControl"/> lets, but for two probes into a silence.
 /// </remarks>
 internal sealed class UpdateLink
 {

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Links;
@@ -64,6 +65,27 @@ public sealed class SentAwayTests
         }
     }
 
+    /// <summary>Who shows the pass of a player that was sent away is a new player; who was only silent gets its own again.</summary>
+    [Theory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public void Kick_APlayer_VoidsItsPass(bool isKicked)
+    {
+        SessionGroup group = new(Deeds.Box(), 3, LinkProfiles.PureDelay(20));
+        List<PlayerPass> passes = [];
+        group.Joiner(1).PassGiven += passes.Add;
+        group.Connect();
+        if (isKicked)
+        {
+            group.Host.Kick(group.Joiner(1).Peer);
+            group.Run(0.2);
+        }
+
+        JoinerSession again = Again(group, 79, new SessionOptions { Pass = passes[^1] }, passes.Add);
+        Assert.Equal(SessionState.Running, again.State);
+        Assert.Equal((2, isKicked), (passes.Count, passes[0] != passes[1]));
+    }
+
     [Fact]
     public void RemoveBodiesOf_APlayerWhoIsGone_RemovesWhatItSpawnedAndNothingElseForAll()
     {
@@ -106,9 +128,11 @@ public sealed class SentAwayTests
     }
 
     /// <summary>From the address of the one that was sent away.</summary>
-    private static JoinerSession Again(SessionGroup group, ulong nonce)
+    private static JoinerSession Again(SessionGroup group, ulong nonce, SessionOptions? options = null, Action<PlayerPass>? onPass = null)
     {
-        group.Steps.Replace(1, new JoinerSession(null, group.Ports[1], new SkewedClock(group.Clock, 0, default), new SessionOptions(), PeerAddress.Virtual(0), nonce), group.Ports[1]);
+        JoinerSession session = new(null, group.Ports[1], new SkewedClock(group.Clock, 0, default), options ?? new SessionOptions(), PeerAddress.Virtual(0), nonce);
+        session.PassGiven += pass => onPass?.Invoke(pass);
+        group.Steps.Replace(1, session, group.Ports[1]);
         group.Run(3);
         return group.Joiner(1);
     }
