@@ -37,6 +37,7 @@ internal static class Program
         CompareCommand.Create(console),
         SweepCommand.Create(console),
         StallsCommand.Create(console),
+        HarmCommand.Create(console),
         HoldCommand.Create(console),
         AccuracyCommand.Create(console),
         HardCommand.Create(console),

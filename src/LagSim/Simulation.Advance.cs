@@ -74,7 +74,14 @@ public sealed partial class Simulation
 
                 events--;
                 clock = least;
-                Process(slot, clock);
+                if (Work is IWorkObserver observer)
+                {
+                    ProcessTold(slot, clock, observer, ref events);
+                }
+                else
+                {
+                    Process(slot, clock);
+                }
             }
         }
         catch (TimelinesFullException full)

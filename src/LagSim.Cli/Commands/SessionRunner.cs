@@ -73,6 +73,7 @@ internal sealed class SessionRunner : IDisposable
         {
             host.JoinerCame += link => Tell(() => printer.Came(link));
             host.JoinerGone += link => Tell(() => printer.Gone(link));
+            host.PlayerExpelled += e => Tell(() => printer.Problem(e.Sentence));
             host.JoinerDiverged += (peer, time) => Tell(() => printer.Problem(FormattableString.Invariant(
                 $"Peer {peer} says that its committed state at T {(time - session.World!.Simulation.Start).ToSeconds()} s is not this one's.")));
         }

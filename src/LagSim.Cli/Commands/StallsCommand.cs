@@ -173,7 +173,7 @@ internal static class StallsCommand
     }
 
     /// <summary>How this very program is started: by itself, or by the runtime's host.</summary>
-    private static string[] ThisTool()
+    internal static string[] ThisTool()
     {
         string program = Environment.ProcessPath ?? throw new InputException("--processes needs to know where this program is, and the system does not say.");
         return Path.GetFileNameWithoutExtension(program) == "dotnet" ? [program, typeof(StallsCommand).Assembly.Location] : [program];

@@ -227,6 +227,18 @@ internal sealed class SessionPrinter
         }
 
         document.WriteEndObject();
+        JsonDocumentWriter.Number(document, "world_late_max_ms", session.World?.MaxPictureLateness.ToMilliseconds());
+        document.WriteStartArray("costs");
+        foreach (PlayerCost cost in (session as HostSession)?.Costs ?? [])
+        {
+            document.WriteStartObject();
+            document.WriteNumber("player", cost.Player);
+            document.WriteNumber("work", cost.Work);
+            document.WriteNumber("most_at_once", cost.MostAtOnce);
+            document.WriteEndObject();
+        }
+
+        document.WriteEndArray();
         document.WriteString("recording", request.RecordFile);
         document.WriteString("recording_failure", recorder?.Failure);
         document.WriteStartArray("recordings");

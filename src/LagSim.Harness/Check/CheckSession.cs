@@ -167,6 +167,7 @@ internal sealed class CheckSession
         {
             Accelerations = drawn.Accelerations,
             MaxGivenSpeed = double.PositiveInfinity, // a light ball among heavy ones gets faster than any player may make it
+            PlayerBudget = null, // it is about bits, however dear
             Window = new(drawn.History, drawn.LookAhead),
             ExtraHistory = drawn.ExtraHistory,
             PicturePast = SimDuration.Zero,

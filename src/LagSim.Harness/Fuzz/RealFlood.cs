@@ -47,7 +47,7 @@ public static class RealFlood
         using TappedPort hostPort = new(between(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0))), seed);
         using TappedPort joinerPort = new(between(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0))), seed + 1);
         using UdpPort stranger = new(new IPEndPoint(IPAddress.Loopback, 0));
-        SessionOptions options = new() { ConnectKey = "flood", ExtraHistory = SimDuration.FromSeconds(5) };
+        SessionOptions options = new() { ConnectKey = "flood", PlayerBudget = null, ExtraHistory = SimDuration.FromSeconds(5) };
         ulong number = (ulong)Stopwatch.GetTimestamp();
         using PeerThread host = new(new HostSession(scene, hostPort, new StopwatchClock(), options, number), hostPort, "LagSim flooded host");
         using PeerThread joiner = new(

@@ -116,7 +116,7 @@ public static class SessionFuzz
             for (int peer = 0; peer < Peers; peer++)
             {
                 ports[peer] = between(network.CreatePort(peer));
-                SessionOptions options = new() { ExpectedJoiners = Peers - 1, ConnectKey = "fuzz" };
+                SessionOptions options = new() { ExpectedJoiners = Peers - 1, ConnectKey = "fuzz", PlayerBudget = null };
                 SkewedClock own = new(clock, 5 * peer, SimDuration.FromSeconds(peer));
                 sessions[peer] = peer == 0
                     ? new HostSession(scene, ports[0], own, options, random.NextUInt64())

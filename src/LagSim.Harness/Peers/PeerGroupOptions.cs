@@ -43,6 +43,7 @@ public sealed record PeerGroupOptions(
         DisplayDelay = DisplayDelay,
         StartLead = StartLead,
         ExpectedJoiners = Peers - 1,
+        PlayerBudget = null, // what is measured is not to depend on what it costs
         Window = new(LatencyCompensationWindow.MaxHistory),
         ExtraHistory = SimDuration.FromSeconds(60),
     };

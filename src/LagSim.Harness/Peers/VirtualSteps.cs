@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using LagSim.Harness.Links;
+using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Time;
@@ -18,6 +19,7 @@ public sealed class VirtualSteps
     private readonly List<Session> sessions = [];
     private readonly List<SimTime> due = [];
     private readonly List<bool> frozen = [];
+    private readonly List<SimTime> busy = []; // until when its last step takes
 
     /// <summary>No sessions yet.</summary>
     public VirtualSteps(VirtualNetwork network)
@@ -41,6 +43,12 @@ public sealed class VirtualSteps
     /// </summary>
     public SimDuration BusyStep { get; set; }
 
+    /// <summary>
+    /// How much work a second of virtual time the machines do, as <see cref="WorkLedger"/> counts it; default 0, for machines as fast as they need be. A step takes as long as its
+    /// work does, and what arrives meanwhile waits.
+    /// </summary>
+    public double WorkPerSecond { get; set; }
+
     /// <summary>Adds a session, due at once, and the port that it listens to.</summary>
     /// <returns>Its number, counted from 0.</returns>
     public int Add(Session session, IDatagramPort port)
@@ -50,6 +58,7 @@ public sealed class VirtualSteps
         sessions.Add(session);
         due.Add(network.Clock.Now);
         frozen.Add(false);
+        busy.Add(SimTime.MinValue);
         port.Arrived += () => Wake(number);
         return number;
     }
@@ -60,6 +69,7 @@ public sealed class VirtualSteps
         sessions.RemoveAt(sessions.Count - 1);
         due.RemoveAt(due.Count - 1);
         frozen.RemoveAt(frozen.Count - 1);
+        busy.RemoveAt(busy.Count - 1);
     }
 
     /// <summary>
@@ -99,7 +109,7 @@ public sealed class VirtualSteps
     {
         if (number < due.Count && !frozen[number])
         {
-            due[number] = network.Clock.Now;
+            due[number] = SimTime.Max(network.Clock.Now, busy[number]);
         }
     }
 
@@ -118,8 +128,9 @@ public sealed class VirtualSteps
             if (due[number] <= network.Clock.Now)
             {
                 BeforeStep?.Invoke(number);
+                (WorkLedger? ledger, double before) = (sessions[number].World?.Work, sessions[number].World?.Work?.Total ?? 0);
                 SimDuration wait = sessions[number].Step();
-                while (IsBehind(sessions[number]) && BusyStep == SimDuration.Zero)
+                while (IsBehind(sessions[number]) && BusyStep == SimDuration.Zero && WorkPerSecond == 0)
                 {
                     wait = sessions[number].Step();
                 }
@@ -127,6 +138,11 @@ public sealed class VirtualSteps
                 AfterStep?.Invoke(number);
                 wait = IsBehind(sessions[number]) ? BusyStep : wait;
                 due[number] = wait > Never ? SimTime.MaxValue : network.Clock.Now + (wait > SimDuration.Zero ? wait : SimDuration.OneTick);
+                if (WorkPerSecond > 0 && sessions[number].World?.Work is WorkLedger done)
+                {
+                    busy[number] = network.Clock.Now + SimDuration.FromSeconds((done.Total - (done == ledger ? before : 0)) / WorkPerSecond);
+                    due[number] = SimTime.Max(due[number], busy[number]);
+                }
             }
         }
     }

@@ -302,6 +302,7 @@ internal sealed class StallRun
     private SessionOptions Options() => new()
     {
         Cancellation = cancellation,
+        PlayerBudget = null, // who is gone stood still, was killed or moved, and was not sent away
         Strategy = options.Strategy,
         RejoinTime = SimDuration.FromSeconds(options.RejoinSeconds),
     };

@@ -209,7 +209,7 @@ internal sealed class SweepRun
     {
         IDatagramPort port = network.CreatePort(number);
         SkewedClock own = new(clock, random.NextDouble(-30, 30), SimDuration.FromSeconds(random.NextDouble(0, 3600)));
-        SessionOptions its = new() { ExpectedJoiners = cell.Clients, Cancellation = cancellation };
+        SessionOptions its = new() { ExpectedJoiners = cell.Clients, PlayerBudget = null, Cancellation = cancellation };
         Session session = number == 0
             ? new HostSession(BuiltInScenes.Billiards(), port, own, its, seed)
             : new JoinerSession(null, port, own, its, PeerAddress.Virtual(0), seed + (ulong)number);

@@ -56,7 +56,7 @@ public sealed partial class HostSession
         {
             byte keyed = NumberByKey(join);
             PlayerPlaces.Place? claimed = places.Claimed(join, keyed);
-            RefusalReason? refusal = banned.Contains(from.Machine) ? RefusalReason.Banned
+            RefusalReason? refusal = banned.Contains(from.Machine) || IsShutOut(from.Machine, now) ? RefusalReason.Banned
                 : keyed == 0 && !JoinCookies.IsProof(Options.ConnectKey, join) ? RefusalReason.WrongKey
                 : join.FoldVersion != (uint)Simulation.FoldVersion ? RefusalReason.FoldDiffers
                 : join.SceneHash != 0 && join.SceneHash != Scene!.Hash ? RefusalReason.SceneDiffers
@@ -174,6 +174,11 @@ public sealed partial class HostSession
         }
 
         joiner.Sit(place);
+        if (claimed != place)
+        {
+            BeginAccount(place.Number);
+        }
+
         place.Take(isSamePlayer: claimed == place, joiner.Link.Other.Machine);
         GiveSeat(joiner);
         JoinerCame?.Invoke(joiner.Link.Traffic);

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
+using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
@@ -155,10 +156,10 @@ public sealed partial class HostSession : Session
     public bool Unban(PeerAddress machine) => banned.Remove(machine);
 
     /// <summary>
-    /// Removes all bodies that are there and were spawned under a player's number, whether or not somebody has it now. The removals are events of this host, so all peers see
-    /// them at the same simulated time. A body whose spawn is not simulated yet stays.
+    /// Removes all bodies that were spawned under a player's number, whether or not somebody has it now. The removals are events of this host, so all peers see them at the same
+    /// simulated time: now, or where the world stands if that is behind, and of a body whose spawn is still to come when it is spawned.
     /// </summary>
-    /// <remarks>On the session's thread. Cost: the bodies that are known, and a removal for each.</remarks>
+    /// <remarks>On the session's thread. Cost: a removal for each.</remarks>
     /// <param name="player">The player's number.</param>
     /// <returns>How many are removed.</returns>
     /// <exception cref="ArgumentOutOfRangeException">It is not from 1 to <see cref="SessionOptions.MaxJoiners"/>.</exception>
@@ -166,23 +167,13 @@ public sealed partial class HostSession : Session
     public int RemoveBodiesOf(byte player)
     {
         ThrowIfNoPlayer(player);
-        Simulation? world = World?.Simulation;
-        List<BodyId> spawned = [];
-        for (int n = 0; n < (world?.BodyCount ?? 0); n++)
+        if (World is not LiveWorld world || State != SessionState.Running)
         {
-            BodyId body = world!.BodyAt(n);
-            if (body.Peer == player && world.TryRead(body, world.SimulatedTo, out _))
-            {
-                spawned.Add(body);
-            }
+            throw new InvalidOperationException($"Nothing can be removed while the session is {State}.");
         }
 
-        foreach (BodyId body in spawned)
-        {
-            Do(PlayerAction.Remove(body));
-        }
-
-        return spawned.Count;
+        SimTime now = SharedTime.Now + Options.Window.LocalLag(EventKind.Remove);
+        return RemoveSpawned(null, player, world.IsBehind ? SimTime.Min(now, world.Simulation.SimulatedTo) : now);
     }
 
     private static void ThrowIfNoPlayer(byte player)
@@ -500,10 +491,12 @@ public sealed partial class HostSession : Session
             : !EventRights.Has(external, Scene!) ? Verdict.NoRight
             : external.Time < Watermark || external.Time < World.Simulation.Start ? Verdict.TooLate
             : external.Time > now + Options.Window.History ? Verdict.TooEarly
+            : IsShortOfBudget(external) ? Verdict.NoRight
             : Limits.WhyNot(external, World.Simulation, now, out _);
         if (verdict == Verdict.Accepted)
         {
             Limits.Note(external);
+            NoteAct(external);
             Apply(external);
         }
 

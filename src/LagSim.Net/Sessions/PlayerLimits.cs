@@ -14,7 +14,7 @@ namespace LagSim.Net.Sessions;
 internal sealed class PlayerLimits
 {
     private readonly SessionOptions options;
-    private readonly Dictionary<BodyId, Spawned> spawned = new(); // those that are there or went lately
+    private readonly Dictionary<BodyId, Birth> spawned = new(); // those that are there or went lately
 
     internal PlayerLimits(SessionOptions options) => this.options = options;
 
@@ -53,14 +53,24 @@ internal sealed class PlayerLimits
     /// <summary>How many bodies that a player has spawned are there. By itself, for what a lambda needs is allocated where its method begins.</summary>
     private int CountOf(byte player, SimTime now) => spawned.Count(s => s.Key.Peer == player && s.Value.Removed > now);
 
+    /// <summary>
+    /// The bodies that a player spawned and that nobody removed, those included whose spawn is still to come, each with when it is spawned, by identity; or of some that are named
+    /// those of any player.
+    /// </summary>
+    internal List<(BodyId Body, SimTime Since)> Spawned(byte player, ICollection<BodyId>? named = null) => spawned
+        .Where(s => s.Value.Removed == SimTime.MaxValue && (named?.Contains(s.Key) ?? s.Key.Peer == player))
+        .OrderBy(s => s.Key)
+        .Select(s => (s.Key, s.Value.Since))
+        .ToList();
+
     /// <summary>Keeps what was accepted, or done here and not refused yet.</summary>
     internal void Note(in ExternalEvent external)
     {
         if (external.Kind == EventKind.Spawn)
         {
-            spawned[external.Body] = new Spawned(external.Spec.Mass, external.Time);
+            spawned[external.Body] = new Birth(external.Spec.Mass, external.Time);
         }
-        else if (external.Kind == EventKind.Remove && spawned.TryGetValue(external.Body, out Spawned? body) && external.Time >= body.Since)
+        else if (external.Kind == EventKind.Remove && spawned.TryGetValue(external.Body, out Birth? body) && external.Time >= body.Since)
         {
             body.Removed = SimTime.Min(body.Removed, external.Time); // before it was there nothing was removed
         }
@@ -73,7 +83,7 @@ internal sealed class PlayerLimits
         {
             spawned.Remove(external.Body);
         }
-        else if (external.Kind == EventKind.Remove && spawned.TryGetValue(external.Body, out Spawned? body) && body.Removed == external.Time)
+        else if (external.Kind == EventKind.Remove && spawned.TryGetValue(external.Body, out Birth? body) && body.Removed == external.Time)
         {
             body.Removed = SimTime.MaxValue;
         }
@@ -132,7 +142,7 @@ internal sealed class PlayerLimits
             return world.Scene.Bodies[body.Index].Spec.Mass;
         }
 
-        double mass = spawned.TryGetValue(body, out Spawned? known) ? known.Mass : world.SpecOf(body).Mass;
+        double mass = spawned.TryGetValue(body, out Birth? known) ? known.Mass : world.SpecOf(body).Mass;
         return mass > 0 ? mass : 1;
     }
 
@@ -148,9 +158,9 @@ internal sealed class PlayerLimits
         }
     }
 
-    private sealed class Spawned
+    private sealed class Birth
     {
-        internal Spawned(double mass, SimTime since)
+        internal Birth(double mass, SimTime since)
         {
             Mass = mass;
             Since = since;

@@ -23,7 +23,10 @@ public abstract partial class Session
     /// <see cref="SessionOptions.MaxSpawned"/> permits here; nothing happened.
     /// </exception>
     /// <exception cref="SimulationException">The world cannot be simulated with it; the session has ended.</exception>
-    public ExternalEvent Do(in PlayerAction action)
+    public ExternalEvent Do(in PlayerAction action) => DoAt(action, SharedTime.IsSet ? SharedTime.Now + Options.Window.LocalLag(action.Kind) : SimTime.MinValue);
+
+    /// <summary>The same, stamped with another time.</summary>
+    private protected ExternalEvent DoAt(in PlayerAction action, SimTime time)
     {
         if (State != SessionState.Ended && SharedTime.IsSet)
         {
@@ -39,13 +42,14 @@ public abstract partial class Session
         }
 
         ThrowIfTooMuch();
-        ExternalEvent external = action.Stamp(SharedTime.Now + Options.Window.LocalLag(action.Kind), Peer, LastSequence + 1);
+        ExternalEvent external = action.Stamp(time, Peer, LastSequence + 1);
         EventRights.Throw(external, Scene!);
         if (Limits.WhyNot(external, World.Simulation, external.Time, out string sentence) != Verdict.Accepted)
         {
             throw new SceneException(sentence);
         }
 
+        World.NoteNews(Peer);
         try
         {
             if (World.Submit(external) == SubmitResult.TooOld)
@@ -91,6 +95,7 @@ public abstract partial class Session
         hasUnshown = true;
         SimTime now = SharedTime.Now;
         Counters.AddLateness(now - external.Time);
+        World.NoteNews(external.Peer);
         World.Advance(now); // what was shown up to now is simulated, so what changes it counts as changed
         switch (strategy.Apply(World, external, now))
         {

@@ -79,6 +79,7 @@ public abstract partial class Session
             }
 
             BeginRunning(shared);
+            due = TendWorld(now) ? now : due;
             if (State != SessionState.Running)
             {
                 due = SimTime.Min(due, now + (World.Simulation.Start - shared));
@@ -92,6 +93,9 @@ public abstract partial class Session
 
         return due == SimTime.MaxValue ? SimDuration.MaxValue : due - Clock.Now; // what the step itself took is not waited again
     }
+
+    /// <summary>Whatever is to be done when the world has got as far as it could; true if it changed the world, which then goes on at once.</summary>
+    private protected virtual bool TendWorld(SimTime now) => false;
 
     private void BeginRunning(SimTime shared)
     {

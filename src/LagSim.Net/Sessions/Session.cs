@@ -247,7 +247,7 @@ public abstract partial class Session
         {
             bool isFirst = Forget();
             begunAt = start;
-            world = new LiveWorld(Scene!, WorldOptions(start), Options.Window.LookAhead, Options.PicturePast + DisplayDelay, contacts);
+            world = new LiveWorld(Scene!, WorldOptions(start), Options.Window.LookAhead, Options.PicturePast + DisplayDelay, contacts) { Work = new WorkLedger(Clock) };
             schedule = new CommitSchedule(start, start, Options.CommitInterval);
             BegunFrom = null;
             TellBegun(isFirst);
@@ -259,7 +259,10 @@ public abstract partial class Session
     private protected void Begin(WorldSnapshot snapshot)
     {
         bool isFirst = Forget();
-        LiveWorld copied = new(Scene!, snapshot, WorldOptions(snapshot.Start), Options.Window.LookAhead, Options.PicturePast + DisplayDelay, contacts);
+        LiveWorld copied = new(Scene!, snapshot, WorldOptions(snapshot.Start), Options.Window.LookAhead, Options.PicturePast + DisplayDelay, contacts)
+        {
+            Work = new WorkLedger(Clock),
+        };
         begunAt = copied.Simulation.HistoryEdge;
         world = copied;
         schedule = new CommitSchedule(snapshot.Start, snapshot.Time, Options.CommitInterval);

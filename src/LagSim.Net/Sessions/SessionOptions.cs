@@ -68,7 +68,7 @@ public sealed class SessionOptions
     /// <summary>Joiner only: the accelerations that this program can supply to a scene that it gets from the host; default none.</summary>
     public IReadOnlyList<IAcceleration>? Accelerations { get; set; }
 
-    /// <summary>Host only: how many events a second it takes from each joiner, 1 to 100,000; default 500. What is more is taken later.</summary>
+    /// <summary>Host only: how many events a second it takes from each joiner, 1 to 100,000; default 500. What is more is taken later. Thousands need a larger <see cref="PlayerBudget"/>, or none.</summary>
     public int MaxEventsPerSecond { get; set; } = 500;
 
     /// <summary>
@@ -85,6 +85,18 @@ public sealed class SessionOptions
     /// host refuses more as <see cref="Verdict.NoRight"/>, by its own option; a joiner's own <see cref="Session.Do"/> goes by the joiner's.
     /// </summary>
     public int MaxSpawned { get; set; } = 64;
+
+    /// <summary>
+    /// Host only: what a player's acts may cost, in work to simulate what comes of them; default <see cref="PlayerBudget.Default"/>, and null for no limit. Who has used up half of it
+    /// has its acts refused (<see cref="Verdict.NoRight"/>) but for removals and releases; who has used it up is sent away as by <see cref="HostSession.Kick"/>, nobody is
+    /// let in from its machine for a minute, what it spawned is removed as of before the work began, and what else it moved and much of the work was for is stopped. See <see
+    /// cref="HostSession.PlayerExpelled"/>. While the world is 150 ms late, half of it is all there is.
+    /// </summary>
+    /// <remarks>
+    /// An event on a body in free flight that comes late counts 12 units and more. The default of <see cref="MaxEventsPerSecond"/> is far from the budget; who permits thousands a second
+    /// raises it in proportion.
+    /// </remarks>
+    public PlayerBudget? PlayerBudget { get; set; } = PlayerBudget.Default;
 
     /// <summary>How much time lies between two committed states that are hashed, 100 ms to 60 s; default 1 s. The same on all peers, to be compared.</summary>
     public SimDuration CommitInterval { get; set; } = SimDuration.FromSeconds(1);

@@ -30,6 +30,8 @@ public sealed class LiveWorld
     private bool changed = true;
     private volatile bool isBehind;
     private SimTime shownTo = SimTime.MinValue; // how far the newest picture's world was simulated
+    private SimTime pictureTo = SimTime.MaxValue; // how far the newest picture can be read; before there is one nobody waits for it
+    private long maxPictureLateness;
     private long events; // how many may still happen before the next step
     private long lateSteps;
     private long maxLatenessTicks;
@@ -82,6 +84,15 @@ public sealed class LiveWorld
     /// <summary>What tells of its contacts; null for nobody.</summary>
     public ContactNotices? Contacts { get; }
 
+    /// <summary>
+    /// Keeps account of what players' acts cost, and bounds what a step may cost by it; null, the default, for none. Of one world at a time. It changes no bit of what happens.
+    /// </summary>
+    public WorkLedger? Work
+    {
+        get => (WorkLedger?)Simulation.Work;
+        set => Simulation.Work = value;
+    }
+
     /// <summary>Where another thread, one only, gets its picture.</summary>
     public PictureExchange Pictures { get; } = new();
 
@@ -90,6 +101,15 @@ public sealed class LiveWorld
 
     /// <summary>The furthest the clock was beyond what was simulated when a step began. From any thread.</summary>
     public SimDuration MaxLateness => SimDuration.FromTicks(Volatile.Read(ref maxLatenessTicks));
+
+    /// <summary>
+    /// How far the newest picture can be read. While news is simulated again it stays where it was, though <see cref="Simulation.SimulatedTo"/> goes back. The latest time there is
+    /// before the first picture. On the simulation's thread.
+    /// </summary>
+    public SimTime PictureTo => pictureTo;
+
+    /// <summary>The furthest the clock was beyond the newest picture when a step began, so that who draws had nothing newer to show. From any thread.</summary>
+    public SimDuration MaxPictureLateness => SimDuration.FromTicks(Volatile.Read(ref maxPictureLateness));
 
     /// <summary>
     /// Whether the world is not where it should be, <see cref="LookAhead"/> beyond the clock of the last <see cref="Step"/> or <see cref="Advance"/>, because
@@ -107,6 +127,10 @@ public sealed class LiveWorld
 
     /// <summary>Gives the contact notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to be stepped again.</summary>
     public void Retire() => Contacts?.Restart();
+
+    /// <summary>Tells <see cref="Work"/>, if there is one, whose event is submitted next.</summary>
+    /// <param name="player">The player's number.</param>
+    public void NoteNews(byte player) => Work?.NoteNews(player, Simulation.IsHealing);
 
     /// <summary>Submits an event at its own time.</summary>
     /// <remarks>
@@ -139,6 +163,7 @@ public sealed class LiveWorld
     {
         SimTime target = SimTime.Max(now, Simulation.Start) + LookAhead;
         changed |= Simulation.Horizon < target;
+        Work?.Resume();
         isBehind = target > Simulation.SimulatedTo && !Simulation.TryAdvanceTo(target, ref events);
     }
 
@@ -159,7 +184,13 @@ public sealed class LiveWorld
             Volatile.Write(ref maxLatenessTicks, Math.Max(maxLatenessTicks, late));
         }
 
+        if (pictureTo < now && changed)
+        {
+            Volatile.Write(ref maxPictureLateness, Math.Max(maxPictureLateness, (now - pictureTo).Ticks));
+        }
+
         events = EventsAStep;
+        Work?.BeginStep();
         Advance(now);
         if (changed && !(isBehind && Simulation.SimulatedTo < shownTo))
         {
@@ -167,6 +198,7 @@ public sealed class LiveWorld
             shownTo = Simulation.SimulatedTo;
             SimTime from = SimTime.Min(SimTime.Max(now, Simulation.Start), Simulation.SimulatedTo) - picturePast;
             Pictures.Publish(Simulation, SimTime.Max(from, Simulation.HistoryEdge));
+            pictureTo = Simulation.Horizon;
             changed = false;
         }
 
@@ -216,12 +248,14 @@ public sealed class LiveWorld
             front = world.Simulation.SimulatedTo;
             world.changed = true;
             world.Simulation.DefersAgain = true;
+            world.Work?.Resume();
         }
 
         public void Dispose() => world.Simulation.DefersAgain = false;
 
         internal T Finish<T>(T result)
         {
+            world.Work?.ChargeNews(world.Simulation.SimulatedTo);
             if (world.Simulation.SimulatedTo < front)
             {
                 world.isBehind |= !world.Simulation.TryAdvanceTo(front, ref world.events);

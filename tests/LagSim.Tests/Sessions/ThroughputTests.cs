@@ -116,8 +116,9 @@ public sealed class ThroughputTests(ITestOutputHelper output)
     [Fact]
     public void Do_MoreThanMayWaitForTheVerdict_ThrowsUntilItCame()
     {
+        // Without a budget: so many events at once are more than a player may cost by default.
         SessionGroup group = new SessionGroup(
-            Floating(), 2, LinkProfiles.PureDelay(5), 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(5)), MaxEventsPerSecond = 100_000 }).Connect();
+            Floating(), 2, LinkProfiles.PureDelay(5), 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(5)), MaxEventsPerSecond = 100_000, PlayerBudget = null }).Connect();
         for (int i = 0; i < JoinerSession.MaxUnjudgedEvents; i++)
         {
             group.Sessions[1].Do(Push);

@@ -1,0 +1,77 @@
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using LagSim.Harness.Harm;
+using LagSim.Harness.Metrics;
+using LagSim.Harness.Reports;
+
+namespace LagSim.Cli.Output;
+
+/// <summary>Attacks, and what honest players cost, as text.</summary>
+internal static class HarmText
+{
+    /// <summary>The command that plays one of them, and no other.</summary>
+    internal static string Replay(HarmCase drawn, bool hasProcesses = false) =>
+        string.Create(CultureInfo.InvariantCulture, $"lagsim harm --attacks 1 --seed {drawn.Seed}{(hasProcesses ? " --processes 1" : "")}");
+
+    internal static void Write(
+        TextWriter output, IReadOnlyList<HarmOutcome> outcomes, IReadOnlyList<HarmOutcome> worst, IReadOnlyList<HarmProcessOutcome> played, IReadOnlyList<HonestCost> costs)
+    {
+        if (outcomes.Count > 0)
+        {
+            WriteAttacks(output, outcomes, worst);
+        }
+
+        foreach (HarmProcessOutcome o in played)
+        {
+            output.WriteLine(string.Create(
+                CultureInfo.InvariantCulture,
+                $"with processes: {o.LateSeconds * 1000:0} ms late at most{(o.IsGood ? "" : ", NOT GOOD")}: {Replay(o.Case, hasProcesses: true)} {string.Join(" ", o.Failures.Prepend(o.Sentence))}").TrimEnd());
+        }
+
+        if (costs.Count > 0)
+        {
+            output.WriteLine("honest players, 4 in each scene, 30 s:");
+            output.WriteLine("scene         events  work/s  most at once  part of budget");
+            foreach (HonestCost c in costs)
+            {
+                output.WriteLine(string.Create(
+                    CultureInfo.InvariantCulture,
+                    $"{c.Scene,-12} {c.Events,7} {c.WorkPerSecond,7:0} {c.MostAtOnce,13:0} {c.Part * 100,13:0.00} %{(c.Expelled > 0 ? "  SENT AWAY" : "")}"));
+            }
+        }
+    }
+
+    private static void WriteAttacks(TextWriter output, IReadOnlyList<HarmOutcome> outcomes, IReadOnlyList<HarmOutcome> worst)
+    {
+        Percentiles late = Percentiles.Of(outcomes.Select(o => o.LateSeconds * 1000));
+        output.WriteLine(string.Create(
+            CultureInfo.InvariantCulture,
+            $"{NumberText.Count(outcomes.Count, "attack")}: the player sent away in {outcomes.Count(o => o.IsExpelled)}; worlds later than 250 ms in {outcomes.Count(o => o.LateSeconds > 0.25)}"));
+        output.WriteLine(string.Create(
+            CultureInfo.InvariantCulture,
+            $"the latest of the others' worlds: {late.P50:0} ms at the median, {late.P99:0} ms at the 99th percentile, {late.Max:0} ms at most; out after"
+                + $" {outcomes.Max(o => o.OutSeconds ?? 0):0.00} s at most, back after {outcomes.Max(o => o.BackSeconds ?? 0):0.00} s more;"
+                + $" an honest player used {outcomes.Max(o => o.HonestPart) * 100:0} % of his budget at most"));
+        output.WriteLine("kind           attacks  sent away  over 250 ms  latest");
+        foreach (IGrouping<HarmKind, HarmOutcome> kind in outcomes.GroupBy(o => o.Case.Kind).OrderBy(g => g.Key))
+        {
+            output.WriteLine(string.Create(
+                CultureInfo.InvariantCulture,
+                $"{kind.Key,-14} {kind.Count(),7} {kind.Count(o => o.IsExpelled),10} {kind.Count(o => o.LateSeconds > 0.25),12} {kind.Max(o => o.LateSeconds) * 1000,4:0} ms"));
+        }
+
+        foreach (HarmOutcome o in worst)
+        {
+            output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"  {o.LateSeconds * 1000:0} ms{(o.IsGood ? "" : ", NOT GOOD")}: {o.Case}; {Replay(o.Case)}"));
+        }
+
+        HarmOutcome[] bad = [.. outcomes.Where(o => !o.IsGood)];
+        output.WriteLine(bad.Length == 0 ? "All of them are as they should be." : $"Not as they should be: {bad.Length} of {outcomes.Count}:");
+        foreach (HarmOutcome o in bad)
+        {
+            output.WriteLine($"  {Replay(o.Case)}: {string.Join(" ", o.Failures)} {o.Sentence}".TrimEnd());
+        }
+    }
+}

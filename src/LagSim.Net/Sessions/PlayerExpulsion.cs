@@ -1,0 +1,44 @@
+using System;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions;
+
+/// <summary>That a host sent a player away, or removed what one who is gone had left, because it cost more than <see cref="SessionOptions.PlayerBudget"/>.</summary>
+/// <remarks>Immutable, safe on any thread.</remarks>
+public sealed class PlayerExpulsion
+{
+    internal PlayerExpulsion(byte player, bool wasThere, double work, double seconds, int removed, int stopped, SimTime from)
+    {
+        Player = player;
+        WasThere = wasThere;
+        Work = work;
+        BodiesRemoved = removed;
+        BodiesStopped = stopped;
+        From = from;
+        string what = wasThere ? $"Player {player} is sent away: what it did"
+            : player == 0 ? "What players who are gone had left is removed: it" : $"What player {player}, who is gone, had left is removed: it";
+        Sentence = what + FormattableString.Invariant($" took {work / 1000:0} ms of work within {seconds:0.0##} s, more than one player may cost.")
+            + $" As of {from.ToShortString()}, {removed} of its bodies are removed and {stopped} others that it moved are stopped.";
+    }
+
+    /// <summary>Whose number it is; 0 for players who are gone and whose number another has by now.</summary>
+    public byte Player { get; }
+
+    /// <summary>Whether somebody had that number, and was sent away.</summary>
+    public bool WasThere { get; }
+
+    /// <summary>What the player's acts took since it last was within its budget for long, in units of about a microsecond.</summary>
+    public double Work { get; }
+
+    /// <summary>How many bodies that it had spawned are removed.</summary>
+    public int BodiesRemoved { get; }
+
+    /// <summary>How many bodies that were not its own are stopped, because it had moved them and much of the work was for them.</summary>
+    public int BodiesStopped { get; }
+
+    /// <summary>The simulated time as of which they are: before the work began, or as far back as anything can still be changed.</summary>
+    public SimTime From { get; }
+
+    /// <summary>All of it as a sentence, for a log.</summary>
+    public string Sentence { get; }
+}

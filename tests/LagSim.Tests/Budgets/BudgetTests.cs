@@ -1,0 +1,280 @@
+using System;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Hosting;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Tests.Sessions;
+using LagSim.Time;
+using LagSim.Timelines;
+using Xunit;
+
+namespace LagSim.Tests.Budgets;
+
+/// <summary>What one player may cost: who takes more is sent away, with what it brought, and the others' worlds go on in real time.</summary>
+public sealed class BudgetTests
+{
+    private const double MicrosecondsASecond = 1e6;
+
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Step_ABallHeldAMillimetreAboveAFastElasticOne_FreezesTheWorldOnlyWithoutABudget(bool hasBudget)
+    {
+        (double late, SessionGroup group) = Play(hasBudget, Gap);
+        Check(hasBudget, late, group);
+    }
+
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Step_AHeapOfAllHisBodies_FreezesTheWorldOnlyWithoutABudget(bool hasBudget)
+    {
+        (double late, SessionGroup group) = Play(hasBudget, Heap);
+        Check(hasBudget, late, group);
+    }
+
+    /// <summary>Both are in every bounce of the one on the other: he who shoots is sent away, not he who holds.</summary>
+    [Fact]
+    public void Step_AFastBallUnderABallThatAnotherHolds_SendsAwayWhoseBallIsFast()
+    {
+        SessionGroup group = Three();
+        byte victim = group.Joiner(2).Peer;
+        BodySpec ball = new(0.25, 1, 1);
+        Vector3D above = new(0.9, 0.2505 + 0.501, 0.9);
+        string said = "";
+        group.Host.PlayerExpelled += e => said += e.Sentence;
+        BodyId held = group.Do(2, PlayerAction.Spawn(ball, above, default)).Body;
+        group.Do(2, PlayerAction.Grab(held, default));
+        for (int n = 0; n < 60; n++)
+        {
+            if (n == 10)
+            {
+                group.Do(1, PlayerAction.Spawn(ball, new Vector3D(0.9, 0.2505, 0.9), new Vector3D(0, 999, 0)));
+            }
+
+            Assert.True(group.Sessions[2].State == SessionState.Running, said);
+            if (n % 5 == 0)
+            {
+                group.Do(2, PlayerAction.HoldKnot(held, above, default));
+            }
+
+            group.Run(0.02);
+        }
+
+        Assert.Equal((SessionState.Ended, SessionEnd.Kicked), (group.Sessions[1].State, group.Sessions[1].EndedBy));
+        Assert.Equal([victim], group.Host.Links.Select(link => link.Peer));
+        Assert.Contains(Bodies(group.Sessions[2]), body => body == held);
+    }
+
+    [Fact]
+    public void Step_AFastBallOfTheScene_IsStoppedWithWhoMovedIt()
+    {
+        SessionGroup group = Three(new SceneBuilder("gap").WithGravity(Vector3D.Zero)
+            .AddPlane("west", new Vector3D(1, 0, 0), new Vector3D(-0.501, 0, 0), 1).AddPlane("east", new Vector3D(-1, 0, 0), new Vector3D(0.501, 0, 0), 1)
+            .AddBody("rattler", new BodySpec(0.5, 1, 1), Vector3D.Zero).AddBody("other", new BodySpec(0.5, 1, 1), new Vector3D(0, 5, 0)).Build());
+        PlayerExpulsion? said = null;
+        group.Host.PlayerExpelled += e => said = said is null ? e : throw new InvalidOperationException(e.Sentence);
+        group.Do(1, PlayerAction.SetVelocity(BodyId.OfScene(0), new Vector3D(999, 0, 0)));
+        group.Run(1);
+        Assert.NotNull(said);
+        Assert.Equal((0, 1, true), (said.BodiesRemoved, said.BodiesStopped, said.WasThere));
+        Assert.StartsWith($"Player {said.Player} is sent away: what it did took 1", said.Sentence, StringComparison.Ordinal);
+        group.Run(2.5);
+        foreach (Session session in new[] { group.Sessions[0], group.Sessions[2] })
+        {
+            Assert.True(session.World!.Simulation.TryRead(BodyId.OfScene(0), session.World.Simulation.SimulatedTo, out BodyState state));
+            Assert.Equal((Vector3D.Zero, 0L), (state.Velocity, session.Counters.StatesDiffered));
+        }
+
+        Assert.True(group.Sessions[2].Counters.StatesAgreed > 0);
+    }
+
+    /// <summary>Before it is sent away a player has its acts refused, and only with a budget.</summary>
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Do_WithLessThanHalfOfTheBudgetLeft_IsRefusedAndThePlayerStays(bool hasBudget)
+    {
+        SessionGroup group = new(Room(), 2, LinkProfiles.PureDelay(20), 1, _ => new SessionOptions { PlayerBudget = hasBudget ? new PlayerBudget(1, 5000) : null });
+        group.Connect();
+        group.Run(1);
+        for (int n = 0; n < 400 && group.Sessions[1].Counters.EventsRefused == 0; n++)
+        {
+            group.Do(1, PlayerAction.SetVelocity(BodyId.OfScene(0), new Vector3D(0, 0, 0.001 * n)));
+            group.Run(0.05);
+        }
+
+        Assert.Equal(SessionState.Running, group.Sessions[1].State);
+        Assert.Equal(hasBudget, group.Sessions[1].Counters.EventsRefused > 0);
+    }
+
+    [Fact]
+    public void Step_WhoWasSentAway_IsLetInAgainAfterAMinute()
+    {
+        SessionGroup group = Three();
+        for (int n = 0; n < 40 && group.Sessions[1].State == SessionState.Running; n++)
+        {
+            Gap(group, n);
+            group.Run(0.01);
+        }
+
+        Assert.Equal(SessionEnd.Kicked, group.Sessions[1].EndedBy);
+        group.Steps.WorkPerSecond = 0;
+        Assert.Equal(SessionEnd.Refused, Again(group, 70).EndedBy);
+        group.Run(60);
+        Assert.Equal(SessionState.Running, Again(group, 71).State);
+    }
+
+    /// <summary>A spawn that is stamped later than now, as by one whose clock is ahead, is removed as it happens.</summary>
+    [Fact]
+    public void RemoveBodiesOf_ASpawnThatIsStillToCome_RemovesItAsItComes()
+    {
+        SessionGroup group = new(Room(), 2, LinkProfiles.PureDelay(20), 1, peer => peer == 0 ? new SessionOptions() : new SessionOptions
+        {
+            Window = new LatencyCompensationWindow(lookAhead: SimDuration.FromMilliseconds(400)).WithLocalLag(EventKind.Spawn, SimDuration.FromMilliseconds(250)),
+        });
+        group.Connect();
+        group.Run(1);
+        BodyId body = group.Do(1, PlayerAction.Spawn(new BodySpec(0.25, 1, 0.5), new Vector3D(0.5, 2, 0.5), default)).Body;
+        group.Run(0.06);
+        Assert.DoesNotContain(body, Bodies(group.Host));
+        Assert.Equal(1, group.Host.RemoveBodiesOf(group.Joiner(1).Peer));
+        Assert.Equal(0, group.Host.RemoveBodiesOf(group.Joiner(1).Peer));
+        group.Run(1);
+        Assert.All(group.Sessions, s => Assert.DoesNotContain(body, Bodies(s)));
+        Assert.Null(group.Difference());
+    }
+
+    [Theory]
+    [InlineData(0, 1)]
+    [InlineData(double.NaN, 1)]
+    [InlineData(1, 2e9)]
+    public void PlayerBudget_OutOfRange_IsRefusedWithTheRange(double perSecond, double atOnce) =>
+        Assert.Contains("1 to 1e9", Assert.Throws<ArgumentOutOfRangeException>(() => new PlayerBudget(perSecond, atOnce)).Message, StringComparison.Ordinal);
+
+    /// <summary>Counting is looking on: with a ledger, in whatever pieces, a world is the same to the bit.</summary>
+    [Fact]
+    public void Work_OfAWorldThatIsWatched_ChangesNoBit()
+    {
+        LiveWorld watched = new(Room(), new SimulationOptions()) { Work = new WorkLedger { MostAStep = 50 } };
+        Simulation alone = new(Room());
+        for (uint n = 1; n <= 20; n++)
+        {
+            ExternalEvent spawn = ExternalEvent.Spawn(SimTime.FromSeconds(0.01 * n), 1, n, new BodySpec(0.25, n, 0.3, friction: 0.3), new Vector3D(-0.9 + (0.01 * n), 0.6 * n, 0));
+            watched.Submit(spawn);
+            alone.Submit(spawn);
+        }
+
+        SimTime end = SimTime.FromSeconds(1.5);
+        int steps = 0;
+        do
+        {
+            watched.Step(end);
+            steps++;
+        }
+        while (watched.IsBehind);
+        alone.AdvanceTo(end);
+        Assert.True(steps > 20);
+        Assert.Equal(alone.StateHash(end), watched.Simulation.StateHash(end));
+        Assert.True(watched.Work!.ChargedTo(1) > 1000 && watched.Work.ChargedTo(2) == 0);
+    }
+
+    private static JoinerSession Again(SessionGroup group, ulong nonce)
+    {
+        JoinerSession session = new(null, group.Ports[1], new SkewedClock(group.Clock, 0, default), new SessionOptions(), PeerAddress.Virtual(0), nonce);
+        group.Steps.Replace(1, session, group.Ports[1]);
+        group.Run(3);
+        return session;
+    }
+
+    private static BodyId[] Bodies(Session session)
+    {
+        Simulation world = session.World!.Simulation;
+        return [.. Enumerable.Range(0, world.BodyCount).Select(world.BodyAt).Where(body => world.TryRead(body, world.SimulatedTo, out _))];
+    }
+
+    private static SessionGroup Three(Scene? scene = null, bool hasBudget = true)
+    {
+        SessionGroup group = new(scene ?? Room(), 3, LinkProfiles.PureDelay(20), 1, _ => new SessionOptions { PlayerBudget = hasBudget ? PlayerBudget.Default : null });
+        group.Connect();
+        group.Run(1);
+        group.Steps.WorkPerSecond = MicrosecondsASecond;
+        return group;
+    }
+
+    private static void Check(bool hasBudget, double late, SessionGroup group)
+    {
+        if (!hasBudget)
+        {
+            Assert.True(late > 0.6, $"{late} s");
+            return;
+        }
+
+        Assert.True(late < 0.25, $"{late} s");
+        Assert.Equal(1, group.Host.JoinerCount);
+        byte gone = group.Sessions[1].Peer;
+        group.Run(2.5);
+        foreach (Session session in new[] { group.Sessions[0], group.Sessions[2] })
+        {
+            Assert.Equal((SessionState.Running, 0L, session != group.Host), (session.State, session.Counters.StatesDiffered, session.Counters.StatesAgreed > 1));
+            Assert.DoesNotContain(Bodies(session), body => body.Peer == gone);
+        }
+    }
+
+    /// <summary>Joiner 1 does harm for one and a half seconds.</summary>
+    /// <returns>How late the world of any other was at most, in s, and the group.</returns>
+    private static (double Late, SessionGroup Group) Play(bool hasBudget, Action<SessionGroup, int> act)
+    {
+        SessionGroup group = Three(null, hasBudget);
+        double late = 0;
+        for (int n = 0; n < 150; n++)
+        {
+            if (group.Sessions[1].State == SessionState.Running)
+            {
+                act(group, n);
+            }
+
+            group.Run(0.01);
+            late = Math.Max(late, new[] { group.Sessions[0], group.Sessions[2] }.Max(s => (s.SharedTime.Now - s.World!.Simulation.Horizon).ToSeconds()));
+        }
+
+        return (late, group);
+    }
+
+    private static void Gap(SessionGroup group, int n)
+    {
+        BodySpec ball = new(0.25, 1, 1);
+        byte peer = group.Joiner(1).Peer;
+        if (n == 0)
+        {
+            BodyId held = group.Do(1, PlayerAction.Spawn(ball, new Vector3D(0.9, 0.2505 + 0.501, 0.9), default)).Body;
+            group.Do(1, PlayerAction.Grab(held, default));
+            group.Do(1, PlayerAction.Spawn(ball, new Vector3D(0.9, 0.2505, 0.9), new Vector3D(0, 999, 0)));
+        }
+        else if (n % 10 == 0)
+        {
+            group.Do(1, PlayerAction.HoldKnot(new BodyId(peer, 1, 0), new Vector3D(0.9, 0.2505 + 0.501, 0.9), default));
+        }
+    }
+
+    private static void Heap(SessionGroup group, int n)
+    {
+        if (n == 0)
+        {
+            for (int i = 0; i < 64; i++)
+            {
+                Vector3D place = new(-0.9 + (0.55 * (i % 4)) + (0.003 * (i % 5)), 1.4 + (0.55 * (i / 16)), -0.9 + (0.55 * (i / 4 % 4)) + (0.002 * (i % 7)));
+                group.Do(1, PlayerAction.Spawn(new BodySpec(0.25, 1 + (i % 7), 0.2, friction: 0.3), place, default));
+            }
+        }
+    }
+
+    private static Scene Room() => new SceneBuilder("room").WithSmallestRadius(0.1)
+        .AddPlane("floor", Vector3D.Up, new Vector3D(0, 0, 0), 1, friction: 0.3)
+        .AddPlane("east", new Vector3D(-1, 0, 0), new Vector3D(1.2, 0, 0), 1).AddPlane("south", new Vector3D(0, 0, -1), new Vector3D(0, 0, 1.2), 1)
+        .AddPlane("west", new Vector3D(1, 0, 0), new Vector3D(-1.2, 0, 0), 1).AddPlane("north", new Vector3D(0, 0, 1), new Vector3D(0, 0, -1.2), 1)
+        .AddBody("ball", new BodySpec(0.1, 1, 0.8), new Vector3D(0, 0.5, 0)).Build();
+}

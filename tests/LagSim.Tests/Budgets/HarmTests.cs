@@ -1,0 +1,61 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Harness.Harm;
+using LagSim.Net.Sessions;
+using Xunit;
+
+namespace LagSim.Tests.Budgets;
+
+/// <summary>Drawn attacks, and that the check finds what they do without a budget; and what honest players cost.</summary>
+public sealed class HarmTests
+{
+    [Fact]
+    public void Run_AFewDrawnAttacks_WorldsStayInRealTime()
+    {
+        IReadOnlyList<HarmOutcome> outcomes = Play(new HarmOptions { Attacks = 8, Seed = 1 });
+        Assert.All(outcomes, o => Assert.True(o.IsGood, $"{o.Case}: {string.Join(" ", o.Failures)} {o.Sentence}"));
+        Assert.Contains(outcomes, o => o.IsExpelled && o.Sentence.Contains("of its bodies are removed", StringComparison.Ordinal));
+        Assert.All(outcomes, o => Assert.True(o.HonestPart < 0.5, $"{o.Case}: {o.HonestPart}"));
+    }
+
+    /// <summary>A heap that is shaken, on seed 3.</summary>
+    [Fact]
+    public void Run_WithoutABudget_WhoHarmsIsFoundToStay()
+    {
+        HarmOutcome outcome = Assert.Single(Play(new HarmOptions { Attacks = 1, Seed = 3, Budget = null, WorkPerSecond = 3e5 }));
+        Assert.True(outcome.LateSeconds > 0.25, $"{outcome.LateSeconds}");
+        Assert.Contains("The player stayed.", outcome.Failures);
+    }
+
+    [Fact]
+    public void Run_TheSameSeedOnAnyNumberOfThreads_IsTheSameToTheLastFigure()
+    {
+        HarmOptions options = new() { Attacks = 4, Seed = 5, Workers = 1 };
+        Assert.Equal(Play(options).Select(Figures), Play(options with { Workers = 3 }).Select(Figures));
+
+        static string Figures(HarmOutcome o) => $"{o.Case} {o.LateSeconds:R} {o.OutSeconds} {o.BackSeconds} {o.IsExpelled} {o.HonestPart:R} {o.Sentence}";
+    }
+
+    [Theory]
+    [InlineData("billiards")]
+    [InlineData("cradle")]
+    public void Play_HonestPlayers_ComeNowhereNearTheirBudgets(string scene)
+    {
+        HonestCost cost = HonestPlay.Play(scene, 1, 5, PlayerBudget.Default, TestContext.Current.CancellationToken);
+        Assert.Equal(0, cost.Expelled);
+        Assert.InRange(cost.Part, 1e-6, 0.25);
+        Assert.True(cost.Events > 50);
+        Assert.True(HonestPlay.Play(scene, 1, 5, new PlayerBudget(10, 10), TestContext.Current.CancellationToken).Expelled > 0); // it is they who are counted
+    }
+
+    [Fact]
+    public void Draw_ManySeeds_EveryKindIsThereWithinTheLimits()
+    {
+        HarmCase[] cases = [.. Enumerable.Range(1, 200).Select(seed => new HarmCase((ulong)seed))];
+        Assert.Equal(Enum.GetValues<HarmKind>().Length, cases.Select(c => c.Kind).Distinct().Count());
+        Assert.All(cases, c => Assert.True(c.Deeds.All(d => d.Velocity.Length <= 1000 && d.AtSeconds < HarmCase.Seconds)));
+    }
+
+    private static IReadOnlyList<HarmOutcome> Play(HarmOptions options) => HarmTest.Run(options, null, TestContext.Current.CancellationToken);
+}
