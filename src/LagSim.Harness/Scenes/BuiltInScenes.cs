@@ -138,6 +138,7 @@ public static class BuiltInScenes
         SceneBuilder builder = new SceneBuilder(scene.Name)
             .WithGravity(scene.Gravity)
             .WithResolution(scene.Resolution)
+            .WithContactTolerance(scene.ContactTolerance)
             .WithSmallestRadius(scene.SmallestRadius)
             .WithSpawners(scene.Spawners)
             .WithPeriodicBox(scene.Box.Size);

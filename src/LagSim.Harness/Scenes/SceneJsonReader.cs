@@ -9,7 +9,7 @@ namespace LagSim.Harness.Scenes;
 internal ref partial struct SceneJsonReader
 {
     private static readonly JsonKeys SceneKeys =
-        new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "smallest_radius_m", "spawners", "periodic_box_m", "forces", "planes", "static_spheres", "bodies"]);
+        new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "contact_tolerance_m", "smallest_radius_m", "spawners", "periodic_box_m", "forces", "planes", "static_spheres", "bodies"]);
 
     private static readonly JsonKeys PlaneKeys = new(["name", "normal"], ["point_m", "offset_m", "restitution", "friction"]);
 
@@ -64,6 +64,10 @@ internal ref partial struct SceneJsonReader
                 case "resolution_m":
                     double resolution = cursor.Number();
                     Add(b => b.WithResolution(resolution));
+                    break;
+                case "contact_tolerance_m":
+                    double tolerance = cursor.Number();
+                    Add(b => b.WithContactTolerance(tolerance));
                     break;
                 case "smallest_radius_m":
                     double smallest = cursor.Number();

@@ -58,6 +58,7 @@ internal ref struct SceneDecoder
         SceneBuilder builder = new(WireText.Read(ref reader));
         builder.WithGravity(reader.ReadVector());
         builder.WithResolution(reader.ReadDouble());
+        builder.WithContactTolerance(reader.ReadDouble());
         builder.WithSmallestRadius(reader.ReadDouble());
         builder.WithSpawners(PeerSet.FromMask(reader.ReadUInt16()));
         ReadForces(builder);

@@ -32,7 +32,7 @@ public static class SceneFormat
     internal const int StaticPartBytes = EventFormat.VectorBytes + 24; // both kinds: a vector and three numbers
     internal const int BodyBytes = EventFormat.SpecBytes + (3 * EventFormat.VectorBytes) + 2;
     private const int MaxTextBytes = 1 + WireText.MaxBytes;
-    private const int HeadBytes = EventFormat.VectorBytes + 16 + 2 + 1 + (3 * 2); // gravity, resolution, smallest radius, spawners, four counts
+    private const int HeadBytes = EventFormat.VectorBytes + 24 + 2 + 1 + (3 * 2); // gravity, resolution, contact tolerance, smallest radius, spawners, four counts
 
     /// <summary>A scene as bytes. Cost: O(n) in its parts.</summary>
     /// <exception cref="ArgumentException">
@@ -47,6 +47,7 @@ public static class SceneFormat
         WireText.Write(ref writer, scene.Name);
         writer.WriteVector(scene.Gravity);
         writer.WriteDouble(scene.Resolution);
+        writer.WriteDouble(scene.ContactTolerance);
         writer.WriteDouble(scene.SmallestRadius);
         writer.WriteUInt16(scene.Spawners.Mask);
         writer.WriteByte((byte)scene.Forces.Count);

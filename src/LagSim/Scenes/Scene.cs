@@ -11,6 +11,7 @@ public sealed class Scene
         string name,
         Vector3D gravity,
         double resolution,
+        double contactTolerance,
         StaticPlane[] planes,
         StaticSphere[] spheres,
         SceneBody[] bodies,
@@ -22,6 +23,7 @@ public sealed class Scene
         Name = name;
         Gravity = gravity;
         Resolution = resolution;
+        ContactTolerance = contactTolerance;
         PlaneArray = planes;
         SphereArray = spheres;
         BodyArray = bodies;
@@ -41,6 +43,12 @@ public sealed class Scene
 
     /// <summary>The length in metres below which a bounce on a plane is not followed hop by hop; 1 nm unless the scene says otherwise.</summary>
     public double Resolution { get; }
+
+    /// <summary>
+    /// How far, in metres, bodies in lasting contact may be from where an exact calculation has them: the one knob between speed and error in heaps. A millimetre,
+    /// or a hundredth of <see cref="SmallestRadius"/> if that is less, unless the scene says otherwise.
+    /// </summary>
+    public double ContactTolerance { get; }
 
     /// <summary>The planes, in the order in which they were added.</summary>
     public IReadOnlyList<StaticPlane> Planes => PlaneArray;
@@ -116,7 +124,7 @@ public sealed class Scene
 
     /// <summary>The same world with its static geometry and forces only.</summary>
     internal Scene WithoutBodies() =>
-        new(Name, Gravity, Resolution, PlaneArray, SphereArray, Array.Empty<SceneBody>(), ForceArray, SmallestRadius, Spawners, Box);
+        new(Name, Gravity, Resolution, ContactTolerance, PlaneArray, SphereArray, Array.Empty<SceneBody>(), ForceArray, SmallestRadius, Spawners, Box);
 
     private static void ThrowIfNull(string name)
     {
@@ -181,6 +189,12 @@ public sealed class Scene
         if (Box.Exists)
         {
             hash.Add(Box.Size); // as above: a scene without has the hash it always had
+        }
+
+        if (ContactTolerance != SceneBuilder.DefaultContactTolerance(SmallestRadius))
+        {
+            hash.Add(1UL << 58);
+            hash.Add(ContactTolerance);
         }
 
         return hash.Value;

@@ -13,6 +13,15 @@ public sealed class SceneBuilder
     /// <summary>The resolution where a scene sets none: 1 nm.</summary>
     public const double DefaultResolution = 1e-9;
 
+    /// <summary>The largest contact tolerance where a scene sets none: 1 mm.</summary>
+    public const double MaxDefaultContactTolerance = 1e-3;
+
+    /// <summary>The least contact tolerance in metres.</summary>
+    public const double MinContactTolerance = 1e-9;
+
+    /// <summary>The largest contact tolerance in metres.</summary>
+    public const double MaxContactTolerance = 0.1;
+
     /// <summary>The most threads that may be asked for.</summary>
     public const int MaxThreads = 64;
 
@@ -28,6 +37,7 @@ public sealed class SceneBuilder
     private PeerSet spawners;
     private PeriodicBox box;
     private double resolution = DefaultResolution;
+    private double? contactTolerance;
     private double? smallestSpawn;
     private int? threads;
 
@@ -55,6 +65,24 @@ public sealed class SceneBuilder
         resolution = metres;
         return this;
     }
+
+    /// <summary>
+    /// Sets how far, in metres, bodies in lasting contact may be from where an exact calculation has them, 1e-9 to 0.1. Default 1e-3, or a hundredth of the smallest
+    /// radius if that is less: nobody sees it, and a heap of a game is far faster than real time.
+    /// </summary>
+    /// <remarks>
+    /// It is the one knob between speed and error where bodies crowd, rest and roll on each other: how long a contact step is, when a rebound is the last, how well
+    /// the steps are solved and when a heap sleeps follow from it. What flies, and what rests, slides or rolls alone on a plane, is exact whatever it is.
+    /// </remarks>
+    public SceneBuilder WithContactTolerance(double metres)
+    {
+        contactTolerance = metres;
+        return this;
+    }
+
+    /// <summary>The contact tolerance, in metres, of a scene that sets none.</summary>
+    internal static double DefaultContactTolerance(double smallestRadius) =>
+        Math.Max(MinContactTolerance, Math.Min(MaxDefaultContactTolerance, smallestRadius / 100));
 
     /// <summary>
     /// Promises that no body smaller than this, in metres, 1e-9 to 1e9, is in the scene or is spawned; what is smaller is refused, by <see cref="Build"/> or when it
@@ -215,7 +243,8 @@ public sealed class SceneBuilder
         {
             CheckNames();
             scene = new Scene(
-                name, gravity.WithoutNegativeZero(), resolution, planes.ToArray(), spheres.ToArray(), bodyArray, forceArray, smallest, spawners, box);
+                name, gravity.WithoutNegativeZero(), resolution, contactTolerance ?? DefaultContactTolerance(smallest), planes.ToArray(), spheres.ToArray(),
+                bodyArray, forceArray, smallest, spawners, box);
         }
     }
 
@@ -261,6 +290,7 @@ public sealed class SceneBuilder
 
         Limits.Components(gravity, 1e6, $"scene '{name}'", "gravity", "m/s^2");
         Limits.InRange(resolution, 1e-15, 1e-3, $"scene '{name}'", "resolution", "m");
+        Limits.InRange(contactTolerance ?? MinContactTolerance, MinContactTolerance, MaxContactTolerance, $"scene '{name}'", "contact tolerance", "m");
         if (smallestSpawn is double least)
         {
             Limits.InRange(least, Limits.MinRadius, Limits.MaxRadius, $"scene '{name}'", "smallest radius", "m");
