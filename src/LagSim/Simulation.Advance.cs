@@ -51,7 +51,7 @@ public sealed partial class Simulation
         bool isThere = true;
         try
         {
-            while (TakeBackBrushed() && queue.TryGetLeast(out int slot, out EventKey least) && least.Time <= time)
+            while (queue.TryGetLeast(out int slot, out EventKey least) && least.Time <= time)
             {
                 if (least.Time > reached)
                 {
@@ -152,7 +152,11 @@ public sealed partial class Simulation
             case EventKind.StepEnd:
                 if (timelines.Segment(timelines.Last(slot)).Law == MotionLaw.Constrained)
                 {
-                    HandleIslandStep(slot, key);
+                    if (!TryHandleContactStep(slot, key))
+                    {
+                        return; // as above
+                    }
+
                     break;
                 }
 
@@ -160,12 +164,16 @@ public sealed partial class Simulation
                 Predict(slot);
                 break;
             default:
-                FindMates(slot, withSelf: false);
+                if (!TryFindSleepers(slot, key))
+                {
+                    return; // as above
+                }
+
                 int before = timelines.Last(slot);
                 HandleExternal(slot, key);
                 if (partyCount > 0 && timelines.Last(slot) != before && !(Has(HealingFault.LeavesMates) && MayBeAhead(key)))
                 {
-                    ReleaseMates(slot, key);
+                    WakeParties(slot, key);
                 }
 
                 Predict(slot);
@@ -173,10 +181,6 @@ public sealed partial class Simulation
         }
 
         EventsProcessed++;
-        if (openedCount > 0)
-        {
-            TakeStepsAhead();
-        }
     }
 
     /// <summary>Whether the piece of the partner's path that the pending impact was found with is no longer what the partner is on then.</summary>
@@ -216,7 +220,7 @@ public sealed partial class Simulation
             double seconds = segment.End.SecondsSince(segment.Epoch);
             Span<int> carrier = stackalloc int[] { segment.Supports[0] };
             Open(
-                slot, key, segment.PositionAt(seconds, default), segment.VelocityAt(seconds, default), 0, carrier, CrowdingAt(slot, key.Time),
+                slot, key, segment.PositionAt(seconds, default), segment.VelocityAt(seconds, default), 0, carrier,
                 timelines.SpinOf(last).At(seconds));
         }
         else if (segment.Acceleration != Vector3D.Zero)
@@ -245,7 +249,6 @@ public sealed partial class Simulation
         }
 
         timelines.Append(slot, bodies[slot].Id, key, segment, dense, hold, spin);
-        NoteCrowding(segment.Crowding, key.Time);
     }
 
     /// <summary>

@@ -12,9 +12,6 @@ namespace LagSim;
 /// </content>
 public sealed partial class Simulation
 {
-    /// <summary>Up to when some body may be crowded, or was: the latest that an impact can come for which what is near is looked at.</summary>
-    private SimTime crowdedUntil = SimTime.MinValue;
-
     /// <summary>Takes bodies that meet three at a time for two: only a test's negative control sets it.</summary>
     internal bool IgnoresTies { get; set; }
 
@@ -27,16 +24,6 @@ public sealed partial class Simulation
     /// <summary>How many impacts were of two alone.</summary>
     internal long PairsProcessed { get; private set; }
 
-    /// <summary>A segment was opened by so many impacts in succession.</summary>
-    private void NoteCrowding(int crowding, SimTime opened)
-    {
-        if (crowding + 1 >= CrowdedAfter)
-        {
-            SimTime until = opened.Ticks > SimTime.MaxValue.Ticks - CrowdedWithin.Ticks ? SimTime.MaxValue : opened + CrowdedWithin;
-            crowdedUntil = SimTime.Max(crowdedUntil, until);
-        }
-    }
-
     /// <summary>
     /// Whether the impact is surely of two bodies, or of one and a surface, and nothing else. Whoever else is struck at that tick has an event pending then,
     /// for nobody's pending event is later than his next contact; or he, or another surface, was seen when one of the two was predicted, which then is tied.
@@ -44,7 +31,7 @@ public sealed partial class Simulation
     /// </summary>
     private bool IsAlone(int slot, in EventKey key)
     {
-        bool isPlain = front == SimTime.MinValue && key.Time > crowdedUntil && key.Round < CollapseRound
+        bool isPlain = front == SimTime.MinValue && key.Round < CollapseRound
             && (!bodies[slot].IsTied || IgnoresTies) && flights.IsFree(slot) && !TakesNoShortcut && !SwapsOperands;
         int other = bodies[slot].Partner;
         return isPlain && (other == NoPartner
@@ -74,7 +61,6 @@ public sealed partial class Simulation
         double residual = bodies[slot].Residual;
         partyCount = 0;
         contactCount = 0;
-        hasNear = false;
         if (other == NoPartner)
         {
             AddParty(slot);
@@ -98,7 +84,7 @@ public sealed partial class Simulation
         }
 
         SetTargets(key.Round);
-        if (MayLast(contacts[0], contacts[0].Target * 0.5)) // by half, since what parts them is the target but for rounding
+        if (contacts[0].Lasts)
         {
             return false;
         }
@@ -111,8 +97,7 @@ public sealed partial class Simulation
         Span<int> planes = touched.AsSpan(0, IsSupportable(contacts[0]) ? 1 : 0);
         for (int i = 0; i < partyCount; i++)
         {
-            int crowding = flights.IsOpenedWithin(parties[i], key.Time, CrowdedWithin) ? CrowdingAt(parties[i], key.Time) : 0;
-            Open(parties[i], key, partyPositions[i], partyVelocities[i], -residual, planes, crowding, partySpins[i]);
+            Open(parties[i], key, partyPositions[i], partyVelocities[i], -residual, planes, partySpins[i]);
         }
 
         timelines.Join(parties.AsSpan(0, partyCount));

@@ -193,9 +193,14 @@ public sealed partial class Simulation
                 carriers[k] = supports[k];
             }
 
-            if (isPermitted)
+            if (isPermitted && IsMember(last) && external.Kind != EventKind.Teleport)
             {
-                Open(slot, key, position, velocity, 0, carriers.Slice(0, count), 0, timelines.SpinOf(last).At(seconds));
+                GoOnAsMember(slot, key, position, velocity, timelines.SpinOf(last).At(seconds), hasChanged: true);
+                timelines.EndMember(timelines.Last(slot), bodies[slot].Id);
+            }
+            else if (isPermitted)
+            {
+                Open(slot, key, position, velocity, 0, carriers.Slice(0, count), timelines.SpinOf(last).At(seconds));
             }
         }
     }

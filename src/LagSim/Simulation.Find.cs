@@ -56,9 +56,10 @@ public sealed partial class Simulation
             ConsiderSurface(slot, surface, ref next);
         }
 
+        SimTime end = SimTime.Min(until, timelines.Segment(timelines.Last(slot)).End);
         foreach (int other in candidates)
         {
-            if (other != except && !flights.AreApart(slot, other, from, until))
+            if (other != except && !flights.AreApart(slot, other, from, SimTime.Max(from, next.Earliest(end))))
             {
                 ConsiderMeeting(slot, other, until, ref next);
             }

@@ -1,5 +1,4 @@
 using System;
-using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
@@ -22,11 +21,14 @@ public sealed partial class Simulation
     /// <summary>By how much a direction of slip or rolling may turn in one piece of path, in radians, where gravity pulls aslant.</summary>
     private const double MostTurn = 1.0 / 128;
 
+    /// <summary>What slips, or moves or turns on a surface slower than this, in m/s, is what rounding leaves of nothing.</summary>
+    private const double RoundingSlip = 1e-10;
+
     private double FrictionOn(int slot, int plane) => Math.Min(bodies[slot].Spec.Friction, Scene.PlaneArray[plane].Friction);
 
     /// <summary>Opens slipping, rolling or rest on the one plane that carries a body.</summary>
     private void OpenRubbing(
-        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D spin, SupportSet supports, in Vector3D pull, int crowding,
+        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D spin, SupportSet supports, in Vector3D pull,
         SimDuration left)
     {
         ref readonly BodySpec spec = ref bodies[slot].Spec;
@@ -44,24 +46,23 @@ public sealed partial class Simulation
             Resistance = Math.Min(spec.RollingResistance, mu) * pressing,
             Turn = Vector3D.Cross(spin, n) * spec.Radius,
             Supports = supports,
-            Crowding = crowding,
         };
 
         // What a tick changes of a speed: times are rounded to ticks.
         double tick = SimDuration.OneTick.ToSeconds() * (pull.Length + (3.5 * at.Grip) + (2.5 * at.Resistance));
         at.Pivot = n * Vector3D.Dot(n, spin);
-        at.Slowing = Slowing(ref at.Pivot, 2.5 * at.Resistance / spec.Radius, IslandStep.RoundingSpeed / spec.Radius);
+        at.Slowing = Slowing(ref at.Pivot, 2.5 * at.Resistance / spec.Radius, RoundingSlip / spec.Radius);
         Vector3D slip = velocity - at.Turn;
         slip -= n * Vector3D.Dot(n, slip);
-        bool slips = slip.Length > IslandStep.RoundingSpeed + (1e-12 * velocity.Length) + tick;
-        bool moves = velocity.Length > IslandStep.RoundingSpeed + tick;
+        bool slips = slip.Length > RoundingSlip + (1e-12 * velocity.Length) + tick;
+        bool moves = velocity.Length > RoundingSlip + tick;
         Vector3D heading = moves ? velocity / velocity.Length : pull.Length > at.Resistance ? pull / pull.Length : Vector3D.Zero;
         bool holds = ((pull * (2.0 / 7)) + (heading * (5.0 / 7 * at.Resistance))).Length <= at.Grip;
         if (slips || !holds)
         {
             Vector3D push = pull + (heading * (2.5 * at.Resistance)); // what makes it slip if it does not yet
             Vector3D along = slips ? slip / slip.Length : push / push.Length;
-            Vector3D over = at.Resistance > 0 && at.Turn.Length > IslandStep.RoundingSpeed + tick ? at.Turn / at.Turn.Length : along;
+            Vector3D over = at.Resistance > 0 && at.Turn.Length > RoundingSlip + tick ? at.Turn / at.Turn.Length : along;
             OpenSlipping(slot, key, at, slip, along, over);
         }
         else if (!moves && pull.Length <= at.Resistance)
@@ -90,7 +91,7 @@ public sealed partial class Simulation
         Vector3D turning = (Vector3D.Cross(at.Normal, held - (over * at.Resistance)) * (2.5 / at.Radius)) - at.Slowing;
         Vector3D acceleration = (at.Pull - held).WithoutNegativeZero();
         end = SimTime.Min(end, EndOfRange(key.Time, at.Velocity, acceleration));
-        MotionSegment path = new(MotionLaw.Sliding, key.Time, end, at.Position, at.Velocity, acceleration, at.Supports, at.Crowding);
+        MotionSegment path = new(MotionLaw.Sliding, key.Time, end, at.Position, at.Velocity, acceleration, at.Supports);
         Append(slot, key, path, default, spin: new Spin(at.Spin, turning));
     }
 
@@ -105,12 +106,12 @@ public sealed partial class Simulation
         {
             // What has stopped turning before the bounces that are left out would have been over stops with them.
             slowing = still < key.Time + left ? at.Pivot * (1 / left.ToSeconds()) : slowing;
-            path = new MotionSegment(MotionLaw.Sliding, key.Time, key.Time + left, at.Position, Vector3D.Zero, Vector3D.Zero, at.Supports, at.Crowding);
+            path = new MotionSegment(MotionLaw.Sliding, key.Time, key.Time + left, at.Position, Vector3D.Zero, Vector3D.Zero, at.Supports);
         }
         else
         {
-            path = turns ? new MotionSegment(MotionLaw.Rolling, key.Time, still, at.Position, Vector3D.Zero, Vector3D.Zero, at.Supports, at.Crowding)
-                : MotionSegment.AtRest(key.Time, at.Position, at.Supports).WithCrowding(at.Crowding);
+            path = turns ? new MotionSegment(MotionLaw.Rolling, key.Time, still, at.Position, Vector3D.Zero, Vector3D.Zero, at.Supports)
+                : MotionSegment.AtRest(key.Time, at.Position, at.Supports);
         }
 
         Append(slot, key, path, default, spin: new Spin(at.Pivot, -slowing));
@@ -124,7 +125,7 @@ public sealed partial class Simulation
         heading = Midway(start, heading, change, key.Time, stop);
         change = ((at.Pull - (heading * at.Resistance)) * (5.0 / 7)).WithoutNegativeZero();
         stop = SimTime.Min(stop, EndOfRange(key.Time, start, change));
-        MotionSegment path = new(MotionLaw.Rolling, key.Time, stop, at.Position, start, change, at.Supports, at.Crowding);
+        MotionSegment path = new(MotionLaw.Rolling, key.Time, stop, at.Position, start, change, at.Supports);
         Append(
             slot, key, path, default,
             spin: new Spin((Vector3D.Cross(at.Normal, start) / at.Radius) + at.Pivot, (Vector3D.Cross(at.Normal, change) / at.Radius) - at.Slowing));
@@ -145,7 +146,6 @@ public sealed partial class Simulation
         internal Vector3D Pivot; // what turns about the normal
         internal Vector3D Slowing; // and what resistance takes from that
         internal SupportSet Supports;
-        internal int Crowding;
     }
 
     /// <summary>

@@ -3,6 +3,7 @@ using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim;
 
@@ -13,10 +14,8 @@ public sealed partial class Simulation
     /// All contacts of this tick and round that share bodies with the first, and the bodies as they meet, in canonical order. Returns the
     /// seconds from the tick to the impact.
     /// </summary>
-    private double Gather(int slot, in EventKey key, int fromCount, double gap)
+    private double Gather(int slot, in EventKey key)
     {
-        nearFrom = fromCount;
-        reach = gap;
         Follow(slot, key);
         if (ahead.Count > 0)
         {
@@ -37,27 +36,21 @@ public sealed partial class Simulation
         return residual;
     }
 
-    /// <summary>Finds contacts from body to body. Near ones are followed like those that are struck, so it does not matter where it begins.</summary>
+    /// <summary>Finds contacts from body to body.</summary>
     private void Follow(int slot, in EventKey key)
     {
         partyCount = 0;
         contactCount = 0;
-        hasNear = false;
         ahead.Clear();
         AddParty(slot);
-        for (int i = 0; i < partyCount && !IsTooCrowded && ahead.Count == 0; i++)
+        for (int i = 0; i < partyCount && ahead.Count == 0; i++)
         {
             int party = parties[i];
-            int count = CrowdingAt(party, key.Time);
-            bool isOfIsland = timelines.Segment(timelines.Last(party)).IsOfIsland;
             for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
             {
-                bool now = TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
-                bool lasts = !now && isOfIsland && Lasts(party, timelines.Last(party), surface) && SurfaceGap(party, surface, key.Time) <= NearGap;
-                if (now || lasts || IsNearSurface(party, count, surface, key.Time))
+                if (TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round)
                 {
-                    hasNear |= !now && !lasts;
-                    AddContact(new ContactPoint(i, ContactPoint.Static, surface, contact) { IsStruck = now });
+                    AddContact(new ContactPoint(i, ContactPoint.Static, surface, contact));
                 }
             }
 
@@ -68,21 +61,20 @@ public sealed partial class Simulation
                     continue;
                 }
 
-                bool isNear = false;
-                bool lasts = false;
                 int then = PieceAt(other, key);
-                bool now = TryTouchBody(party, other, then, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
-                if (!now && RoundAfter(then, key.Time) <= key.Round && timelines.Segment(then).IsPresent)
+                if (then == TimelineStore.None)
                 {
-                    // What was struck in this very round already is not struck in it again.
-                    now = key.Round >= CollapseRound && !IsHeld(then) && !IsHeld(timelines.Last(party))
-                        && IsTouching(party, other, then, key.Time, out contact);
-                    lasts = !now && isOfIsland && Lasts(party, timelines.Last(party), other, then)
-                        && Gap(party, timelines.Last(party), other, then, key.Time) <= NearGap;
-                    isNear = !now && !lasts && IsNearBody(party, count, other, then, key.Time);
+                    continue;
                 }
 
-                if (now || lasts || isNear)
+                bool now = TryTouchBody(party, other, then, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
+                if (!now && key.Round >= CollapseRound && RoundAfter(then, key.Time) <= key.Round && timelines.Segment(then).IsPresent)
+                {
+                    // What was struck in this very round already is not struck in it again.
+                    now = !IsHeld(then) && !IsHeld(timelines.Last(party)) && !AreElastic(party, other) && IsTouching(party, other, then, key.Time, out contact);
+                }
+
+                if (now)
                 {
                     if (then != timelines.Last(other))
                     {
@@ -90,37 +82,28 @@ public sealed partial class Simulation
                         continue;
                     }
 
-                    hasNear |= isNear;
                     int j = PartyOf(other);
                     if (j < 0 || j > i)
                     {
                         j = j < 0 ? AddParty(other) : j;
                         bool ordered = bodies[party].Id < bodies[other].Id != SwapsOperands;
-                        AddContact(new ContactPoint(ordered ? i : j, ordered ? j : i, -1, contact) { IsStruck = now });
+                        AddContact(new ContactPoint(ordered ? i : j, ordered ? j : i, -1, contact));
                     }
                 }
             }
-
-            AddMates(timelines.Last(party));
         }
     }
+
+    private bool AreElastic(int slot, int other) => bodies[slot].Spec.Restitution == 1 && bodies[other].Spec.Restitution == 1;
+
+    /// <summary>The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits whoever asks.</summary>
+    private double Gap(int slot, int piece, int other, int otherPiece, SimTime time) =>
+        Scene.Box.Nearest(PositionAt(piece, time) - PositionAt(otherPiece, time)).Length - (bodies[slot].Spec.Radius + bodies[other].Spec.Radius);
 
     private bool IsTouching(int slot, int other, int piece, SimTime time, out ContactTime contact)
     {
         ContactTime.TryMake(time, time, 0, out contact);
         return Gap(slot, timelines.Last(slot), other, piece, time) <= Scene.Resolution;
-    }
-
-    /// <summary>What happens to one of an island happens to all of it.</summary>
-    private void AddMates(int piece)
-    {
-        for (int mate = timelines.Mate(piece); mate != piece; mate = timelines.Mate(mate))
-        {
-            if (PartyOf(timelines.Owner(mate)) < 0)
-            {
-                AddParty(timelines.Owner(mate));
-            }
-        }
     }
 
     private int PartyOf(int slot) => Array.IndexOf(parties, slot, 0, partyCount);
@@ -134,7 +117,7 @@ public sealed partial class Simulation
             Array.Resize(ref partyMasses, size);
             Array.Resize(ref partyPositions, size);
             Array.Resize(ref partyVelocities, size);
-            Array.Resize(ref partyTrial, size);
+            Array.Resize(ref isReached, size);
             Array.Resize(ref partySpins, size);
             Array.Resize(ref partyRadii, size);
             Array.Resize(ref partyAccelerations, size);

@@ -16,11 +16,6 @@ public sealed partial class Simulation
     /// <summary>What is still to be cut: a body, and the key from which on.</summary>
     private readonly Stack<(int Slot, EventKey Key)> cuts = new();
 
-    /// <summary>Impacts that what is being predicted comes near to: one that takes part, and the impact's key.</summary>
-    private readonly List<(int Slot, EventKey Key)> brushed = new();
-
-    private readonly WitnessLog witnesses;
-
     /// <summary>Of the heal at hand what it began with, and how many bodies it has predicted anew.</summary>
     private HealReport healed;
 
@@ -178,19 +173,6 @@ public sealed partial class Simulation
         while (cuts.Count > 0)
         {
             (int body, EventKey from) = cuts.Pop();
-            for (int seen = witnesses.Newest(body); seen != WitnessLog.None && EventKey.Compare(witnesses.Key(seen), from) >= 0; seen = witnesses.Older(seen))
-            {
-                if (StillHappens(seen) && !Has(HealingFault.LeavesWhoLooked))
-                {
-                    cuts.Push((timelines.Owner(witnesses.Segment(seen)), witnesses.Key(seen)));
-                }
-            }
-
-            if (witnesses.CutFrom(body, from))
-            {
-                GoOnToTheEnd(); // who was looked at is not kept
-            }
-
             bool any = false;
             for (int at = timelines.Last(body); at != TimelineStore.None && EventKey.Compare(timelines.Key(at), from) >= 0; at = timelines.Last(body))
             {
@@ -269,62 +251,6 @@ public sealed partial class Simulation
             int slot = ahead[ahead.Count - 1];
             ahead.RemoveAt(ahead.Count - 1);
             TakeBack(slot, round);
-        }
-
-        return true;
-    }
-
-    /// <summary>
-    /// Finds the impacts ahead that a body's newest segment does not strike but comes so near to that it could take part: those of crowded
-    /// bodies, and those that have looked at somebody for being near.
-    /// </summary>
-    private void Brush(int slot, int other, int piece, SimTime until)
-    {
-        int mine = timelines.Last(slot);
-        SimTime end = SimTime.Min(timelines.Segment(mine).End, until);
-        for (int next = timelines.Next(piece); next != TimelineStore.None && timelines.Key(next).Time <= end; piece = next, next = timelines.Next(next))
-        {
-            ref readonly EventKey key = ref timelines.Key(next);
-            bool looks = key.Kind == EventKind.Impact && (key.Round >= CollapseRound || timelines.Segment(next).Crowding >= CrowdedAfter
-                || CrowdingAfter(mine, key.Time) >= CrowdedAfter);
-            if (looks && timelines.Segment(piece).IsPresent && Gap(slot, mine, other, piece, key.Time) <= NearGap)
-            {
-                brushed.Add((other, RoundOfImpacts(key.Time, key.Round)));
-            }
-        }
-
-        for (int seen = witnesses.Newest(other); seen != WitnessLog.None && EventKey.Compare(witnesses.Key(seen), clock) > 0; seen = witnesses.Older(seen))
-        {
-            EventKey key = witnesses.Key(seen);
-            if (key.Time <= end && StillHappens(seen, oldSerial) && !Has(HealingFault.OverlooksLooks))
-            {
-                int then = timelines.Before(other, key);
-                if (then != TimelineStore.None && timelines.Segment(then).IsPresent && Gap(slot, mine, other, then, key.Time) <= NearGap)
-                {
-                    brushed.Add((timelines.Owner(witnesses.Segment(seen)), RoundOfImpacts(key.Time, key.Round)));
-                }
-            }
-        }
-    }
-
-    /// <summary>
-    /// Whether the impact that a body was looked at for has not been taken back since. What was taken back is not put back: all who took part were looked at
-    /// too, and a heal that cuts such a look goes on to the end.
-    /// </summary>
-    private bool StillHappens(int witness, long mostSerial = long.MaxValue)
-    {
-        long serial = witnesses.Serial(witness);
-        return timelines.Serial(witnesses.Segment(witness)) == serial && serial <= mostSerial;
-    }
-
-    /// <summary>Takes back what was brushed since; true.</summary>
-    private bool TakeBackBrushed()
-    {
-        while (brushed.Count > 0)
-        {
-            (int slot, EventKey key) = brushed[brushed.Count - 1];
-            brushed.RemoveAt(brushed.Count - 1);
-            TakeBack(slot, key);
         }
 
         return true;

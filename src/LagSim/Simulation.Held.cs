@@ -47,12 +47,10 @@ public sealed partial class Simulation
     private bool IsHeld(int segment) => timelines.Segment(segment).Law == MotionLaw.Held;
 
     /// <summary>
-    /// Whether a hand is so deep in a body that it must have been pressed into it, or was put there; or touches one that is squeezed already, as what friction
-    /// jams between it and a slope is, which no impact parts from both. It goes through then: until a piece of either's path begins with the hand outside, it
-    /// neither pushes the body nor takes part in what else that meets. Else a body in a corner, which meets something a million times a second, would be
-    /// pressed anew each time, for all the rounds of a tick.
+    /// Whether a hand is so deep in a body that it must have been pressed into it, or was put there. It goes through then: until a piece of either's path begins with
+    /// the hand outside, it does not push the body.
     /// </summary>
-    private bool IsThrough(double gap, int crowding) => gap < (crowding < SqueezedAfter ? -InsideDepth * Scene.Resolution : NearGap) && !PressesOn;
+    private bool IsThrough(double gap) => gap < -InsideDepth * Scene.Resolution && !PressesOn;
 
     private bool IsHolding(int slot, byte peer)
     {
@@ -141,7 +139,7 @@ public sealed partial class Simulation
     private void GoOnHeld(int slot, in EventKey key)
     {
         int last = timelines.Last(slot);
-        MotionSegment path = timelines.Segment(last).WithCrowding(CrowdingAt(slot, key.Time));
+        MotionSegment path = timelines.Segment(last);
         Append(slot, key, path, timelines.Dense(last), timelines.HoldOf(last));
     }
 

@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
@@ -12,12 +11,6 @@ namespace LagSim;
 public sealed partial class Simulation
 {
     /// <summary>
-    /// How high, in units of the scene's resolution, a rebound must rise not to be the last of a contact that is pressed together and that no plane alone
-    /// carries: 1 micrometre by default. Lasting contact with a hand goes on by hops of that height, some thousand a second.
-    /// </summary>
-    private const double HopHeight = 1000;
-
-    /// <summary>
     /// The slowest rebound in m/s of a contact that nothing presses together. Bodies that touch and move as one close again and again by rounding
     /// alone, at some 1e-16 m/s; this parts them, by less than a tenth of a millimetre a day.
     /// </summary>
@@ -29,14 +22,13 @@ public sealed partial class Simulation
     private double[] partyMasses = new double[4];
     private Vector3D[] partyPositions = new Vector3D[4];
     private Vector3D[] partyVelocities = new Vector3D[4];
-    private Vector3D[] partyTrial = new Vector3D[4];
+    private bool[] isReached = new bool[4]; // whether an impact's impulse has gone on from a party to those that it holds
     private Vector3D[] partySpins = new Vector3D[4];
     private double[] partyRadii = new double[4];
     private double[] coefficients = new double[8];
     private Vector3D[] partyAccelerations = new Vector3D[4];
     private ContactPoint[] contacts = new ContactPoint[1]; // as many as nearly all impacts have
     private int[] touched = new int[8];
-    private readonly List<int> lookedAt = new(); // of the impact at hand, if it looks at what is near
     private int partyCount;
     private int contactCount;
 
@@ -50,33 +42,23 @@ public sealed partial class Simulation
             return true;
         }
 
-        double residual = Gather(slot, key, IgnoresCrowding ? int.MaxValue : CrowdedAfter, NearGap);
+        double residual = Gather(slot, key);
         if (TryTakeBack(key))
         {
             return false;
         }
 
-        lookedAt.Clear();
-        for (int i = 0; i < partyCount && hasNear; i++)
-        {
-            lookedAt.Add(parties[i]);
-        }
-
-        if (IsTooCrowded || (hasNear && !IsLasting()))
-        {
-            residual = Gather(slot, key, SqueezedAfter, Scene.Resolution);
-            if (TryTakeBack(key))
-            {
-                return false;
-            }
-        }
-
         SetTargets(key.Round);
+        if (ReachesIsland())
+        {
+            return TrySpread(key, residual);
+        }
+
         TellContacts(key);
         int struck = contactCount;
         AddSupports();
         solver.Solve(contacts.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount), partyVelocities.AsSpan(0, partyCount));
-        if (key.Round >= 2 * CollapseRound)
+        if (key.Round >= 2 * CollapseRound && !IsElastic())
         {
             Unite();
         }
@@ -88,40 +70,31 @@ public sealed partial class Simulation
 
         LimitSpeeds();
         contactCount = struck;
-
         EventKey canonical = CanonicalKey(key);
-        bool mayLast = MayLast();
-        if (mayLast)
-        {
-            OpenIslands(canonical, -residual, mayRest: false);
-        }
-
         for (int i = 0; i < partyCount; i++)
         {
-            if (!mayLast || !isOpened[i])
-            {
-                OpenAfterImpact(i, canonical, residual);
-            }
-        }
-
-        if (mayLast)
-        {
-            JoinIslands(parties, partyCount);
+            OpenAfterImpact(i, canonical, residual);
         }
 
         timelines.Join(parties.AsSpan(0, partyCount));
-        int opened = timelines.Last(parties[0]);
-        foreach (int seen in lookedAt)
-        {
-            witnesses.Add(seen, canonical, opened, timelines.Serial(opened), HistoryEdge);
-        }
-
         for (int i = 0; i < partyCount; i++)
         {
             Predict(parties[i]);
         }
 
         return true;
+    }
+
+    /// <summary>Whether no contact of the impact at hand may take energy.</summary>
+    private bool IsElastic()
+    {
+        bool isElastic = true;
+        for (int i = 0; i < contactCount && isElastic; i++)
+        {
+            isElastic = Restitution(contacts[i]) == 1;
+        }
+
+        return isElastic;
     }
 
     /// <summary>
@@ -171,99 +144,37 @@ public sealed partial class Simulation
     {
         for (int i = 0; i < partyCount; i++)
         {
-            int last = timelines.Last(parties[i]);
-            ref readonly MotionSegment segment = ref timelines.Segment(last);
-            DenseOutput dense = timelines.Dense(last);
-            double seconds = SecondsInto(last, time) + residual;
-            partyMasses[i] = segment.Law == MotionLaw.Held ? double.PositiveInfinity : bodies[parties[i]].Spec.Mass;
-            partyPositions[i] = segment.PositionAt(seconds, dense);
-            partyVelocities[i] = segment.VelocityAt(seconds, dense);
-            partyAccelerations[i] = segment.AccelerationAt(seconds, dense);
-            partySpins[i] = timelines.SpinOf(last).At(seconds);
-            partyRadii[i] = bodies[parties[i]].Spec.Radius;
+            EvaluateParty(i, time, residual);
         }
+    }
+
+    private void EvaluateParty(int party, SimTime time, double residual)
+    {
+        int last = timelines.Last(parties[party]);
+        ref readonly MotionSegment segment = ref timelines.Segment(last);
+        DenseOutput dense = timelines.Dense(last);
+        double seconds = SecondsInto(last, time) + residual;
+        partyMasses[party] = segment.Law == MotionLaw.Held ? double.PositiveInfinity : bodies[parties[party]].Spec.Mass;
+        partyPositions[party] = segment.PositionAt(seconds, dense);
+        partyVelocities[party] = segment.VelocityAt(seconds, dense);
+        partyAccelerations[party] = segment.AccelerationAt(seconds, dense);
+        partySpins[party] = timelines.SpinOf(last).At(seconds);
+        partyRadii[party] = bodies[parties[party]].Spec.Radius;
     }
 
     private void SetTargets(uint round)
     {
-        bool mayLast = false;
         for (int i = 0; i < contactCount; i++)
         {
             ref ContactPoint c = ref contacts[i];
             c.Normal = NormalOf(c);
-            double opening = ImpactSolver.Opening(c, partyVelocities);
-            c.Restored = round >= CollapseRound || hasNear ? 0 : Restitution(c) * Math.Max(0, -opening);
-            mayLast |= c.IsStruck && c.Restored < HopSpeed(Pressing(c));
-        }
-
-        if (mayLast && round < CollapseRound)
-        {
-            FindPressing();
-        }
-
-        for (int i = 0; i < contactCount; i++)
-        {
-            ref ContactPoint c = ref contacts[i];
-            c.Target = round >= CollapseRound ? 0
-                : c.IsStruck ? Math.Max(c.Restored, LeastTarget(c))
-                // nothing may drive the two together; of itself it asks for no more than it has
-                : Math.Min(Math.Max(0, ImpactSolver.Opening(c, partyVelocities)), HopSpeed(Pressing(c)));
-            if (mayLast && c.Pushes && c.IsStruck && c.Restored < HopSpeed(Pressing(c)))
-            {
-                c.Restored = 0; // what is left of bouncing rises less than a hop: the contact lasts from here on
-                c.Target = 0;
-            }
-        }
-    }
-
-    /// <summary>Whether a plane that carries a body rubs on it, so that not gravity alone may press it against another.</summary>
-    private bool IsRubbed(int slot)
-    {
-        SupportSet supports = timelines.Segment(timelines.Last(slot)).Supports;
-        return supports.Count == 1 && FrictionOn(slot, supports[0]) > 0;
-    }
-
-    /// <summary>
-    /// Marks the contacts of the impact at hand that are pressed together: by the paths that they are on, as friction may have it; or by gravity and forces now
-    /// that they touch, which the accelerations tell that are left if no contact may close, nor what carries the parties already give way.
-    /// </summary>
-    private void FindPressing()
-    {
-        if (partyCount == 1 && contactCount == 1 && IsSupportable(contacts[0]) && !IsRubbed(parties[0]))
-        {
-            return; // its bounces are followed down to the scene's resolution
-        }
-
-        for (int i = 0; i < partyCount; i++)
-        {
-            partyTrial[i] = double.IsPositiveInfinity(partyMasses[i]) ? partyAccelerations[i]
-                : forces.On(bodies[parties[i]].Id).At(bodies[parties[i]].Spec, clock.Time, 0, partyPositions[i], partyVelocities[i], partySpins[i]);
-        }
-
-        int gathered = contactCount;
-        AddSupports();
-        for (int i = 0; i < contactCount; i++)
-        {
-            ref ContactPoint c = ref contacts[i];
-            c.Target = 0;
-            double falls = 0;
-            if (c.Second != ContactPoint.Static || c.Surface >= Scene.PlaneArray.Length)
-            {
-                Vector3D velocity = partyVelocities[c.First] - (c.Second == ContactPoint.Static ? Vector3D.Zero : partyVelocities[c.Second]);
-                falls = FallingAway(c.Normal, velocity, ReachOf(c));
-                c.Target = -falls;
-            }
-
-            c.Pushes = ImpactSolver.Opening(c, partyAccelerations) + falls < 0;
-        }
-
-        solver.Solve(contacts.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount), partyTrial.AsSpan(0, partyCount));
-        contactCount = gathered;
-        for (int i = 0; i < contactCount; i++)
-        {
-            ref ContactPoint c = ref contacts[i];
-            c.Pushes = (c.Pushes || c.Impulse > 0) && !IsByHand(c) && !Scene.Box.Exists;
-            c.Impulse = 0;
+            double closing = Math.Max(0, -ImpactSolver.Opening(c, partyVelocities));
+            double restitution = Restitution(c);
+            bool collapses = round >= CollapseRound && restitution < 1;
+            c.Restored = collapses ? 0 : restitution * closing;
+            c.Lasts = IsLast(c, restitution, c.Restored);
+            c.Restored = c.Lasts ? 0 : c.Restored;
+            c.Target = collapses || c.Lasts ? 0 : Math.Max(c.Restored, LeastTarget(c));
         }
     }
 
@@ -278,32 +189,8 @@ public sealed partial class Simulation
         ? SurfaceNormal(c.Surface, partyPositions[c.First])
         : Direction(Scene.Box.Nearest(partyPositions[c.First] - partyPositions[c.Second]));
 
-    /// <summary>
-    /// The least speed in m/s at which the two of a struck contact part: none on a plane that may carry, that of a hop where a hand presses, else what parts
-    /// them at all.
-    /// </summary>
-    private double LeastTarget(in ContactPoint c)
-    {
-        if (IsSupportable(c) && Vector3D.Dot(c.Normal, Scene.Gravity) < 0)
-        {
-            return 0;
-        }
-
-        if (!IsByHand(c))
-        {
-            return LeastRebound;
-        }
-
-        Vector3D other = c.Second == ContactPoint.Static ? Vector3D.Zero : partyAccelerations[c.Second];
-        double pressing = Math.Max(0, -Vector3D.Dot(c.Normal, partyAccelerations[c.First] - other));
-        return Math.Max(HopSpeed(pressing), LeastRebound);
-    }
-
-    private double Pressing(in ContactPoint c)
-    {
-        double pressing = Math.Max(Scene.Gravity.Length, partyAccelerations[c.First].Length);
-        return c.Second == ContactPoint.Static ? pressing : Math.Max(pressing, partyAccelerations[c.Second].Length);
-    }
+    /// <summary>The least speed in m/s at which the two of a struck contact part: none on a plane that may carry, else what parts them at all.</summary>
+    private double LeastTarget(in ContactPoint c) => IsSupportable(c) && Vector3D.Dot(c.Normal, Scene.Gravity) < 0 ? 0 : LeastRebound;
 
     /// <summary>The lesser of the two parties' restitutions: a material behaves as named against anything more elastic.</summary>
     private double Restitution(in ContactPoint c)
@@ -342,7 +229,6 @@ public sealed partial class Simulation
         friction.Solve(
             contacts.AsSpan(0, contactCount), coefficients.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount), partyRadii.AsSpan(0, partyCount),
             partyVelocities.AsSpan(0, partyCount), partySpins.AsSpan(0, partyCount));
-        SettleDriven();
     }
 
     /// <summary>The lesser of the two parties' coefficients of friction.</summary>
@@ -436,7 +322,7 @@ public sealed partial class Simulation
             AddTouched(ref count, supports[k]);
         }
 
-        Open(slot, key, partyPositions[party], partyVelocities[party], -residual, touched.AsSpan(0, count), CrowdingAt(slot, key.Time), partySpins[party]);
+        Open(slot, key, partyPositions[party], partyVelocities[party], -residual, touched.AsSpan(0, count), partySpins[party]);
     }
 
     private void AddTouched(ref int count, int plane)

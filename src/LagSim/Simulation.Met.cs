@@ -51,7 +51,7 @@ public sealed partial class Simulation
             bodies[slot].NextExternal = log.FirstFrom(slot, EventKey.Before(next));
         }
 
-        cutPaths.PutBack(timelines, at, slot => bodies[slot].Id, JoinIslands);
+        cutPaths.PutBack(timelines, at, slot => bodies[slot].Id);
         for (int n = 0; n < cutPaths.BodyCount; n++)
         {
             ListAgain(cutPaths.SlotAt(n), at, next);

@@ -19,9 +19,9 @@ public sealed partial class Simulation
     /// way): at rest on or sliding along those of the touched planes that carry it, else in free flight.
     /// </summary>
     private void Open(
-        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, int crowding, in Vector3D spin)
+        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, in Vector3D spin)
     {
-        if (touchedPlanes.Length > 0 && TryOpenSupported(slot, key, position, velocity, carry, touchedPlanes, crowding, spin))
+        if (touchedPlanes.Length > 0 && TryOpenSupported(slot, key, position, velocity, carry, touchedPlanes, spin))
         {
             return;
         }
@@ -35,10 +35,10 @@ public sealed partial class Simulation
             v += a * carry;
         }
 
-        OpenFlight(slot, key, x, v, crowding, spin);
+        OpenFlight(slot, key, x, v, spin);
     }
 
-    private void OpenFlight(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, int crowding = 0, in Vector3D spin = default)
+    private void OpenFlight(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D spin = default)
     {
         Vector3D x = Scene.Box.Wrap(position.WithoutNegativeZero());
         Vector3D v = velocity.WithoutNegativeZero();
@@ -47,12 +47,12 @@ public sealed partial class Simulation
         if (spec.Flight == MotionLaw.Ballistic)
         {
             SimTime end = Scene.Box.Exists ? EndOfFlight(key.Time, v) : EndOfRange(key.Time, v, Scene.Gravity);
-            Append(slot, key, new MotionSegment(MotionLaw.Ballistic, key.Time, end, x, v, Scene.Gravity, crowding: crowding), default, spin: new Spin(spin));
+            Append(slot, key, new MotionSegment(MotionLaw.Ballistic, key.Time, end, x, v, Scene.Gravity), default, spin: new Spin(spin));
         }
         else
         {
             MotionSegment piece = PieceOfFlight(slot, key.Time, x, v, spin, out DenseOutput dense);
-            Append(slot, key, piece.WithCrowding(crowding), dense, spin: new Spin(spin));
+            Append(slot, key, piece, dense, spin: new Spin(spin));
         }
     }
 
@@ -98,7 +98,7 @@ public sealed partial class Simulation
     /// the plane, and it rests from the end of that time on. Tangential motion goes on unchanged: frictionless bounces do not touch it.
     /// </summary>
     private bool TryOpenSupported(
-        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, int crowding, in Vector3D spin)
+        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, in Vector3D spin)
     {
         if (!bodies[slot].Spec.Forces.IsEmpty)
         {
@@ -134,19 +134,19 @@ public sealed partial class Simulation
         CheckState(slot, key, start, tangential);
         if (supports.Count == 1 && FrictionOn(slot, supports[0]) > 0)
         {
-            OpenRubbing(slot, key, start, tangential, spin, supports, acceleration, crowding, left);
+            OpenRubbing(slot, key, start, tangential, spin, supports, acceleration, left);
             return true;
         }
 
         bool rests = tangential == Vector3D.Zero && acceleration == Vector3D.Zero;
         if (rests && left == SimDuration.Zero)
         {
-            Append(slot, key, MotionSegment.AtRest(key.Time, start, supports).WithCrowding(crowding), default, spin: new Spin(spin));
+            Append(slot, key, MotionSegment.AtRest(key.Time, start, supports), default, spin: new Spin(spin));
         }
         else
         {
             SimTime end = rests ? key.Time + left : EndOfRange(key.Time, tangential, acceleration);
-            MotionSegment slide = new(MotionLaw.Sliding, key.Time, end, start, tangential, acceleration, supports, crowding);
+            MotionSegment slide = new(MotionLaw.Sliding, key.Time, end, start, tangential, acceleration, supports);
             Append(slot, key, slide, default, spin: new Spin(spin));
         }
 

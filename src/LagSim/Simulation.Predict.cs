@@ -20,11 +20,6 @@ public sealed partial class Simulation
 
     private const double CollapseSpeed = 1e-6;
 
-    /// <summary>
-    /// What an impact of squeezed bodies leaves of closing below this, in m/s, is its rounding: to solve it again in the same tick leaves as much.
-    /// </summary>
-    private const double RoundingSpeed = 1e-12;
-
     private static readonly SimDuration CollapseWait = SimDuration.FromTicks(1L << 20);
 
     /// <summary>Finds the body's next event, the least of step or law end, external event and contact, and queues it in place of any other.</summary>
@@ -112,7 +107,7 @@ public sealed partial class Simulation
             return false; // what carries a body stays below it until something else happens, and nothing static stops a hand
         }
 
-        if (segment.Law == MotionLaw.Constrained && Lasts(slot, last, surface))
+        if (segment.Law == MotionLaw.Constrained && (IsOutOfReach(slot, segment, surface) || IsCovered(last, surface)))
         {
             return false;
         }
@@ -137,8 +132,7 @@ public sealed partial class Simulation
             Vector3D velocity = VelocityAt(last, contact);
             double reach = isPlane ? double.PositiveInfinity : bodies[slot].Spec.Radius + Scene.SphereArray[surface - Scene.PlaneArray.Length].Radius;
             double pressing = -Vector3D.Dot(normal, AccelerationAt(last, contact)) - FallingAway(normal, velocity, reach);
-            from = LookAgain(
-                opened, round, -Vector3D.Dot(normal, velocity), pressing, segment.End, isPushed: false, segment.Crowding >= SqueezedAfter);
+            from = LookAgain(opened, round, -Vector3D.Dot(normal, velocity), pressing, segment.End, isPushed: false);
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -173,7 +167,6 @@ public sealed partial class Simulation
         if (MayBeAhead(clock) && slot != other)
         {
             piece = PieceFrom(slot, other);
-            Brush(slot, other, piece, until);
         }
 
         while (true)
@@ -240,7 +233,7 @@ public sealed partial class Simulation
             return false;
         }
 
-        if (segmentA.IsOfIsland && Lasts(a, lastA, b, lastB))
+        if (IsCovered(a, lastA, b, lastB))
         {
             return false;
         }
@@ -256,7 +249,7 @@ public sealed partial class Simulation
 
         double reach = bodies[a].Spec.Radius + bodies[b].Spec.Radius;
         SimTime from = opened;
-        if (isPushed && IsThrough(Gap(a, lastA, b, lastB, from), segmentA.Law == MotionLaw.Held ? segmentB.Crowding : segmentA.Crowding))
+        if (isPushed && IsThrough(Gap(a, lastA, b, lastB, from)))
         {
             return false;
         }
@@ -273,8 +266,7 @@ public sealed partial class Simulation
             Vector3D normal = Direction(Scene.Box.Nearest(PositionAt(lastA, contact) - PositionAt(lastB, contact)));
             Vector3D velocity = VelocityAt(lastA, contact) - VelocityAt(lastB, contact);
             double pressing = -Vector3D.Dot(normal, AccelerationAt(lastA, contact) - AccelerationAt(lastB, contact)) - FallingAway(normal, velocity, reach);
-            bool isSqueezed = Math.Max(segmentA.Crowding, segmentB.Crowding) >= SqueezedAfter;
-            from = LookAgain(opened, round, -Vector3D.Dot(normal, velocity), pressing, until, isPushed, isSqueezed);
+            from = LookAgain(opened, round, -Vector3D.Dot(normal, velocity), pressing, until, isPushed);
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -293,7 +285,7 @@ public sealed partial class Simulation
     /// is a thousandth of the resolution deep only after <see cref="CollapseWait"/>. <paramref name="opened"/> if it cannot wait,
     /// <see cref="SimTime.MaxValue"/> if the segments end before. A hand pushes a body that cannot give way for so many rounds, and then goes through it.
     /// </summary>
-    private SimTime LookAgain(SimTime opened, uint round, double closing, double pressing, SimTime end, bool isPushed, bool isSqueezed)
+    private SimTime LookAgain(SimTime opened, uint round, double closing, double pressing, SimTime end, bool isPushed)
     {
         double seconds = UntilDeep(2e-3 * Scene.Resolution, closing, pressing);
         SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
@@ -312,8 +304,7 @@ public sealed partial class Simulation
 
         if (wait < CollapseWait)
         {
-            bool isRounding = isSqueezed && round > 0 && closing < RoundingSpeed && !isPushed;
-            if (!isRounding && (round <= CollapseRound || (closing > CollapseSpeed && !isPushed)))
+            if (round <= CollapseRound || (closing > CollapseSpeed && !isPushed))
             {
                 return opened;
             }

@@ -33,7 +33,6 @@ public sealed partial class Simulation
         for (int slot = 0; slot < slotCount; slot++)
         {
             SegmentsCut += timelines.CutFrom(slot, bodies[slot].Id, cut);
-            witnesses.CutFrom(slot, cut);
             bodies[slot].NextExternal = log.FirstFrom(slot, key);
             queue.Remove(slot);
         }

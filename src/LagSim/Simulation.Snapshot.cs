@@ -23,10 +23,19 @@ public sealed partial class Simulation
         {
             int slot = AddBody(body.Id, body.Spec);
             timelines.Append(slot, body.Id, body.Opened, body.Segment, body.Dense, body.Hold, body.SpinPath);
-            NoteCrowding(body.Segment.Crowding, body.Opened.Time);
+            if (body.Segment.IsOfIsland)
+            {
+                int piece = timelines.Last(slot);
+                timelines.BeginMember(piece, body.Centre, body.StillSince);
+                foreach (LastingContact contact in body.ContactArray)
+                {
+                    timelines.AddContact(piece, contact);
+                }
+
+                timelines.EndMember(piece, body.Id);
+            }
         }
 
-        JoinIslands();
         timelines.ContinueFrom(snapshot.EventHash);
         PredictAll();
         AdvanceTo(snapshot.Time);
@@ -61,8 +70,10 @@ public sealed partial class Simulation
             int at = timelines.At(slot, last);
             if (at != TimelineStore.None && timelines.Segment(at).IsPresent)
             {
+                bool isMember = IsMember(at);
                 there.Add(new BodySnapshot(
-                    bodies[slot].Id, bodies[slot].Spec, timelines.Key(at), timelines.Segment(at), timelines.Dense(at), timelines.HoldOf(at), timelines.SpinOf(at)));
+                    bodies[slot].Id, bodies[slot].Spec, timelines.Key(at), timelines.Segment(at), timelines.Dense(at), timelines.HoldOf(at), timelines.SpinOf(at),
+                    isMember ? timelines.CentreOf(at) : default, isMember ? timelines.StillSince(at) : default, timelines.ContactsOf(at)));
             }
         }
 

@@ -112,7 +112,6 @@ public sealed partial class Simulation
 
         ref readonly MotionSegment path = ref simulation.timelines.Segment(segment);
         return string.Format(
-            CultureInfo.InvariantCulture, "{0} ({1} from {2} m with {3} m/s at {4} to {5},"
-                + " crowding {6})", simulation.timelines.Key(segment), path.Law, path.Position, path.Velocity, path.Epoch, path.End, path.Crowding);
+            CultureInfo.InvariantCulture, "{0} ({1} from {2} m with {3} m/s at {4} to {5})", simulation.timelines.Key(segment), path.Law, path.Position, path.Velocity, path.Epoch, path.End);
     }
 }

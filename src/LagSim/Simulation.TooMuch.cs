@@ -1,5 +1,4 @@
 using System.Text;
-using LagSim.Contacts;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -54,16 +53,6 @@ public sealed partial class Simulation
             $"{where} change so fast that a step of {Limits.Short(StepSize.Shortest.ToSeconds())} s, the shortest there is, still has "
             + $"{Limits.Short(tooLarge)} times the error of the tolerance, {Limits.Text(spec.Tolerance)}: there {rates}. "
             + $"Allow a larger error, make them weaker, or keep it out of the singularity, if there is one.{Jumps(spec)}");
-    }
-
-    /// <summary>Why no step of an island can be used, in which the body has a state at its start and forces act too fast for it there or at its end.</summary>
-    private SimulationException TooStiff(int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, double rate)
-    {
-        double most = IslandStep.MostRateFollowed;
-        return new SimulationException(
-            $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {Whose(slot)}, which touches something, "
-            + $"{ActTooFast(forces.FixedStepRateAt(bodies[slot].Spec, x, v, spin), rate, most)}: there {RatesOn(slot, x, v, spin)}. What is in lasting contact "
-            + $"moves by steps that follow at most {Limits.Short(most)} 1/s, halved to {Limits.Short(1 / most)} s. Make them weaker, or the body heavier.");
     }
 
     private static string ActTooFast(double here, double met, double most) =>

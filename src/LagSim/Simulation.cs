@@ -102,8 +102,6 @@ public sealed partial class Simulation
         cancellation = options.Cancellation;
         healing = options.Healing;
         mostPairs = options.MostPairs;
-        threads = options.Threads;
-        otherThread = options.OtherThread;
         clock = EventKey.Before(from);
         SimulatedTo = from - SimDuration.OneTick;
         HistoryEdge = from;
@@ -111,12 +109,11 @@ public sealed partial class Simulation
         order = new List<int>(expected);
         queue = new EventQueue(expected);
         log = new EventLog(expected);
-        flights = new FreeFlights(scene.Gravity, NearGap, scene.Box, expected);
+        flights = new FreeFlights(scene.Gravity, scene.Resolution, scene.Box, expected);
         timelines = new TimelineStore(start, options.MaxSegments, flights, expected, history);
-        witnesses = new WitnessLog(options.MaxSegments, expected);
         Observer = options.Observer;
         forces = new Forces(scene, start);
-        island = new IslandStep(scene, forces);
+        step = new ContactStep(scene, new ContactScale(scene.ContactTolerance, scene.Gravity));
     }
 
     /// <summary>What was there at the start.</summary>
@@ -189,7 +186,6 @@ public sealed partial class Simulation
         timelines.AddSlot(slot);
         flights.AddSlot(slot, spec.Radius);
         log.AddSlot(slot);
-        witnesses.AddSlot(slot);
         order.Insert(~FindInOrder(id), slot);
         OrderVersion++;
         return slot;

@@ -261,7 +261,7 @@ internal sealed class CheckCase
                 return false;
             }
 
-            StepsAhead = alone.StepsUsedAhead;
+            StepsAhead = alone.StepsTaken;
             ExternalEvent external = deed.On(deed.Spawn >= 0 ? bodies[deed.Spawn] : BodyId.OfScene(Math.Max(0, deed.Body))).Stamp(time, (byte)deed.Peer, (uint)i + 1);
             bodies[i] = external.Body;
             alone.Submit(external);

@@ -11,7 +11,7 @@ namespace LagSim.Harness.Hard;
 /// <content>Slipping against rolling resistance, by closed form and in an island's steps; turning on the spot in steps.</content>
 internal sealed partial class RollingCase
 {
-    private static readonly double Step = Contacts.IslandStep.Longest.ToSeconds();
+    private static readonly double Step = new Contacts.ContactScale(1e-3, SceneBuilder.DefaultGravity).Step.ToSeconds();
 
     /// <summary>How a ball is thrown along the floor: its friction, its resistance, its speed, and that with which its spin would have it roll.</summary>
     private static readonly (double Mu, double C, double Speed, double Turn)[] Throws = [(0.3, 0.1, 2, 0), (0.3, 0.02, 2, -3), (0.2, 0.1, 1, 4), (0.3, 0.3, 2, 0), (0.5, 0.4, 3, -1)];

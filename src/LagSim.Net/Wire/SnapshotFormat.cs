@@ -15,14 +15,16 @@ namespace LagSim.Net.Wire;
 public static class SnapshotFormat
 {
     private const int HeadBytes = 28; // start, time, event hash, count
-    private const int MinBodyBytes = 195; // without supports, dense output and hold
+    private const int MinBodyBytes = 194; // without supports, dense output, contacts and hold
     private const int DenseBytes = 72;
     private const int SpinBytes = 48; // spin and its rate
     private const int HoldBytes = 57; // cubic, peer, offset, knot
+    private const int MemberBytes = 18; // centre, still since, how many contacts
+    private const int ContactBytes = 61; // partner, surface, whether it holds, push, turn
 
     /// <summary>The bytes of a snapshot.</summary>
     /// <exception cref="ArgumentException">
-    /// A body has a number that is not finite, a negative support or a count of impacts outside 0 to 255, which none of a world has; or all of them
+    /// A body has a number that is not finite, a negative support, or more than 65,535 contacts, which none of a world has; or all of them
     /// take 2 GiB or more.
     /// </exception>
     public static byte[] Encode(WorldSnapshot snapshot)
@@ -82,12 +84,13 @@ public static class SnapshotFormat
         {
             int more = body.Law switch
             {
-                MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.Constrained => DenseBytes,
+                MotionLaw.RungeKutta4 or MotionLaw.ClosedForm => DenseBytes,
                 MotionLaw.DormandPrince54 => DenseBytes + sizeof(long),
                 MotionLaw.Held => HoldBytes,
                 _ => 0,
             };
-            length += MinBodyBytes + (body.SupportCount * sizeof(uint)) + more + (Turns(body) ? SpinBytes : 0);
+            length += MinBodyBytes + (body.SupportCount * sizeof(uint)) + more + (Turns(body) ? SpinBytes : 0)
+                + (IsMember(body.Law, body.SupportCount) ? MemberBytes + (body.Contacts.Length * ContactBytes) : 0);
         }
 
         return length;
@@ -95,9 +98,9 @@ public static class SnapshotFormat
 
     private static void Write(ref WireWriter writer, in BodySnapshot body)
     {
-        if (body.Crowding is < 0 or > byte.MaxValue)
+        if (body.Contacts.Length > ushort.MaxValue)
         {
-            throw new ArgumentException($"Body {body.Id} cannot travel: its count of impacts is {body.Crowding}, and 0 to 255 has room.");
+            throw new ArgumentException($"Body {body.Id} cannot travel: it has {body.Contacts.Length} contacts, and 65535 have room.");
         }
 
         writer.WriteUInt64(body.Id.Packed);
@@ -123,7 +126,6 @@ public static class SnapshotFormat
             writer.WriteInt64(body.Hold.Knot.Ticks);
         }
 
-        writer.WriteByte((byte)body.Crowding);
         writer.WriteByte((byte)body.SupportCount);
         for (int n = 0; n < body.SupportCount; n++)
         {
@@ -149,7 +151,49 @@ public static class SnapshotFormat
             WriteExactly(ref writer, body.Spin);
             WriteExactly(ref writer, body.SpinRate);
         }
+
+        if (IsMember(body.Law, body.SupportCount))
+        {
+            WriteContacts(ref writer, body);
+        }
     }
+
+    private static void WriteContacts(ref WireWriter writer, in BodySnapshot body)
+    {
+        writer.WriteInt64(body.Centre.Ticks);
+        writer.WriteInt64(body.StillSince.Ticks);
+        writer.WriteUInt16((ushort)body.Contacts.Length);
+        foreach (LastingContact contact in body.Contacts)
+        {
+            writer.WriteUInt64(contact.Partner.Packed);
+            writer.WriteUInt32(unchecked((uint)contact.Surface));
+            writer.WriteByte(contact.Holds ? (byte)1 : (byte)0);
+            WriteExactly(ref writer, contact.Push);
+            WriteExactly(ref writer, contact.Turn);
+        }
+    }
+
+    private static LastingContact[] ReadContacts(ref WireReader reader, out SimTime centre, out SimTime stillSince)
+    {
+        centre = SimTime.FromTicks(reader.ReadInt64());
+        stillSince = SimTime.FromTicks(reader.ReadInt64());
+        int count = reader.ReadUInt16();
+        reader.Require(count * ContactBytes <= reader.Remaining, WireRefusal.TooShort);
+        LastingContact[] contacts = reader.Refusal == WireRefusal.None ? new LastingContact[count] : Array.Empty<LastingContact>();
+        for (int i = 0; i < contacts.Length; i++)
+        {
+            BodyId partner = BodyId.FromPacked(reader.ReadUInt64());
+            int surface = unchecked((int)reader.ReadUInt32());
+            byte holds = reader.ReadByte();
+            reader.Require(surface >= LastingContact.NoSurface && holds <= 1);
+            contacts[i] = new LastingContact(partner, surface, holds == 1, ReadExactly(ref reader), ReadExactly(ref reader));
+        }
+
+        return contacts;
+    }
+
+    /// <summary>Whether a body of that law is one of an island: it steps, or rests and no plane alone carries it.</summary>
+    private static bool IsMember(MotionLaw law, int supports) => law == MotionLaw.Constrained || (law == MotionLaw.Resting && supports == 0);
 
     private static bool Turns(in BodySnapshot body) => body.Spin != Vector3D.Zero || body.SpinRate != Vector3D.Zero;
 
@@ -174,7 +218,6 @@ public static class SnapshotFormat
         byte holder = held ? reader.ReadByte() : (byte)0;
         Vector3D offset = held ? ReadExactly(ref reader) : default;
         Hold hold = held ? new Hold(holder, offset, SimTime.FromTicks(reader.ReadInt64())) : default;
-        byte crowding = reader.ReadByte();
         int supports = reader.ReadByte();
         reader.Require(supports <= BodySnapshot.MaxSupports);
         supports = Math.Min(supports, BodySnapshot.MaxSupports);
@@ -196,13 +239,16 @@ public static class SnapshotFormat
         Vector3D spin = turns == 1 ? ReadExactly(ref reader) : default;
         Vector3D spinRate = turns == 1 ? ReadExactly(ref reader) : default;
         reader.Require(turns == 0 || spin != Vector3D.Zero || spinRate != Vector3D.Zero); // one form
+        SimTime centre = default;
+        SimTime stillSince = default;
+        LastingContact[] contacts = IsMember(law, supports) ? ReadContacts(ref reader, out centre, out stillSince) : Array.Empty<LastingContact>();
         return new BodySnapshot(
-            id, spec, opened, law, epoch, end, position, velocity, acceleration, planes.Slice(0, supports), crowding, cubic, quartic, quintic, hold, nextStep,
-            spin, spinRate);
+            id, spec, opened, law, epoch, end, position, velocity, acceleration, planes.Slice(0, supports), cubic, quartic, quintic, hold, nextStep,
+            spin, spinRate, centre, stillSince, contacts);
     }
 
-    /// <summary>Whether a path of that law, in flight or an island, has more than a parabola's coefficients.</summary>
-    private static bool IsDense(MotionLaw law) => law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54 or MotionLaw.Constrained;
+    /// <summary>Whether a path of that law of flight has more than a parabola's coefficients.</summary>
+    private static bool IsDense(MotionLaw law) => law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54;
 
     // Also of zeros the sign: what goes on from here goes on from the very bits.
     private static void WriteExactly(ref WireWriter writer, in Vector3D value)

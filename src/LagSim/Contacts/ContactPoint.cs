@@ -19,7 +19,7 @@ internal struct ContactPoint
         Restored = 0;
         Impulse = 0;
         IsStruck = true;
-        Pushes = false;
+        Lasts = false;
     }
 
     /// <summary>The body whose identity is the lesser of the two, or the only one.</summary>
@@ -37,8 +37,8 @@ internal struct ContactPoint
     /// <summary>Whether the two strike each other in this impact, or only last on each other while something strikes them.</summary>
     internal bool IsStruck;
 
-    /// <summary>Whether, of what touches at an instant, it pushes in the step from there on.</summary>
-    internal bool Pushes;
+    /// <summary>Whether it is the last rebound of the two, after which they are in lasting contact.</summary>
+    internal bool Lasts;
 
     /// <summary>From the second party to the first.</summary>
     internal Vector3D Normal;

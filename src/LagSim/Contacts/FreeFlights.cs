@@ -82,7 +82,7 @@ internal sealed class FreeFlights
         flight.Position = path.Position;
         flight.Velocity = path.Velocity;
         flight.Margin = MarginOf(slot);
-        bool isStraight = !isFree && path.Law is (MotionLaw.Sliding or MotionLaw.Resting) && path.Epoch == opened && path.Acceleration == Vector3D.Zero;
+        bool isStraight = !isFree && path.Law is (MotionLaw.Sliding or MotionLaw.Resting or MotionLaw.Constrained) && path.Epoch == opened && path.Acceleration == Vector3D.Zero;
         if (isStraight || slot < straightFrom.Length)
         {
             SetStraight(slot, isStraight ? opened : SimTime.MaxValue);
@@ -309,9 +309,6 @@ internal sealed class FreeFlights
         position = PositionAt(flight, seconds);
         velocity = flight.Velocity + (gravity * seconds);
     }
-
-    /// <summary>Whether a body's newest piece of path was opened no longer than so long before a time.</summary>
-    internal bool IsOpenedWithin(int slot, SimTime time, SimDuration span) => time - flights[slot].From <= span;
 
     /// <summary>
     /// Whether two bodies in free flight touch, however late, and when: the bits that <see cref="ContactFinder"/> tells of their segments, the body of lesser

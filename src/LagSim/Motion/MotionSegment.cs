@@ -13,8 +13,7 @@ internal readonly struct MotionSegment
         in Vector3D position,
         in Vector3D velocity,
         in Vector3D acceleration,
-        SupportSet supports = default,
-        int crowding = 0)
+        SupportSet supports = default)
     {
         Law = law;
         Epoch = epoch;
@@ -23,7 +22,6 @@ internal readonly struct MotionSegment
         Velocity = velocity;
         Acceleration = acceleration;
         Supports = supports;
-        Crowding = crowding;
     }
 
     /// <summary>The instant at which the state below holds; the formula counts its time from here.</summary>
@@ -35,9 +33,6 @@ internal readonly struct MotionSegment
     internal SimTime End { get; }
 
     internal MotionLaw Law { get; }
-
-    /// <summary>How many impacts in succession, up to the one that opened this, came soon after the one before and on the same spot.</summary>
-    internal int Crowding { get; }
 
     internal Vector3D Position { get; }
 
@@ -54,8 +49,7 @@ internal readonly struct MotionSegment
     internal bool IsDense => ((1 << (int)Law) & DenseLaws) != 0;
 
     private const int DenseLaws =
-        (1 << (int)MotionLaw.RungeKutta4) | (1 << (int)MotionLaw.Held) | (1 << (int)MotionLaw.ClosedForm) | (1 << (int)MotionLaw.DormandPrince54)
-        | (1 << (int)MotionLaw.Constrained);
+        (1 << (int)MotionLaw.RungeKutta4) | (1 << (int)MotionLaw.Held) | (1 << (int)MotionLaw.ClosedForm) | (1 << (int)MotionLaw.DormandPrince54);
 
     /// <summary>
     /// Whether the body is one of an island: it is in lasting contact with others, or with what no closed form carries it on, and moves or rests there.
@@ -66,16 +60,13 @@ internal readonly struct MotionSegment
     internal static MotionSegment AtRest(SimTime epoch, in Vector3D position, SupportSet supports = default) =>
         new(MotionLaw.Resting, epoch, SimTime.MaxValue, position, Vector3D.Zero, Vector3D.Zero, supports);
 
-    /// <summary>The same piece of path, opened by the last of so many impacts on the spot.</summary>
-    internal MotionSegment WithCrowding(int crowding) => new(Law, Epoch, End, Position, Velocity, Acceleration, Supports, crowding);
-
     /// <summary>Whether every part is the same, to the bit.</summary>
     internal bool IsSameAs(in MotionSegment other) =>
-        (Law, Epoch, End, Crowding) == (other.Law, other.Epoch, other.End, other.Crowding)
+        (Law, Epoch, End) == (other.Law, other.Epoch, other.End)
         && Position.Equals(other.Position) && Velocity.Equals(other.Velocity) && Acceleration.Equals(other.Acceleration) && Supports.Equals(other.Supports);
 
     /// <summary>The same motion from another place.</summary>
-    internal MotionSegment At(in Vector3D position) => new(Law, Epoch, End, position, Velocity, Acceleration, Supports, Crowding);
+    internal MotionSegment At(in Vector3D position) => new(Law, Epoch, End, position, Velocity, Acceleration, Supports);
 
     /// <summary>No body.</summary>
     internal static MotionSegment Nothing(SimTime epoch) =>

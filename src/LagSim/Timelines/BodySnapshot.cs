@@ -24,7 +24,6 @@ public readonly struct BodySnapshot
     /// <param name="velocity">See <see cref="Velocity"/>.</param>
     /// <param name="acceleration">See <see cref="Acceleration"/>.</param>
     /// <param name="supports">The planes that carry it, by index in the scene; at most <see cref="MaxSupports"/>.</param>
-    /// <param name="crowding">See <see cref="Crowding"/>.</param>
     /// <param name="cubic">See <see cref="Cubic"/>.</param>
     /// <param name="quartic">See <see cref="Quartic"/>.</param>
     /// <param name="quintic">See <see cref="Quintic"/>.</param>
@@ -32,6 +31,9 @@ public readonly struct BodySnapshot
     /// <param name="nextStep">See <see cref="NextStep"/>.</param>
     /// <param name="spin">See <see cref="Spin"/>.</param>
     /// <param name="spinRate">See <see cref="SpinRate"/>.</param>
+    /// <param name="centre">See <see cref="Centre"/>.</param>
+    /// <param name="stillSince">See <see cref="StillSince"/>.</param>
+    /// <param name="contacts">See <see cref="Contacts"/>.</param>
     /// <exception cref="ArgumentException">There are more than <see cref="MaxSupports"/> supports.</exception>
     public BodySnapshot(
         BodyId id,
@@ -44,14 +46,16 @@ public readonly struct BodySnapshot
         in Vector3D velocity,
         in Vector3D acceleration,
         ReadOnlySpan<int> supports = default,
-        int crowding = 0,
         in Vector3D cubic = default,
         in Vector3D quartic = default,
         in Vector3D quintic = default,
         in Hold hold = default,
         SimDuration nextStep = default,
         in Vector3D spin = default,
-        in Vector3D spinRate = default)
+        in Vector3D spinRate = default,
+        SimTime centre = default,
+        SimTime stillSince = default,
+        ReadOnlySpan<LastingContact> contacts = default)
     {
         if (supports.Length > MaxSupports)
         {
@@ -64,13 +68,17 @@ public readonly struct BodySnapshot
         Span<int> planes = stackalloc int[] { 0, 0, 0 };
         supports.CopyTo(planes);
         SupportSet set = new(supports.Length, planes[0], planes[1], planes[2]);
-        Segment = new MotionSegment(law, epoch, end, position, velocity, acceleration, set, crowding);
+        Segment = new MotionSegment(law, epoch, end, position, velocity, acceleration, set);
         Dense = new DenseOutput(cubic, quartic, quintic, nextStep);
         Hold = hold;
         SpinPath = new Spin(spin, spinRate);
+        Centre = centre;
+        StillSince = stillSince;
+        ContactArray = contacts.ToArray();
     }
 
-    internal BodySnapshot(BodyId id, in BodySpec spec, in EventKey opened, in MotionSegment segment, in DenseOutput dense, in Hold hold, in Spin spin)
+    internal BodySnapshot(BodyId id, in BodySpec spec, in EventKey opened, in MotionSegment segment, in DenseOutput dense, in Hold hold, in Spin spin, SimTime centre,
+        SimTime stillSince, LastingContact[] contacts)
     {
         Id = id;
         Spec = spec;
@@ -79,6 +87,9 @@ public readonly struct BodySnapshot
         Dense = dense;
         Hold = hold;
         SpinPath = spin;
+        Centre = centre;
+        StillSince = stillSince;
+        ContactArray = contacts;
     }
 
     /// <summary>Who it is.</summary>
@@ -111,10 +122,18 @@ public readonly struct BodySnapshot
     /// <summary>How many planes carry it.</summary>
     public int SupportCount => Segment.Supports.Count;
 
-    /// <summary>How many impacts in succession came soon after the one before: 0 to 64.</summary>
-    public int Crowding => Segment.Crowding;
+    /// <summary>Of a body of an island the instant of which its velocity is, the middle of a contact step; else the default.</summary>
+    public SimTime Centre { get; }
 
-    /// <summary>Of an integrated step, a step of an island, or a held path, the coefficient of t^3, in m/s^3; else zero.</summary>
+    /// <summary>Of a body of an island since when it has not moved; else the default.</summary>
+    public SimTime StillSince { get; }
+
+    /// <summary>Of a body of an island the contacts that it carries from step to step; else none.</summary>
+    public ReadOnlySpan<LastingContact> Contacts => ContactArray;
+
+    internal LastingContact[] ContactArray { get; }
+
+    /// <summary>Of an integrated step or a held path the coefficient of t^3, in m/s^3; else zero.</summary>
     public Vector3D Cubic => Dense.Cubic;
 
     /// <summary>Of an integrated step the coefficient of t^4, in m/s^4; else zero.</summary>

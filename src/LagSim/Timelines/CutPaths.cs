@@ -20,6 +20,7 @@ internal sealed class CutPaths
 
     private readonly List<Piece> pieces = new();
     private readonly List<int> order = new(); // of pieces that are put back
+    private readonly List<LastingContact> contacts = new(); // of pieces, one list after the other
     private readonly List<(int Slot, int Earliest)> bodies = new();
     private readonly Comparison<int> byKey;
     private int[] joined = new int[4];
@@ -53,6 +54,7 @@ internal sealed class CutPaths
     {
         IsWhole = false;
         pieces.Clear();
+        contacts.Clear();
         bodies.Clear();
         differing = 0;
     }
@@ -84,8 +86,19 @@ internal sealed class CutPaths
             n--;
         }
 
+        bool isMember = timelines.Segment(segment).IsOfIsland;
+        int from = contacts.Count;
+        for (int at = isMember ? timelines.FirstContact(segment) : TimelineStore.None; at != TimelineStore.None; at = timelines.NextContact(at))
+        {
+            contacts.Add(timelines.Contact(at));
+        }
+
         pieces.Add(new Piece
         {
+            Centre = isMember ? timelines.CentreOf(segment) : default,
+            Still = isMember ? timelines.StillSince(segment) : default,
+            FromContact = from,
+            ContactCount = contacts.Count - from,
             Slot = slot,
             Key = timelines.Key(segment),
             Segment = timelines.Segment(segment),
@@ -121,7 +134,7 @@ internal sealed class CutPaths
     }
 
     /// <summary>Puts back what was cut after <paramref name="time"/>; each body goes on from where it is now.</summary>
-    internal void PutBack(TimelineStore timelines, SimTime time, Func<int, BodyId> idOf, Action<int[], int> joinIslands)
+    internal void PutBack(TimelineStore timelines, SimTime time, Func<int, BodyId> idOf)
     {
         order.Clear();
         for (int i = 0; i < pieces.Count; i++)
@@ -141,6 +154,7 @@ internal sealed class CutPaths
             {
                 Piece piece = pieces[order[from]];
                 timelines.Append(piece.Slot, idOf(piece.Slot), piece.Key, piece.Segment, piece.Dense, piece.Hold, piece.Spin);
+                PutBackContacts(timelines, piece, idOf(piece.Slot));
                 if (count == joined.Length)
                 {
                     Array.Resize(ref joined, count * 2);
@@ -152,7 +166,6 @@ internal sealed class CutPaths
             if (count > 1)
             {
                 timelines.Join(joined.AsSpan(0, count)); // a key is that of no other event
-                joinIslands(joined, count);
             }
         }
     }
@@ -180,7 +193,44 @@ internal sealed class CutPaths
             && timelines.Segment(last).IsSameAs(pieces[old].Segment)
             && (!timelines.Segment(last).IsDense || timelines.Dense(last).IsSameAs(pieces[old].Dense))
             && timelines.HoldOf(last) == pieces[old].Hold
-            && timelines.SpinOf(last).IsSameAs(pieces[old].Spin);
+            && timelines.SpinOf(last).IsSameAs(pieces[old].Spin)
+            && CarriesTheSame(timelines, last, pieces[old]);
+    }
+
+    /// <summary>Whether a segment, on the same path, carries the very contacts from step to step that a piece did.</summary>
+    private bool CarriesTheSame(TimelineStore timelines, int segment, in Piece piece)
+    {
+        if (!piece.Segment.IsOfIsland)
+        {
+            return true;
+        }
+
+        bool isSame = timelines.CentreOf(segment) == piece.Centre && timelines.StillSince(segment) == piece.Still;
+        int n = 0;
+        int at = timelines.FirstContact(segment);
+        for (; at != TimelineStore.None && isSame; at = timelines.NextContact(at))
+        {
+            isSame = n < piece.ContactCount && timelines.Contact(at).Equals(contacts[piece.FromContact + n++]);
+        }
+
+        return isSame && n == piece.ContactCount;
+    }
+
+    private void PutBackContacts(TimelineStore timelines, in Piece piece, BodyId body)
+    {
+        if (!piece.Segment.IsOfIsland)
+        {
+            return;
+        }
+
+        int segment = timelines.Last(piece.Slot);
+        timelines.BeginMember(segment, piece.Centre, piece.Still);
+        for (int n = 0; n < piece.ContactCount; n++)
+        {
+            timelines.AddContact(segment, contacts[piece.FromContact + n]);
+        }
+
+        timelines.EndMember(segment, body);
     }
 
     private struct Piece
@@ -192,5 +242,9 @@ internal sealed class CutPaths
         internal DenseOutput Dense;
         internal Hold Hold;
         internal Spin Spin;
+        internal SimTime Centre;
+        internal SimTime Still;
+        internal int FromContact;
+        internal int ContactCount;
     }
 }

@@ -33,12 +33,6 @@ internal enum HealingFault
     /// <summary>A heal ends where the bodies are in their old places again, whichever way they move.</summary>
     StopsWherePlacesMeet = 64,
 
-    /// <summary>What a late event does to one of an island leaves the others on their paths, as if they were not in touch with it.</summary>
+    /// <summary>What a late event does to one of an island leaves those asleep that lie on it.</summary>
     LeavesMates = 128,
-
-    /// <summary>What happens to a body leaves the impacts that looked at it, being near, and in which it then took no part.</summary>
-    LeavesWhoLooked = 256,
-
-    /// <summary>Who comes near to a body is not held against the impacts that looked at that one, and in which it took no part.</summary>
-    OverlooksLooks = 512,
 }

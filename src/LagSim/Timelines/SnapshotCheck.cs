@@ -13,9 +13,6 @@ internal static class SnapshotCheck
     /// <summary>Furthest from the origin that an instant may lie: that of a start and the longest run.</summary>
     private const long MaxTicks = 3L << 61;
 
-    /// <summary>The highest count of impacts on the spot, where it stops.</summary>
-    private const int MaxCrowding = Simulation.SqueezedAfter;
-
     internal static void Throw(WorldSnapshot snapshot, Scene scene)
     {
         if (snapshot.Start.Ticks < -MaxTicks || snapshot.Time.Ticks > MaxTicks || snapshot.Time <= snapshot.Start)
@@ -94,13 +91,7 @@ internal static class SnapshotCheck
                 + $" {SimTime.MaxValue.ToShortString()}.");
         }
 
-        if (body.Law == MotionLaw.Constrained && (body.Epoch != body.Opened.Time || body.End <= body.Epoch || body.End - body.Epoch > IslandStep.Longest))
-        {
-            throw new SceneException(
-                $"The step of {whose}, which is Constrained, lasts from {body.Epoch.ToShortString()} to {body.End.ToShortString()} and was opened at"
-                + $" {body.Opened.Time.ToShortString()}; it must begin where it was opened and last at most {IslandStep.Longest.ToShortString()}.");
-        }
-
+        CheckContacts(body, scene, whose);
         for (int n = 0; n < body.SupportCount; n++)
         {
             int plane = body.Support(n);
@@ -111,9 +102,45 @@ internal static class SnapshotCheck
         }
 
         CheckHold(body, snapshot, whose);
-        if (body.Crowding is < 0 or > MaxCrowding)
+    }
+
+    private static void CheckContacts(in BodySnapshot body, Scene scene, string whose)
+    {
+        bool isMember = body.Segment.IsOfIsland;
+        if (!isMember && (body.Contacts.Length > 0 || body.Centre != default || body.StillSince != default))
         {
-            throw new SceneException($"The count of impacts on the spot of {whose} is {body.Crowding}; it lies between 0 and {MaxCrowding}.");
+            throw new SceneException($"The motion of {whose} is {body.Law}; only what is Constrained, or rests and no plane carries it, has lasting contacts.");
+        }
+
+        SimDuration longest = new ContactScale(scene.ContactTolerance, scene.Gravity).Step;
+        bool isStep = body.Law == MotionLaw.Constrained;
+        if (isStep && (body.Epoch != body.Opened.Time || body.End < body.Epoch || body.End - body.Epoch > longest))
+        {
+            throw new SceneException(
+                $"The step of {whose}, which is Constrained, lasts from {body.Epoch.ToShortString()} to {body.End.ToShortString()} and was opened at"
+                + $" {body.Opened.Time.ToShortString()}; it must begin where it was opened and last at most {longest.ToShortString()}.");
+        }
+
+        if (isMember && (body.StillSince > body.Opened.Time || body.Centre > body.Opened.Time + longest || (isStep && body.Centre < body.Opened.Time - longest)))
+        {
+            throw new SceneException(
+                $"The velocity of {whose} is of {body.Centre.ToShortString()}, and it is still since {body.StillSince.ToShortString()}; the first must lie within a"
+                + $" step, {longest.ToShortString()}, of {body.Opened.Time.ToShortString()}, when its path was opened, and the second not after.");
+        }
+
+        int surfaces = scene.PlaneArray.Length + scene.SphereArray.Length;
+        foreach (LastingContact contact in body.Contacts)
+        {
+            bool isPair = contact.Surface == LastingContact.NoSurface;
+            if (contact.Surface < LastingContact.NoSurface || contact.Surface >= surfaces || isPair == (contact.Partner == body.Id))
+            {
+                throw new SceneException(
+                    $"A contact of {whose} is with surface {contact.Surface} and body {contact.Partner}; a surface is numbered 0 to {surfaces - 1} and goes with"
+                    + $" the body itself, and {LastingContact.NoSurface} goes with another.");
+            }
+
+            Limits.Components(contact.Push, double.MaxValue, whose, "impulse of a contact", "N s");
+            Limits.Components(contact.Turn, double.MaxValue, whose, "angular impulse of a contact", "N m s");
         }
     }
 

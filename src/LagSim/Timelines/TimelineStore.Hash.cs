@@ -39,6 +39,11 @@ internal sealed partial class TimelineStore
             hash.Add(spin.Rate);
         }
 
+        if (motion.IsOfIsland)
+        {
+            AddMember(ref hash, segment);
+        }
+
         return hash.Value;
     }
 

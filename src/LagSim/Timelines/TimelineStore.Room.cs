@@ -89,6 +89,7 @@ internal sealed partial class TimelineStore
 
     private void Release(int at)
     {
+        ReleaseContacts(at);
         links[at].Serial = 0;
         links[at].Closed = SimTime.MaxValue; // nothing that could be dropped
         links[at].Next = free;
@@ -116,6 +117,11 @@ internal sealed partial class TimelineStore
         if (spins.Length > 0)
         {
             Array.Resize(ref spins, size);
+        }
+
+        if (members.Length > 0)
+        {
+            Array.Resize(ref members, size);
         }
     }
 

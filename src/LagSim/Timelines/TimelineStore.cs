@@ -29,7 +29,6 @@ internal sealed partial class TimelineStore
     private DenseOutput[] dense = Array.Empty<DenseOutput>(); // only once something is integrated
     private Hold[] holds = Array.Empty<Hold>(); // only once something is held
     private Spin[] spins = Array.Empty<Spin>(); // only once something turns
-    private int[] mates = Array.Empty<int>(); // rings through the segments of an island; only once there is one of several
     private int free = None;
     private int used;
     private int[] first;
@@ -197,11 +196,6 @@ internal sealed partial class TimelineStore
             spins[at] = spin;
         }
 
-        if (at < mates.Length)
-        {
-            mates[at] = at;
-        }
-
         int before = last[slot];
         ref Piece piece = ref pieces[at];
         piece.Segment = segment;
@@ -220,6 +214,11 @@ internal sealed partial class TimelineStore
         last[slot] = at;
         flights?.Set(slot, segment, key.Time);
         Alive++;
+        if (segment.IsOfIsland)
+        {
+            return; // what it carries is still to be told, and counts in its hash
+        }
+
         if (IsPlain(at))
         {
             hashes.Add(key, segment, body, origin);
@@ -273,7 +272,6 @@ internal sealed partial class TimelineStore
         }
 
         links[before].Together = links[at].Together;
-        LeaveIsland(at);
         Release(at);
     }
 

@@ -1,0 +1,176 @@
+using System;
+using LagSim.Scenes;
+
+namespace LagSim.Contacts;
+
+/// <summary>The bodies and contacts of one impact or contact step, numbered within it: what <see cref="ContactSolver"/> works on.</summary>
+/// <remarks>Allocates only when there are more bodies or contacts than ever before. Not thread-safe.</remarks>
+internal sealed class ContactProblem
+{
+    internal SolverBody[] Bodies = new SolverBody[8];
+    internal SolverContact[] Contacts = new SolverContact[16];
+
+    internal int BodyCount { get; private set; }
+
+    internal int ContactCount { get; private set; }
+
+    /// <summary>Begins again, with nobody.</summary>
+    internal void Clear()
+    {
+        BodyCount = 0;
+        ContactCount = 0;
+    }
+
+    /// <summary>Adds a body; one in a hand has an infinite mass.</summary>
+    /// <returns>Its number.</returns>
+    internal int AddBody(double mass, double radius, in Vector3D velocity, in Vector3D spin)
+    {
+        if (BodyCount == Bodies.Length)
+        {
+            Array.Resize(ref Bodies, 2 * BodyCount);
+        }
+
+        Bodies[BodyCount] = new SolverBody { Velocity = velocity, Spin = spin, InverseMass = ImpactSolver.Inverse(mass), Radius = radius };
+        return BodyCount++;
+    }
+
+    /// <summary>Adds a contact without impulses.</summary>
+    /// <param name="first">The number of a body.</param>
+    /// <param name="second">The other, or <see cref="ContactPoint.Static"/>.</param>
+    /// <param name="surface">Which static surface; -1 between two bodies.</param>
+    /// <param name="normal">From the second to the first.</param>
+    /// <param name="gap">How far apart the two are, in metres.</param>
+    /// <param name="friction">The coefficient of friction.</param>
+    /// <param name="lever">The lever of rolling resistance, in metres.</param>
+    /// <returns>The contact, to be filled in; valid until the next is added.</returns>
+    internal ref SolverContact AddContact(int first, int second, int surface, in Vector3D normal, double gap, double friction, double lever)
+    {
+        if (ContactCount == Contacts.Length)
+        {
+            Array.Resize(ref Contacts, 2 * ContactCount);
+        }
+
+        ref readonly SolverBody a = ref Bodies[first];
+        double inverse = a.InverseMass;
+        double turning = a.InverseMass / (a.Radius * a.Radius);
+        if (second != ContactPoint.Static)
+        {
+            ref readonly SolverBody b = ref Bodies[second];
+            inverse += b.InverseMass;
+            turning += b.InverseMass / (b.Radius * b.Radius);
+        }
+
+        ref SolverContact c = ref Contacts[ContactCount++];
+        c = new SolverContact
+        {
+            First = first,
+            Second = second,
+            Surface = surface,
+            Normal = normal,
+            Gap = gap,
+            Friction = friction,
+            Lever = lever,
+            Most = double.PositiveInfinity,
+            NormalInverse = inverse,
+            NormalMass = inverse > 0 ? 1 / inverse : 0,
+            RubMass = inverse > 0 ? 1 / (ImpactFriction.SlipPerImpulse * inverse) : 0,
+            TurnMass = turning > 0 ? 1 / (ImpactFriction.TurnPerImpulse * turning) : 0,
+        };
+        return ref c;
+    }
+
+    /// <summary>Lists the contacts of each body: ascending, so in canonical order if they are.</summary>
+    internal void List()
+    {
+        if (listFrom.Length <= BodyCount)
+        {
+            listFrom = new int[Bodies.Length + 1];
+        }
+
+        if (listed.Length < 2 * ContactCount)
+        {
+            listed = new int[2 * Contacts.Length];
+        }
+
+        Array.Clear(listFrom, 0, BodyCount + 1);
+        for (int i = 0; i < ContactCount; i++)
+        {
+            listFrom[Contacts[i].First]++;
+            if (Contacts[i].Second >= 0)
+            {
+                listFrom[Contacts[i].Second]++;
+            }
+        }
+
+        int sum = 0;
+        for (int b = 0; b <= BodyCount; b++)
+        {
+            sum += listFrom[b];
+            listFrom[b] = sum; // the end of its list; filled from behind it becomes the beginning
+        }
+
+        for (int i = ContactCount - 1; i >= 0; i--)
+        {
+            listed[--listFrom[Contacts[i].First]] = i;
+            if (Contacts[i].Second >= 0)
+            {
+                listed[--listFrom[Contacts[i].Second]] = i;
+            }
+        }
+    }
+
+    /// <summary>The contacts of a body, by number, as they were listed last.</summary>
+    internal ReadOnlySpan<int> ListOf(int body) => listed.AsSpan(listFrom[body], listFrom[body + 1] - listFrom[body]);
+
+    private int[] listFrom = Array.Empty<int>();
+    private int[] listed = Array.Empty<int>();
+
+    /// <summary>The kinetic energy of all, spin included, but of those in hands; in J.</summary>
+    internal double KineticEnergy()
+    {
+        double sum = 0;
+        for (int b = 0; b < BodyCount; b++)
+        {
+            ref readonly SolverBody body = ref Bodies[b];
+            if (body.InverseMass > 0)
+            {
+                sum += 0.5 * (body.Velocity.LengthSquared + (0.4 * body.Radius * body.Radius * body.Spin.LengthSquared)) / body.InverseMass;
+            }
+        }
+
+        return sum;
+    }
+}
+
+/// <summary>One body of a <see cref="ContactProblem"/>.</summary>
+internal struct SolverBody
+{
+    internal Vector3D Velocity;
+    internal Vector3D Spin;
+    internal double InverseMass; // 0 of one in a hand
+    internal double Radius;
+    internal double Changed; // by the visits of its contacts, in m/s, all added up
+}
+
+/// <summary>One contact of a <see cref="ContactProblem"/>: what is asked of it, and the impulses that do it, on the first of the two.</summary>
+internal struct SolverContact
+{
+    internal int First;
+    internal int Second;
+    internal int Surface;
+    internal Vector3D Normal;
+    internal double Gap;
+    internal double Target; // the least opening, in m/s
+    internal double Friction;
+    internal double Lever;
+    internal double Most; // the largest impulse along the normal
+    internal double NormalInverse;
+    internal double NormalMass;
+    internal double RubMass;
+    internal double TurnMass;
+    internal double Impulse; // along the normal, in N s
+    internal Vector3D Rub; // of friction
+    internal bool HasRub;
+    internal double Seen; // what of its bodies' changes it has seen
+    internal Vector3D Turn; // of rolling resistance, in N m s
+}

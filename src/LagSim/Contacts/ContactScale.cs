@@ -1,0 +1,83 @@
+using System;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Contacts;
+
+/// <summary>What follows from a scene's contact tolerance d and from what presses its bodies together: the lengths, speeds and spans that decide lasting contact.</summary>
+/// <remarks>
+/// <para>A body that falls freely for a step of h leaves the chord of its path by a h^2 / 8 at most, and gains a h of speed. With h at most sqrt(2 d / a) the first is at
+/// most d / 4, and the second at most the speed from which a body rises by d. So all of these are one length, seen as a time, a speed and a place.</para>
+/// <para>Immutable; the same on every peer.</para>
+/// </remarks>
+internal readonly struct ContactScale
+{
+    /// <summary>No step is longer: a picture a frame of an old screen, so that what moves in a heap is seen to.</summary>
+    private const long LongestTicks = SimDuration.TicksPerSecond / 64;
+
+    /// <summary>No step is shorter than 2^-20 s, whatever asks for it.</summary>
+    internal const long ShortestTicks = 1L << 20;
+
+    /// <summary>What presses where the scene has no gravity, in m/s²: of hands and forces nobody knows beforehand, and a hand moves things by about so much.</summary>
+    private const double LeastPull = 1;
+
+    /// <summary>The sweeps leave contacts to close by this part of the tolerance in a step.</summary>
+    private const double SweepPart = 0.05;
+
+    /// <summary>So long nobody of an island may have moved by the tolerance before it sleeps.</summary>
+    internal static readonly SimDuration StillFor = SimDuration.FromTicks(SimDuration.TicksPerSecond / 2);
+
+    internal ContactScale(double tolerance, in Vector3D gravity)
+    {
+        Length = tolerance;
+        Pull = Math.Max(gravity.Length, LeastPull);
+        double seconds = Math.Sqrt(2 * tolerance / Pull);
+        long ticks = LongestTicks;
+        while (ticks > ShortestTicks && ticks > seconds * SimDuration.TicksPerSecond)
+        {
+            ticks >>= 1;
+        }
+
+        Step = SimDuration.FromTicks(ticks);
+        CaptureSpeed = Math.Sqrt(2 * tolerance * Pull);
+        SweepSpeed = SweepPart * tolerance / Step.ToSeconds();
+        StillSpeed = tolerance / StillFor.ToSeconds();
+    }
+
+    /// <summary>The contact tolerance d, in metres.</summary>
+    internal double Length { get; }
+
+    /// <summary>What presses bodies together, in m/s²: the scene's gravity.</summary>
+    internal double Pull { get; }
+
+    /// <summary>How long a contact step is where no force asks for less: the largest power of two of ticks in which a fall stays within the tolerance.</summary>
+    internal SimDuration Step { get; }
+
+    /// <summary>The speed, in m/s, from which a body rises by the tolerance.</summary>
+    internal double CaptureSpeed { get; }
+
+    /// <summary>What the sweeps of a step leave contacts to close at, in m/s.</summary>
+    internal double SweepSpeed { get; }
+
+    /// <summary>What moves slower than this, in m/s, does not move by the tolerance while it is waited for its sleep.</summary>
+    internal double StillSpeed { get; }
+
+    /// <summary>The first tick of the common clock after an instant.</summary>
+    internal SimTime NextTick(SimTime time)
+    {
+        long step = Step.Ticks;
+        return SimTime.FromTicks((time.Ticks & -step) + step); // a power of two
+    }
+
+    /// <summary>How long a step may be that begins at a tick: of those that the clock has there the longest that is not longer than wanted.</summary>
+    internal SimDuration StepFrom(SimTime tick, double seconds)
+    {
+        long step = Step.Ticks;
+        while (step > ShortestTicks && (step > seconds * SimDuration.TicksPerSecond || (tick.Ticks & (step - 1)) != 0))
+        {
+            step >>= 1;
+        }
+
+        return SimDuration.FromTicks(step);
+    }
+}

@@ -1,0 +1,194 @@
+using System;
+using LagSim.Scenes;
+
+namespace LagSim.Contacts;
+
+/// <summary>Finds the impulses of a <see cref="ContactProblem"/>: no contact opens slower than its target or else it pushes, with Coulomb friction and rolling resistance.</summary>
+/// <remarks>
+/// <para>The law of Stewart and Trinkle (1996, Int. J. Numer. Methods Eng. 39, 2673-2691) and of Anitescu and Potra (1997, Nonlinear Dyn. 14, 231-247): along the normal opening
+/// >= target, impulse >= 0, one of the two an equality; across it the impulse against the slip that stops it, or as much as mu times the normal impulse; and against
+/// turning on each other likewise, by a lever.</para>
+/// <para>Projected Gauss-Seidel (Moreau and Jean's non-smooth contact dynamics; Jean 1999, Comput. Methods Appl. Mech. Eng. 177, 235-257): contact after contact, to
+/// and fro, from the impulses that are given, until a sweep changes no contact's speed by more than the tolerance.</para>
+/// <para>Deterministic: the order of bodies and contacts counts, so both come in canonical order. Cost: contacts times sweeps.</para>
+/// </remarks>
+internal static class ContactSolver
+{
+    /// <summary>Adds what the impulses that the contacts begin with do to the bodies.</summary>
+    internal static void ApplyGiven(ContactProblem problem)
+    {
+        for (int i = 0; i < problem.ContactCount; i++)
+        {
+            ref SolverContact c = ref problem.Contacts[i];
+            c.HasRub = c.Rub != Vector3D.Zero;
+            if (c.Impulse != 0 || c.HasRub || c.Turn != Vector3D.Zero)
+            {
+                Apply(problem, c, (c.Normal * c.Impulse) + c.Rub, c.Rub, c.Turn);
+            }
+        }
+    }
+
+    /// <summary>
+    /// Sweeps to and fro until no contact has bodies that others have changed by more than a tolerance, in m/s, since it was visited.
+    /// </summary>
+    /// <returns>How many sweeps that took.</returns>
+    internal static int Solve(ContactProblem problem, double tolerance, int most)
+    {
+        SolverContact[] contacts = problem.Contacts;
+        SolverBody[] bodies = problem.Bodies;
+        int count = problem.ContactCount;
+        for (int b = 0; b < problem.BodyCount; b++)
+        {
+            bodies[b].Changed = 0;
+        }
+
+        for (int i = 0; i < count; i++)
+        {
+            contacts[i].Seen = double.NegativeInfinity;
+        }
+
+        int sweeps = 0;
+        for (bool isDone = false; !isDone && sweeps < most; sweeps++)
+        {
+            isDone = true;
+            bool isForth = (sweeps & 1) == 0;
+            for (int n = 0; n < count; n++)
+            {
+                ref SolverContact c = ref contacts[isForth ? n : count - 1 - n];
+                ref SolverBody a = ref bodies[c.First];
+                ref SolverBody b = ref bodies[Math.Max(0, c.Second)];
+                bool isPair = c.Second >= 0;
+                double changed = isPair ? a.Changed + b.Changed : a.Changed;
+                if (changed - c.Seen <= tolerance)
+                {
+                    continue;
+                }
+
+                double change = isPair ? VisitPair(ref c, ref a, ref b) : VisitSurface(ref c, ref a);
+                a.Changed += change;
+                b.Changed += isPair ? change : 0;
+                c.Seen = changed + (isPair ? 2 * change : change);
+                isDone &= change <= tolerance;
+            }
+        }
+
+        return sweeps;
+    }
+
+    /// <summary>How fast the two of a contact part; negative while they close.</summary>
+    internal static double Opening(ContactProblem problem, in SolverContact c) =>
+        Vector3D.Dot(c.Normal, c.Second == ContactPoint.Static
+            ? problem.Bodies[c.First].Velocity : problem.Bodies[c.First].Velocity - problem.Bodies[c.Second].Velocity);
+
+    /// <summary>Gives a contact of two bodies what it lacks; returns by how much that changes a speed.</summary>
+    /// <remarks>Component by component: this is what nearly all the time of a heap goes into, and vectors pass through memory.</remarks>
+    private static double VisitPair(ref SolverContact c, ref SolverBody a, ref SolverBody b)
+    {
+        double nx = c.Normal.X, ny = c.Normal.Y, nz = c.Normal.Z;
+        double vx = a.Velocity.X - b.Velocity.X, vy = a.Velocity.Y - b.Velocity.Y, vz = a.Velocity.Z - b.Velocity.Z;
+        double opening = (nx * vx) + (ny * vy) + (nz * vz);
+        double impulse = Math.Min(c.Most, Math.Max(0, c.Impulse + ((c.Target - opening) * c.NormalMass)));
+        double along = impulse - c.Impulse;
+        double change = Math.Abs(along) * c.NormalInverse;
+        c.Impulse = impulse;
+        double px = nx * along, py = ny * along, pz = nz * along;
+        if (c.Friction > 0 && (impulse > 0 || c.HasRub))
+        {
+            // The slip: the surfaces' velocities across the normal.
+            double lx = (a.Spin.X * a.Radius) + (b.Spin.X * b.Radius), ly = (a.Spin.Y * a.Radius) + (b.Spin.Y * b.Radius);
+            double lz = (a.Spin.Z * a.Radius) + (b.Spin.Z * b.Radius);
+            double sx = vx - (nx * opening) - ((ly * nz) - (lz * ny)), sy = vy - (ny * opening) - ((lz * nx) - (lx * nz));
+            double sz = vz - (nz * opening) - ((lx * ny) - (ly * nx));
+            double rx = c.Rub.X - (sx * c.RubMass), ry = c.Rub.Y - (sy * c.RubMass), rz = c.Rub.Z - (sz * c.RubMass);
+            double most = c.Friction * impulse;
+            double square = (rx * rx) + (ry * ry) + (rz * rz);
+            if (square > most * most)
+            {
+                double part = most / Math.Sqrt(square);
+                (rx, ry, rz) = (rx * part, ry * part, rz * part);
+            }
+
+            double qx = rx - c.Rub.X, qy = ry - c.Rub.Y, qz = rz - c.Rub.Z;
+            c.Rub = new Vector3D(rx, ry, rz);
+            c.HasRub = impulse > 0;
+            (px, py, pz) = (px + qx, py + qy, pz + qz);
+            double slips = Math.Sqrt((qx * qx) + (qy * qy) + (qz * qz)) * ImpactFriction.SlipPerImpulse * c.NormalInverse;
+            change = Math.Max(change, slips);
+            double tx = (qy * nz) - (qz * ny), ty = (qz * nx) - (qx * nz), tz = (qx * ny) - (qy * nx);
+            double turnA = ImpactFriction.TurnPerImpulse * a.InverseMass / a.Radius;
+            double turnB = ImpactFriction.TurnPerImpulse * b.InverseMass / b.Radius;
+            a.Spin = new Vector3D(a.Spin.X + (tx * turnA), a.Spin.Y + (ty * turnA), a.Spin.Z + (tz * turnA));
+            b.Spin = new Vector3D(b.Spin.X + (tx * turnB), b.Spin.Y + (ty * turnB), b.Spin.Z + (tz * turnB));
+        }
+
+        double ia = a.InverseMass, ib = b.InverseMass;
+        a.Velocity = new Vector3D(a.Velocity.X + (px * ia), a.Velocity.Y + (py * ia), a.Velocity.Z + (pz * ia));
+        b.Velocity = new Vector3D(b.Velocity.X - (px * ib), b.Velocity.Y - (py * ib), b.Velocity.Z - (pz * ib));
+        return c.Lever > 0 ? Math.Max(change, Resist(ref c, ref a, ref b, isPair: true)) : change;
+    }
+
+    /// <summary>The same of a body and a static surface.</summary>
+    private static double VisitSurface(ref SolverContact c, ref SolverBody a)
+    {
+        Vector3D relative = a.Velocity;
+        double opening = Vector3D.Dot(c.Normal, relative);
+        double impulse = Math.Min(c.Most, Math.Max(0, c.Impulse + ((c.Target - opening) * c.NormalMass)));
+        double along = impulse - c.Impulse;
+        double change = Math.Abs(along) * c.NormalInverse;
+        c.Impulse = impulse;
+        Vector3D push = c.Normal * along;
+        if (c.Friction > 0 && (impulse > 0 || c.HasRub))
+        {
+            Vector3D slip = relative - (c.Normal * opening) - (Vector3D.Cross(a.Spin, c.Normal) * a.Radius);
+            Vector3D rub = c.Rub - (slip * c.RubMass);
+            double most = c.Friction * impulse;
+            double square = rub.LengthSquared;
+            rub = square > most * most ? rub * (most / Math.Sqrt(square)) : rub;
+            Vector3D across = rub - c.Rub;
+            c.Rub = rub;
+            c.HasRub = impulse > 0;
+            push += across;
+            change = Math.Max(change, across.Length * ImpactFriction.SlipPerImpulse * c.NormalInverse);
+            a.Spin += Vector3D.Cross(across, c.Normal) * (ImpactFriction.TurnPerImpulse * a.InverseMass / a.Radius);
+        }
+
+        a.Velocity += push * a.InverseMass;
+        return c.Lever > 0 ? Math.Max(change, Resist(ref c, ref a, ref a, isPair: false)) : change;
+    }
+
+    /// <summary>Rolling resistance: against turning on each other, also about the normal.</summary>
+    private static double Resist(ref SolverContact c, ref SolverBody a, ref SolverBody b, bool isPair)
+    {
+        Vector3D turning = isPair ? a.Spin - b.Spin : a.Spin;
+        Vector3D turn = c.Turn - (turning * c.TurnMass);
+        double most = c.Lever * c.Impulse;
+        double square = turn.LengthSquared;
+        turn = square > most * most ? turn * (most / Math.Sqrt(square)) : turn;
+        Vector3D more = turn - c.Turn;
+        c.Turn = turn;
+        double speed = ImpactFriction.TurnPerImpulse * a.InverseMass / a.Radius;
+        a.Spin += more * (speed / a.Radius);
+        if (isPair)
+        {
+            double other = ImpactFriction.TurnPerImpulse * b.InverseMass / b.Radius;
+            b.Spin -= more * (other / b.Radius);
+            speed = Math.Max(speed, other);
+        }
+
+        return Math.Sqrt(more.LengthSquared) * speed;
+    }
+
+    private static void Apply(ContactProblem problem, in SolverContact c, in Vector3D push, in Vector3D across, in Vector3D turn)
+    {
+        ref SolverBody a = ref problem.Bodies[c.First];
+        Vector3D turned = Vector3D.Cross(across, c.Normal) * ImpactFriction.TurnPerImpulse;
+        a.Velocity += push * a.InverseMass;
+        a.Spin += (turned * (a.InverseMass / a.Radius)) + (turn * (ImpactFriction.TurnPerImpulse * a.InverseMass / (a.Radius * a.Radius)));
+        if (c.Second != ContactPoint.Static)
+        {
+            ref SolverBody b = ref problem.Bodies[c.Second];
+            b.Velocity -= push * b.InverseMass;
+            b.Spin += (turned * (b.InverseMass / b.Radius)) - (turn * (ImpactFriction.TurnPerImpulse * b.InverseMass / (b.Radius * b.Radius)));
+        }
+    }
+}

@@ -1,0 +1,248 @@
+using System;
+using LagSim.Scenes;
+
+namespace LagSim.Contacts;
+
+/// <summary>One step of an island: from where its bodies are, and how fast, to the velocities with which they go on for a step of the common clock.</summary>
+/// <remarks>
+/// <para>Leapfrog: velocities are those of the middle of a step, and a body moves on the chord that they give; at a tick they get what the forces give in a whole step and
+/// what the contacts give. So what falls, slides or rolls under constant forces is exact but for rounding at the ticks.</para>
+/// <para>Contacts are solved at the velocity level (see <see cref="ContactSolver"/>), those that might close within the step among them: a gap may be used up and no
+/// more. Since spheres are convex, chords that keep to that on the line between two centres keep to it everywhere.</para>
+/// <para>A pure function of what it is given. Order counts: bodies come in canonical order, and contacts are found in it. Cost: the pairs that are near along one axis,
+/// and the contacts times the sweeps.</para>
+/// </remarks>
+internal sealed class ContactStep
+{
+    /// <summary>
+    /// So many sweeps at most. What they leave is an error and no fault: the next step goes on from the impulses that they got to.
+    /// </summary>
+    internal const int MostSweeps = 200;
+
+    private readonly Scene scene;
+    private Member[] members = new Member[8];
+    private int[] byPlace = new int[8];
+    private double[] places = new double[8];
+    private long[] pairs = new long[16]; // the lesser body and the greater
+    private int pairCount;
+
+    internal ContactStep(Scene scene, in ContactScale scale)
+    {
+        this.scene = scene;
+        Scale = scale;
+    }
+
+    /// <summary>The bodies and contacts of the step, with the velocities of its middle once it is solved.</summary>
+    internal ContactProblem Problem { get; } = new();
+
+    internal ContactScale Scale { get; }
+
+    /// <summary>How many sweeps the last took.</summary>
+    internal int Sweeps { get; private set; }
+
+    /// <summary>Begins again, with nobody.</summary>
+    internal void Clear() => Problem.Clear();
+
+    /// <summary>Adds a body of the island.</summary>
+    /// <param name="spec">What it is.</param>
+    /// <param name="position">Where it is at the tick.</param>
+    /// <param name="velocity">With which it came: of the middle of the step before.</param>
+    /// <param name="gain">What forces add to that until the middle of this step; zero of one in a hand, whose velocity is its mean in the step.</param>
+    /// <param name="spin">How it turned.</param>
+    /// <param name="isHeld">Whether it is in a hand.</param>
+    internal void AddBody(in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D gain, in Vector3D spin, bool isHeld)
+    {
+        int n = Problem.AddBody(isHeld ? double.PositiveInfinity : spec.Mass, spec.Radius, velocity + gain, spin);
+        if (n == members.Length)
+        {
+            Array.Resize(ref members, 2 * n);
+            Array.Resize(ref byPlace, 2 * n);
+            Array.Resize(ref places, 2 * n);
+        }
+
+        members[n] = new Member
+        {
+            Position = position,
+            Gain = gain,
+            Friction = spec.Friction,
+            Lever = Math.Min(spec.RollingResistance, spec.Friction) * spec.Radius,
+            Restitution = spec.Restitution,
+            Mass = spec.Mass,
+        };
+    }
+
+    /// <summary>Where a body is at the tick.</summary>
+    internal Vector3D PositionOf(int body) => members[body].Position;
+
+    /// <summary>Finds what touches, or might within the step, among the bodies and with static surfaces.</summary>
+    internal void FindContacts(double seconds)
+    {
+        pairCount = 0;
+        FindPairs(seconds);
+        Array.Sort(pairs, 0, pairCount);
+        int next = 0;
+        for (int i = 0; i < Problem.BodyCount; i++)
+        {
+            FindSurfaces(i, seconds);
+            for (; next < pairCount && (int)(pairs[next] >> 32) == i; next++)
+            {
+                AddPair(i, (int)(uint)pairs[next]);
+            }
+        }
+    }
+
+    /// <summary>Solves the step from the impulses that its contacts have.</summary>
+    internal void Solve(double seconds, double tolerance)
+    {
+        for (int i = 0; i < Problem.ContactCount; i++)
+        {
+            ref SolverContact c = ref Problem.Contacts[i];
+            c.Target = c.Gap >= 0 ? -c.Gap / seconds : Math.Min(-c.Gap / seconds, Scale.Pull * seconds);
+        }
+
+        ContactSolver.ApplyGiven(Problem);
+        Sweeps = ContactSolver.Solve(Problem, tolerance, MostSweeps);
+    }
+
+    private void FindSurfaces(int i, double seconds)
+    {
+        ref readonly Member m = ref members[i];
+        ref readonly SolverBody body = ref Problem.Bodies[i];
+        if (body.InverseMass == 0)
+        {
+            return; // nothing static stops a hand
+        }
+
+        for (int surface = 0; surface < scene.PlaneArray.Length + scene.SphereArray.Length; surface++)
+        {
+            bool isPlane = surface < scene.PlaneArray.Length;
+            double gap, friction, restitution;
+            Vector3D normal;
+            if (isPlane)
+            {
+                ref readonly StaticPlane plane = ref scene.PlaneArray[surface];
+                gap = plane.Gap(m.Position, body.Radius);
+                normal = plane.Normal;
+                (friction, restitution) = (plane.Friction, plane.Restitution);
+            }
+            else
+            {
+                ref readonly StaticSphere sphere = ref scene.SphereArray[surface - scene.PlaneArray.Length];
+                Vector3D apart = m.Position - sphere.Centre;
+                double length = apart.Length;
+                gap = length - (sphere.Radius + body.Radius);
+                normal = length > 0 ? apart / length : Vector3D.Up;
+                (friction, restitution) = (sphere.Friction, sphere.Restitution);
+            }
+
+            double opening = Vector3D.Dot(normal, body.Velocity);
+            if (MayTouch(gap, opening, seconds, Math.Min(restitution, m.Restitution)))
+            {
+                friction = Math.Min(friction, m.Friction);
+                Problem.AddContact(i, ContactPoint.Static, surface, normal, gap, friction, Math.Min(m.Lever, friction * body.Radius));
+            }
+        }
+    }
+
+    /// <summary>
+    /// Whether two may touch in the step, and are then a contact of it: not what is elastic, nor what closes so fast that its rebound would rise by more than the
+    /// tolerance, for which there are impacts.
+    /// </summary>
+    private bool MayTouch(double gap, double opening, double seconds, double restitution)
+    {
+        double span = Scale.Length;
+        bool isNear = gap + (Math.Min(0, opening) * seconds) <= span;
+        return isNear && restitution < 1 && (gap <= 0 || -opening * restitution <= Scale.CaptureSpeed);
+    }
+
+    /// <summary>Finds the pairs of bodies that may touch, in no order.</summary>
+    private void FindPairs(double seconds)
+    {
+        SortByPlace(out double widest);
+        int count = Problem.BodyCount;
+        for (int n = 0; n < count; n++)
+        {
+            int i = byPlace[n];
+            ref readonly SolverBody p = ref Problem.Bodies[i];
+            for (int k = n + 1; k < count && places[k] - places[n] <= widest; k++)
+            {
+                int j = byPlace[k];
+                ref readonly SolverBody q = ref Problem.Bodies[j];
+                Vector3D apart = members[i].Position - members[j].Position;
+                Vector3D opens = p.Velocity - q.Velocity;
+                double reach = p.Radius + q.Radius;
+                double square = apart.LengthSquared;
+                double along = Vector3D.Dot(apart, opens);
+                double margin = reach + Scale.Length;
+                if ((square > margin * margin && along >= 0) || (p.InverseMass == 0 && q.InverseMass == 0))
+                {
+                    continue;
+                }
+
+                double length = Math.Sqrt(square);
+                double opening = length > 0 ? along / length : opens.Y;
+                if (MayTouch(length - reach, opening, seconds, Math.Min(members[i].Restitution, members[j].Restitution)))
+                {
+                    if (pairCount == pairs.Length)
+                    {
+                        Array.Resize(ref pairs, 2 * pairCount);
+                    }
+
+                    pairs[pairCount++] = ((long)Math.Min(i, j) << 32) | (uint)Math.Max(i, j);
+                }
+            }
+        }
+    }
+
+    private void AddPair(int first, int second)
+    {
+        ref readonly Member a = ref members[first];
+        ref readonly Member b = ref members[second];
+        double p = Problem.Bodies[first].Radius;
+        double q = Problem.Bodies[second].Radius;
+        Vector3D apart = a.Position - b.Position;
+        double length = apart.Length;
+        double friction = Math.Min(a.Friction, b.Friction);
+        double lever = Math.Max(Math.Min(a.Lever, friction * p), Math.Min(b.Lever, friction * q));
+        Problem.AddContact(first, second, -1, length > 0 ? apart / length : Vector3D.Up, length - (p + q), friction, lever);
+    }
+
+    /// <summary>Numbers the bodies along the axis on which they are furthest apart; so far apart on it two may be that touch.</summary>
+    private void SortByPlace(out double widest)
+    {
+        int count = Problem.BodyCount;
+        Vector3D low = members[0].Position;
+        Vector3D high = low;
+        double speed = 0;
+        double largest = 0;
+        for (int i = 0; i < count; i++)
+        {
+            Vector3D x = members[i].Position;
+            low = new Vector3D(Math.Min(low.X, x.X), Math.Min(low.Y, x.Y), Math.Min(low.Z, x.Z));
+            high = new Vector3D(Math.Max(high.X, x.X), Math.Max(high.Y, x.Y), Math.Max(high.Z, x.Z));
+            largest = Math.Max(largest, Problem.Bodies[i].Radius);
+            speed = Math.Max(speed, Problem.Bodies[i].Velocity.Length);
+        }
+
+        Vector3D span = high - low;
+        for (int i = 0; i < count; i++)
+        {
+            Vector3D x = members[i].Position;
+            places[i] = span.Y >= span.X && span.Y >= span.Z ? x.Y : span.X >= span.Z ? x.X : x.Z;
+            byPlace[i] = i;
+        }
+
+        Array.Sort(places, byPlace, 0, count);
+        widest = (2 * largest) + Scale.Length + (2 * speed * Scale.Step.ToSeconds());
+    }
+
+    private struct Member
+    {
+        internal Vector3D Position;
+        internal Vector3D Gain;
+        internal double Friction;
+        internal double Lever;
+        internal double Restitution;
+        internal double Mass;
+    }
+}

@@ -1,0 +1,415 @@
+using System;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <content>Contact steps: bodies in lasting contact are islands, which move by steps of a common clock.</content>
+/// <remarks>
+/// A step opens the pieces of all of an island with one key. Within it an impact or a player opens new pieces for those alone whom it reaches; all others go on along
+/// their chords to the next tick, which gathers the island by the contacts that its pieces carry.
+/// </remarks>
+public sealed partial class Simulation
+{
+    private readonly ContactStep step;
+    private bool[] holdsPair = Array.Empty<bool>(); // by party: whether another body holds it
+
+    /// <summary>How many contact steps were taken, and of how many bodies.</summary>
+    internal long StepsTaken { get; private set; }
+
+    internal long SweepsTaken { get; private set; }
+
+    internal long ContactsSolved { get; private set; }
+
+    /// <summary>Takes no contact for one that lasts: only a test's negative control sets it.</summary>
+    internal bool IgnoresIslands { get; set; }
+
+    private bool IsMember(int segment) => timelines.Segment(segment).IsOfIsland;
+
+    /// <summary>A tick of an island has come; false if somebody who takes part was ahead of it and has been taken back.</summary>
+    private bool TryHandleContactStep(int slot, in EventKey key)
+    {
+        ahead.Clear();
+        GatherIsland(slot, key);
+        if (ahead.Count > 0)
+        {
+            TakeBackAhead(key);
+            return false;
+        }
+
+        EventKey canonical = StepKey(key);
+        double seconds = FillStep(canonical.Time, out SimDuration length);
+        step.FindContacts(seconds);
+        Warm();
+        double tolerance = StepTolerance(canonical.Time, out bool mayRest);
+        if (mayRest && HaveRested(canonical.Time))
+        {
+            OpenRest(canonical);
+        }
+        else
+        {
+            step.Solve(seconds, tolerance);
+            OpenStep(canonical, length);
+        }
+
+        StepsTaken++;
+        SweepsTaken += step.Sweeps;
+        ContactsSolved += step.Problem.ContactCount;
+        timelines.Join(parties.AsSpan(0, partyCount));
+        for (int i = 0; i < partyCount; i++)
+        {
+            Predict(parties[i]);
+        }
+
+        return true;
+    }
+
+    /// <summary>The parties: all that hold together with a body, through others as well, and who is held among them, by the pieces of path that they are on at the key.</summary>
+    private void GatherIsland(int slot, in EventKey key)
+    {
+        partyCount = 0;
+        contactCount = 0;
+        AddParty(slot);
+        for (int i = 0; i < partyCount; i++)
+        {
+            int piece = timelines.Last(parties[i]);
+            if (!IsMember(piece))
+            {
+                continue; // in a hand
+            }
+
+            for (int at = timelines.FirstContact(piece); at != TimelineStore.None; at = timelines.NextContact(at))
+            {
+                ref readonly LastingContact contact = ref timelines.Contact(at);
+                if (contact.Holds && contact.Surface == LastingContact.NoSurface && TryPartner(bodies[parties[i]].Id, contact.Partner, key, out int partner)
+                    && PartyOf(partner) < 0)
+                {
+                    AddParty(partner);
+                }
+            }
+        }
+
+        SortParties();
+    }
+
+    /// <summary>The other body of a contact that is carried, if it carries it too, or is in a hand; who is ahead of the key is noted.</summary>
+    private bool TryPartner(BodyId body, BodyId partnerId, in EventKey key, out int partner)
+    {
+        partner = SlotOf(partnerId);
+        int piece = partner < 0 ? TimelineStore.None : PieceBefore(partner, key);
+        if (piece == TimelineStore.None || !(IsHeld(piece) || (IsMember(piece) && timelines.ContactWith(piece, body) != TimelineStore.None)))
+        {
+            return false;
+        }
+
+        if (piece != timelines.Last(partner))
+        {
+            ahead.Add(partner);
+        }
+
+        return true;
+    }
+
+    /// <summary>The piece on which a body comes to an event.</summary>
+    private int PieceBefore(int slot, in EventKey key)
+    {
+        int last = timelines.Last(slot);
+        return last != TimelineStore.None && EventKey.Compare(timelines.Key(last), key) < 0 ? last : timelines.Before(slot, key);
+    }
+
+    private void TakeBackAhead(in EventKey key)
+    {
+        while (ahead.Count > 0)
+        {
+            int slot = ahead[ahead.Count - 1];
+            ahead.RemoveAt(ahead.Count - 1);
+            TakeBack(slot, key);
+        }
+    }
+
+    /// <summary>The step's key whoever of the island was popped: of the least of those that are not in a hand.</summary>
+    private EventKey StepKey(in EventKey popped)
+    {
+        int least = 0;
+        while (!IsMember(timelines.Last(parties[least])))
+        {
+            least++;
+        }
+
+        BodyId id = bodies[parties[least]].Id;
+        return new EventKey(popped.Time, popped.Round, EventKind.StepEnd, id, id, 0, 0);
+    }
+
+    private double FillStep(SimTime tick, out SimDuration length)
+    {
+        double wanted = double.PositiveInfinity;
+        EvaluateParties(tick, 0);
+        for (int i = 0; i < partyCount; i++)
+        {
+            ref readonly BodySpec spec = ref bodies[parties[i]].Spec;
+            if (!spec.Forces.IsEmpty && !double.IsPositiveInfinity(partyMasses[i]))
+            {
+                double rate = forces.FixedStepRateAt(spec, partyPositions[i], partyVelocities[i], partySpins[i]);
+                wanted = rate > 0 ? Math.Min(wanted, MostRateTimesStep / rate) : wanted;
+            }
+        }
+
+        length = step.Scale.StepFrom(tick, wanted);
+        double seconds = length.ToSeconds();
+        SimTime middle = tick + SimDuration.FromTicks(length.Ticks / 2);
+        step.Clear();
+        for (int i = 0; i < partyCount; i++)
+        {
+            int slot = parties[i];
+            int piece = timelines.Last(slot);
+            ref readonly BodySpec spec = ref bodies[slot].Spec;
+            bool isHeld = IsHeld(piece);
+            Vector3D velocity = partyVelocities[i];
+            Vector3D gain = Vector3D.Zero;
+            if (isHeld)
+            {
+                velocity = (PositionAt(piece, tick + length) - partyPositions[i]) / seconds;
+            }
+            else
+            {
+                double since = middle.SecondsSince(timelines.Segment(piece).Law == MotionLaw.Resting ? tick : timelines.CentreOf(piece));
+                partyAccelerations[i] = forces.On(bodies[slot].Id).At(spec, tick, 0, partyPositions[i], velocity, partySpins[i]);
+                gain = partyAccelerations[i] * since;
+            }
+
+            step.AddBody(spec, partyPositions[i], velocity, gain, partySpins[i], isHeld);
+        }
+
+        return seconds;
+    }
+
+    private const double MostRateTimesStep = 1.0 / 16;
+
+    /// <summary>Has the contacts begin with the impulses that they had in the last step.</summary>
+    private void Warm()
+    {
+        for (int i = 0; i < step.Problem.ContactCount; i++)
+        {
+            ref SolverContact c = ref step.Problem.Contacts[i];
+            int piece = timelines.Last(parties[c.First]);
+            if (!IsMember(piece))
+            {
+                continue;
+            }
+
+            int at = c.Second == ContactPoint.Static ? timelines.ContactWith(piece, c.Surface) : timelines.ContactWith(piece, bodies[parties[c.Second]].Id);
+            if (at != TimelineStore.None)
+            {
+                ref readonly LastingContact known = ref timelines.Contact(at);
+                c.Impulse = Math.Max(0, Vector3D.Dot(known.Push, c.Normal));
+                c.Rub = c.Friction > 0 ? known.Push - (c.Normal * Vector3D.Dot(known.Push, c.Normal)) : Vector3D.Zero;
+                c.Turn = c.Lever > 0 ? known.Turn : Vector3D.Zero;
+            }
+        }
+    }
+
+    /// <summary>How well the step is solved: the finer, the less the island moves.</summary>
+    private double StepTolerance(SimTime tick, out bool mayRest)
+    {
+        double fastest = 0;
+        mayRest = true;
+        for (int i = 0; i < partyCount; i++)
+        {
+            bool isHeld = double.IsPositiveInfinity(partyMasses[i]);
+            fastest = Math.Max(fastest, partyVelocities[i].Length);
+            mayRest &= !isHeld && !forces.HasSupplied(bodies[parties[i]].Spec);
+        }
+
+        return Math.Min(step.Scale.SweepSpeed, Math.Max(0.05 * fastest, 0.05 * step.Scale.StillSpeed));
+    }
+
+    private bool HaveRested(SimTime tick)
+    {
+        bool rests = true;
+        for (int i = 0; i < partyCount && rests; i++)
+        {
+            int piece = timelines.Last(parties[i]);
+            rests = tick - timelines.StillSince(piece) >= ContactScale.StillFor;
+        }
+
+        return rests;
+    }
+
+    /// <summary>All of the island rest from here on, and forget the impulses, so that those that come to rest in other ways meet.</summary>
+    private void OpenRest(in EventKey key)
+    {
+        for (int i = 0; i < partyCount; i++)
+        {
+            int slot = parties[i];
+            int before = timelines.Last(slot);
+            Append(slot, key, MotionSegment.AtRest(key.Time, partyPositions[i].WithoutNegativeZero()), default, spin: new Spin(partySpins[i]));
+            int piece = timelines.Last(slot);
+            timelines.BeginMember(piece, key.Time, timelines.StillSince(before));
+            for (int at = timelines.FirstContact(before); at != TimelineStore.None; at = timelines.NextContact(at))
+            {
+                LastingContact contact = timelines.Contact(at);
+                if (contact.Holds)
+                {
+                    timelines.AddContact(piece, new LastingContact(contact.Partner, contact.Surface, holds: true));
+                }
+            }
+
+            timelines.EndMember(piece, bodies[slot].Id);
+        }
+    }
+
+    /// <summary>Opens the pieces of the step that was solved: chords of those that something holds, else whatever law they follow alone.</summary>
+    private void OpenStep(in EventKey key, SimDuration length)
+    {
+        step.Problem.List();
+        FindHoldingPairs();
+        SimTime end = key.Time + length;
+        SimTime centre = key.Time + SimDuration.FromTicks(length.Ticks / 2);
+        for (int i = 0; i < partyCount; i++)
+        {
+            int slot = parties[i];
+            int before = timelines.Last(slot);
+            if (IsHeld(before))
+            {
+                GoOnHeld(slot, key);
+                continue;
+            }
+
+            ref readonly SolverBody solved = ref step.Problem.Bodies[i];
+            if (!IsHeldTogether(i, out int planes))
+            {
+                OpenFlight(slot, key, partyPositions[i], LeavingVelocity(i, before, key.Time), spin: partySpins[i]);
+            }
+            else if (planes > 0)
+            {
+                OpenAlone(i, key, planes, solved);
+            }
+            else
+            {
+                SimTime still = solved.Velocity.Length <= step.Scale.StillSpeed && timelines.Segment(before).Law == MotionLaw.Constrained
+                    ? timelines.StillSince(before) : key.Time;
+                OpenChord(slot, key, end, partyPositions[i], solved.Velocity, solved.Spin);
+                int piece = timelines.Last(slot);
+                timelines.BeginMember(piece, centre, still);
+                CarryContacts(i, piece);
+                timelines.EndMember(piece, bodies[slot].Id);
+            }
+        }
+    }
+
+    private void OpenChord(int slot, in EventKey key, SimTime end, in Vector3D position, in Vector3D velocity, in Vector3D spin)
+    {
+        Vector3D x = position.WithoutNegativeZero();
+        Vector3D v = velocity.WithoutNegativeZero();
+        CheckState(slot, key, x, v);
+        Append(slot, key, new MotionSegment(MotionLaw.Constrained, key.Time, end, x, v, Vector3D.Zero), default, spin: new Spin(spin));
+    }
+
+    /// <summary>Who is held by another body in the step: what pushes holds.</summary>
+    private void FindHoldingPairs()
+    {
+        if (holdsPair.Length < partyCount)
+        {
+            holdsPair = new bool[parties.Length];
+        }
+
+        for (int i = 0; i < partyCount; i++)
+        {
+            holdsPair[i] = false;
+        }
+
+        for (int i = 0; i < step.Problem.ContactCount; i++)
+        {
+            ref readonly SolverContact c = ref step.Problem.Contacts[i];
+            if (c.Second != ContactPoint.Static && c.Impulse > 0)
+            {
+                holdsPair[c.First] = true;
+                holdsPair[c.Second] = true;
+            }
+        }
+    }
+
+    /// <summary>
+    /// Whether something pushes a party in the step. If that is static planes alone, on which a closed form carries it, <paramref name="planes"/> tells how many.
+    /// </summary>
+    private bool IsHeldTogether(int party, out int planes)
+    {
+        planes = 0;
+        bool isHeld = holdsPair[party];
+        bool needsSteps = isHeld || !bodies[parties[party]].Spec.Forces.IsEmpty;
+        bool rubs = false;
+        foreach (int i in step.Problem.ListOf(party))
+        {
+            ref readonly SolverContact c = ref step.Problem.Contacts[i];
+            if (c.Second == ContactPoint.Static && c.Impulse > 0)
+            {
+                isHeld = true;
+                needsSteps |= c.Surface >= Scene.PlaneArray.Length;
+                rubs |= c.Friction > 0;
+                planes++;
+            }
+        }
+
+        planes = needsSteps || (rubs && planes > 1) ? 0 : planes;
+        return isHeld;
+    }
+
+    /// <summary>The velocity at the tick of who leaves: with what the contacts of the last step gave in its second half, for until now they have held it.</summary>
+    private Vector3D LeavingVelocity(int party, int piece, SimTime tick)
+    {
+        if (timelines.Segment(piece).Law != MotionLaw.Constrained)
+        {
+            return partyVelocities[party];
+        }
+
+        double since = tick.SecondsSince(timelines.CentreOf(piece));
+        Vector3D push = Vector3D.Zero;
+        for (int at = timelines.FirstContact(piece); at != TimelineStore.None; at = timelines.NextContact(at))
+        {
+            push += timelines.Contact(at).Push;
+        }
+
+        return partyVelocities[party] + (partyAccelerations[party] * since) + (push * (0.5 / partyMasses[party]));
+    }
+
+    /// <summary>Opens the closed form of a body that planes alone hold: with the mean of its velocities before the tick and after.</summary>
+    private void OpenAlone(int party, in EventKey key, int planes, in SolverBody solved)
+    {
+        Vector3D velocity = (partyVelocities[party] + solved.Velocity) * 0.5;
+        Vector3D spin = (partySpins[party] + solved.Spin) * 0.5;
+        int count = 0;
+        foreach (int i in step.Problem.ListOf(party))
+        {
+            ref readonly SolverContact c = ref step.Problem.Contacts[i];
+            if (c.Second == ContactPoint.Static && c.Impulse > 0)
+            {
+                velocity -= c.Normal * Vector3D.Dot(c.Normal, velocity);
+                AddTouched(ref count, c.Surface);
+            }
+        }
+
+        Open(parties[party], key, partyPositions[party], velocity, 0, touched.AsSpan(0, count), spin);
+    }
+
+    private void CarryContacts(int party, int piece)
+    {
+        BodyId self = bodies[parties[party]].Id;
+        foreach (int i in step.Problem.ListOf(party))
+        {
+            ref readonly SolverContact c = ref step.Problem.Contacts[i];
+            bool isFirst = c.First == party;
+            bool isPair = c.Second != ContactPoint.Static;
+            Vector3D push = (c.Normal * c.Impulse) + c.Rub;
+            timelines.AddContact(piece, new LastingContact(
+                !isPair ? self : bodies[parties[isFirst ? c.Second : c.First]].Id,
+                isPair ? LastingContact.NoSurface : c.Surface,
+                c.Impulse > 0,
+                (isFirst ? push : -push).WithoutNegativeZero(),
+                (isFirst ? c.Turn : -c.Turn).WithoutNegativeZero()));
+        }
+    }
+}

@@ -1,0 +1,149 @@
+using System;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <content>Members of islands between two ticks: what they look for no impacts with, how one goes on after something has happened to it, who wakes.</content>
+public sealed partial class Simulation
+{
+    /// <summary>
+    /// Whether a contact that a member's piece carries is the step's affair and no impact's: a surface that the step took into account, or that the member does not
+    /// close on since.
+    /// </summary>
+    private bool IsCovered(int piece, int surface)
+    {
+        int at = timelines.ContactWith(piece, surface);
+        if (at == TimelineStore.None)
+        {
+            return false;
+        }
+
+        ref readonly MotionSegment path = ref timelines.Segment(piece);
+        return timelines.Key(piece).Kind == EventKind.StepEnd
+            || (timelines.Contact(at).Holds && Vector3D.Dot(SurfaceNormal(surface, path.Position), path.Velocity) >= -step.Scale.SweepSpeed);
+    }
+
+    /// <summary>Whether a member is surely further from a surface than it gets on its chord.</summary>
+    private bool IsOutOfReach(int slot, in MotionSegment chord, int surface)
+    {
+        double gap = surface < Scene.PlaneArray.Length ? Scene.PlaneArray[surface].Gap(chord.Position, bodies[slot].Spec.Radius)
+            : (chord.Position - Scene.SphereArray[surface - Scene.PlaneArray.Length].Centre).Length
+                - (bodies[slot].Spec.Radius + Scene.SphereArray[surface - Scene.PlaneArray.Length].Radius);
+        double way = chord.End.SecondsSince(chord.Epoch) * 1.001;
+        return gap > 0 && gap * gap > chord.Velocity.LengthSquared * way * way + (step.Scale.Length * step.Scale.Length * 1e-6);
+    }
+
+    /// <summary>The same of two bodies: pieces of one step, or such that do not close where the later one begins.</summary>
+    private bool IsCovered(int slot, int piece, int other, int otherPiece)
+    {
+        if (!IsMember(piece) || !IsMember(otherPiece))
+        {
+            return false;
+        }
+
+        int at = timelines.ContactWith(piece, bodies[other].Id);
+        if (at == TimelineStore.None || timelines.ContactWith(otherPiece, bodies[slot].Id) == TimelineStore.None)
+        {
+            return false;
+        }
+
+        if (timelines.Key(piece).Kind == EventKind.StepEnd && timelines.Key(piece) == timelines.Key(otherPiece))
+        {
+            return true;
+        }
+
+        SimTime opened = SimTime.Max(timelines.Key(piece).Time, timelines.Key(otherPiece).Time);
+        Vector3D normal = Direction(PositionAt(piece, opened) - PositionAt(otherPiece, opened));
+        double opening = Vector3D.Dot(normal, timelines.Segment(piece).Velocity - timelines.Segment(otherPiece).Velocity);
+        return timelines.Contact(at).Holds && opening >= -step.Scale.SweepSpeed;
+    }
+
+    /// <summary>Opens the next piece of a member from a state: a chord to the end of the step under way, or of one that begins if it slept.</summary>
+    private void GoOnAsMember(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D spin, bool hasChanged)
+    {
+        int before = timelines.Last(slot);
+        MotionSegment path = timelines.Segment(before);
+        bool slept = path.Law == MotionLaw.Resting;
+        SimTime centre = slept ? key.Time : timelines.CentreOf(before);
+        SimTime still = slept || hasChanged ? key.Time : timelines.StillSince(before);
+        if (slept && !hasChanged)
+        {
+            centre = timelines.CentreOf(before);
+            still = timelines.StillSince(before);
+            Append(slot, key, MotionSegment.AtRest(key.Time, path.Position), default, spin: timelines.SpinOf(before));
+        }
+        else
+        {
+            OpenChord(slot, key, slept ? step.Scale.NextTick(key.Time) : path.End, position, velocity, spin);
+        }
+
+        int piece = timelines.Last(slot);
+        timelines.BeginMember(piece, centre, still);
+        for (int at = timelines.FirstContact(before); at != TimelineStore.None; at = timelines.NextContact(at))
+        {
+            LastingContact contact = timelines.Contact(at);
+            timelines.AddContact(piece, contact);
+        }
+    }
+
+    /// <summary>The parties: those that sleep in contact with a body to which something is about to happen; false if one was ahead of it and has been taken back.</summary>
+    private bool TryFindSleepers(int slot, in EventKey key)
+    {
+        partyCount = 0;
+        contactCount = 0;
+        int last = timelines.Last(slot);
+        if (last == TimelineStore.None || !IsMember(last))
+        {
+            return true;
+        }
+
+        ahead.Clear();
+        for (int at = timelines.FirstContact(last); at != TimelineStore.None; at = timelines.NextContact(at))
+        {
+            ref readonly LastingContact contact = ref timelines.Contact(at);
+            int partner = contact.Surface == LastingContact.NoSurface ? SlotOf(contact.Partner) : NoPartner;
+            int piece = partner < 0 ? TimelineStore.None : PieceBefore(partner, key);
+            if (piece != TimelineStore.None && IsMember(piece) && timelines.Segment(piece).Law == MotionLaw.Resting)
+            {
+                if (piece != timelines.Last(partner))
+                {
+                    ahead.Add(partner);
+                }
+
+                AddParty(partner);
+            }
+        }
+
+        if (ahead.Count > 0)
+        {
+            TakeBackAhead(key);
+            return false;
+        }
+
+        SortParties();
+        return true;
+    }
+
+    /// <summary>The parties wake: what they lay on has been touched.</summary>
+    private void WakeParties(int slot, in EventKey key)
+    {
+        for (int i = 0; i < partyCount; i++)
+        {
+            int before = timelines.Last(parties[i]);
+            GoOnAsMember(parties[i], key, timelines.Segment(before).Position, Vector3D.Zero, timelines.SpinOf(before).AtEpoch, hasChanged: true);
+            timelines.EndMember(timelines.Last(parties[i]), bodies[parties[i]].Id);
+        }
+
+        AddParty(slot);
+        timelines.Join(parties.AsSpan(0, partyCount));
+        partyCount--;
+        for (int i = 0; i < partyCount; i++)
+        {
+            Predict(parties[i]);
+        }
+    }
+}

@@ -1,0 +1,409 @@
+using System;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <content>Impacts that reach islands, or begin them: an impulse spreads over lasting contacts as far as it changes velocities.</content>
+public sealed partial class Simulation
+{
+    private readonly ContactProblem reached = new();
+    private Vector3D[] velocitiesBefore = Array.Empty<Vector3D>();
+    private Vector3D[] spinsBefore = Array.Empty<Vector3D>();
+
+    /// <summary>
+    /// Whether a rebound is the last of its contact, which lasts from then on (docs/CONTACT.md, rule of capture): not of an elastic one; of two that are members
+    /// already if it is slower than the capture speed; else if something presses them together so that the rebound would rise less than the contact tolerance, and
+    /// all bounces to come would be over within a step.
+    /// </summary>
+    private bool IsLast(in ContactPoint c, double restitution, double rebound)
+    {
+        if (restitution >= 1 || IgnoresIslands || Scene.Box.Exists || IsCarriedByClosedForm(c))
+        {
+            return false;
+        }
+
+        bool isPair = c.Second != ContactPoint.Static;
+        if (isPair && IsMember(timelines.Last(parties[c.First])) && IsMember(timelines.Last(parties[c.Second])))
+        {
+            return rebound <= step.Scale.CaptureSpeed;
+        }
+
+        Vector3D velocity = partyVelocities[c.First] - (isPair ? partyVelocities[c.Second] : Vector3D.Zero);
+        Vector3D acceleration = partyAccelerations[c.First] - (isPair ? partyAccelerations[c.Second] : Vector3D.Zero);
+        bool isPlane = !isPair && c.Surface < Scene.PlaneArray.Length;
+        double pressing = -Vector3D.Dot(c.Normal, acceleration) - (isPlane ? 0 : FallingAway(c.Normal, velocity, ReachOf(c)));
+        return pressing > 0 && rebound * rebound <= 2 * pressing * step.Scale.Length && 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds();
+    }
+
+    /// <summary>Whether the bounces of a contact are followed down to the scene's resolution, and a closed form carries its body then: alone on planes, of which one rubs at most if it is the only one.</summary>
+    private bool IsCarriedByClosedForm(in ContactPoint c)
+    {
+        if (!IsSupportable(c) || IsMember(timelines.Last(parties[c.First])))
+        {
+            return false;
+        }
+
+        int planes = 0;
+        bool rubs = false;
+        SupportSet supports = timelines.Segment(timelines.Last(parties[c.First])).Supports;
+        for (int k = 0; k < supports.Count; k++)
+        {
+            planes++;
+            rubs |= FrictionOn(parties[c.First], supports[k]) > 0;
+        }
+
+        for (int i = 0; i < contactCount; i++)
+        {
+            ref readonly ContactPoint other = ref contacts[i];
+            if (other.First == c.First && other.Second == ContactPoint.Static && other.Surface < Scene.PlaneArray.Length)
+            {
+                planes++;
+                rubs |= Friction(other) > 0;
+            }
+        }
+
+        return planes == 1 || !rubs;
+    }
+
+    private bool ReachesIsland()
+    {
+        bool reaches = false;
+        for (int i = 0; i < partyCount && !reaches; i++)
+        {
+            reaches = IsMember(timelines.Last(parties[i]));
+        }
+
+        for (int i = 0; i < contactCount && !reaches; i++)
+        {
+            reaches = contacts[i].Lasts;
+        }
+
+        return reaches;
+    }
+
+    /// <summary>Solves the impact at hand with the lasting contacts that it reaches; false if somebody was ahead of it and has been taken back.</summary>
+    private bool TrySpread(in EventKey popped, double residual)
+    {
+        EventKey key = CanonicalKey(popped);
+        reached.Clear();
+        int struckParties = partyCount;
+        for (int i = 0; i < partyCount; i++)
+        {
+            AddReached(i);
+        }
+
+        for (int i = 0; i < contactCount; i++)
+        {
+            ref readonly ContactPoint c = ref contacts[i];
+            ref SolverContact added = ref reached.AddContact(c.First, c.Second, c.Surface, c.Normal, 0, Friction(c), RollingLever(c));
+            added.Target = c.Target;
+        }
+
+        AddReachedSupports();
+        double tolerance = 0.1 * step.Scale.SweepSpeed;
+        ContactSolver.Solve(reached, tolerance, ContactStep.MostSweeps);
+        ahead.Clear();
+        for (bool grows = true; grows && ahead.Count == 0;)
+        {
+            grows = false;
+            int known = partyCount;
+            for (int i = 0; i < known; i++)
+            {
+                if (!isReached[i] && (reached.Bodies[i].Velocity - velocitiesBefore[i]).Length > tolerance)
+                {
+                    isReached[i] = true;
+                    grows |= TryReachOn(i, key, residual);
+                }
+            }
+
+            if (grows && ahead.Count == 0)
+            {
+                ContactSolver.Solve(reached, tolerance, ContactStep.MostSweeps);
+            }
+        }
+
+        if (ahead.Count > 0)
+        {
+            TakeBackAhead(key);
+            return false;
+        }
+
+        TellContacts(key);
+        KeepEnergy(tolerance);
+        OpenReached(key, residual, struckParties);
+        timelines.Join(parties.AsSpan(0, partyCount));
+        for (int i = 0; i < partyCount; i++)
+        {
+            Predict(parties[i]);
+        }
+
+        return true;
+    }
+
+    private void AddReached(int party)
+    {
+        reached.AddBody(partyMasses[party], partyRadii[party], partyVelocities[party], partySpins[party]);
+        if (party >= velocitiesBefore.Length)
+        {
+            Array.Resize(ref velocitiesBefore, parties.Length);
+            Array.Resize(ref spinsBefore, parties.Length);
+        }
+
+        velocitiesBefore[party] = partyVelocities[party];
+        spinsBefore[party] = partySpins[party];
+        isReached[party] = double.IsPositiveInfinity(partyMasses[party]);
+    }
+
+    /// <summary>What carries a party by a closed form holds it up while it is struck.</summary>
+    private void AddReachedSupports()
+    {
+        for (int i = 0; i < partyCount; i++)
+        {
+            SupportSet supports = timelines.Segment(timelines.Last(parties[i])).Supports;
+            for (int k = 0; k < supports.Count; k++)
+            {
+                if (!HasContact(i, supports[k]))
+                {
+                    double friction = FrictionOn(parties[i], supports[k]);
+                    double lever = Math.Min(bodies[parties[i]].Spec.RollingResistance, friction) * partyRadii[i];
+                    reached.AddContact(i, ContactPoint.Static, supports[k], Scene.PlaneArray[supports[k]].Normal, 0, friction, lever);
+                }
+            }
+        }
+    }
+
+    /// <summary>Adds the lasting contacts of a party whose velocity the impact has changed, and the bodies on their other sides.</summary>
+    private bool TryReachOn(int party, in EventKey key, double residual)
+    {
+        int slot = parties[party];
+        int piece = timelines.Last(slot);
+        if (!IsMember(piece))
+        {
+            return false;
+        }
+
+        bool any = false;
+        SimTime end = timelines.Segment(piece).Law == MotionLaw.Resting ? step.Scale.NextTick(key.Time) : timelines.Segment(piece).End;
+        double left = end.SecondsSince(key.Time);
+        for (int at = timelines.FirstContact(piece); at != TimelineStore.None; at = timelines.NextContact(at))
+        {
+            LastingContact contact = timelines.Contact(at);
+            if (!contact.Holds)
+            {
+                continue; // that there is room to close in is not used up yet, or an impact tells when
+            }
+
+            if (contact.Surface != LastingContact.NoSurface)
+            {
+                if (!HasContact(party, contact.Surface))
+                {
+                    AddReachedContact(new ContactPoint(party, ContactPoint.Static, contact.Surface, default), left);
+                    any = true;
+                }
+
+                continue;
+            }
+
+            if (!TryPartner(bodies[slot].Id, contact.Partner, key, out int partner))
+            {
+                continue;
+            }
+
+            int other = PartyOf(partner);
+            if (other >= 0 && (isReached[other] && !double.IsPositiveInfinity(partyMasses[other])))
+            {
+                continue; // it has added the contact
+            }
+
+            if (other >= 0 && IsStruckWith(party, other))
+            {
+                continue;
+            }
+
+            if (other < 0)
+            {
+                other = AddParty(partner);
+                EvaluateParty(other, key.Time, residual);
+                AddReached(other);
+            }
+
+            bool ordered = bodies[slot].Id < bodies[partner].Id;
+            AddReachedContact(new ContactPoint(ordered ? party : other, ordered ? other : party, -1, default), left);
+            any = true;
+        }
+
+        return any;
+    }
+
+    private bool IsStruckWith(int party, int other)
+    {
+        bool isStruck = false;
+        for (int i = 0; i < contactCount && !isStruck; i++)
+        {
+            ref readonly ContactPoint c = ref contacts[i];
+            isStruck = (c.First == party && c.Second == other) || (c.First == other && c.Second == party);
+        }
+
+        return isStruck;
+    }
+
+    private void AddReachedContact(ContactPoint c, double left)
+    {
+        c.Normal = NormalOf(c);
+        double gap = c.Second != ContactPoint.Static ? (partyPositions[c.First] - partyPositions[c.Second]).Length - ReachOf(c)
+            : c.Surface < Scene.PlaneArray.Length ? Scene.PlaneArray[c.Surface].Gap(partyPositions[c.First], partyRadii[c.First])
+            : (partyPositions[c.First] - Scene.SphereArray[c.Surface - Scene.PlaneArray.Length].Centre).Length - ReachOf(c);
+        ref SolverContact added = ref reached.AddContact(c.First, c.Second, c.Surface, c.Normal, gap, Friction(c), RollingLever(c));
+        added.Target = gap > 0 && left > 0 ? -gap / left : 0;
+    }
+
+    /// <summary>Rebound and friction together may make energy where several contacts share bodies; then there is no rebound.</summary>
+    private void KeepEnergy(double tolerance)
+    {
+        double after = reached.KineticEnergy();
+        for (int i = 0; i < partyCount; i++)
+        {
+            ref SolverBody body = ref reached.Bodies[i];
+            (body.Velocity, velocitiesBefore[i]) = (velocitiesBefore[i], body.Velocity);
+            (body.Spin, spinsBefore[i]) = (spinsBefore[i], body.Spin);
+        }
+
+        bool hasHand = false;
+        for (int i = 0; i < partyCount; i++)
+        {
+            hasHand |= double.IsPositiveInfinity(partyMasses[i]);
+        }
+
+        if (hasHand || after <= reached.KineticEnergy() * (1 + 1e-9))
+        {
+            for (int i = 0; i < partyCount; i++)
+            {
+                ref SolverBody body = ref reached.Bodies[i];
+                (body.Velocity, velocitiesBefore[i]) = (velocitiesBefore[i], body.Velocity);
+                (body.Spin, spinsBefore[i]) = (spinsBefore[i], body.Spin);
+            }
+
+            return;
+        }
+
+        for (int i = 0; i < partyCount; i++)
+        {
+            velocitiesBefore[i] = reached.Bodies[i].Velocity;
+            spinsBefore[i] = reached.Bodies[i].Spin;
+        }
+
+        for (int i = 0; i < reached.ContactCount; i++)
+        {
+            ref SolverContact c = ref reached.Contacts[i];
+            c.Impulse = 0;
+            c.Rub = Vector3D.Zero;
+            c.Turn = Vector3D.Zero;
+            c.Target = Math.Min(0, c.Target);
+        }
+
+        ContactSolver.Solve(reached, tolerance, ContactStep.MostSweeps);
+    }
+
+    private void OpenReached(in EventKey key, double residual, int struckParties)
+    {
+        SimTime end = step.Scale.NextTick(key.Time);
+        for (int i = 0; i < partyCount; i++)
+        {
+            ref readonly MotionSegment path = ref timelines.Segment(timelines.Last(parties[i]));
+            end = path.Law == MotionLaw.Constrained ? SimTime.Min(end, path.End) : end;
+            partyVelocities[i] = reached.Bodies[i].Velocity;
+            partySpins[i] = reached.Bodies[i].Spin;
+        }
+
+        LimitSpeeds();
+        for (int i = 0; i < partyCount; i++)
+        {
+            int slot = parties[i];
+            int before = timelines.Last(slot);
+            bool isMember = IsMember(before);
+            bool lasts = i < struckParties && HasLasting(i);
+            if (IsHeld(before))
+            {
+                GoOnHeld(slot, key);
+            }
+            else if (!isMember && !lasts)
+            {
+                OpenAfterImpact(i, key, residual);
+            }
+            else
+            {
+                bool hasChanged = lasts || partyVelocities[i] != velocitiesBefore[i] || partySpins[i] != spinsBefore[i];
+                Vector3D position = partyPositions[i] - (partyVelocities[i] * residual);
+                if (isMember)
+                {
+                    GoOnAsMember(slot, key, position, partyVelocities[i], partySpins[i], hasChanged);
+                }
+                else
+                {
+                    SupportSet supports = timelines.Segment(before).Supports;
+                    OpenChord(slot, key, end, position, partyVelocities[i], partySpins[i]);
+                    timelines.BeginMember(timelines.Last(slot), key.Time, key.Time);
+                    for (int k = 0; k < supports.Count; k++)
+                    {
+                        timelines.AddContact(timelines.Last(slot), new LastingContact(bodies[slot].Id, supports[k], holds: true));
+                    }
+                }
+
+                AddLasting(i, timelines.Last(slot));
+                timelines.EndMember(timelines.Last(slot), bodies[slot].Id);
+            }
+        }
+    }
+
+    private bool HasLasting(int party)
+    {
+        bool has = false;
+        for (int i = 0; i < contactCount && !has; i++)
+        {
+            has = contacts[i].Lasts && (contacts[i].First == party || contacts[i].Second == party);
+        }
+
+        return has;
+    }
+
+    /// <summary>A member's new piece carries the contacts of the impact at hand that last from here on.</summary>
+    private void AddLasting(int party, int piece)
+    {
+        for (int i = 0; i < contactCount; i++)
+        {
+            ref readonly ContactPoint c = ref contacts[i];
+            bool isPair = c.Second != ContactPoint.Static;
+            if (!c.Lasts || (c.First != party && c.Second != party))
+            {
+                continue;
+            }
+
+            BodyId partner = bodies[parties[isPair && c.First == party ? c.Second : c.First]].Id;
+            int known = isPair ? timelines.ContactWith(piece, partner) : timelines.ContactWith(piece, c.Surface);
+            if (known != TimelineStore.None)
+            {
+                timelines.Hold(known);
+            }
+            else
+            {
+                timelines.AddContact(piece, new LastingContact(partner, isPair ? LastingContact.NoSurface : c.Surface, holds: true));
+            }
+        }
+    }
+
+    /// <summary>
+    /// The lever of rolling resistance of a contact, in metres: the larger of its two bodies', each of which has no more resistance than friction.
+    /// </summary>
+    private double RollingLever(in ContactPoint c)
+    {
+        double friction = Friction(c);
+        double first = Math.Min(bodies[parties[c.First]].Spec.RollingResistance, friction) * partyRadii[c.First];
+        double second = c.Second == ContactPoint.Static ? 0 : Math.Min(bodies[parties[c.Second]].Spec.RollingResistance, friction) * partyRadii[c.Second];
+        return Math.Max(first, second);
+    }
+}
