@@ -100,6 +100,7 @@ public sealed partial class Simulation
         Start = start;
         history = options.History;
         cancellation = options.Cancellation;
+        Threads = options.Threads;
         healing = options.Healing;
         mostPairs = options.MostPairs;
         clock = EventKey.Before(from);
@@ -115,6 +116,9 @@ public sealed partial class Simulation
         forces = new Forces(scene, start);
         step = new ContactStep(scene, new ContactScale(scene.ContactTolerance, scene.Gravity));
     }
+
+    /// <summary>How many threads at most may be at work for it.</summary>
+    internal int Threads { get; }
 
     /// <summary>What was there at the start.</summary>
     public Scene Scene { get; }
