@@ -53,6 +53,7 @@ public sealed partial class Simulation
         else
         {
             step.Solve(seconds, tolerance);
+            SettleForces(canonical.Time, length, tolerance);
             OpenStep(canonical, length);
         }
 
@@ -150,11 +151,9 @@ public sealed partial class Simulation
         EvaluateParties(tick, 0);
         for (int i = 0; i < partyCount; i++)
         {
-            ref readonly BodySpec spec = ref bodies[parties[i]].Spec;
-            if (!spec.Forces.IsEmpty && !double.IsPositiveInfinity(partyMasses[i]))
+            if (!double.IsPositiveInfinity(partyMasses[i]))
             {
-                double rate = forces.FixedStepRateAt(spec, partyPositions[i], partyVelocities[i], partySpins[i]);
-                wanted = rate > 0 ? Math.Min(wanted, MostRateTimesStep / rate) : wanted;
+                wanted = Math.Min(wanted, StepWanted(parties[i], partyPositions[i], partyVelocities[i], partySpins[i]));
             }
         }
 
@@ -187,7 +186,70 @@ public sealed partial class Simulation
         return seconds;
     }
 
+    /// <summary>So far, in parts of a force's own time, a step may go.</summary>
     private const double MostRateTimesStep = 1.0 / 16;
+
+    /// <summary>How long a step may be at most, in seconds, for the forces on a body to be followed; infinite where there are none.</summary>
+    private double StepWanted(int slot, in Vector3D position, in Vector3D velocity, in Vector3D spin)
+    {
+        ref readonly BodySpec spec = ref bodies[slot].Spec;
+        double rate = spec.Forces.IsEmpty ? 0 : forces.FixedStepRateAt(spec, position, velocity, spin);
+        return rate > 0 ? MostRateTimesStep / rate : double.PositiveInfinity;
+    }
+
+    /// <summary>
+    /// Has forces act at the mean of the velocities before the tick and after it, contacts included: the implicit midpoint rule, under which a magnetic force makes and
+    /// takes no speed, and a damper none but what it should. At the velocity that the body came with, a force across it would drive away what lies still.
+    /// </summary>
+    private void SettleForces(SimTime tick, SimDuration length, double tolerance)
+    {
+        SimTime middle = tick + SimDuration.FromTicks(length.Ticks / 2);
+        double last = double.PositiveInfinity;
+        double change = 0;
+        for (int n = 0; n < MostForceIterations && HasForces() && change < last; n++)
+        {
+            last = n == 0 ? double.PositiveInfinity : change;
+            change = 0;
+            for (int i = 0; i < partyCount; i++)
+            {
+                ref readonly BodySpec spec = ref bodies[parties[i]].Spec;
+                if (spec.Forces.IsEmpty || double.IsPositiveInfinity(partyMasses[i]))
+                {
+                    continue;
+                }
+
+                int piece = timelines.Last(parties[i]);
+                double since = middle.SecondsSince(timelines.Segment(piece).Law == MotionLaw.Resting ? tick : timelines.CentreOf(piece));
+                Vector3D mean = (partyVelocities[i] + step.Problem.Bodies[i].Velocity) * 0.5;
+                Vector3D spin = (partySpins[i] + step.Problem.Bodies[i].Spin) * 0.5;
+                Vector3D acceleration = forces.On(bodies[parties[i]].Id).At(spec, tick, 0, partyPositions[i], mean, spin);
+                change = Math.Max(change, (acceleration - partyAccelerations[i]).Length * since);
+                partyAccelerations[i] = acceleration;
+                step.Regain(i, partyVelocities[i] + (acceleration * since), partySpins[i]);
+            }
+
+            if (change == 0)
+            {
+                return;
+            }
+
+            step.SolveAgain(tolerance);
+        }
+    }
+
+    /// <summary>So often at most a force is asked again for the velocity that it leaves: what is off gets half as large each time, or far less.</summary>
+    private const int MostForceIterations = 64;
+
+    private bool HasForces()
+    {
+        bool has = false;
+        for (int i = 0; i < partyCount && !has; i++)
+        {
+            has = !bodies[parties[i]].Spec.Forces.IsEmpty;
+        }
+
+        return has;
+    }
 
     /// <summary>Has the contacts begin with the impulses that they had in the last step.</summary>
     private void Warm()

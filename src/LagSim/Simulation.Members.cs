@@ -78,7 +78,7 @@ public sealed partial class Simulation
         }
         else
         {
-            OpenChord(slot, key, slept ? step.Scale.NextTick(key.Time) : path.End, position, velocity, spin);
+            OpenChord(slot, key, slept ? step.Scale.TickFrom(key.Time, StepWanted(slot, position, velocity, spin)) : path.End, position, velocity, spin);
         }
 
         int piece = timelines.Last(slot);

@@ -33,11 +33,14 @@ public sealed partial class Simulation
             return rebound <= step.Scale.CaptureSpeed;
         }
 
+        bool isOnIsland = isPair && (IsMember(timelines.Last(parties[c.First])) || IsMember(timelines.Last(parties[c.Second])));
+
         Vector3D velocity = partyVelocities[c.First] - (isPair ? partyVelocities[c.Second] : Vector3D.Zero);
         Vector3D acceleration = partyAccelerations[c.First] - (isPair ? partyAccelerations[c.Second] : Vector3D.Zero);
         bool isPlane = !isPair && c.Surface < Scene.PlaneArray.Length;
         double pressing = -Vector3D.Dot(c.Normal, acceleration) - (isPlane ? 0 : FallingAway(c.Normal, velocity, ReachOf(c)));
-        return pressing > 0 && rebound * rebound <= 2 * pressing * step.Scale.Length && 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds();
+        return pressing > 0 && rebound * rebound <= 2 * pressing * step.Scale.Length
+            && (isOnIsland || 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds());
     }
 
     /// <summary>Whether the bounces of a contact are followed down to the scene's resolution, and a closed form carries its body then: alone on planes, of which one rubs at most if it is the only one.</summary>
@@ -188,7 +191,7 @@ public sealed partial class Simulation
         }
 
         bool any = false;
-        SimTime end = timelines.Segment(piece).Law == MotionLaw.Resting ? step.Scale.NextTick(key.Time) : timelines.Segment(piece).End;
+        SimTime end = timelines.Segment(piece).Law == MotionLaw.Resting ? step.Scale.TickFrom(key.Time, double.PositiveInfinity) : timelines.Segment(piece).End;
         double left = end.SecondsSince(key.Time);
         for (int at = timelines.FirstContact(piece); at != TimelineStore.None; at = timelines.NextContact(at))
         {
@@ -311,7 +314,7 @@ public sealed partial class Simulation
 
     private void OpenReached(in EventKey key, double residual, int struckParties)
     {
-        SimTime end = step.Scale.NextTick(key.Time);
+        SimTime end = SimTime.MaxValue;
         for (int i = 0; i < partyCount; i++)
         {
             ref readonly MotionSegment path = ref timelines.Segment(timelines.Last(parties[i]));
@@ -346,7 +349,8 @@ public sealed partial class Simulation
                 else
                 {
                     SupportSet supports = timelines.Segment(before).Supports;
-                    OpenChord(slot, key, end, position, partyVelocities[i], partySpins[i]);
+                    SimTime tick = step.Scale.TickFrom(key.Time, StepWanted(slot, position, partyVelocities[i], partySpins[i]));
+                    OpenChord(slot, key, end == SimTime.MaxValue ? tick : SimTime.Min(end, tick > key.Time ? tick : end), position, partyVelocities[i], partySpins[i]);
                     timelines.BeginMember(timelines.Last(slot), key.Time, key.Time);
                     for (int k = 0; k < supports.Count; k++)
                     {

@@ -62,11 +62,16 @@ internal readonly struct ContactScale
     /// <summary>What moves slower than this, in m/s, does not move by the tolerance while it is waited for its sleep.</summary>
     internal double StillSpeed { get; }
 
-    /// <summary>The first tick of the common clock after an instant.</summary>
-    internal SimTime NextTick(SimTime time)
+    /// <summary>The first tick at or after an instant of a clock whose steps are not longer than wanted, in seconds.</summary>
+    internal SimTime TickFrom(SimTime time, double seconds)
     {
         long step = Step.Ticks;
-        return SimTime.FromTicks((time.Ticks & -step) + step); // a power of two
+        while (step > ShortestTicks && step > seconds * SimDuration.TicksPerSecond)
+        {
+            step >>= 1;
+        }
+
+        return SimTime.FromTicks((time.Ticks + step - 1) & -step); // a power of two
     }
 
     /// <summary>How long a step may be that begins at a tick: of those that the clock has there the longest that is not longer than wanted.</summary>

@@ -63,11 +63,11 @@ internal sealed class ContactStep
         members[n] = new Member
         {
             Position = position,
-            Gain = gain,
+            Free = velocity + gain,
+            FreeSpin = spin,
             Friction = spec.Friction,
             Lever = Math.Min(spec.RollingResistance, spec.Friction) * spec.Radius,
             Restitution = spec.Restitution,
-            Mass = spec.Mass,
         };
     }
 
@@ -102,6 +102,26 @@ internal sealed class ContactStep
 
         ContactSolver.ApplyGiven(Problem);
         Sweeps = ContactSolver.Solve(Problem, tolerance, MostSweeps);
+    }
+
+    /// <summary>Has a body come with another velocity, forces included: then the step is to be solved again.</summary>
+    internal void Regain(int body, in Vector3D velocity, in Vector3D spin)
+    {
+        members[body].Free = velocity;
+        members[body].FreeSpin = spin;
+    }
+
+    /// <summary>Solves the step again from the impulses that it has.</summary>
+    internal void SolveAgain(double tolerance)
+    {
+        for (int b = 0; b < Problem.BodyCount; b++)
+        {
+            Problem.Bodies[b].Velocity = members[b].Free;
+            Problem.Bodies[b].Spin = members[b].FreeSpin;
+        }
+
+        ContactSolver.ApplyGiven(Problem);
+        Sweeps += ContactSolver.Solve(Problem, tolerance, MostSweeps);
     }
 
     private void FindSurfaces(int i, double seconds)
@@ -239,10 +259,10 @@ internal sealed class ContactStep
     private struct Member
     {
         internal Vector3D Position;
-        internal Vector3D Gain;
+        internal Vector3D Free; // the velocity without contacts
+        internal Vector3D FreeSpin;
         internal double Friction;
         internal double Lever;
         internal double Restitution;
-        internal double Mass;
     }
 }
