@@ -14,20 +14,6 @@ namespace LagSim;
 /// </remarks>
 public sealed partial class Simulation
 {
-    /// <summary>How long a body is left alone into which a hand creeps: 5 ms.</summary>
-    private static readonly SimDuration PressedWait = SimDuration.FromMilliseconds(5);
-
-    /// <summary>
-    /// Half as many of the scene's resolutions deep a hand may creep into a body before that is looked at again: 5 nm, at 1 micrometre a second in 5 ms.
-    /// </summary>
-    private const double PressedDepth = 10;
-
-    /// <summary>So many of the scene's resolutions deep in a body a hand goes through it: 100 nm, some twenty times what creeping leaves.</summary>
-    private const double InsideDepth = 100;
-
-    /// <summary>Has a hand press on, however deep it is in a body: only a test's negative control sets it.</summary>
-    internal bool PressesOn { get; set; }
-
     /// <summary>So often what is let go inside static geometry is put out of one surface after the other.</summary>
     private const int MostPuttingOut = 16;
 
@@ -45,12 +31,6 @@ public sealed partial class Simulation
     }
 
     private bool IsHeld(int segment) => timelines.Segment(segment).Law == MotionLaw.Held;
-
-    /// <summary>
-    /// Whether a hand is so deep in a body that it must have been pressed into it, or was put there. It goes through then: until a piece of either's path begins with
-    /// the hand outside, it does not push the body.
-    /// </summary>
-    private bool IsThrough(double gap) => gap < -InsideDepth * Scene.Resolution && !PressesOn;
 
     private bool IsHolding(int slot, byte peer)
     {

@@ -40,6 +40,17 @@ public sealed partial class Simulation
     /// <summary>The same of two bodies: pieces of one step, or such that do not close where the later one begins.</summary>
     private bool IsCovered(int slot, int piece, int other, int otherPiece)
     {
+        if (IsHeld(otherPiece))
+        {
+            (slot, piece, other, otherPiece) = (other, otherPiece, slot, piece);
+        }
+
+        if (IsHeld(piece) && IsMember(otherPiece))
+        {
+            int held = timelines.ContactWith(otherPiece, bodies[slot].Id);
+            return held != TimelineStore.None && timelines.Key(piece) == timelines.Key(otherPiece) && timelines.Contact(held).Holds;
+        }
+
         if (!IsMember(piece) || !IsMember(otherPiece))
         {
             return false;

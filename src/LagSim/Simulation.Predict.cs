@@ -132,7 +132,7 @@ public sealed partial class Simulation
             Vector3D velocity = VelocityAt(last, contact);
             double reach = isPlane ? double.PositiveInfinity : bodies[slot].Spec.Radius + Scene.SphereArray[surface - Scene.PlaneArray.Length].Radius;
             double pressing = -Vector3D.Dot(normal, AccelerationAt(last, contact)) - FallingAway(normal, velocity, reach);
-            from = LookAgain(opened, round, -Vector3D.Dot(normal, velocity), pressing, segment.End, isPushed: false);
+            from = LookAgain(opened, round, -Vector3D.Dot(normal, velocity), pressing, segment.End);
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -227,8 +227,7 @@ public sealed partial class Simulation
         int lastB = ordered ? piece : mine;
         ref readonly MotionSegment segmentA = ref timelines.Segment(lastA);
         scoped ref readonly MotionSegment segmentB = ref timelines.Segment(lastB);
-        bool isPushed = segmentA.Law == MotionLaw.Held || segmentB.Law == MotionLaw.Held;
-        if (segmentA.Law == segmentB.Law && (segmentA.Law == MotionLaw.Resting || isPushed))
+        if (segmentA.Law == segmentB.Law && (segmentA.Law == MotionLaw.Resting || segmentA.Law == MotionLaw.Held))
         {
             return false;
         }
@@ -249,11 +248,6 @@ public sealed partial class Simulation
 
         double reach = bodies[a].Spec.Radius + bodies[b].Spec.Radius;
         SimTime from = opened;
-        if (isPushed && IsThrough(Gap(a, lastA, b, lastB, from)))
-        {
-            return false;
-        }
-
         while (from <= until && ContactFinder.WithSphere(
             segmentA, timelines.Dense(lastA), segmentB, timelines.Dense(lastB), reach, from, until, out contact))
         {
@@ -266,7 +260,7 @@ public sealed partial class Simulation
             Vector3D normal = Direction(Scene.Box.Nearest(PositionAt(lastA, contact) - PositionAt(lastB, contact)));
             Vector3D velocity = VelocityAt(lastA, contact) - VelocityAt(lastB, contact);
             double pressing = -Vector3D.Dot(normal, AccelerationAt(lastA, contact) - AccelerationAt(lastB, contact)) - FallingAway(normal, velocity, reach);
-            from = LookAgain(opened, round, -Vector3D.Dot(normal, velocity), pressing, until, isPushed);
+            from = LookAgain(opened, round, -Vector3D.Dot(normal, velocity), pressing, until);
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -285,7 +279,7 @@ public sealed partial class Simulation
     /// is a thousandth of the resolution deep only after <see cref="CollapseWait"/>. <paramref name="opened"/> if it cannot wait,
     /// <see cref="SimTime.MaxValue"/> if the segments end before. A hand pushes a body that cannot give way for so many rounds, and then goes through it.
     /// </summary>
-    private SimTime LookAgain(SimTime opened, uint round, double closing, double pressing, SimTime end, bool isPushed)
+    private SimTime LookAgain(SimTime opened, uint round, double closing, double pressing, SimTime end)
     {
         double seconds = UntilDeep(2e-3 * Scene.Resolution, closing, pressing);
         SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
@@ -297,21 +291,11 @@ public sealed partial class Simulation
             wait = parts < wait ? parts : wait;
         }
 
-        if (isPushed && wait < PressedWait && UntilDeep(PressedDepth * Scene.Resolution, closing, pressing) >= PressedWait.ToSeconds())
-        {
-            wait = PressedWait; // a hand that creeps
-        }
-
         if (wait < CollapseWait)
         {
-            if (round <= CollapseRound || (closing > CollapseSpeed && !isPushed))
+            if (round <= CollapseRound || closing > CollapseSpeed)
             {
                 return opened;
-            }
-
-            if (isPushed)
-            {
-                return SimTime.MaxValue; // it goes through
             }
 
             wait = CollapseWait;

@@ -83,10 +83,17 @@ public sealed partial class Simulation
 
         for (int i = 0; i < contactCount && !reaches; i++)
         {
-            reaches = contacts[i].Lasts;
+            reaches = contacts[i].Lasts || (IsByHand(contacts[i]) && IsBacked(contacts[i]));
         }
 
         return reaches;
+    }
+
+    /// <summary>Whether a body that a hand strikes touches something else as well, against which it may be pressed.</summary>
+    private bool IsBacked(in ContactPoint c)
+    {
+        int struck = IsHeld(timelines.Last(parties[c.First])) ? c.Second : c.First;
+        return contactCount > 1 || timelines.Segment(timelines.Last(parties[struck])).Supports.Count > 0;
     }
 
     /// <summary>Solves the impact at hand with the lasting contacts that it reaches; false if somebody was ahead of it and has been taken back.</summary>
@@ -109,6 +116,8 @@ public sealed partial class Simulation
 
         AddReachedSupports();
         double tolerance = 0.1 * step.Scale.SweepSpeed;
+        double more = step.Scale.Pull * step.Scale.Step.ToSeconds();
+        ContactSolver.LimitHands(reached, more);
         ContactSolver.Solve(reached, tolerance, ContactStep.MostSweeps);
         ahead.Clear();
         for (bool grows = true; grows && ahead.Count == 0;)
@@ -126,6 +135,7 @@ public sealed partial class Simulation
 
             if (grows && ahead.Count == 0)
             {
+                LimitAgain(more);
                 ContactSolver.Solve(reached, tolerance, ContactStep.MostSweeps);
             }
         }
@@ -138,6 +148,12 @@ public sealed partial class Simulation
 
         TellContacts(key);
         KeepEnergy(tolerance);
+        for (int i = 0; i < contactCount; i++)
+        {
+            // What a hand presses against something lasts: it cannot give way.
+            contacts[i].Lasts |= IsByHand(contacts[i]) && reached.Contacts[i].Impulse >= reached.Contacts[i].Most;
+        }
+
         OpenReached(key, residual, struckParties);
         timelines.Join(parties.AsSpan(0, partyCount));
         for (int i = 0; i < partyCount; i++)
@@ -146,6 +162,24 @@ public sealed partial class Simulation
         }
 
         return true;
+    }
+
+    /// <summary>The more bodies are reached, the more a hand may give; by the velocities before.</summary>
+    private void LimitAgain(double more)
+    {
+        SwapVelocities();
+        ContactSolver.LimitHands(reached, more);
+        SwapVelocities();
+    }
+
+    private void SwapVelocities()
+    {
+        for (int i = 0; i < partyCount; i++)
+        {
+            ref SolverBody body = ref reached.Bodies[i];
+            (body.Velocity, velocitiesBefore[i]) = (velocitiesBefore[i], body.Velocity);
+            (body.Spin, spinsBefore[i]) = (spinsBefore[i], body.Spin);
+        }
     }
 
     private void AddReached(int party)
@@ -269,13 +303,7 @@ public sealed partial class Simulation
     private void KeepEnergy(double tolerance)
     {
         double after = reached.KineticEnergy();
-        for (int i = 0; i < partyCount; i++)
-        {
-            ref SolverBody body = ref reached.Bodies[i];
-            (body.Velocity, velocitiesBefore[i]) = (velocitiesBefore[i], body.Velocity);
-            (body.Spin, spinsBefore[i]) = (spinsBefore[i], body.Spin);
-        }
-
+        SwapVelocities();
         bool hasHand = false;
         for (int i = 0; i < partyCount; i++)
         {
@@ -284,13 +312,7 @@ public sealed partial class Simulation
 
         if (hasHand || after <= reached.KineticEnergy() * (1 + 1e-9))
         {
-            for (int i = 0; i < partyCount; i++)
-            {
-                ref SolverBody body = ref reached.Bodies[i];
-                (body.Velocity, velocitiesBefore[i]) = (velocitiesBefore[i], body.Velocity);
-                (body.Spin, spinsBefore[i]) = (spinsBefore[i], body.Spin);
-            }
-
+            SwapVelocities();
             return;
         }
 

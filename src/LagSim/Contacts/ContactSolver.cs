@@ -75,6 +75,32 @@ internal static class ContactSolver
         return sweeps;
     }
 
+    /// <summary>
+    /// A hand pushes with no more than would give all that takes part the speed that it asks for, and some more: so it throws and lifts whatever can give way, and goes
+    /// through what cannot.
+    /// </summary>
+    /// <param name="problem">With targets, and the velocities before.</param>
+    /// <param name="more">The speed, in m/s, that may be asked for besides.</param>
+    internal static void LimitHands(ContactProblem problem, double more)
+    {
+        double mass = 0;
+        bool hasHand = false;
+        for (int b = 0; b < problem.BodyCount; b++)
+        {
+            bool isHand = problem.Bodies[b].InverseMass == 0;
+            hasHand |= isHand;
+            mass += isHand ? 0 : 1 / problem.Bodies[b].InverseMass;
+        }
+
+        for (int i = 0; i < problem.ContactCount && hasHand; i++)
+        {
+            ref SolverContact c = ref problem.Contacts[i];
+            bool isByHand = problem.Bodies[c.First].InverseMass == 0 || (c.Second >= 0 && problem.Bodies[c.Second].InverseMass == 0);
+            c.Most = isByHand ? mass * (Math.Max(0, c.Target - Opening(problem, c)) + more) : double.PositiveInfinity;
+            c.Impulse = Math.Min(c.Impulse, c.Most);
+        }
+    }
+
     /// <summary>How fast the two of a contact part; negative while they close.</summary>
     internal static double Opening(ContactProblem problem, in SolverContact c) =>
         Vector3D.Dot(c.Normal, c.Second == ContactPoint.Static

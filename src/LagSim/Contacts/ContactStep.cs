@@ -100,6 +100,8 @@ internal sealed class ContactStep
             c.Target = c.Gap >= 0 ? -c.Gap / seconds : Math.Min(-c.Gap / seconds, Scale.Pull * seconds);
         }
 
+        ContactSolver.LimitHands(Problem, Scale.Pull * seconds);
+
         ContactSolver.ApplyGiven(Problem);
         Sweeps = ContactSolver.Solve(Problem, tolerance, MostSweeps);
     }
