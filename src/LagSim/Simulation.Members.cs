@@ -47,8 +47,7 @@ public sealed partial class Simulation
 
         if (IsHeld(piece) && IsMember(otherPiece))
         {
-            int held = timelines.ContactWith(otherPiece, bodies[slot].Id);
-            return held != TimelineStore.None && timelines.Key(piece) == timelines.Key(otherPiece) && timelines.Contact(held).Holds;
+            return IsCoveredFromHand(slot, piece, otherPiece);
         }
 
         if (!IsMember(piece) || !IsMember(otherPiece))
@@ -71,6 +70,51 @@ public sealed partial class Simulation
         Vector3D normal = Direction(PositionAt(piece, opened) - PositionAt(otherPiece, opened));
         double opening = Vector3D.Dot(normal, timelines.Segment(piece).Velocity - timelines.Segment(otherPiece).Velocity);
         return timelines.Contact(at).Holds && opening >= -step.Scale.SweepSpeed;
+    }
+
+    /// <summary>The same of a hand, which may speed up, and a member: neither where the later piece begins nor where the step ends do they close.</summary>
+    private bool IsCoveredFromHand(int hand, int handPiece, int piece)
+    {
+        int at = timelines.ContactWith(piece, bodies[hand].Id);
+        if (at == TimelineStore.None || !timelines.Contact(at).Holds)
+        {
+            return false;
+        }
+
+        if (timelines.Key(piece) == timelines.Key(handPiece))
+        {
+            return true;
+        }
+
+        SimTime opened = SimTime.Max(timelines.Key(piece).Time, timelines.Key(handPiece).Time);
+        SimTime end = SimTime.Min(timelines.Segment(piece).End, timelines.Segment(handPiece).End);
+        return end >= opened && OpeningAt(handPiece, piece, opened) >= -step.Scale.SweepSpeed && OpeningAt(handPiece, piece, end) >= -step.Scale.SweepSpeed;
+    }
+
+    private bool Holds(int piece, int surface)
+    {
+        int at = timelines.ContactWith(piece, surface);
+        return at != TimelineStore.None && timelines.Contact(at).Holds;
+    }
+
+    /// <summary>Whether two bodies, of which one may be a hand's, carry a contact that holds them together.</summary>
+    private bool HoldTogether(int slot, int piece, int other, int otherPiece)
+    {
+        bool isMember = IsMember(piece);
+        if (!isMember && !IsMember(otherPiece))
+        {
+            return false;
+        }
+
+        int at = isMember ? timelines.ContactWith(piece, bodies[other].Id) : timelines.ContactWith(otherPiece, bodies[slot].Id);
+        return at != TimelineStore.None && timelines.Contact(at).Holds;
+    }
+
+    private double OpeningAt(int piece, int otherPiece, SimTime time)
+    {
+        Vector3D velocity = timelines.Segment(piece).VelocityAt(SecondsInto(piece, time), timelines.Dense(piece))
+            - timelines.Segment(otherPiece).VelocityAt(SecondsInto(otherPiece, time), timelines.Dense(otherPiece));
+        return Vector3D.Dot(Direction(PositionAt(piece, time) - PositionAt(otherPiece, time)), velocity);
     }
 
     /// <summary>Opens the next piece of a member from a state: a chord to the end of the step under way, or of one that begins if it slept.</summary>

@@ -132,7 +132,7 @@ public sealed partial class Simulation
             Vector3D velocity = VelocityAt(last, contact);
             double reach = isPlane ? double.PositiveInfinity : bodies[slot].Spec.Radius + Scene.SphereArray[surface - Scene.PlaneArray.Length].Radius;
             double pressing = -Vector3D.Dot(normal, AccelerationAt(last, contact)) - FallingAway(normal, velocity, reach);
-            from = LookAgain(opened, round, -Vector3D.Dot(normal, velocity), pressing, segment.End);
+            from = LookAgain(opened, round, -Vector3D.Dot(normal, velocity), pressing, segment.End, segment.IsOfIsland && Holds(last, surface));
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -260,7 +260,7 @@ public sealed partial class Simulation
             Vector3D normal = Direction(Scene.Box.Nearest(PositionAt(lastA, contact) - PositionAt(lastB, contact)));
             Vector3D velocity = VelocityAt(lastA, contact) - VelocityAt(lastB, contact);
             double pressing = -Vector3D.Dot(normal, AccelerationAt(lastA, contact) - AccelerationAt(lastB, contact)) - FallingAway(normal, velocity, reach);
-            from = LookAgain(opened, round, -Vector3D.Dot(normal, velocity), pressing, until);
+            from = LookAgain(opened, round, -Vector3D.Dot(normal, velocity), pressing, until, HoldTogether(a, lastA, b, lastB));
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -275,13 +275,13 @@ public sealed partial class Simulation
         path.At(path.Position + (Scene.Box.Nearest(at - point) - (at - point)));
 
     /// <summary>
-    /// From when on a contact that closes from the opening of its segments on is to be looked for again: so slow, as rounding leaves it, that it
-    /// is a thousandth of the resolution deep only after <see cref="CollapseWait"/>. <paramref name="opened"/> if it cannot wait,
-    /// <see cref="SimTime.MaxValue"/> if the segments end before. A hand pushes a body that cannot give way for so many rounds, and then goes through it.
+    /// From when on a contact that closes from the opening of its segments on is to be looked for again: so slow, as rounding leaves it, or a step's sweeps where
+    /// it holds, that it is a thousandth of the resolution deep, or of the contact tolerance a twentieth, only after <see cref="CollapseWait"/>. <paramref name="opened"/> if it cannot wait,
+    /// <see cref="SimTime.MaxValue"/> if the segments end before.
     /// </summary>
-    private SimTime LookAgain(SimTime opened, uint round, double closing, double pressing, SimTime end)
+    private SimTime LookAgain(SimTime opened, uint round, double closing, double pressing, SimTime end, bool holds)
     {
-        double seconds = UntilDeep(2e-3 * Scene.Resolution, closing, pressing);
+        double seconds = UntilDeep(holds ? step.Scale.LookDepth : 2e-3 * Scene.Resolution, closing, pressing);
         SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
         if (pressing < 0)
         {

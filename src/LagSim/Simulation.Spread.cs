@@ -28,19 +28,26 @@ public sealed partial class Simulation
         }
 
         bool isPair = c.Second != ContactPoint.Static;
-        if (isPair && IsMember(timelines.Last(parties[c.First])) && IsMember(timelines.Last(parties[c.Second])))
+        int members = 0;
+        int hands = 0;
+        for (int n = 0; n < (isPair ? 2 : 1); n++)
+        {
+            int piece = timelines.Last(parties[n == 0 ? c.First : c.Second]);
+            members += IsMember(piece) ? 1 : 0;
+            hands += IsHeld(piece) ? 1 : 0;
+        }
+
+        if (isPair && members > 0 && members + hands == 2)
         {
             return rebound <= step.Scale.CaptureSpeed;
         }
-
-        bool isOnIsland = isPair && (IsMember(timelines.Last(parties[c.First])) || IsMember(timelines.Last(parties[c.Second])));
 
         Vector3D velocity = partyVelocities[c.First] - (isPair ? partyVelocities[c.Second] : Vector3D.Zero);
         Vector3D acceleration = partyAccelerations[c.First] - (isPair ? partyAccelerations[c.Second] : Vector3D.Zero);
         bool isPlane = !isPair && c.Surface < Scene.PlaneArray.Length;
         double pressing = -Vector3D.Dot(c.Normal, acceleration) - (isPlane ? 0 : FallingAway(c.Normal, velocity, ReachOf(c)));
         return pressing > 0 && rebound * rebound <= 2 * pressing * step.Scale.Length
-            && (isOnIsland || 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds());
+            && ((isPair && members > 0) || 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds());
     }
 
     /// <summary>Whether the bounces of a contact are followed down to the scene's resolution, and a closed form carries its body then: alone on planes, of which one rubs at most if it is the only one.</summary>
