@@ -54,6 +54,7 @@ public sealed partial class Simulation
         {
             step.Solve(seconds, tolerance);
             SettleForces(canonical.Time, length, tolerance);
+            step.FindHolding(seconds);
             OpenStep(canonical, length);
         }
 
@@ -270,6 +271,7 @@ public sealed partial class Simulation
                 c.Impulse = Math.Max(0, Vector3D.Dot(known.Push, c.Normal));
                 c.Rub = c.Friction > 0 ? known.Push - (c.Normal * Vector3D.Dot(known.Push, c.Normal)) : Vector3D.Zero;
                 c.Turn = c.Lever > 0 ? known.Turn : Vector3D.Zero;
+                c.Held = known.Holds;
             }
         }
     }
@@ -371,7 +373,7 @@ public sealed partial class Simulation
         Append(slot, key, new MotionSegment(MotionLaw.Constrained, key.Time, end, x, v, Vector3D.Zero), default, spin: new Spin(spin));
     }
 
-    /// <summary>Who is held by another body in the step: what pushes holds.</summary>
+    /// <summary>Who is held by another body in the step.</summary>
     private void FindHoldingPairs()
     {
         if (holdsPair.Length < partyCount)
@@ -387,7 +389,7 @@ public sealed partial class Simulation
         for (int i = 0; i < step.Problem.ContactCount; i++)
         {
             ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            if (c.Second != ContactPoint.Static && c.Impulse > 0)
+            if (c.Second != ContactPoint.Static && c.Holds)
             {
                 holdsPair[c.First] = true;
                 holdsPair[c.Second] = true;
@@ -407,10 +409,10 @@ public sealed partial class Simulation
         foreach (int i in step.Problem.ListOf(party))
         {
             ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            if (c.Second == ContactPoint.Static && c.Impulse > 0)
+            if (c.Second == ContactPoint.Static && c.Holds)
             {
                 isHeld = true;
-                needsSteps |= c.Surface >= Scene.PlaneArray.Length;
+                needsSteps |= c.Surface >= Scene.PlaneArray.Length || c.Impulse == 0;
                 rubs |= c.Friction > 0;
                 planes++;
             }
@@ -469,7 +471,7 @@ public sealed partial class Simulation
             timelines.AddContact(piece, new LastingContact(
                 !isPair ? self : bodies[parties[isFirst ? c.Second : c.First]].Id,
                 isPair ? LastingContact.NoSurface : c.Surface,
-                c.Impulse > 0,
+                c.Holds,
                 (isFirst ? push : -push).WithoutNegativeZero(),
                 (isFirst ? c.Turn : -c.Turn).WithoutNegativeZero()));
         }

@@ -168,6 +168,8 @@ internal struct SolverContact
     internal double NormalMass;
     internal double RubMass;
     internal double TurnMass;
+    internal bool Held; // whether the contact held before the step
+    internal bool Holds; // and whether it holds in it
     internal double Impulse; // along the normal, in N s
     internal Vector3D Rub; // of friction
     internal bool HasRub;

@@ -106,6 +106,19 @@ internal sealed class ContactStep
         Sweeps = ContactSolver.Solve(Problem, tolerance, MostSweeps);
     }
 
+    /// <summary>
+    /// Which contacts hold in the step that was solved: those that push, and those that held before and open by less than a quarter of the tolerance, as along what is round, where
+    /// a chord leads away a little and comes back.
+    /// </summary>
+    internal void FindHolding(double seconds)
+    {
+        for (int i = 0; i < Problem.ContactCount; i++)
+        {
+            ref SolverContact c = ref Problem.Contacts[i];
+            c.Holds = c.Impulse > 0 || (c.Held && c.Gap + (ContactSolver.Opening(Problem, c) * seconds) <= 0.25 * Scale.Length);
+        }
+    }
+
     /// <summary>Has a body come with another velocity, forces included: then the step is to be solved again.</summary>
     internal void Regain(int body, in Vector3D velocity, in Vector3D spin)
     {
