@@ -463,7 +463,7 @@ public sealed class HeldTests
         Assert.NotNull(new Simulation(world.Scene, good));
         foreach (Hold bad in new[] { default, new Hold(1, V(0), At(0.39)), new Hold(1, V(0), At(0.41)), new Hold(1, V(2e12), At(0.4)), new Hold(1, V(0), SimTime.MinValue) })
         {
-            BodySnapshot other = new(b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, default, 0, b.Cubic, default, default, bad);
+            BodySnapshot other = new(b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, default, b.Cubic, default, default, bad);
             Assert.Contains("hand", Assert.Throws<SceneException>(() => new Simulation(world.Scene, new WorldSnapshot(good.Start, good.Time, 0, [other]))).Message, StringComparison.Ordinal);
         }
     }

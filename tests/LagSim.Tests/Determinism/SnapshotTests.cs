@@ -31,7 +31,7 @@ public sealed class SnapshotTests
                 string? difference = RandomWorld.Difference(expected, actual);
                 Assert.True(difference is null, $"seed {seed}, from {time}: {difference}");
                 bodies += snapshot.Bodies.Count;
-                inLasting += snapshot.Bodies.Count(b => b.Crowding > 0 || b.SupportCount > 0);
+                inLasting += snapshot.Bodies.Count(b => b.Contacts.Length > 0 || b.SupportCount > 0);
                 held += snapshot.Bodies.Count(b => b.Law == MotionLaw.Held);
                 stepping += snapshot.Bodies.Count(b => b.NextStep > SimDuration.Zero);
                 turning += snapshot.Bodies.Count(b => b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero);
@@ -104,8 +104,6 @@ public sealed class SnapshotTests
         { "Plane 1", b => With(b, law: MotionLaw.Resting, supports: [1]) },
         { "Plane -1", b => With(b, law: MotionLaw.Resting, supports: [-1]) },
         { "Plane 0", b => With(b, law: MotionLaw.Resting, supports: [0, 0]) },
-        { "on the spot", b => With(b, crowding: 129) },
-        { "on the spot", b => With(b, crowding: -1) },
         { "opened by", b => With(b, opened: new EventKey(At(2), 0, EventKind.Impact, First, First, 0, 0)) },
         { "opened by", b => With(b, opened: new EventKey(At(-1), 0, EventKind.Impact, First, First, 0, 0)) },
         { "opened by", b => With(b, opened: new EventKey(At(0.1), 0, EventKind.Remove, First, First, 0, 0)) },
@@ -191,7 +189,7 @@ public sealed class SnapshotTests
 
     private static BodySnapshot With(
         in BodySnapshot b, BodySpec? spec = null, EventKey? opened = null, MotionLaw? law = null, SimTime? epoch = null, SimTime? end = null,
-        Vector3D? position = null, Vector3D? velocity = null, Vector3D? acceleration = null, int[]? supports = null, int? crowding = null) => new(
+        Vector3D? position = null, Vector3D? velocity = null, Vector3D? acceleration = null, int[]? supports = null) => new(
         b.Id, spec ?? b.Spec, opened ?? b.Opened, law ?? b.Law, epoch ?? b.Epoch, end ?? b.End, position ?? b.Position, velocity ?? b.Velocity,
-        acceleration ?? b.Acceleration, supports, crowding ?? b.Crowding, b.Cubic, b.Quartic, b.Quintic, b.Hold);
+        acceleration ?? b.Acceleration, supports, b.Cubic, b.Quartic, b.Quintic, b.Hold, b.NextStep, b.Spin, b.SpinRate, b.Centre, b.StillSince, b.Contacts);
 }

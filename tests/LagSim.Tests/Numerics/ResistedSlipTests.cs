@@ -1,5 +1,6 @@
 using System;
 using System.Linq;
+using LagSim.Contacts;
 using LagSim.Scenes;
 using LagSim.Timelines;
 using Xunit;
@@ -113,7 +114,8 @@ public sealed class ResistedSlipTests
         SceneBuilder steps = new SceneBuilder("steps").WithGravity(Floating).AddForce(Force.Supplied(new FunctionForce((_, _, _) => weight)), out ForceSet force).AddPlane("plane", normal, 0.0);
         Simulation stepped = Run(
             steps.AddBody("ball", new BodySpec(R, 1, 0, MotionLaw.Automatic, forces: force, friction: mu, rollingResistance: inSteps), normal * R, velocity, spin: spin).Build(), 1);
-        double change = Gravity * (1 + (3.5 * mu) + (2.5 * c)) * Contacts.IslandStep.Longest.ToSeconds(), apart = 0; // of a speed in a step
+        double longest = new ContactScale(stepped.Scene.ContactTolerance, stepped.Scene.Gravity).Step.ToSeconds();
+        double change = Gravity * (1 + (3.5 * mu) + (2.5 * c)) * longest, apart = 0; // of a speed in a step
         for (double t = 0.05; t <= 1; t += 0.05)
         {
             BodyState a = Read(closed, First, t), b = Read(stepped, First, t);

@@ -40,10 +40,9 @@ public sealed class SnapshotFormatTests
         from times in Gen.ArrayOf(Ticks, 3)
         from vectors in Gen.ArrayOf(Vector, 7)
         from supports in Gen.Choose(0, 3).SelectMany(count => Gen.ArrayOf(Gen.OneOf(Gen.Constant(int.MaxValue), Gen.Choose(0, 1000)), count))
-        from crowding in WireGen.Byte
         select new BodySnapshot(
             BodyId.FromPacked(id), spec, new EventKey(at, round, (EventKind)kind, BodyId.FromPacked(parties[0]), BodyId.FromPacked(parties[1]), peer, sequence),
-            law, times[0], times[1], vectors[0], vectors[1], vectors[2], supports, crowding,
+            law, times[0], times[1], vectors[0], vectors[1], vectors[2], supports,
             law is MotionLaw.RungeKutta4 or MotionLaw.Held ? vectors[3] : default, law == MotionLaw.RungeKutta4 ? vectors[4] : default, law == MotionLaw.RungeKutta4 ? vectors[5] : default,
             law == MotionLaw.Held ? new Hold(peer, vectors[6], times[2]) : default);
 
@@ -239,7 +238,6 @@ public sealed class SnapshotFormatTests
         BodySnapshot b = Plain();
         Refuse(new BodySnapshot(b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, V(double.NaN), b.Velocity, b.Acceleration), "finite");
         Refuse(new BodySnapshot(b.Id, Ball(double.NaN), b.Opened, b.Law, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration), "finite");
-        Refuse(new BodySnapshot(b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, crowding: 256), "256");
         Refuse(new BodySnapshot(b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [-1]), "plane -1");
 
         static void Refuse(BodySnapshot body, string word) => Assert.Contains(
@@ -253,7 +251,8 @@ public sealed class SnapshotFormatTests
     {
         return new BodySnapshot(
             b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, Negative(b.Position), Negative(b.Velocity), Negative(b.Acceleration),
-            Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray(), b.Crowding, b.Cubic, b.Quartic, b.Quintic, b.Law == MotionLaw.Held ? new Hold(b.Hold.Peer, Negative(b.Hold.Offset), b.Hold.Knot) : default);
+            Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray(), b.Cubic, b.Quartic, b.Quintic, b.Law == MotionLaw.Held ? new Hold(b.Hold.Peer, Negative(b.Hold.Offset), b.Hold.Knot) : default, b.NextStep, b.Spin, b.SpinRate,
+            b.Centre, b.StillSince, b.Contacts);
 
         static Vector3D Negative(Vector3D v) => new(v.X == 0 ? -0.0 : v.X, v.Y == 0 ? -0.0 : v.Y, v.Z == 0 ? -0.0 : v.Z);
     }
@@ -307,6 +306,6 @@ public sealed class SnapshotFormatTests
 
     private static bool Same(BodySnapshot a, BodySnapshot b) =>
         a.Id == b.Id && a.Spec.Equals(b.Spec) && a.Opened.Equals(b.Opened) && a.Law == b.Law && a.Epoch == b.Epoch && a.End == b.End
-        && a.Crowding == b.Crowding && a.NextStep == b.NextStep && a.Hold.Peer == b.Hold.Peer && a.Hold.Knot == b.Hold.Knot && a.SupportCount == b.SupportCount && Enumerable.Range(0, a.SupportCount).All(n => a.Support(n) == b.Support(n))
+        && a.NextStep == b.NextStep && a.Hold.Peer == b.Hold.Peer && a.Hold.Knot == b.Hold.Knot && a.SupportCount == b.SupportCount && Enumerable.Range(0, a.SupportCount).All(n => a.Support(n) == b.Support(n))
         && Numbers(a).Select(BitConverter.DoubleToInt64Bits).SequenceEqual(Numbers(b).Select(BitConverter.DoubleToInt64Bits));
 }

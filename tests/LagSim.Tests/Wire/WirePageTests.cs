@@ -147,14 +147,14 @@ public sealed class WirePageTests
             // No body of a world is carried and integrated at a time, but a layout has room for both.
             BodySnapshot b = snapshot.Bodies[0];
             BodySnapshot both = new(
-                b.Id, b.Spec, b.Opened, MotionLaw.RungeKutta4, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [7, 8, 9], 5, V(1, 2, 3), V(4, 5, 6), V(7, 8, 9));
+                b.Id, b.Spec, b.Opened, MotionLaw.RungeKutta4, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [7, 8, 9], V(1, 2, 3), V(4, 5, 6), V(7, 8, 9));
             snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [both]);
         }
         else if (seed == 3)
         {
             BodySnapshot b = snapshot.Bodies[0];
             BodySnapshot controlled = new(
-                b.Id, b.Spec, b.Opened, MotionLaw.DormandPrince54, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [], 0, V(1, 2, 3), V(4, 5, 6), V(7, 8, 9),
+                b.Id, b.Spec, b.Opened, MotionLaw.DormandPrince54, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [], V(1, 2, 3), V(4, 5, 6), V(7, 8, 9),
                 nextStep: SimDuration.FromSeconds(0.25), spin: V(10, 11, 12), spinRate: V(13, 14, 15));
             snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [controlled]);
         }
@@ -162,7 +162,7 @@ public sealed class WirePageTests
         {
             BodySnapshot b = snapshot.Bodies[0];
             BodySnapshot held = new(
-                b.Id, b.Spec, b.Opened, MotionLaw.Held, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [7], 5, V(1, 2, 3), hold: new Hold(3, V(4, 5, 6), At(7)));
+                b.Id, b.Spec, b.Opened, MotionLaw.Held, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [7], V(1, 2, 3), hold: new Hold(3, V(4, 5, 6), At(7)));
             snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [held]);
         }
 
@@ -357,7 +357,7 @@ public sealed class WirePageTests
         ("body id", b.Id.Packed), ("body spec", b.Spec), ("opened at", b.Opened.Time), ("opened round", b.Opened.Round), ("opened kind", (byte)b.Opened.Kind),
         ("opened body", b.Opened.Body.Packed), ("opened other", b.Opened.Other.Packed), ("opened peer", b.Opened.Peer), ("opened sequence", b.Opened.Sequence),
         ("law", (byte)b.Law), ("epoch", b.Epoch), ("end", b.End), ("position", b.Position), ("velocity", b.Velocity), ("acceleration", b.Acceleration),
-        ("crowding", (byte)b.Crowding), ("supports", (byte)b.SupportCount), ("carried by", Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray()),
+        ("supports", (byte)b.SupportCount), ("carried by", Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray()),
         ("dense output", b.Law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54 or MotionLaw.Constrained ? new[] { b.Cubic, b.Quartic, b.Quintic } : []),
         ("next step", b.Law == MotionLaw.DormandPrince54 ? new[] { b.NextStep.Ticks } : []),
         ("turns", b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? 1 : 0),
