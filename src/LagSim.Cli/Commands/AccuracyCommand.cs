@@ -25,7 +25,8 @@ internal static class AccuracyCommand
             + $" {string.Join(", ", WorkMethods.Peers)}.", All, [All, None, .. WorkMethods.Peers]);
         Option<bool> quick = new("--quick")
         {
-            Description = "Few settings and short runs: takes some seconds, but its figures of speed cannot be trusted. Cannot be combined with --longest-s.",
+            Description = "Few settings, short runs and small heaps: takes some seconds, but its figures of speed cannot be trusted."
+                + " Cannot be combined with --longest-s.",
         };
         Option<double> longest = CommonOptions.Number("--longest-s", "How long a single run may take, estimated from the next coarser setting; what would"
             + " take longer is left out. Cannot be combined with --quick", new WorkOptions().LongestSeconds, 1e-3, 1e5);
@@ -40,6 +41,7 @@ internal static class AccuracyCommand
             IWorkMethod[] methods = [.. WorkMethods.All.Where(method => peer == All || method.Engine == peer || !WorkMethods.Peers.Contains(method.Engine))];
             ThrowIfNotThere(peer, scenes);
             bool isQuick = parsed.GetValue(quick);
+            scenes = isQuick ? [.. scenes.Select(scene => scene.Small)] : scenes;
             WorkOptions options = isQuick ? WorkOptions.Quick : new WorkOptions { LongestSeconds = parsed.GetValue(longest) };
             if (isQuick && parsed.GetResult(longest) is { Implicit: false })
             {

@@ -9,7 +9,10 @@ public static class WorkScenes
 {
     /// <summary>All of them.</summary>
     public static IReadOnlyList<WorkScene> All { get; } =
-        [new DropWork(), new Elastic49Work(), new GasWork(), new DragWork(), new KeplerWork(), new SpringWork(), new BilliardsWork()];
+    [
+        new DropWork(), new Elastic49Work(), new GasWork(), new DragWork(), new KeplerWork(), new SpringWork(), new BilliardsWork(),
+        new HeapWork(), new PyramidWork(), new ShaftWork(), new HopperWork(),
+    ];
 
     /// <summary>The scene of that name.</summary>
     public static bool TryGet(string name, [NotNullWhen(true)] out WorkScene? found)
