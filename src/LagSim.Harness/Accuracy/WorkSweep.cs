@@ -37,7 +37,13 @@ public static class WorkSweep
             (WorkScene scene, IWorkMethod method) = sweeps[n];
             if (method.Excludes(scene) is string why)
             {
-                leftOut.Add($"{scene.Name}: {method.Name} is left out: {why}.");
+                string where = RandomHeapWork.IsDrawn(scene.Name) ? RandomHeapWork.Set : scene.Name;
+                string sentence = $"{where}: {method.Name} is left out: {why}.";
+                if (!leftOut.Contains(sentence))
+                {
+                    leftOut.Add(sentence);
+                }
+
                 continue;
             }
 

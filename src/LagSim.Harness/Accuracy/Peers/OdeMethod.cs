@@ -29,6 +29,7 @@ internal sealed class OdeMethod(bool isDirect = false) : SteppedEngine
     public override string? Excludes(WorkScene scene) =>
         !isDirect ? null
         : scene is not ContactWork ? "where impacts are few the other stepper is as good, and this one complains of internal errors"
+        : scene is RandomHeapWork ? "heap and pyramid tell enough of it, and it is slow"
         : scene.Scene.Bodies.Count > MostDirect ? "its cost grows with the cube of the contacts" : null;
 
     protected override Run Begin(WorkScene scene, double step) => new OdeRun(scene, step, isDirect);
