@@ -187,6 +187,7 @@ public sealed class SceneExplanation
 
         bool hasIndex = bodies > SimulationOptions.DefaultMostPairs;
         bool canLast = scene.PlaneArray.Length > 0 && scene.Gravity != Vector3D.Zero;
+        FeatureExplanation islands = Islands(scene, used != 0);
         return new[]
         {
             new FeatureExplanation(
@@ -203,7 +204,8 @@ public sealed class SceneExplanation
                 canLast
                     ? "Planes under gravity: bounces below the resolution end in sliding or rest, which cost nothing."
                     : "There is no plane, or no gravity to press on it."),
-            Islands(scene, used != 0),
+            islands,
+            new FeatureExplanation("contact tolerance", islands.IsModelled, Tolerance(scene)),
             new FeatureExplanation(
                 "static geometry", scene.PlaneArray.Length + scene.SphereArray.Length > 0,
                 scene.PlaneArray.Length + scene.SphereArray.Length > 0
@@ -261,6 +263,15 @@ public sealed class SceneExplanation
                 : !isPressed ? "Nothing presses bodies on each other or on anything."
                 : scene.PlaneArray.Length == 0 ? "There is nothing that a body could lean on."
                 : "There is nothing that a body could lean on but planes that carry it by a closed form.");
+    }
+
+    /// <summary>The one number that decides speed against error in heaps, and where it comes from.</summary>
+    private static string Tolerance(Scene scene)
+    {
+        double tolerance = scene.ContactTolerance;
+        return tolerance != SceneBuilder.DefaultContactTolerance(scene.SmallestRadius) ? $"{Text(tolerance)} m, as the scene sets it."
+            : tolerance < SceneBuilder.MaxDefaultContactTolerance ? $"{Text(tolerance)} m, the default: a hundredth of the smallest radius, {Text(scene.SmallestRadius)} m."
+            : $"{Text(tolerance)} m, the default where the smallest radius is {Text(100 * SceneBuilder.MaxDefaultContactTolerance)} m or more.";
     }
 
     private static string Idle(List<string> idle) => idle.Count == 0 ? "" : $" On no body of the scene: {string.Join(", ", idle)}.";

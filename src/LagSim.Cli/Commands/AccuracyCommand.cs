@@ -13,33 +13,39 @@ internal static class AccuracyCommand
     private const string All = "all";
     private const string None = "none";
 
+    private static string Names => string.Join(", ", WorkScenes.All.Select(scene => scene.Name));
+
     internal static Command Create(ToolConsole console)
     {
         CommonOptions common = new();
         Argument<string> which = new("SCENE")
         {
-            Description = $"{All}, or one of {string.Join(", ", WorkScenes.All.Select(scene => scene.Name))}.",
+            Description = $"{All}, or one of {Names}; or {WorkScenes.Drawn}, some heaps that the seed draws.",
             DefaultValueFactory = _ => All,
         };
         Option<string> peers = CommonOptions.Word("--peers", $"Which engines and integrators to compare with LagSim: {All}, {None}, or one of"
             + $" {string.Join(", ", WorkMethods.Peers)}.", All, [All, None, .. WorkMethods.Peers]);
         Option<bool> quick = new("--quick")
         {
-            Description = "Few settings and short runs: takes some seconds, but its figures of speed cannot be trusted. Cannot be combined with --longest-s.",
+            Description = "Few settings, short runs and small heaps: takes some seconds, but its figures of speed cannot be trusted."
+                + " Cannot be combined with --longest-s.",
         };
         Option<double> longest = CommonOptions.Number("--longest-s", "How long a single run may take, estimated from the next coarser setting; what would"
             + " take longer is left out. Cannot be combined with --quick", new WorkOptions().LongestSeconds, 1e-3, 1e5);
         Command command = new("accuracy", "Speed against error: runs each scene with each method at a range of step sizes; gives tables, CSV and charts.") { which, peers, quick, longest };
         common.AddTo(command, isSeedDrawnFrom: false);
+        common.Seed.Description = $"What {WorkScenes.Drawn} are drawn by; of all other scenes nothing here is random.";
         command.SetAction(parsed =>
         {
             string name = parsed.GetValue(which)!, peer = parsed.GetValue(peers)!;
             IReadOnlyList<WorkScene> scenes = name == All ? WorkScenes.All
+                : name == WorkScenes.Drawn ? WorkScenes.Draw(parsed.GetValue(common.Seed))
                 : WorkScenes.TryGet(name, out WorkScene? found) ? [found]
-                : throw new UsageException($"SCENE is '{name}'; it must be {All} or one of {string.Join(", ", WorkScenes.All.Select(scene => scene.Name))}.");
+                : throw new UsageException($"SCENE is '{name}'; it must be {All} or one of {Names}, {WorkScenes.Drawn}.");
             IWorkMethod[] methods = [.. WorkMethods.All.Where(method => peer == All || method.Engine == peer || !WorkMethods.Peers.Contains(method.Engine))];
             ThrowIfNotThere(peer, scenes);
             bool isQuick = parsed.GetValue(quick);
+            scenes = isQuick ? [.. scenes.Select(scene => scene.Small)] : scenes;
             WorkOptions options = isQuick ? WorkOptions.Quick : new WorkOptions { LongestSeconds = parsed.GetValue(longest) };
             if (isQuick && parsed.GetResult(longest) is { Implicit: false })
             {

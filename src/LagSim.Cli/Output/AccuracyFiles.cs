@@ -32,6 +32,12 @@ internal static class AccuracyFiles
             page.AddTable(new ReportTable(AccuracyTables.Title(scene), AccuracyTables.Headings(scene), [.. AccuracyTables.Rows(report, scene)]));
         }
 
+        if (report.Spread.Count > 0)
+        {
+            page.AddTable(new ReportTable(
+                AccuracyTables.SpreadTitle, AccuracyTables.SpreadHeadings, [.. AccuracyTables.SpreadRows(report)]));
+        }
+
         page.AddHeading("What this says, and what is left out");
         foreach (string line in AccuracyTables.Footnotes(report))
         {

@@ -39,11 +39,34 @@ internal static class AccuracyJson
             }
 
             json.WriteEndObject();
+            json.WriteStartArray("spread");
+            foreach (WorkSpread spread in report.Spread)
+            {
+                json.WriteStartObject();
+                json.WriteString("method", spread.Method);
+                json.WriteString("setting", spread.Setting);
+                json.WriteString("error_kind", spread.ErrorKind);
+                json.WriteNumber("scenes", spread.Scenes);
+                Numbers("error", spread.Error);
+                Numbers("simulated_s_per_cpu_s", spread.Speed);
+                json.WriteEndObject();
+            }
+
+            json.WriteEndArray();
             Sentences("findings", WorkFindings.Sentences(report.Work.Points));
             Sentences("left_out", report.Work.LeftOut);
             json.WriteString("caution", WorkFindings.Caution);
             json.WriteBoolean("stopped_early", report.Work.StoppedAt is not null);
             json.WriteString("stopped_at", report.Work.StoppedAt);
+
+            void Numbers(string key, SpreadOf of)
+            {
+                json.WriteStartObject(key);
+                JsonDocumentWriter.Number(json, "min", of.Least);
+                JsonDocumentWriter.Number(json, "median", of.Median);
+                JsonDocumentWriter.Number(json, "max", of.Greatest);
+                json.WriteEndObject();
+            }
 
             void Sentences(string key, System.Collections.Generic.IReadOnlyList<string> sentences)
             {

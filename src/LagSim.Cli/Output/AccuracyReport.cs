@@ -10,6 +10,12 @@ namespace LagSim.Cli.Output;
 /// <param name="Seed">What the document begins with; nothing here is drawn by it.</param>
 internal sealed record AccuracyReport(IReadOnlyList<WorkScene> Scenes, WorkReport Work, bool IsQuick, ulong Seed)
 {
+    /// <summary>The spread over heaps that were drawn; empty where none was.</summary>
+    internal IReadOnlyList<WorkSpread> Spread { get; } = WorkSpread.Of(Work.Points);
+
+    /// <summary>Whether a scene is one of those heaps, and so is told of by their spread.</summary>
+    internal bool IsDrawn(WorkScene scene) => scene.Name.StartsWith(WorkScenes.Drawn + "-", System.StringComparison.Ordinal);
+
     /// <summary>What an order is called in JSON: by its method, and by its scene too where there are several.</summary>
     internal string NameOf(WorkOrder order) => Scenes.Count == 1 ? order.Method : $"{order.Scene}: {order.Method}";
 }

@@ -9,13 +9,14 @@ namespace LagSim.Cli.Output;
 /// <param name="IsOwn">Whether it is LagSim's, and so drawn through and strong.</param>
 internal sealed record AccuracyStyle(int Colour, PointShape Shape, bool IsOwn)
 {
-    // In the order of the methods: Ballistic, ClosedForm, RungeKutta4, DormandPrince54, the same with fixed steps; MathNet, ODE, Chipmunk, Jitter2, BepuPhysics, Box2D.
-    private static readonly int[] Colours = [7, 0, 2, 8, 5, 6, 1, 3, 4, 9, 10];
+    // In the order of the methods: Ballistic, ClosedForm, RungeKutta4, DormandPrince54, the same with fixed steps; MathNet, ODE by either
+    // stepper, Chipmunk, Jitter2, BepuPhysics, Box2D.
+    private static readonly int[] Colours = [7, 0, 2, 8, 5, 6, 1, 11, 3, 4, 9, 10];
 
     private static readonly PointShape[] Shapes =
     [
         PointShape.Disc, PointShape.Diamond, PointShape.Square, PointShape.Triangle, PointShape.TriangleDown, PointShape.Plus, PointShape.OpenSquare,
-        PointShape.Cross, PointShape.OpenTriangle, PointShape.OpenDiamond, PointShape.Circle,
+        PointShape.OpenTriangleDown, PointShape.Cross, PointShape.OpenTriangle, PointShape.OpenDiamond, PointShape.Circle,
     ];
 
     /// <summary>The style of the method with that place among <see cref="WorkMethods.All"/>.</summary>

@@ -16,9 +16,20 @@ internal static class AccuracyTables
     internal static void Write(ToolConsole console, AccuracyReport report, string? folder)
     {
         console.Output.WriteLine($"lagsim {ToolVersion.Text}   accuracy   seed {report.Seed}");
-        foreach (WorkScene scene in report.Scenes)
+        foreach (WorkScene scene in report.Scenes.Where(scene => !report.IsDrawn(scene)))
         {
             console.Write(AsTable(console, report, scene));
+        }
+
+        if (report.Spread.Count > 0)
+        {
+            Table table = DropTables.NewTable(SpreadTitle, SpreadHeadings);
+            foreach (IReadOnlyList<string> row in SpreadRows(report))
+            {
+                table.AddRow([.. row.Select(Markup.Escape)]);
+            }
+
+            console.Write(table);
         }
 
         foreach (string line in Footnotes(report))
@@ -75,6 +86,23 @@ internal static class AccuracyTables
         }
     }
 
+    /// <summary>Heaps that were drawn, as a spread.</summary>
+    internal const string SpreadTitle = "heaps drawn at random: the least, the median and the greatest";
+
+    /// <summary>Its columns.</summary>
+    internal static readonly string[] SpreadHeadings = ["method", "setting", "heaps", "error", "of what", "simulated s per CPU s"];
+
+    /// <summary>A row for each method, setting and kind of error.</summary>
+    internal static IEnumerable<IReadOnlyList<string>> SpreadRows(AccuracyReport report) =>
+        report.Spread.Select(spread => (IReadOnlyList<string>)
+        [
+            spread.Method, spread.Setting, NumberText.Short(spread.Scenes), Text(spread.Error), WorkErrorKinds.Of(spread.ErrorKind).Heading,
+            Text(spread.Speed),
+        ]);
+
+    private static string Text(SpreadOf spread) => double.IsNaN(spread.Median) ? "not finite"
+        : $"{NumberText.Short(spread.Least)}  {NumberText.Short(spread.Median)}  {NumberText.Short(spread.Greatest)}";
+
     private static string Order(WorkOrder order) => NumberText.Short(order.Slope) + (order.Points < WorkOrder.Most ? $" ({order.Points} points)" : "");
 
     internal static IEnumerable<string> Footnotes(AccuracyReport report)
@@ -91,6 +119,12 @@ internal static class AccuracyTables
         if (report.IsQuick)
         {
             yield return "A quick look: few settings, short runs; its figures of speed are not to be trusted.";
+        }
+
+        if (report.Spread.Count > 0)
+        {
+            yield return "Each of the heaps is a scene of its own in --json and --out. Nothing was tuned on them;"
+                + " another --seed draws others.";
         }
 
         foreach (string sentence in WorkFindings.Sentences(report.Work.Points).Concat(report.Work.LeftOut).Append(WorkFindings.Caution))

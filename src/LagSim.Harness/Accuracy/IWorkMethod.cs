@@ -49,4 +49,7 @@ public interface IWorkRun : IDisposable
 
     /// <summary>A body's velocity in m/s.</summary>
     Vector3D Velocity(int body);
+
+    /// <summary>How a body turns, in rad/s about the vector; zero where nothing turns.</summary>
+    Vector3D Spin(int body) => Vector3D.Zero;
 }

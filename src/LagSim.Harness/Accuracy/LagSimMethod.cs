@@ -13,6 +13,8 @@ internal sealed class LagSimMethod(MotionLaw law, bool hasFixedSteps = false) : 
 {
     internal const string EngineName = "lagsim";
 
+    private static readonly double[] ContactTolerances = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
+
     private static readonly double[] Tolerances = [1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14];
 
     private Built? last;
@@ -25,6 +27,8 @@ internal sealed class LagSimMethod(MotionLaw law, bool hasFixedSteps = false) : 
 
     public string? Excludes(WorkScene scene) => law switch
     {
+        not MotionLaw.Ballistic when scene is ContactWork =>
+            "what is in contact goes by contact steps whatever the law of flight; their tolerance is swept instead",
         MotionLaw.Ballistic when scene.Acting is not null => "it is exact for gravity alone, and a force acts here",
         MotionLaw.ClosedForm or MotionLaw.DormandPrince54 when scene.Acting is null => "gravity alone acts here, for which Ballistic is exact",
         _ => null,
@@ -32,6 +36,7 @@ internal sealed class LagSimMethod(MotionLaw law, bool hasFixedSteps = false) : 
 
     public IReadOnlyList<WorkSetting> Settings(WorkScene scene) => law switch
     {
+        MotionLaw.Ballistic when scene is ContactWork => [.. ContactTolerances.Select(WorkSetting.Contact)],
         MotionLaw.Ballistic => [WorkSetting.None],
         _ when hasFixedSteps => [.. scene.IntegratorRates.Append(2 * scene.IntegratorRates[^1]).Select(WorkSetting.Rate)],
         _ => [.. Tolerances.Select(WorkSetting.Within)],
@@ -51,7 +56,9 @@ internal sealed class LagSimMethod(MotionLaw law, bool hasFixedSteps = false) : 
         {
             SimDuration step = double.IsNaN(setting.StepSeconds) ? BodySpec.DefaultStep : SimDuration.FromSeconds(setting.StepSeconds);
             double tolerance = double.IsNaN(setting.Tolerance) ? 0 : setting.Tolerance;
-            last = kept = new Built(scene, setting, scene.Build(law, step, tolerance), new SimulationOptions(cancellation: cancellation));
+            Scene built = scene is ContactWork contact && setting.ContactTolerance > 0 ? contact.Build(setting.ContactTolerance)
+                : scene.Build(law, step, tolerance);
+            last = kept = new Built(scene, setting, built, new SimulationOptions(cancellation: cancellation));
         }
 
         return kept;
@@ -73,6 +80,8 @@ internal sealed class LagSimMethod(MotionLaw law, bool hasFixedSteps = false) : 
         public Vector3D Position(int body) => State(body).Position;
 
         public Vector3D Velocity(int body) => State(body).Velocity;
+
+        public Vector3D Spin(int body) => State(body).Spin;
 
         public void Dispose()
         {

@@ -11,7 +11,16 @@ public static class WorkErrorKinds
         ["max_position_error_m"] = new("largest distance of the body from its true place, in metres", "largest distance from the true place (m)", "error m", "m"),
         ["rms_position_m"] = new("distance of the bodies from their true places, rms over all of them, in metres", "rms distance from the true places (m)", "error m", "m"),
         ["max_energy_relative"] = new("largest relative error of the energy", "largest error of the energy (relative)", "energy", "of the energy"),
-        ["deepest_overlap_m"] = new("deepest overlap of two spheres, in metres", "deepest overlap of two spheres (m)", "overlap m", "m"),
+        [ContactWork.Overlap] = new("deepest overlap, in metres", "deepest overlap (m)", "overlap m", "m"),
+        [ContactWork.EnergyGain] = new(
+            "most energy gained over all that went before, as part of that at the start",
+            "most energy gained (of that at the start)", "gained",
+            "of the energy"),
+        [ContactWork.Drift] = new(
+            "furthest that a ball moves in the last second, in metres",
+            "furthest that a ball moves in the last second (m)", "drift m", "m"),
+        [ContactWork.Moved] = new(
+            "furthest that a ball is from where it started, in metres", "furthest that a ball is from its start (m)", "moved m", "m"),
         ["most_pairs_deeper_than_1_mm"] = new("most pairs at one time that overlap by more than 1 mm", "most pairs that overlap by more than 1 mm", "pairs", "pairs"),
     };
 

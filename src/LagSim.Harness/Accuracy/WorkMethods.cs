@@ -18,6 +18,7 @@ public static class WorkMethods
         new LagSimMethod(MotionLaw.DormandPrince54, hasFixedSteps: true),
         new MathNetMethod(),
         new OdeMethod(),
+        new OdeMethod(isDirect: true),
         new ChipmunkMethod(),
         .. PackageEngines.All,
     ];

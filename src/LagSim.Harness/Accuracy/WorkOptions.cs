@@ -1,3 +1,5 @@
+using System;
+
 namespace LagSim.Harness.Accuracy;
 
 /// <summary>How thoroughly speed is held against error. Immutable.</summary>
@@ -13,6 +15,12 @@ public sealed record WorkOptions
     /// A setting whose single run would by its coarser neighbour take longer than this, in seconds, is left out, and so are all finer ones; default 20.
     /// </summary>
     public double LongestSeconds { get; init; } = 20;
+
+    /// <summary>
+    /// A run that is not done after this long, in seconds, is broken off, and its setting is left out with all finer ones: three times
+    /// <see cref="LongestSeconds"/>, but a minute at least, since nothing foretells how long the first setting takes.
+    /// </summary>
+    public double BreakOffSeconds => Math.Max(60, 3 * LongestSeconds);
 
     /// <summary>Runs are repeated until they have taken this long together, in seconds; default 0.3.</summary>
     public double TimingSeconds { get; init; } = 0.3;

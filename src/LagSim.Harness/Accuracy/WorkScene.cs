@@ -48,6 +48,9 @@ public abstract partial class WorkScene
     /// <summary>Whether bodies meet each other, not only planes.</summary>
     public virtual bool HasPairs => false;
 
+    /// <summary>The same in small, for a quick look; itself where it is small enough.</summary>
+    public virtual WorkScene Small => this;
+
     /// <summary>The scene by the law that the world picks.</summary>
     public Scene Scene => scene ??= Build(MotionLaw.Automatic, BodySpec.DefaultStep, BodySpec.DefaultTolerance);
 

@@ -9,6 +9,7 @@ namespace LagSim.Harness.Accuracy;
 /// <summary>Speed against error: each method on each scene, its step swept, every point measured for its error and timed apart from that.</summary>
 public static class WorkSweep
 {
+    private const double MostSeconds = 1e6; // that a timer counts
     private const double Long = 1; // seconds: what takes longer is timed once, after the run that measured its error
 
     /// <summary>Runs some scenes by some methods.</summary>
@@ -36,7 +37,13 @@ public static class WorkSweep
             (WorkScene scene, IWorkMethod method) = sweeps[n];
             if (method.Excludes(scene) is string why)
             {
-                leftOut.Add($"{scene.Name}: {method.Name} is left out: {why}.");
+                string where = RandomHeapWork.IsDrawn(scene.Name) ? RandomHeapWork.Set : scene.Name;
+                string sentence = $"{where}: {method.Name} is left out: {why}.";
+                if (!leftOut.Contains(sentence))
+                {
+                    leftOut.Add(sentence);
+                }
+
                 continue;
             }
 
@@ -73,34 +80,59 @@ public static class WorkSweep
             cancellation.ThrowIfCancellationRequested();
             progress((double)n / settings.Length);
             WorkSetting setting = settings[n];
-            double expected = points.Count == 0 ? 0 : points[^1].CpuSeconds * points[^1].StepSeconds / setting.StepSeconds;
+            string at = $"{scene.Name}: {method.Name} at {setting.Text}{(n + 1 < settings.Length ? " and finer" : "")} is left out:";
+            double expected = points.Count == 0 ? 0 : points[^1].CpuSeconds * Finer(points[^1].StepSeconds / setting.StepSeconds);
             if (expected > options.LongestSeconds)
             {
                 leftOut.Add(FormattableString.Invariant(
-                    $"{scene.Name}: {method.Name} at {setting.Text}{(n + 1 < settings.Length ? " and finer" : "")} is left out: it would take about {expected:0.#} s a run, and {options.LongestSeconds} s are allowed."));
+                    $"{at} it would take about {expected:0.#} s a run, and {options.LongestSeconds} s are allowed."));
                 break;
             }
 
-            IReadOnlyList<double> errors;
-            long events;
-            using (IWorkRun run = method.Start(scene, setting, cancellation))
+            using CancellationTokenSource limit = CancellationTokenSource.CreateLinkedTokenSource(cancellation);
+            try
             {
-                errors = scene.Measure(run);
-                events = run.Events;
+                points.AddRange(Point(scene, method, setting, options, isFirst: n == 0, limit));
             }
-
-            (double cpu, int runs) = Time(scene, method, setting, options, cancellation);
-            for (double before = double.MaxValue; n == 0 && cpu < 0.9 * before;)
+            catch (OperationCanceledException) when (!cancellation.IsCancellationRequested)
             {
-                before = cpu; // code that is still being compiled gets faster: again, until it does not
-                (cpu, runs) = Time(scene, method, setting, options, cancellation);
+                leftOut.Add(FormattableString.Invariant(
+                    $"{at} a run was not done after {options.BreakOffSeconds} s, and {options.LongestSeconds} s a run are allowed."));
+                break;
             }
-
-            points.AddRange(errors.Select((error, kind) => new WorkPoint(
-                scene.Name, method.Name, setting.Text, setting.StepSeconds, error, scene.ErrorKinds[kind], cpu, runs, scene.Seconds, events)));
         }
 
         return points;
+
+        // A finer setting without steps takes as long as the coarser one at least.
+        static double Finer(double steps) => double.IsNaN(steps) ? 1 : steps;
+    }
+
+    /// <summary>Measures a setting and times it apart from that; a point a kind of error.</summary>
+    private static IEnumerable<WorkPoint> Point(
+        WorkScene scene, IWorkMethod method, WorkSetting setting, WorkOptions options, bool isFirst, CancellationTokenSource limit)
+    {
+        TimeSpan longest = TimeSpan.FromSeconds(Math.Min(MostSeconds, options.BreakOffSeconds));
+        limit.CancelAfter(longest);
+        IReadOnlyList<double> errors;
+        long events;
+        using (IWorkRun run = method.Start(scene, setting, limit.Token))
+        {
+            errors = scene.Measure(run);
+            events = run.Events;
+        }
+
+        limit.CancelAfter(longest);
+        (double cpu, int runs) = Time(scene, method, setting, options, limit.Token);
+        for (double before = double.MaxValue; isFirst && cpu < Math.Min(0.9 * before, Long);)
+        {
+            before = cpu; // code that is still being compiled gets faster: again, until it does not
+            limit.CancelAfter(longest);
+            (cpu, runs) = Time(scene, method, setting, options, limit.Token);
+        }
+
+        return errors.Select((error, kind) => new WorkPoint(
+            scene.Name, method.Name, setting.Text, setting.StepSeconds, error, scene.ErrorKinds[kind], cpu, runs, scene.Seconds, events));
     }
 
     /// <summary>The least of several runs, making the world of the scene included, and neither the scene nor what is freed afterwards; nothing is read.</summary>

@@ -5,12 +5,21 @@ namespace LagSim.Harness.Charts;
 
 /// <summary>
 /// The colours and type of every chart, light and dark. The palette is that of Okabe and Ito, which the colour-blind can tell apart,
-/// with lightness moved so that each colour stands out from its background; after its seven come four more for charts that mark points by shapes as well.
+/// with lightness moved so that each colour stands out from its background; after its seven come five more for charts that mark points by
+/// shapes as well.
 /// </summary>
 internal static class ChartTheme
 {
-    private static readonly string[] Light = ["#0072b2", "#d55e00", "#008a64", "#b5508d", "#a87400", "#3b9ad1", "#3d3d3d", "#2a35c9", "#8040c8", "#b0123c", "#7a4a1e"];
-    private static readonly string[] Dark = ["#56b4e9", "#f5894a", "#2fc99b", "#e59bc8", "#f0e442", "#a3b8ff", "#d8d8d8", "#7d8bff", "#c08cff", "#ff6b81", "#c9a27c"];
+    private static readonly string[] Light =
+    [
+        "#0072b2", "#d55e00", "#008a64", "#b5508d", "#a87400", "#3b9ad1", "#3d3d3d",
+        "#2a35c9", "#8040c8", "#b0123c", "#7a4a1e", "#5c6b00",
+    ];
+    private static readonly string[] Dark =
+    [
+        "#56b4e9", "#f5894a", "#2fc99b", "#e59bc8", "#f0e442", "#a3b8ff", "#d8d8d8",
+        "#7d8bff", "#c08cff", "#ff6b81", "#c9a27c", "#b7cf4a",
+    ];
 
     // Colour names: background, text, quieter text, grid, frame, annotation.
     private static readonly string[] Names = ["bg", "ink", "dim", "grid", "axis", "note"];

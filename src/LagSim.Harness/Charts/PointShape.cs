@@ -35,4 +35,7 @@ public enum PointShape
 
     /// <summary>An open circle.</summary>
     Circle = 10,
+
+    /// <summary>An open triangle on its tip.</summary>
+    OpenTriangleDown = 11,
 }

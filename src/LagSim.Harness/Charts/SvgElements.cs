@@ -92,6 +92,7 @@ internal static class SvgElements
         PointShape.Cross => "m-4.5 -4.5l9 9m0 -9l-9 9",
         PointShape.OpenTriangle => "m0 -7l6.5 11.5h-13z",
         PointShape.OpenDiamond => "m0 -7l7 7l-7 7l-7 -7z",
+        PointShape.OpenTriangleDown => "m0 7l6.5 -11.5h-13z",
         PointShape.Circle => "m-6 0a6 6 0 1 0 12 0a6 6 0 1 0 -12 0z",
         _ => throw new System.ArgumentOutOfRangeException(nameof(shape), shape, "There is no such shape."),
     };

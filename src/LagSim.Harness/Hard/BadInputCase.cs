@@ -42,6 +42,7 @@ internal sealed class BadInputCase : IHardCase
         ("step under a spring", h => Stepped(SimDuration.FromSeconds(h)), StepsOf),
         ("gravity", g => Ball(new BodySpec(0.5, 1, 0.5), floor: -1e7).WithGravity(V(0, g)), g => g / 2),
         ("resolution", r => Ball(new BodySpec(0.5, 1, 0.5)).WithResolution(r), _ => -Gravity / 2),
+        ("contact tolerance", d => Ball(new BodySpec(0.5, 1, 0.5)).WithContactTolerance(d), _ => -Gravity / 2),
         ("smallest radius", r => Ball(new BodySpec(0.5, 1, 0.5)).WithSmallestRadius(r), _ => -Gravity / 2),
         ("offset of a plane", d => new SceneBuilder("bad").AddPlane("floor", Vector3D.Up, d - Apart - 0.5).AddBody("ball", new BodySpec(0.5, 1, 0), V(0, d)),
             d => d - (Gravity / 2)),

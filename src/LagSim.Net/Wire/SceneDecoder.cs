@@ -178,6 +178,11 @@ internal ref struct SceneDecoder
             Vector3D velocity = reader.ReadVector();
             PeerSet players = PeerSet.FromMask(reader.ReadUInt16());
             Vector3D spin = reader.ReadVector();
+            if (IsSound && spec.Flight == MotionLaw.Automatic)
+            {
+                Refuse($"Body {number} of the scene leaves its law of flight open; on the wire it is the one that was chosen.");
+            }
+
             if (IsSound)
             {
                 builder.AddBody(name, spec, position, velocity, players, spin);

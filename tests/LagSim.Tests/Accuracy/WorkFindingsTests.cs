@@ -51,6 +51,38 @@ public sealed class WorkFindingsTests
     }
 
     [Fact]
+    public void Sentences_OfDenseContact_HaveOneForEachOtherKindOfErrorToo()
+    {
+        WorkPoint[] points =
+        [
+            Own(1e-6, 1), Own(0, 1) with { ErrorKind = "energy_gained_relative" }, Own(1e-5, 1) with { ErrorKind = "drift_at_rest_m" },
+            Peer(1e-2, 3), Peer(0, 3) with { ErrorKind = "energy_gained_relative" }, Peer(1e-9, 3) with { ErrorKind = "drift_at_rest_m" },
+        ];
+        Assert.Equal(
+            [
+                "scene: in front of peer at every error, by 3 times at least.",
+                "scene, energy gained: in front of every peer at every error, by 3 times at least (peer at 1/10 s).", // both are nothing
+                "scene, drift at rest: NOT in front at 1 of 1 point of 1 peer.",
+            ],
+            WorkFindings.Sentences(points));
+    }
+
+    [Fact]
+    public void Sentences_OfHeapsThatWereDrawn_AreOneOverAll()
+    {
+        WorkPoint[] points = [.. new[] { "heaps-1", "heaps-2" }.SelectMany(
+            (heap, n) => new[] { Own(1e-6, 1) with { Scene = heap }, Peer(1e-2, 0.5 + n) with { Scene = heap } })];
+        Assert.Equal(
+            "2 heaps drawn at random: NOT in front at 1 of 2 points of 1 peer; in front at all others by 1.5 times at least (peer at"
+                + " 1/10 s).",
+            Assert.Single(WorkFindings.Sentences(points)));
+    }
+
+    [Fact]
+    public void Sentences_WhereNoSettingOfLagSimWasDone_SaySo() => Assert.Equal(
+        "scene: NOT in front of anybody: no setting of LagSim was done.", Assert.Single(WorkFindings.Sentences([Peer(1e-2, 3)])));
+
+    [Fact]
     public void Cost_BetweenTwoSettings_LiesOnTheLineThatJoinsThem()
     {
         WorkPoint[] curve = [Own(1e-2, 1), Own(1e-6, 100)];

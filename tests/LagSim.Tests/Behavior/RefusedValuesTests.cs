@@ -68,6 +68,8 @@ public sealed class RefusedValuesTests
         ["scene of half a pair"] = (_ => new SceneBuilder("x\udc00"), ["'x\uFFFD' is no name for a scene", "half of a surrogate pair"]),
         ["gravity"] = (b => b.WithGravity(V(0, double.NaN)), ["gravity", "NaN"]),
         ["resolution"] = (b => b.WithResolution(0), ["resolution", "0"]),
+        ["contact tolerance"] = (b => b.WithContactTolerance(0.2), ["contact tolerance", "0.2", "1E-09", "0.1 m"]),
+        ["nan contact tolerance"] = (b => b.WithContactTolerance(double.NaN), ["contact tolerance", "NaN"]),
         ["smallest radius"] = (b => b.WithSmallestRadius(-1), ["smallest radius", "-1"]),
         ["Magnus too fast"] = (b => b.AddForce(Force.Magnus("air", 2e3)).AddBody("m", new BodySpec(0.5, 1, 1, forces: ForceSet.Of(0)), V(90, 90), spin: V(0, 0, 1e3)), ["'m'", "'air'", "2000000", "1000000 1/s"]),
         ["no normal"] = (b => b.AddPlane("p", V(0), V(0)), ["'p'", "normal"]),

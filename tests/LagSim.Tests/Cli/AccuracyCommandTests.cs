@@ -10,14 +10,16 @@ namespace LagSim.Tests.Cli;
 
 public sealed class AccuracyCommandTests
 {
+    private const string Overlap = "deepest_overlap_m";
+
     [Fact]
     public void Json_OfAScene_HasTheKeysOfTheContract()
     {
         using JsonDocument document = JsonDocument.Parse(Tool.Run("accuracy", "spring", "--quick", "--peers", "mathnet", "--json").Done().Output);
         JsonElement root = document.RootElement;
         Assert.Equal(
-            ["tool", "version", "command", "seed", "scene", "scene_hash", "state_hash", "quick", "clock", "points", "orders", "findings", "left_out",
-                "caution", "stopped_early", "stopped_at"],
+            ["tool", "version", "command", "seed", "scene", "scene_hash", "state_hash", "quick", "clock", "points", "orders", "spread",
+                "findings", "left_out", "caution", "stopped_early", "stopped_at"],
             root.EnumerateObject().Select(p => p.Name));
         JsonElement[] points = [.. root.GetProperty("points").EnumerateArray()];
         Assert.Equal(15, points.Length); // three settings of five methods
@@ -26,6 +28,7 @@ public sealed class AccuracyCommandTests
                 .Select(p => p.Name)));
         Assert.Equal("spring", root.GetProperty("scene").GetString());
         Assert.Equal(16, root.GetProperty("scene_hash").GetString()!.Length);
+        Assert.Equal(0, root.GetProperty("spread").GetArrayLength());
         Assert.Equal(3, root.GetProperty("orders").EnumerateObject().Count());
         Assert.All(root.GetProperty("orders").EnumerateObject(), order =>
             Assert.InRange(order.Value.GetDouble() - (order.Name.Contains("DormandPrince54", StringComparison.Ordinal) ? 5 : 4), -0.5, 0.5));
@@ -48,6 +51,26 @@ public sealed class AccuracyCommandTests
         string steps = XElement.Load(folder["out/accuracy-drag-steps.svg"]).Value;
         Assert.Contains("order 4", steps, StringComparison.Ordinal);
         Assert.Contains("order 5", steps, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Json_OfHeapsThatAreDrawn_HasEachAndTheirSpread()
+    {
+        Tool tool = Tool.Run("accuracy", "heaps", "--quick", "--peers", "none", "--seed", "5", "--json").Done();
+        using JsonDocument document = JsonDocument.Parse(tool.Output);
+        JsonElement[] points = [.. document.RootElement.GetProperty("points").EnumerateArray()];
+        Assert.Equal(Enumerable.Range(1, 8).Select(n => $"heaps-{n}"), points.Select(point => Word(point, "scene")).Distinct());
+        JsonElement first = document.RootElement.GetProperty("spread")[0];
+        Assert.Equal(
+            ["method", "setting", "error_kind", "scenes", "error", "simulated_s_per_cpu_s"], first.EnumerateObject().Select(p => p.Name));
+        Assert.Equal(("d=0.1", Overlap, 8), (Word(first, "setting"), Word(first, "error_kind"), first.GetProperty("scenes").GetInt32()));
+        double[] errors = [.. points.Where(point => Word(point, "setting") == "d=0.1" && Word(point, "error_kind") == Overlap)
+            .Select(point => point.GetProperty("error").GetDouble()).Order()];
+        Assert.Equal(
+            [errors[0], (errors[3] + errors[4]) / 2, errors[7]],
+            first.GetProperty("error").EnumerateObject().Select(p => p.Value.GetDouble()));
+
+        static string? Word(JsonElement of, string key) => of.GetProperty(key).GetString();
     }
 
     [Fact]

@@ -65,7 +65,7 @@ public sealed class RecordingsPageTests
             }
         }
 
-        Assert.Equal(3 + 4 + 5 + 33 + 2 + 3 + 3, rows); // of each table
+        Assert.Equal(3 + 4 + 5 + 34 + 2 + 3 + 3, rows); // of each table
     }
 
     [Fact]
@@ -186,6 +186,7 @@ public sealed class RecordingsPageTests
             ["name"] = scene.Name,
             ["gravity"] = scene.Gravity,
             ["resolution"] = scene.Resolution,
+            ["contact tolerance"] = scene.ContactTolerance,
             ["smallest radius"] = scene.SmallestRadius,
             ["spawners"] = scene.Spawners.Mask,
             ["forces"] = scene.Forces.Count,

@@ -105,6 +105,21 @@ public sealed class ExplainTests
         static (bool, string) Told(FeatureExplanation feature) => (feature.IsModelled, feature.Why);
     }
 
+    /// <summary>The one number between speed and error in heaps, and why it is that.</summary>
+    [Theory]
+    [InlineData(0.5, 0, "0.001 m, the default where the smallest radius is 0.1 m or more.")]
+    [InlineData(0.05, 0, "0.0005 m, the default: a hundredth of the smallest radius, 0.05 m.")]
+    [InlineData(0.05, 1e-4, "0.0001 m, as the scene sets it.")]
+    public void Explain_ContactTolerance_SaysWhereItComesFrom(double radius, double set, string why)
+    {
+        SceneBuilder builder = new SceneBuilder("two").AddPlane("floor", V(0, 1), V(0))
+            .AddBody("lower", new BodySpec(radius, 1, 0), V(0, radius)).AddBody("upper", new BodySpec(radius, 1, 0), V(0, 4 * radius));
+        Scene scene = (set > 0 ? builder.WithContactTolerance(set) : builder).Build();
+        FeatureExplanation told = scene.Explain().Features.Single(f => f.Name == "contact tolerance");
+        Assert.Equal((true, why), (told.IsModelled, told.Why));
+        Assert.False(BuiltInScenes.Drop().Explain().Features.Single(f => f.Name == "contact tolerance").IsModelled, "nothing leans on anything there");
+    }
+
     /// <summary>A wind of 1e12 m/s is allowed, and no step can be taken in it: the others are explained all the same.</summary>
     [Fact]
     public void Explain_BodyThatCannotTakeAStep_SaysWhy()
@@ -152,11 +167,11 @@ public sealed class ExplainTests
     public void ToString_OfAScene_HasALineForEachBodyAndFeature()
     {
         string[] lines = Forced().Explain().ToString().Split('\n');
-        Assert.Equal(11, lines.Length);
+        Assert.Equal(12, lines.Length);
         Assert.Matches("^oily: ClosedForm, [0-9.]+ pieces/s, [0-9.]+ force calls/s. Gravity, oil \\(LinearDrag\\): linear in position and velocity", lines[0]);
         Assert.Equal("free: Ballistic. Only uniform gravity acts on it: a parabola is exact.", lines[2]);
         Assert.Equal("integrator: yes. 1 body of 3 in steps.", lines[4]);
-        Assert.Equal("periodic box: no. The scene has none.", lines[10]);
+        Assert.Equal("periodic box: no. The scene has none.", lines[11]);
     }
 
     private static Scene Forced() => new SceneBuilder("forced")

@@ -45,6 +45,7 @@ public sealed class SceneFileRoundTripTests
           "name": "drop",
           "gravity_m_per_s2": [0, -9.81, 0],
           "resolution_m": 1E-09,
+          "contact_tolerance_m": 0.001,
           "planes": [
             {
               "name": "floor",
@@ -91,11 +92,30 @@ public sealed class SceneFileRoundTripTests
         Scene expected = new SceneBuilder("other name")
             .WithGravity(new Vector3D(0, -9.81, 0))
             .WithResolution(1e-9)
+            .WithContactTolerance(1e-3)
             .AddPlane("floor", Vector3D.Up, Vector3D.Zero, 1)
             .AddStaticSphere("rock", new Vector3D(5, 0, 0), 2, 1)
             .AddBody("ball", new BodySpec(0.5, 1, 0.8, MotionLaw.Ballistic, SimDuration.FromSeconds(0.005)), new Vector3D(0, 10, 0), Vector3D.Zero)
             .Build();
         Assert.Equal(expected.Hash, scene.Hash);
+    }
+
+    /// <summary>Open, it follows the smallest radius; set, it is part of what the scene is.</summary>
+    [Theory]
+    [InlineData("0.5", "", 1e-3)]
+    [InlineData("0.02", "", 2e-4)]
+    [InlineData("1e-8", "", 1e-9)]
+    [InlineData("0.5", "\"smallest_radius_m\": 0.04, ", 4e-4)]
+    [InlineData("0.5", "\"contact_tolerance_m\": 1e-6, ", 1e-6)]
+    public void Parse_ContactTolerance_IsTheOneSetOrFollowsTheSmallestRadius(string radius, string keys, double metres)
+    {
+        Scene scene = SceneText.Parse(SceneText.With(keys + "\"bodies\": [" + SceneText.Ball.Replace("0.5", radius) + "]"));
+
+        Assert.Equal(metres, scene.ContactTolerance, 1e-12 * metres);
+        Assert.Equal(scene.ContactTolerance, SceneText.Parse(SceneFile.ToJson(scene)).ContactTolerance);
+        bool isSet = keys.Contains("tolerance", StringComparison.Ordinal);
+        Assert.Equal(isSet, scene.Hash != SceneText.Parse(SceneText.With(
+            (isSet ? "" : keys) + "\"bodies\": [" + SceneText.Ball.Replace("0.5", radius) + "]")).Hash);
     }
 
     [Fact]

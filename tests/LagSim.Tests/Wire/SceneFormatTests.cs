@@ -20,24 +20,25 @@ public sealed class SceneFormatTests
     // Where things stand in the scene that One gives: name "s", one plane "p", one static sphere "q", one body "b".
     private const int GravityAt = 3;
     private const int ResolutionAt = 27;
-    private const int SmallestAt = 35;
-    private const int SpawnersAt = 43;
-    private const int ForcesAt = 45;
-    private const int PlanesAt = 46;
-    private const int PlaneNameAt = 48;
-    private const int NormalAt = 50;
-    private const int SpheresAt = 98;
-    private const int BodiesAt = 150;
-    private const int BodyNameAt = 153;
-    private const int RestitutionAt = 170;
-    private const int FlightAt = 178;
-    private const int StepAt = 179;
-    private const int SpecForcesAt = 187;
-    private const int ToleranceAt = 191;
-    private const int PositionAt = 215;
-    private const int VelocityAt = 239;
-    private const int PlayersAt = 263;
-    private const int Length = 289;
+    private const int ToleranceOfContactAt = 35;
+    private const int SmallestAt = 43;
+    private const int SpawnersAt = 51;
+    private const int ForcesAt = 53;
+    private const int PlanesAt = 54;
+    private const int PlaneNameAt = 56;
+    private const int NormalAt = 58;
+    private const int SpheresAt = 106;
+    private const int BodiesAt = 158;
+    private const int BodyNameAt = 161;
+    private const int RestitutionAt = 178;
+    private const int FlightAt = 186;
+    private const int StepAt = 187;
+    private const int SpecForcesAt = 195;
+    private const int ToleranceAt = 199;
+    private const int PositionAt = 223;
+    private const int VelocityAt = 247;
+    private const int PlayersAt = 271;
+    private const int Length = 297;
 
     [Fact]
     public void Encode_AnyScene_DecodesToTheSameWorldInTheSameBytes() => Prop.ForAll(
@@ -61,7 +62,7 @@ public sealed class SceneFormatTests
     {
         // The control of the tests above: they would see it.
         byte[] bytes = SceneFormat.Encode(One());
-        foreach (int at in new[] { GravityAt, ResolutionAt, SpawnersAt, SpawnersAt + 1, RestitutionAt, StepAt, PositionAt, VelocityAt, PlayersAt, PlayersAt + 1 })
+        foreach (int at in new[] { GravityAt, ResolutionAt, ToleranceOfContactAt, SpawnersAt, SpawnersAt + 1, RestitutionAt, StepAt, PositionAt, VelocityAt, PlayersAt, PlayersAt + 1 })
         {
             byte[] other = (byte[])bytes.Clone();
             other[at] ^= 1;
@@ -109,14 +110,14 @@ public sealed class SceneFormatTests
         }
 
         Refused(whole.AsSpan(0, 0), "The 0 bytes of the scene end within the scene's head.");
-        Refused(whole.AsSpan(0, PlanesAt), "The 46 bytes of the scene end within the scene's plane count.");
-        Refused(whole.AsSpan(0, Length - 1), "The 288 bytes of the scene end within body 1 of the scene.");
+        Refused(whole.AsSpan(0, PlanesAt), "The 54 bytes of the scene end within the scene's plane count.");
+        Refused(whole.AsSpan(0, Length - 1), "The 296 bytes of the scene end within body 1 of the scene.");
         Refused(whole.AsSpan(0, Length - 2), "announces 1 parts of the kind 'body', of 136 bytes or more, and has 135 bytes left");
         Refused([.. whole, .. new byte[24]], "The scene's periodic box has no size");
         Refused([.. whole, .. new byte[25]], "The scene's periodic box has no size");
         for (int value = 0; value <= 255; value++)
         {
-            Refused([.. whole, (byte)value], "The 290 bytes of the scene end within the scene's periodic box.");
+            Refused([.. whole, (byte)value], "The 298 bytes of the scene end within the scene's periodic box.");
         }
     }
 
@@ -161,6 +162,8 @@ public sealed class SceneFormatTests
     {
         Refused(With(RestitutionAt, 1.5), "The restitution of body 'b' is 1.5; it must lie between 0 and 1");
         Refused(With(ResolutionAt, 1), "The resolution of scene 's' is 1;");
+        Refused(With(ToleranceOfContactAt, 0.5), "The contact tolerance of scene 's' is 0.5;");
+        Refused(With(ToleranceOfContactAt, 0), "The contact tolerance of scene 's' is 0;");
         Refused(With(GravityAt, 1e7), "The gravity of scene 's' is");
         Refused(With(PositionAt, 2e12), "The position of body 'b' is");
         Refused(With(VelocityAt, 1e300), "The velocity of body 'b' is");
@@ -182,12 +185,24 @@ public sealed class SceneFormatTests
         Refused(With(SmallestAt, 1), "The radius of body 'b' is 0.5 m; the smallest radius of the scene is 1 m, and must be at most that of every body.");
     }
 
+    [Fact]
+    public void TryDecode_LawOfFlightLeftOpen_IsRefused()
+    {
+        Scene scene = new SceneBuilder("s").AddForce(Force.QuadraticDrag("a", 0.1), out ForceSet air)
+            .AddBody("b", new BodySpec(0.5, 1, 0.5, forces: air), V(1)).Build();
+        byte[] bytes = SceneFormat.Encode(scene);
+        int spec = bytes.Length - 24 - 2 - (2 * 24) - EventFormat.SpecBytes; // spin, players, velocity and place follow it
+        Assert.Equal((byte)MotionLaw.DormandPrince54, bytes[spec + 24]); // after radius, mass and restitution
+        bytes[spec + 24] = (byte)MotionLaw.Automatic;
+        Refused(bytes, "Body 1 of the scene leaves its law of flight open");
+    }
+
     [Theory]
     [InlineData(double.NaN)]
     [InlineData(double.NegativeInfinity)]
     public void TryDecode_NumberNotFinite_IsRefusedInEveryField(double value)
     {
-        foreach (int at in new[] { GravityAt, ResolutionAt, SmallestAt })
+        foreach (int at in new[] { GravityAt, ResolutionAt, ToleranceOfContactAt, SmallestAt })
         {
             Refused(With(at, value), "In the scene's head a number is not finite");
         }

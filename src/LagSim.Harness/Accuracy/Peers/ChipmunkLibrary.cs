@@ -48,6 +48,12 @@ internal static unsafe class ChipmunkLibrary
         (delegate* unmanaged[Cdecl]<nint, Vect, Vect, double, nint>)Library.Find("cpSegmentShapeNew");
     internal static readonly delegate* unmanaged[Cdecl]<nint, double, void> ShapeSetElasticity =
         (delegate* unmanaged[Cdecl]<nint, double, void>)Library.Find("cpShapeSetElasticity");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, double, void> ShapeSetFriction =
+        (delegate* unmanaged[Cdecl]<nint, double, void>)Library.Find("cpShapeSetFriction");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, double, void> SpaceSetCollisionSlop =
+        (delegate* unmanaged[Cdecl]<nint, double, void>)Library.Find("cpSpaceSetCollisionSlop");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, double> BodyGetAngularVelocity =
+        (delegate* unmanaged[Cdecl]<nint, double>)Library.Find("cpBodyGetAngularVelocity");
     internal static readonly delegate* unmanaged[Cdecl]<nint, void> ShapeFree = (delegate* unmanaged[Cdecl]<nint, void>)Library.Find("cpShapeFree");
 
     /// <summary>Why it cannot be used; null if it can.</summary>

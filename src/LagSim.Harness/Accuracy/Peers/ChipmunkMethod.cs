@@ -10,8 +10,9 @@ namespace LagSim.Harness.Accuracy.Peers;
 /// Chipmunk 7 through its C interface, for scenes that are plane: circles and thick segments, all else by default (10 iterations, no damping, no sleeping).
 /// </summary>
 /// <remarks>
-/// It multiplies the elasticities of two shapes, where LagSim takes the lesser; they are set so that the products are what the scene asks for. Friction is zero
-/// by default. A force is set where the velocity is updated, after the places are, as Chipmunk's own examples do.
+/// It multiplies the elasticities of two shapes, and their frictions, where LagSim takes the lesser; they are set so that the products are
+/// what the scene asks for. In scenes of dense contact the overlap that it allows, by default 0.1 m, is the scene's contact tolerance. A
+/// force is set where the velocity is updated, after the places are, as Chipmunk's own examples do.
 /// </remarks>
 internal sealed class ChipmunkMethod : FlatEngine
 {
@@ -41,10 +42,16 @@ internal sealed class ChipmunkMethod : FlatEngine
             space = ChipmunkLibrary.SpaceNew();
             (double gx, double gy) = FlatDirection(Scene.Gravity);
             ChipmunkLibrary.SpaceSetGravity(space, new(gx, gy));
+            if (Work is ContactWork)
+            {
+                ChipmunkLibrary.SpaceSetCollisionSlop(space, Scene.ContactTolerance);
+            }
+
             double elasticity = Math.Sqrt(Scene.Bodies[0].Spec.Restitution); // that of two balls is its square
+            double friction = Math.Sqrt(Scene.Bodies[0].Spec.Friction);
             foreach (StaticPlane plane in Scene.Planes)
             {
-                AddWall(plane, RestitutionAt(plane) / elasticity);
+                AddWall(plane, RestitutionAt(plane) / elasticity, friction > 0 ? FrictionAt(plane) / friction : 0);
             }
 
             bodies = new nint[Scene.Bodies.Count];
@@ -54,7 +61,7 @@ internal sealed class ChipmunkMethod : FlatEngine
                 (double x, double y) = FlatStart(n);
                 (double vx, double vy) = FlatDirection(body.Velocity);
                 nint ball = bodies[n] = ChipmunkLibrary.SpaceAddBody(space,
-                    ChipmunkLibrary.BodyNew(body.Spec.Mass, 0.5 * body.Spec.Mass * body.Spec.Radius * body.Spec.Radius));
+                    ChipmunkLibrary.BodyNew(body.Spec.Mass, 0.4 * body.Spec.Mass * body.Spec.Radius * body.Spec.Radius));
                 ChipmunkLibrary.BodySetPosition(ball, new(x, y));
                 ChipmunkLibrary.BodySetVelocity(ball, new(vx, vy));
                 if (Work.Acting is not null)
@@ -63,7 +70,7 @@ internal sealed class ChipmunkMethod : FlatEngine
                     ChipmunkLibrary.BodySetVelocityUpdateFunc(ball, &UpdateVelocity);
                 }
 
-                Add(ChipmunkLibrary.CircleShapeNew(ball, body.Spec.Radius, default), elasticity);
+                Add(ChipmunkLibrary.CircleShapeNew(ball, body.Spec.Radius, default), elasticity, friction);
             }
         }
 
@@ -106,13 +113,16 @@ internal sealed class ChipmunkMethod : FlatEngine
         }
 
         /// <summary>A long segment behind the surface, so thick that its rounded edge is the surface.</summary>
-        private void AddWall(StaticPlane plane, double elasticity)
+        private void AddWall(StaticPlane plane, double elasticity, double friction)
         {
             if (Line(plane, Thick) is ({ } from, { } to))
             {
-                Add(ChipmunkLibrary.SegmentShapeNew(ChipmunkLibrary.SpaceGetStaticBody(space), new(from.X, from.Y), new(to.X, to.Y), Thick), elasticity);
+                nint ground = ChipmunkLibrary.SpaceGetStaticBody(space);
+                Add(ChipmunkLibrary.SegmentShapeNew(ground, new(from.X, from.Y), new(to.X, to.Y), Thick), elasticity, friction);
             }
         }
+
+        protected override double FlatSpin(int body) => ChipmunkLibrary.BodyGetAngularVelocity(bodies[body]);
 
         [UnmanagedCallersOnly(CallConvs = [typeof(CallConvCdecl)])]
         private static void UpdateVelocity(nint body, ChipmunkLibrary.Vect gravity, double damping, double step)
@@ -123,8 +133,9 @@ internal sealed class ChipmunkMethod : FlatEngine
             ChipmunkLibrary.BodyUpdateVelocity(body, gravity, damping, step);
         }
 
-        private void Add(nint shape, double elasticity)
+        private void Add(nint shape, double elasticity, double friction)
         {
+            ChipmunkLibrary.ShapeSetFriction(shape, friction);
             ChipmunkLibrary.ShapeSetElasticity(shape, elasticity);
             ChipmunkLibrary.SpaceAddShape(space, shape);
             shapes.Add(shape);

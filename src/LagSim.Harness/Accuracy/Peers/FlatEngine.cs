@@ -17,6 +17,10 @@ internal abstract class FlatEngine : SteppedEngine
 
         public override Vector3D Velocity(int body) => Unflat(FlatVelocity(body), body) - Work.Unflat(0, 0, body);
 
+        public override Vector3D Spin(int body) => new(0, 0, FlatSpin(body));
+
+        protected abstract double FlatSpin(int body);
+
         protected abstract (double X, double Y) FlatPosition(int body);
 
         protected abstract (double X, double Y) FlatVelocity(int body);

@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 
 namespace LagSim.Harness.Accuracy.Peers;
@@ -15,6 +16,8 @@ internal static unsafe class OdeLibrary
         (delegate* unmanaged[Cdecl]<nint, double, double, double, void>)Library.Find("dWorldSetGravity");
     internal static readonly delegate* unmanaged[Cdecl]<nint, double, int> WorldQuickStep =
         (delegate* unmanaged[Cdecl]<nint, double, int>)Library.Find("dWorldQuickStep");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, double, int> WorldStep =
+        (delegate* unmanaged[Cdecl]<nint, double, int>)Library.Find("dWorldStep");
     internal static readonly delegate* unmanaged[Cdecl]<nint, nint> BodyCreate = (delegate* unmanaged[Cdecl]<nint, nint>)Library.Find("dBodyCreate");
     internal static readonly delegate* unmanaged[Cdecl]<nint, double, double, double, void> BodySetPosition =
         (delegate* unmanaged[Cdecl]<nint, double, double, double, void>)Library.Find("dBodySetPosition");
@@ -26,6 +29,8 @@ internal static unsafe class OdeLibrary
         (delegate* unmanaged[Cdecl]<nint, double*>)Library.Find("dBodyGetPosition");
     internal static readonly delegate* unmanaged[Cdecl]<nint, double*> BodyGetLinearVel =
         (delegate* unmanaged[Cdecl]<nint, double*>)Library.Find("dBodyGetLinearVel");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, double*> BodyGetAngularVel =
+        (delegate* unmanaged[Cdecl]<nint, double*>)Library.Find("dBodyGetAngularVel");
     internal static readonly delegate* unmanaged[Cdecl]<nint, Mass*, void> BodySetMass =
         (delegate* unmanaged[Cdecl]<nint, Mass*, void>)Library.Find("dBodySetMass");
     internal static readonly delegate* unmanaged[Cdecl]<Mass*, double, double, void> MassSetSphereTotal =
@@ -40,6 +45,8 @@ internal static unsafe class OdeLibrary
         (delegate* unmanaged[Cdecl]<nint, double, nint>)Library.Find("dCreateSphere");
     internal static readonly delegate* unmanaged[Cdecl]<nint, double, double, double, double, nint> CreatePlane =
         (delegate* unmanaged[Cdecl]<nint, double, double, double, double, nint>)Library.Find("dCreatePlane");
+    internal static readonly delegate* unmanaged[Cdecl]<nint, double, double, double, void> GeomSetPosition =
+        (delegate* unmanaged[Cdecl]<nint, double, double, double, void>)Library.Find("dGeomSetPosition");
     internal static readonly delegate* unmanaged[Cdecl]<nint, nint, void> GeomSetBody =
         (delegate* unmanaged[Cdecl]<nint, nint, void>)Library.Find("dGeomSetBody");
     internal static readonly delegate* unmanaged[Cdecl]<nint, nint> GeomGetBody = (delegate* unmanaged[Cdecl]<nint, nint>)Library.Find("dGeomGetBody");
@@ -58,16 +65,35 @@ internal static unsafe class OdeLibrary
     /// <summary>dContactBounce.</summary>
     internal const int ContactBounce = 4;
 
+    /// <summary>dContactApprox1: friction goes with what presses, in a pyramid about Coulomb's cone, and is no fixed force.</summary>
+    internal const int ContactApprox1 = 0x7000;
+
     private static readonly delegate* unmanaged[Cdecl]<uint, int> Init = (delegate* unmanaged[Cdecl]<uint, int>)Library.Find("dInitODE2");
     private static readonly delegate* unmanaged[Cdecl]<uint, int> AllocateForThread =
         (delegate* unmanaged[Cdecl]<uint, int>)Library.Find("dAllocateODEDataForThread");
+    private static readonly delegate* unmanaged[Cdecl]<nuint, void> RandSetSeed =
+        (delegate* unmanaged[Cdecl]<nuint, void>)Library.Find("dRandSetSeed");
+    private static readonly delegate* unmanaged[Cdecl]<delegate* unmanaged[Cdecl]<int, byte*, nint, void>, void> SetMessageHandler =
+        (delegate* unmanaged[Cdecl]<delegate* unmanaged[Cdecl]<int, byte*, nint, void>, void>)Library.Find("dSetMessageHandler");
     private static readonly delegate* unmanaged[Cdecl]<byte*> GetConfiguration = (delegate* unmanaged[Cdecl]<byte*>)Library.Find("dGetConfiguration");
 
     /// <summary>Why it cannot be used; null if it can.</summary>
     internal static string? Missing { get; } = Check();
 
+    /// <summary>Before a run: random numbers from the start, so that every run of a scene is the same, and no messages on stderr.</summary>
+    internal static void Begin()
+    {
+        RandSetSeed(0);
+        SetMessageHandler(&Ignore);
+    }
+
     /// <summary>Each thread that steps worlds has data of its own.</summary>
     internal static void UseThread() => AllocateForThread(uint.MaxValue);
+
+    [UnmanagedCallersOnly(CallConvs = [typeof(CallConvCdecl)])]
+    private static void Ignore(int number, byte* message, nint arguments)
+    {
+    }
 
     private static string? Check()
     {

@@ -64,6 +64,8 @@ internal abstract class SteppedEngine : IWorkMethod
 
         public abstract Vector3D Velocity(int body);
 
+        public virtual Vector3D Spin(int body) => Vector3D.Zero;
+
         public abstract void Dispose();
 
         /// <summary>One step.</summary>
@@ -75,6 +77,11 @@ internal abstract class SteppedEngine : IWorkMethod
             double mass = Scene.Bodies[body].Spec.Mass;
             return Work.Push(mass, Seconds, Position(body), Velocity(body)) * mass;
         }
+
+        /// <summary>
+        /// The friction of a ball at a surface by LagSim's rule, the lesser of the two; all balls of a scene have the same.
+        /// </summary>
+        protected double FrictionAt(StaticPlane plane) => Math.Min(plane.Friction, Scene.Bodies[0].Spec.Friction);
 
         /// <summary>The restitution of a ball at a surface by LagSim's rule, the lesser of the two; all balls of a scene have the same.</summary>
         protected double RestitutionAt(StaticPlane plane) => Math.Min(plane.Restitution, Scene.Bodies[0].Spec.Restitution);

@@ -7,9 +7,12 @@ using BepuUtilities;
 
 namespace LagSim.Harness.Accuracy.Peers.Packages;
 
-/// <summary>What BepuPhysics asks of contacts: a spring a pair, no friction.</summary>
+/// <summary>What BepuPhysics asks of contacts: a spring a pair, one friction for all.</summary>
 internal struct BepuContacts : INarrowPhaseCallbacks
 {
+    /// <summary>The coefficient of friction.</summary>
+    internal float Friction;
+
     /// <summary>Of two balls.</summary>
     internal SpringSettings Balls;
 
@@ -31,7 +34,7 @@ internal struct BepuContacts : INarrowPhaseCallbacks
         SpringSettings spring = pair.A.Mobility == CollidableMobility.Static ? Walls[pair.A.StaticHandle.Value]
             : pair.B.Mobility == CollidableMobility.Static ? Walls[pair.B.StaticHandle.Value]
             : Balls;
-        pairMaterial = new PairMaterialProperties(0, float.MaxValue, spring);
+        pairMaterial = new PairMaterialProperties(Friction, float.MaxValue, spring);
         return true;
     }
 

@@ -13,7 +13,7 @@ namespace LagSim.Harness.Accuracy.Peers.Packages;
 /// It has no restitution: a contact is a damped spring. The spring's damping ratio z is what leaves the scene's restitution to half a swing,
 /// e = exp(-pi z / sqrt(1 - z^2)), and nothing limits how fast it pushes out. A stiff spring loses energy to the solver's step, a soft one holds the ball for
 /// long; both fall alike with finer steps where the frequency goes with the root of the rate, by <see cref="Stiffness"/> (docs/ACCURACY.md has what was tried).
-/// No friction, no sleeping. A force is an impulse before each step.
+/// Friction is that of the scene's balls everywhere. No sleeping. A force is an impulse before each step.
 /// </remarks>
 internal sealed class BepuMethod : SteppedEngine
 {
@@ -42,6 +42,7 @@ internal sealed class BepuMethod : SteppedEngine
             float frequency = (float)(Stiffness / Math.Sqrt(step));
             BepuContacts contacts = new()
             {
+                Friction = (float)Scene.Bodies[0].Spec.Friction,
                 Balls = new SpringSettings(frequency, Damping(Scene.Bodies[0].Spec.Restitution)),
                 Walls = Array.ConvertAll([.. Scene.Planes], plane => new SpringSettings(frequency, Damping(RestitutionAt(plane)))),
             };
@@ -68,6 +69,8 @@ internal sealed class BepuMethod : SteppedEngine
 
         public override Vector3D Velocity(int body) => Read(world.Bodies[bodies[body]].Velocity.Linear);
 
+        public override Vector3D Spin(int body) => Read(world.Bodies[bodies[body]].Velocity.Angular);
+
         public override void Dispose()
         {
             world.Dispose();
@@ -86,7 +89,7 @@ internal sealed class BepuMethod : SteppedEngine
 
         private static float Damping(double restitution)
         {
-            double log = Math.Log(restitution);
+            double log = Math.Log(Math.Max(restitution, 1e-9)); // none at all is critical damping
             return (float)(-log / Math.Sqrt((Math.PI * Math.PI) + (log * log)));
         }
 

@@ -10,8 +10,9 @@ namespace LagSim.Harness.Accuracy.Peers.Packages;
 
 /// <summary>Box2D.NET 3.1, in single precision, for scenes that are plane: circles and segments, all else by default (4 substeps, continuous detection).</summary>
 /// <remarks>
-/// Set as the scenes ask for: no friction, the lesser of two restitutions (a callback of the world's), at any speed (<c>restitutionThreshold</c> 0, not 1 m/s),
-/// no sleeping. A force is an impulse before each step: applied as a force it would be the same on all substeps, which is less exact.
+/// Set as the scenes ask for: the lesser of two frictions and of two restitutions (callbacks of the world's), at any speed
+/// (<c>restitutionThreshold</c> 0, not 1 m/s), no sleeping. A force is an impulse before each step: applied as a force it would be the same
+/// on all substeps, which is less exact.
 /// </remarks>
 internal sealed class Box2DMethod : FlatEngine
 {
@@ -37,6 +38,7 @@ internal sealed class Box2DMethod : FlatEngine
             settings.gravity = Vector(FlatDirection(Scene.Gravity));
             settings.restitutionThreshold = 0;
             settings.restitutionCallback = static (a, _, b, _) => Math.Min(a, b);
+            settings.frictionCallback = static (a, _, b, _) => Math.Min(a, b);
             settings.enableSleep = false;
             world = b2CreateWorld(settings);
             B2BodyId ground = b2CreateBody(world, b2DefaultBodyDef());
@@ -44,7 +46,7 @@ internal sealed class Box2DMethod : FlatEngine
             {
                 if (Line(plane, 0) is ({ } from, { } to))
                 {
-                    b2CreateSegmentShape(ground, Shape(plane.Restitution), new B2Segment(Vector(from), Vector(to)));
+                    b2CreateSegmentShape(ground, Shape(plane.Restitution, plane.Friction), new B2Segment(Vector(from), Vector(to)));
                 }
             }
 
@@ -57,7 +59,7 @@ internal sealed class Box2DMethod : FlatEngine
                 body.position = Vector(FlatStart(n));
                 body.linearVelocity = Vector(FlatDirection(Scene.Bodies[n].Velocity));
                 bodies[n] = b2CreateBody(world, body);
-                B2ShapeDef shape = Shape(spec.Restitution);
+                B2ShapeDef shape = Shape(spec.Restitution, spec.Friction);
                 shape.density = (float)(spec.Mass / (Math.PI * spec.Radius * spec.Radius));
                 b2CreateCircleShape(bodies[n], shape, new B2Circle(new B2Vec2(0, 0), (float)spec.Radius));
             }
@@ -94,12 +96,14 @@ internal sealed class Box2DMethod : FlatEngine
             return (v.X, v.Y);
         }
 
+        protected override double FlatSpin(int body) => b2Body_GetAngularVelocity(bodies[body]);
+
         private static B2Vec2 Vector((double X, double Y) v) => new((float)v.X, (float)v.Y);
 
-        private static B2ShapeDef Shape(double restitution)
+        private static B2ShapeDef Shape(double restitution, double friction)
         {
             B2ShapeDef shape = b2DefaultShapeDef();
-            shape.material.friction = 0;
+            shape.material.friction = (float)friction;
             shape.material.restitution = (float)restitution;
             return shape;
         }

@@ -8,7 +8,8 @@ namespace LagSim.Harness.Accuracy.Peers.Packages;
 internal static class BoxWall
 {
     /// <summary>Why an engine whose walls are such boxes is left out of a scene; null if it is not.</summary>
-    internal static string? Excludes(Scene scene) => scene.Planes.All(plane => IsOne(plane.Normal.X) || IsOne(plane.Normal.Y) || IsOne(plane.Normal.Z)) ? null
+    internal static string? Excludes(Scene scene) => scene.StaticSpheres.Count > 0 ? "its static spheres are not set up here"
+        : scene.Planes.All(plane => IsOne(plane.Normal.X) || IsOne(plane.Normal.Y) || IsOne(plane.Normal.Z)) ? null
         : "its walls are boxes along the axes, and the scene has one that is oblique";
 
     /// <summary>The box's centre and its sides in metres: thick enough that nothing gets through it in a step, and no larger than single precision bears.</summary>

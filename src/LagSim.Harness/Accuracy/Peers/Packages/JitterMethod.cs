@@ -9,8 +9,8 @@ namespace LagSim.Harness.Accuracy.Peers.Packages;
 
 /// <summary>Jitter2 in double precision: spheres, walls as boxes, all else by default (6 iterations and 4 of relaxation, no substeps), on one thread.</summary>
 /// <remarks>
-/// Set as the scenes ask for: no friction, no damping, no sleeping. It takes the greater of two restitutions, and none below 1 m/s, which cannot be changed. A
-/// force is an impulse before each step: added as a force it would act a step later.
+/// Set as the scenes ask for: no damping, no sleeping. It takes the greater of two frictions and of two restitutions, and none below 1 m/s,
+/// which cannot be changed. A force is an impulse before each step: added as a force it would act a step later.
 /// </remarks>
 internal sealed class JitterMethod : SteppedEngine
 {
@@ -37,7 +37,7 @@ internal sealed class JitterMethod : SteppedEngine
             foreach (StaticPlane plane in Scene.Planes)
             {
                 (Vector3D centre, Vector3D sides) = BoxWall.Of(plane);
-                RigidBody wall = Add(new BoxShape(Vector(sides)), centre, RestitutionAt(plane));
+                RigidBody wall = Add(new BoxShape(Vector(sides)), centre, RestitutionAt(plane), FrictionAt(plane));
                 wall.MotionType = MotionType.Static;
             }
 
@@ -45,7 +45,8 @@ internal sealed class JitterMethod : SteppedEngine
             for (int n = 0; n < bodies.Length; n++)
             {
                 SceneBody body = Scene.Bodies[n];
-                RigidBody ball = bodies[n] = Add(new SphereShape(body.Spec.Radius), body.Position, body.Spec.Restitution);
+                BodySpec spec = body.Spec;
+                RigidBody ball = bodies[n] = Add(new SphereShape(spec.Radius), body.Position, spec.Restitution, spec.Friction);
                 ball.SetMassInertia(body.Spec.Mass);
                 ball.Damping = (0, 0);
                 ball.Velocity = Vector(body.Velocity);
@@ -55,6 +56,8 @@ internal sealed class JitterMethod : SteppedEngine
         public override Vector3D Position(int body) => Read(bodies[body].Position);
 
         public override Vector3D Velocity(int body) => Read(bodies[body].Velocity);
+
+        public override Vector3D Spin(int body) => Read(bodies[body].AngularVelocity);
 
         public override void Dispose() => world.Dispose();
 
@@ -72,12 +75,12 @@ internal sealed class JitterMethod : SteppedEngine
 
         private static Vector3D Read(in JVector v) => new(v.X, v.Y, v.Z);
 
-        private RigidBody Add(RigidBodyShape shape, in Vector3D position, double restitution)
+        private RigidBody Add(RigidBodyShape shape, in Vector3D position, double restitution, double friction)
         {
             RigidBody body = world.CreateRigidBody();
             body.AddShape(shape);
             body.Position = Vector(position);
-            body.Friction = 0;
+            body.Friction = friction;
             body.Restitution = restitution;
             return body;
         }
