@@ -269,9 +269,11 @@ public sealed class SceneExplanation
     private static string Tolerance(Scene scene)
     {
         double tolerance = scene.ContactTolerance;
-        return tolerance != SceneBuilder.DefaultContactTolerance(scene.SmallestRadius) ? $"{Text(tolerance)} m, as the scene sets it."
-            : tolerance < SceneBuilder.MaxDefaultContactTolerance ? $"{Text(tolerance)} m, the default: a hundredth of the smallest radius, {Text(scene.SmallestRadius)} m."
-            : $"{Text(tolerance)} m, the default where the smallest radius is {Text(100 * SceneBuilder.MaxDefaultContactTolerance)} m or more.";
+        string why = tolerance != SceneBuilder.DefaultContactTolerance(scene.SmallestRadius) ? "as the scene sets it"
+            : tolerance < SceneBuilder.MaxDefaultContactTolerance
+            ? $"the default: a hundredth of the smallest radius, {Text(scene.SmallestRadius)} m"
+            : $"the default where the smallest radius is {Text(100 * SceneBuilder.MaxDefaultContactTolerance)} m or more";
+        return $"{Text(tolerance)} m, {why}.";
     }
 
     private static string Idle(List<string> idle) => idle.Count == 0 ? "" : $" On no body of the scene: {string.Join(", ", idle)}.";

@@ -32,7 +32,9 @@ public sealed class SceneFileRefusalTests
     [InlineData("\"gravity_m_per_s2\": [0, 1e7, 0]", "gravity_m_per_s2", "within +-1000000 m/s^2")]
     [InlineData("\"resolution_m\": 1", "resolution_m", "must lie between 1E-15 and 0.001 m")]
     [InlineData("\"resolution_m\": {}", "resolution_m", "it is an object; it must be a number")]
-    [InlineData("\"contact_tolerance_m\": 9e-10", "contact_tolerance_m", "The contact tolerance of scene 's' is 9E-10; it must lie between 1E-09 and 0.1 m")]
+    [InlineData(
+        "\"contact_tolerance_m\": 9e-10", "contact_tolerance_m",
+        "The contact tolerance of scene 's' is 9E-10; it must lie between 1E-09 and 0.1 m")]
     [InlineData("\"contact_tolerance_m\": 0.11", "contact_tolerance_m", "must lie between 1E-09 and 0.1 m")]
     [InlineData("\"contact_tolerance_m\": 0", "contact_tolerance_m", "must lie between 1E-09 and 0.1 m")]
     [InlineData("\"contact_tolerance_m\": NaN", "contact_tolerance_m", "NaN and infinity are refused everywhere")]

@@ -48,7 +48,8 @@ internal static class SceneGen
         from forces in Gen.ArrayOf(AnyForce)
         from spawners in Peers
         from bodies in Gen.ArrayOf(Body)
-        select Build(name, gravity, resolution, tolerance, smallest, planeSeeds, spheres, forces.Take(ForceSet.Most).ToArray(), spawners, bodies);
+        select Build(
+            name, gravity, resolution, tolerance, smallest, planeSeeds, spheres, forces.Take(ForceSet.Most).ToArray(), spawners, bodies);
 
     private static Gen<(BodySpec Spec, Vector3D Velocity, PeerSet Players)> Body =>
         from radius in Log(-8, 8)

@@ -62,7 +62,12 @@ public sealed class SceneFormatTests
     {
         // The control of the tests above: they would see it.
         byte[] bytes = SceneFormat.Encode(One());
-        foreach (int at in new[] { GravityAt, ResolutionAt, ToleranceOfContactAt, SpawnersAt, SpawnersAt + 1, RestitutionAt, StepAt, PositionAt, VelocityAt, PlayersAt, PlayersAt + 1 })
+        int[] places =
+        [
+            GravityAt, ResolutionAt, ToleranceOfContactAt, SpawnersAt, SpawnersAt + 1, RestitutionAt, StepAt, PositionAt, VelocityAt, PlayersAt,
+            PlayersAt + 1,
+        ];
+        foreach (int at in places)
         {
             byte[] other = (byte[])bytes.Clone();
             other[at] ^= 1;
