@@ -14,6 +14,13 @@ namespace LagSim;
 /// </remarks>
 public sealed partial class Simulation
 {
+    /// <summary>Has a hand press with any force: only a test's negative control sets it.</summary>
+    internal bool PressesOn
+    {
+        get => step.HandsHaveNoLimit;
+        set => step.HandsHaveNoLimit = value;
+    }
+
     /// <summary>So often what is let go inside static geometry is put out of one surface after the other.</summary>
     private const int MostPuttingOut = 16;
 

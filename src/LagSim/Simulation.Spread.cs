@@ -124,7 +124,7 @@ public sealed partial class Simulation
         AddReachedSupports();
         double tolerance = 0.1 * step.Scale.SweepSpeed;
         double more = step.Scale.Pull * step.Scale.Step.ToSeconds();
-        ContactSolver.LimitHands(reached, more);
+        LimitAgain(more);
         ContactSolver.Solve(reached, tolerance, ContactStep.MostSweeps);
         ahead.Clear();
         for (bool grows = true; grows && ahead.Count == 0;)
@@ -174,9 +174,12 @@ public sealed partial class Simulation
     /// <summary>The more bodies are reached, the more a hand may give; by the velocities before.</summary>
     private void LimitAgain(double more)
     {
-        SwapVelocities();
-        ContactSolver.LimitHands(reached, more);
-        SwapVelocities();
+        if (!PressesOn)
+        {
+            SwapVelocities();
+            ContactSolver.LimitHands(reached, more);
+            SwapVelocities();
+        }
     }
 
     private void SwapVelocities()
