@@ -12,6 +12,7 @@ namespace LagSim;
 public sealed partial class Simulation
 {
     private readonly ContactProblem reached = new();
+    private readonly UnlikeMassSolver unlike = new();
     private Vector3D[] velocitiesBefore = Array.Empty<Vector3D>();
     private Vector3D[] spinsBefore = Array.Empty<Vector3D>();
 
@@ -125,7 +126,7 @@ public sealed partial class Simulation
         double tolerance = 0.1 * step.Scale.SweepSpeed;
         double more = step.Scale.Pull * step.Scale.Step.ToSeconds();
         LimitAgain(more);
-        ContactSolver.Solve(reached, tolerance, ContactStep.MostSweeps);
+        SolveReached(tolerance);
         ahead.Clear();
         for (bool grows = true; grows && ahead.Count == 0;)
         {
@@ -143,7 +144,7 @@ public sealed partial class Simulation
             if (grows && ahead.Count == 0)
             {
                 LimitAgain(more);
-                ContactSolver.Solve(reached, tolerance, ContactStep.MostSweeps);
+                SolveReached(tolerance);
             }
         }
 
@@ -169,6 +170,24 @@ public sealed partial class Simulation
         }
 
         return true;
+    }
+
+    /// <summary>Goes on from the impulses so far; where masses are unlike, begins again from the velocities before.</summary>
+    private void SolveReached(double tolerance)
+    {
+        if (!UnlikeMassSolver.Suits(reached))
+        {
+            ContactSolver.Solve(reached, tolerance, ContactStep.MostSweeps);
+            return;
+        }
+
+        for (int i = 0; i < partyCount; i++)
+        {
+            reached.Bodies[i].Velocity = velocitiesBefore[i];
+            reached.Bodies[i].Spin = spinsBefore[i];
+        }
+
+        unlike.Solve(reached);
     }
 
     /// <summary>The more bodies are reached, the more a hand may give; by the velocities before.</summary>
@@ -341,7 +360,7 @@ public sealed partial class Simulation
             c.Target = Math.Min(0, c.Target);
         }
 
-        ContactSolver.Solve(reached, tolerance, ContactStep.MostSweeps);
+        SolveReached(tolerance);
     }
 
     private void OpenReached(in EventKey key, double residual, int struckParties)

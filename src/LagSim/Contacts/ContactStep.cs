@@ -20,6 +20,7 @@ internal sealed class ContactStep
     internal const int MostSweeps = 200;
 
     private readonly Scene scene;
+    private readonly UnlikeMassSolver unlike = new();
     private Member[] members = new Member[8];
     private int[] byPlace = new int[8];
     private double[] places = new double[8];
@@ -109,8 +110,8 @@ internal sealed class ContactStep
         }
 
 
-        ContactSolver.ApplyGiven(Problem);
-        Sweeps = ContactSolver.Solve(Problem, tolerance, MostSweeps);
+        Sweeps = 0;
+        Sweep(tolerance);
     }
 
     /// <summary>
@@ -140,6 +141,17 @@ internal sealed class ContactStep
         {
             Problem.Bodies[b].Velocity = members[b].Free;
             Problem.Bodies[b].Spin = members[b].FreeSpin;
+        }
+
+        Sweep(tolerance);
+    }
+
+    private void Sweep(double tolerance)
+    {
+        if (UnlikeMassSolver.Suits(Problem))
+        {
+            unlike.Solve(Problem);
+            return;
         }
 
         ContactSolver.ApplyGiven(Problem);
