@@ -178,6 +178,11 @@ internal ref struct SceneDecoder
             Vector3D velocity = reader.ReadVector();
             PeerSet players = PeerSet.FromMask(reader.ReadUInt16());
             Vector3D spin = reader.ReadVector();
+            if (IsSound && spec.Flight == MotionLaw.Automatic)
+            {
+                Refuse($"The motion law of body '{name}' is Automatic; on the wire a scene has the one that was chosen.");
+            }
+
             if (IsSound)
             {
                 builder.AddBody(name, spec, position, velocity, players, spin);

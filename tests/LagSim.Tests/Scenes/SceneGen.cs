@@ -40,6 +40,7 @@ internal static class SceneGen
         from name in Prefix
         from gravity in Within(1e5)
         from resolution in Log(-14, -4)
+        from contactTolerance in Gen.OneOf(Gen.Constant(0.0), Log(-9, -1))
         from smallest in Gen.OneOf(Gen.Constant(0.0), Log(-8, 8))
         from planes in Gen.Choose(0, 3)
         from planeSeeds in Gen.ArrayOf(Plane, planes)
@@ -47,7 +48,9 @@ internal static class SceneGen
         from forces in Gen.ArrayOf(AnyForce)
         from spawners in Peers
         from bodies in Gen.ArrayOf(Body)
-        select Build(name, gravity, resolution, smallest, planeSeeds, spheres, forces.Take(ForceSet.Most).ToArray(), spawners, bodies);
+        select Build(
+            name, gravity, resolution, contactTolerance, smallest, planeSeeds, spheres, forces.Take(ForceSet.Most).ToArray(), spawners,
+            bodies);
 
     private static Gen<(BodySpec Spec, Vector3D Velocity, PeerSet Players)> Body =>
         from radius in Log(-8, 8)
@@ -91,6 +94,7 @@ internal static class SceneGen
         string name,
         Vector3D gravity,
         double resolution,
+        double contactTolerance,
         double smallest,
         (Vector3D Normal, Vector3D Point)[] planes,
         double[] spheres,
@@ -100,6 +104,11 @@ internal static class SceneGen
     {
         SceneBuilder builder = new SceneBuilder(name).WithGravity(gravity).WithResolution(resolution).WithSpawners(spawners);
         double least = bodies.Select(b => b.Spec.Radius).Append(smallest > 0 ? smallest : 1e9).Min();
+        if (contactTolerance > 0)
+        {
+            builder.WithContactTolerance(contactTolerance);
+        }
+
         if (smallest > 0)
         {
             builder.WithSmallestRadius(least);

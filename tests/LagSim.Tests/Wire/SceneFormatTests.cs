@@ -20,24 +20,25 @@ public sealed class SceneFormatTests
     // Where things stand in the scene that One gives: name "s", one plane "p", one static sphere "q", one body "b".
     private const int GravityAt = 3;
     private const int ResolutionAt = 27;
-    private const int SmallestAt = 35;
-    private const int SpawnersAt = 43;
-    private const int ForcesAt = 45;
-    private const int PlanesAt = 46;
-    private const int PlaneNameAt = 48;
-    private const int NormalAt = 50;
-    private const int SpheresAt = 98;
-    private const int BodiesAt = 150;
-    private const int BodyNameAt = 153;
-    private const int RestitutionAt = 170;
-    private const int FlightAt = 178;
-    private const int StepAt = 179;
-    private const int SpecForcesAt = 187;
-    private const int ToleranceAt = 191;
-    private const int PositionAt = 215;
-    private const int VelocityAt = 239;
-    private const int PlayersAt = 263;
-    private const int Length = 289;
+    private const int ContactToleranceAt = 35;
+    private const int SmallestAt = 43;
+    private const int SpawnersAt = 51;
+    private const int ForcesAt = 53;
+    private const int PlanesAt = 54;
+    private const int PlaneNameAt = 56;
+    private const int NormalAt = 58;
+    private const int SpheresAt = 106;
+    private const int BodiesAt = 158;
+    private const int BodyNameAt = 161;
+    private const int RestitutionAt = 178;
+    private const int FlightAt = 186;
+    private const int StepAt = 187;
+    private const int SpecForcesAt = 195;
+    private const int ToleranceAt = 199;
+    private const int PositionAt = 223;
+    private const int VelocityAt = 247;
+    private const int PlayersAt = 271;
+    private const int Length = 297;
 
     [Fact]
     public void Encode_AnyScene_DecodesToTheSameWorldInTheSameBytes() => Prop.ForAll(
@@ -61,7 +62,12 @@ public sealed class SceneFormatTests
     {
         // The control of the tests above: they would see it.
         byte[] bytes = SceneFormat.Encode(One());
-        foreach (int at in new[] { GravityAt, ResolutionAt, SpawnersAt, SpawnersAt + 1, RestitutionAt, StepAt, PositionAt, VelocityAt, PlayersAt, PlayersAt + 1 })
+        int[] numbers =
+        [
+            GravityAt, ResolutionAt, ContactToleranceAt, SpawnersAt, SpawnersAt + 1, RestitutionAt, StepAt, PositionAt, VelocityAt,
+            PlayersAt, PlayersAt + 1,
+        ];
+        foreach (int at in numbers)
         {
             byte[] other = (byte[])bytes.Clone();
             other[at] ^= 1;
@@ -109,14 +115,14 @@ public sealed class SceneFormatTests
         }
 
         Refused(whole.AsSpan(0, 0), "The 0 bytes of the scene end within the scene's head.");
-        Refused(whole.AsSpan(0, PlanesAt), "The 46 bytes of the scene end within the scene's plane count.");
-        Refused(whole.AsSpan(0, Length - 1), "The 288 bytes of the scene end within body 1 of the scene.");
+        Refused(whole.AsSpan(0, PlanesAt), "The 54 bytes of the scene end within the scene's plane count.");
+        Refused(whole.AsSpan(0, Length - 1), "The 296 bytes of the scene end within body 1 of the scene.");
         Refused(whole.AsSpan(0, Length - 2), "announces 1 parts of the kind 'body', of 136 bytes or more, and has 135 bytes left");
         Refused([.. whole, .. new byte[24]], "The scene's periodic box has no size");
         Refused([.. whole, .. new byte[25]], "The scene's periodic box has no size");
         for (int value = 0; value <= 255; value++)
         {
-            Refused([.. whole, (byte)value], "The 290 bytes of the scene end within the scene's periodic box.");
+            Refused([.. whole, (byte)value], "The 298 bytes of the scene end within the scene's periodic box.");
         }
     }
 
@@ -161,6 +167,8 @@ public sealed class SceneFormatTests
     {
         Refused(With(RestitutionAt, 1.5), "The restitution of body 'b' is 1.5; it must lie between 0 and 1");
         Refused(With(ResolutionAt, 1), "The resolution of scene 's' is 1;");
+        Refused(With(ContactToleranceAt, 0.11), "The contact tolerance of scene 's' is 0.11;");
+        Refused(With(ContactToleranceAt, 0), "The contact tolerance of scene 's' is 0;");
         Refused(With(GravityAt, 1e7), "The gravity of scene 's' is");
         Refused(With(PositionAt, 2e12), "The position of body 'b' is");
         Refused(With(VelocityAt, 1e300), "The velocity of body 'b' is");
@@ -179,6 +187,12 @@ public sealed class SceneFormatTests
     {
         Refused(WithInt64(StepAt, 0), "In body 1 of the scene a number is not finite, a step is zero");
         Refused(With(NormalAt + 8, 2), "The normal of plane 'p' is (0, 2, 0); on the wire it has unit length.");
+        BodySpec automatic = new(0.5, 1, 0, forces: ForceSet.Of(0));
+        Scene pulled = new SceneBuilder("s").AddForce(Force.LinearDrag("f", 1)).AddBody("b", automatic, V(0)).Build();
+        byte[] bytes = SceneFormat.Encode(pulled);
+        Assert.Equal((byte)pulled.Bodies[0].Spec.Flight, bytes[^111]);
+        bytes[^111] = (byte)MotionLaw.Automatic;
+        Refused(bytes, "The motion law of body 'b' is Automatic; on the wire a scene has the one that was chosen.");
         Refused(With(SmallestAt, 1), "The radius of body 'b' is 0.5 m; the smallest radius of the scene is 1 m, and must be at most that of every body.");
     }
 
@@ -187,7 +201,7 @@ public sealed class SceneFormatTests
     [InlineData(double.NegativeInfinity)]
     public void TryDecode_NumberNotFinite_IsRefusedInEveryField(double value)
     {
-        foreach (int at in new[] { GravityAt, ResolutionAt, SmallestAt })
+        foreach (int at in new[] { GravityAt, ResolutionAt, ContactToleranceAt, SmallestAt })
         {
             Refused(With(at, value), "In the scene's head a number is not finite");
         }
@@ -313,7 +327,7 @@ public sealed class SceneFormatTests
         if (isAccepted)
         {
             byte[] again = SceneFormat.Encode(scene!);
-            Assert.True(AnyDatagram.SameButForNegativeZero(bytes, again), Convert.ToHexString(bytes));
+            Assert.True(AnyDatagram.SameButForNegativeZero(bytes, again), $"{Convert.ToHexString(bytes)} and {Convert.ToHexString(again)}");
             Assert.Equal(again, SceneFormat.Encode(Decoded(again, known)));
         }
 
