@@ -11,7 +11,7 @@ public static class RecordingFormat
     public const string Extension = ".lagsim";
 
     /// <summary>The version of the records. Scene and events in them are in that of the wire, <see cref="WireFormat.Version"/>.</summary>
-    public const byte Version = 3;
+    public const byte Version = 4;
 
     /// <summary>The longest snapshot that a recording holds, that of a late joiner: 64 MiB.</summary>
     public const int MaxSnapshotBytes = 1 << 26;

@@ -24,8 +24,8 @@ public static class SnapshotFormat
 
     /// <summary>The bytes of a snapshot.</summary>
     /// <exception cref="ArgumentException">
-    /// A body has a number that is not finite, a negative support, or more than 65,535 contacts, which none of a world has; or all of them
-    /// take 2 GiB or more.
+    /// A body has a number that is not finite, a negative support, a contact with a surface below <see cref="LastingContact.NoSurface"/>,
+    /// or more than 65,535 contacts, none of which a world has; or all of them take 2 GiB or more.
     /// </exception>
     public static byte[] Encode(WorldSnapshot snapshot)
     {
@@ -166,7 +166,8 @@ public static class SnapshotFormat
         foreach (LastingContact contact in body.Contacts)
         {
             writer.WriteUInt64(contact.Partner.Packed);
-            writer.WriteUInt32(unchecked((uint)contact.Surface));
+            writer.WriteUInt32(contact.Surface >= LastingContact.NoSurface ? unchecked((uint)contact.Surface)
+                : throw new ArgumentException($"Body {body.Id} cannot travel: it has a contact with surface {contact.Surface}."));
             writer.WriteByte(contact.Holds ? (byte)1 : (byte)0);
             WriteExactly(ref writer, contact.Push);
             WriteExactly(ref writer, contact.Turn);

@@ -187,10 +187,11 @@ public sealed class DamageTests
     public void Read_OtherVersion_IsRefusedWithBoth()
     {
         byte[] bytes = (byte[])Whole.Clone();
-        foreach (byte version in new byte[] { 2, 9 })
+        foreach (byte version in new byte[] { 3, 9 })
         {
             bytes[8] = version;
-            Assert.Equal($"Damaged at byte 8: The recording is of version {version}; this library reads version 3.", Read(bytes).Damage!.ToString());
+            Assert.Equal(
+                $"Damaged at byte 8: The recording is of version {version}; this library reads version 4.", Read(bytes).Damage!.ToString());
         }
 
         bytes[8] = RecordingFormat.Version;

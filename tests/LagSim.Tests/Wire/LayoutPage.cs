@@ -111,7 +111,10 @@ internal static class LayoutPage
                 return ((Vector3D[])value).SelectMany(c => Bytes("bits", c)).ToArray();
             case "hold":
                 return ((Hold Hold, Vector3D Cubic)?)value is var (hold, cubic) ? [.. Bytes("bits", cubic), hold.Peer, .. Bytes("bits", hold.Offset), .. Bytes("ticks", hold.Knot)] : [];
-            case "bytes" or "8 bytes" or "token" or "entry":
+            case "member":
+                return ((SimTime Centre, SimTime Still, int Contacts)?)value is var (centre, still, contacts)
+                    ? [.. Bytes("ticks", centre), .. Bytes("ticks", still), .. Bytes("u16", contacts)] : [];
+            case "bytes" or "8 bytes" or "token" or "entry" or "contacts":
                 return (byte[])value;
             case "spec":
                 BodySpec spec = (BodySpec)value;

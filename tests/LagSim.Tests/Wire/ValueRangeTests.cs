@@ -152,9 +152,10 @@ public class ValueRangeTests
         AssertHeader(WireRefusal.TooShort, 0x53, 0x4C, 3);
         AssertHeader(WireRefusal.NotLagSim, 0x4C, 0x53, 3, 1);
         AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, 1, 1);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 7, 0);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, 7, 14);
-        AssertHeader(WireRefusal.None, 0x53, 0x4C, 7, 13);
+        AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, WireFormat.Version - 1, 1);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, WireFormat.Version, 0);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, WireFormat.Version, 14);
+        AssertHeader(WireRefusal.None, 0x53, 0x4C, WireFormat.Version, 13);
     }
 
     [Fact]

@@ -6,6 +6,7 @@ using LagSim.Events;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Tests.Wire;
 
@@ -36,6 +37,22 @@ internal static class WireGen
         Bits64.Select(bits => BitConverter.UInt64BitsToDouble(bits)).Where(double.IsFinite).Select(value => value + 0.0));
 
     internal static readonly Gen<Vector3D> Vector = from x in Number from y in Number from z in Number select new Vector3D(x, y, z);
+
+    /// <summary>Every finite number, -0.0 and the smallest there are among them: of what travels to the bit.</summary>
+    internal static readonly Gen<double> Exact = Gen.OneOf(
+        Gen.Elements(0.0, -0.0, double.Epsilon, -double.Epsilon, double.MaxValue),
+        Bits64.Select(BitConverter.UInt64BitsToDouble).Where(double.IsFinite));
+
+    internal static readonly Gen<Vector3D> ExactVector = from x in Exact from y in Exact from z in Exact select new Vector3D(x, y, z);
+
+    /// <summary>A lasting contact with anybody or any surface.</summary>
+    internal static readonly Gen<LastingContact> Contact =
+        from partner in Bits64
+        from surface in Gen.OneOf(Gen.Elements(LastingContact.NoSurface, 0, int.MaxValue), Gen.Choose(0, 1000))
+        from holds in Gen.Elements(true, false)
+        from push in ExactVector
+        from turn in ExactVector
+        select new LastingContact(BodyId.FromPacked(partner), surface, holds, push, turn);
 
     internal static readonly Gen<BodySpec> Spec =
         from radius in Gen.OneOf(Gen.Elements(1e-9, 0.5, 1e9), Gen.Choose(1, 1000000).Select(n => n * 1e-3))

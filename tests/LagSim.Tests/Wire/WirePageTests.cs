@@ -39,7 +39,7 @@ public sealed class WirePageTests
     [Fact]
     public void Tables_OfCopyAndSnapshot_AreThoseOfWorlds()
     {
-        int dense = 0, carried = 0, held = 0;
+        int dense = 0, carried = 0, held = 0, inContact = 0;
         foreach (RandomWorld world in Enumerable.Range(1, 40).Select(seed => new RandomWorld(seed, hands: true)))
         {
             WorldSnapshot snapshot = world.OnTime().Snapshot(At(0.6));
@@ -48,9 +48,11 @@ public sealed class WirePageTests
             dense += snapshot.Bodies.Count(b => b.Law == MotionLaw.RungeKutta4);
             carried += snapshot.Bodies.Count(b => b.SupportCount > 0);
             held += snapshot.Bodies.Count(b => b.Law == MotionLaw.Held);
+            inContact += snapshot.Bodies.Count(b => b.Contacts.Length > 0);
         }
 
-        Assert.True(dense > 10 && carried > 3 && held > 5, $"{dense} {carried} {held}"); // else nothing was shown
+        // Else nothing was shown.
+        Assert.True(dense > 10 && carried > 3 && held > 5 && inContact > 3, $"{dense} {carried} {held} {inContact}");
     }
 
     [Fact]
@@ -74,7 +76,7 @@ public sealed class WirePageTests
             }
         }
 
-        Assert.Equal(3 + 3 + 6 + 2 + 17 + 4 + 6 + 3 + 2 + 7 + 5 + 3 + 6 + 9 + 4 + 3 + 3 + 27, rows);
+        Assert.Equal(3 + 3 + 6 + 2 + 17 + 4 + 6 + 3 + 2 + 7 + 5 + 3 + 6 + 9 + 4 + 3 + 3 + 28 + 5, rows);
     }
 
     [Fact]
@@ -164,6 +166,21 @@ public sealed class WirePageTests
             BodySnapshot held = new(
                 b.Id, b.Spec, b.Opened, MotionLaw.Held, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [7], V(1, 2, 3), hold: new Hold(3, V(4, 5, 6), At(7)));
             snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [held]);
+        }
+
+        else if (seed == 4)
+        {
+            BodySnapshot b = snapshot.Bodies[0];
+            LastingContact[] contacts =
+                [new(Second, LastingContact.NoSurface, true, V(1, 2, 3), V(4, 5, 6)), new(First, 7, false, V(7, 8, 9), V(-1, -2, -0.0))];
+            BodySnapshot member = new(
+                b.Id, b.Spec, b.Opened, MotionLaw.Constrained, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, spin: V(10, 11, 12),
+                centre: At(0.125), stillSince: At(0.25), contacts: contacts);
+            BodySnapshot sleeper = new(
+                Second, b.Spec, b.Opened, MotionLaw.Resting, b.Epoch, b.End, b.Position, default, default, centre: At(0.375),
+                contacts: contacts.AsSpan(0, 1));
+            BodySnapshot carried = new(Third, b.Spec, b.Opened, MotionLaw.Resting, b.Epoch, b.End, b.Position, default, default, [3]);
+            snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [member, sleeper, carried]);
         }
 
         return (WorldCopy.Encode(world.Scene, snapshot), (Func<string[], byte[]>)(page => Copy(page, world.Scene, snapshot)));
@@ -349,18 +366,33 @@ public sealed class WirePageTests
             bytes,
             Table(page, "## Snapshot"),
             Values(("start", snapshot.Start), ("time", snapshot.Time), ("event hash", snapshot.EventHash), ("bodies", snapshot.Bodies.Count)),
-            new() { ["bodies"] = ("", snapshot.Bodies.Select(Body)) });
+            new() { ["bodies"] = ("", snapshot.Bodies.Select(body => Body(page, body))) });
         return bytes.ToArray();
     }
 
-    private static Dictionary<string, object> Body(BodySnapshot b) => Values(
+    private static Dictionary<string, object> Body(string[] page, BodySnapshot b) => Values(
         ("body id", b.Id.Packed), ("body spec", b.Spec), ("opened at", b.Opened.Time), ("opened round", b.Opened.Round), ("opened kind", (byte)b.Opened.Kind),
         ("opened body", b.Opened.Body.Packed), ("opened other", b.Opened.Other.Packed), ("opened peer", b.Opened.Peer), ("opened sequence", b.Opened.Sequence),
         ("law", (byte)b.Law), ("epoch", b.Epoch), ("end", b.End), ("position", b.Position), ("velocity", b.Velocity), ("acceleration", b.Acceleration),
         ("supports", (byte)b.SupportCount), ("carried by", Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray()),
-        ("dense output", b.Law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54 or MotionLaw.Constrained ? new[] { b.Cubic, b.Quartic, b.Quintic } : []),
+        ("dense output", b.Law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54
+            ? new[] { b.Cubic, b.Quartic, b.Quintic } : []),
         ("next step", b.Law == MotionLaw.DormandPrince54 ? new[] { b.NextStep.Ticks } : []),
         ("turns", b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? 1 : 0),
         ("spin", b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? new[] { b.Spin, b.SpinRate } : []),
-        ("hold", b.Law == MotionLaw.Held ? (b.Hold, b.Cubic) : null!));
+        ("hold", b.Law == MotionLaw.Held ? (b.Hold, b.Cubic) : null!),
+        ("member", IsMember(b) ? (b.Centre, b.StillSince, b.Contacts.Length) : null!),
+        ("contacts", IsMember(b) ? b.Contacts.ToArray().SelectMany(contact => Contact(page, contact)).ToArray() : []));
+
+    private static bool IsMember(BodySnapshot b) => b.Law == MotionLaw.Constrained || (b.Law == MotionLaw.Resting && b.SupportCount == 0);
+
+    private static byte[] Contact(string[] page, LastingContact contact)
+    {
+        MemoryStream bytes = new();
+        uint surface = contact.Surface == LastingContact.NoSurface ? 0xFFFFFFFF : (uint)contact.Surface;
+        Write(bytes, Table(page, "### Lasting contact"), Values(
+            ("partner", contact.Partner.Packed), ("surface", surface), ("holds", contact.Holds ? 1 : 0), ("push", contact.Push),
+            ("turn", contact.Turn)));
+        return bytes.ToArray();
+    }
 }
