@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
@@ -16,6 +17,7 @@ namespace LagSim;
 public sealed partial class Simulation
 {
     private readonly ContactStep step;
+    private readonly List<int> lookedAt = new(); // slots of partners that carry no contact any more that another still carries
     private bool[] holdsPair = Array.Empty<bool>(); // by party: whether another body holds it
 
     /// <summary>How many contact steps were taken, and of how many bodies.</summary>
@@ -34,6 +36,7 @@ public sealed partial class Simulation
     private bool TryHandleContactStep(int slot, in EventKey key)
     {
         ahead.Clear();
+        lookedAt.Clear();
         GatherIsland(slot, key);
         if (ahead.Count > 0)
         {
@@ -41,7 +44,7 @@ public sealed partial class Simulation
             return false;
         }
 
-        EventKey canonical = StepKey(key);
+        EventKey canonical = StepKey();
         double seconds = FillStep(canonical.Time, out SimDuration length);
         step.FindContacts(seconds);
         Warm();
@@ -61,13 +64,42 @@ public sealed partial class Simulation
         StepsTaken++;
         SweepsTaken += step.Sweeps;
         ContactsSolved += step.Problem.ContactCount;
+        JoinLookedAt(canonical);
+        return true;
+    }
+
+    /// <summary>
+    /// The parties, and those that the event at hand has looked at and that are no part of it, are opened by one event, and predicted again: who is cut later cuts
+    /// whoever looked at it. What is looked at goes on as it did.
+    /// </summary>
+    private void JoinLookedAt(in EventKey key)
+    {
+        foreach (int slot in lookedAt)
+        {
+            if (PartyOf(slot) >= 0)
+            {
+                continue;
+            }
+
+            int last = timelines.Last(slot);
+            if (IsMember(last))
+            {
+                GoOnAsMember(slot, key, PositionAt(last, key.Time), timelines.Segment(last).Velocity, timelines.SpinOf(last).AtEpoch, hasChanged: false);
+                timelines.EndMember(timelines.Last(slot), bodies[slot].Id);
+            }
+            else
+            {
+                Append(slot, key, timelines.Segment(last), timelines.Dense(last), timelines.HoldOf(last), timelines.SpinOf(last));
+            }
+
+            AddParty(slot);
+        }
+
         timelines.Join(parties.AsSpan(0, partyCount));
         for (int i = 0; i < partyCount; i++)
         {
             Predict(parties[i]);
         }
-
-        return true;
     }
 
     /// <summary>The parties: all that hold together with a body, through others as well, and who is held among them, by the pieces of path that they are on at the key.</summary>
@@ -103,7 +135,7 @@ public sealed partial class Simulation
     {
         partner = SlotOf(partnerId);
         int piece = partner < 0 ? TimelineStore.None : PieceBefore(partner, key);
-        if (piece == TimelineStore.None || !(IsHeld(piece) || (IsMember(piece) && timelines.ContactWith(piece, body) != TimelineStore.None)))
+        if (piece == TimelineStore.None)
         {
             return false;
         }
@@ -113,7 +145,13 @@ public sealed partial class Simulation
             ahead.Add(partner);
         }
 
-        return true;
+        bool holds = IsHeld(piece) || (IsMember(piece) && timelines.ContactWith(piece, body) != TimelineStore.None);
+        if (!holds && !lookedAt.Contains(partner))
+        {
+            lookedAt.Add(partner);
+        }
+
+        return holds;
     }
 
     /// <summary>The piece on which a body comes to an event.</summary>
@@ -133,17 +171,25 @@ public sealed partial class Simulation
         }
     }
 
-    /// <summary>The step's key whoever of the island was popped: of the least of those that are not in a hand.</summary>
-    private EventKey StepKey(in EventKey popped)
+    /// <summary>The step's key whoever of the island was popped: the least of those of its members, sleepers not among them.</summary>
+    private EventKey StepKey()
     {
-        int least = 0;
-        while (!IsMember(timelines.Last(parties[least])))
+        EventKey least = default;
+        bool any = false;
+        for (int i = 0; i < partyCount; i++)
         {
-            least++;
+            int piece = timelines.Last(parties[i]);
+            if (timelines.Segment(piece).Law == MotionLaw.Constrained)
+            {
+                SimTime end = timelines.Segment(piece).End;
+                BodyId id = bodies[parties[i]].Id;
+                EventKey own = new(end, RoundAfter(piece, end), EventKind.StepEnd, id, id, 0, 0);
+                least = any && EventKey.Compare(least, own) <= 0 ? least : own;
+                any = true;
+            }
         }
 
-        BodyId id = bodies[parties[least]].Id;
-        return new EventKey(popped.Time, popped.Round, EventKind.StepEnd, id, id, 0, 0);
+        return least;
     }
 
     private double FillStep(SimTime tick, out SimDuration length)

@@ -128,6 +128,7 @@ public sealed partial class Simulation
         LimitAgain(more);
         SolveReached(tolerance);
         ahead.Clear();
+        lookedAt.Clear();
         for (bool grows = true; grows && ahead.Count == 0;)
         {
             grows = false;
@@ -163,12 +164,7 @@ public sealed partial class Simulation
         }
 
         OpenReached(key, residual, struckParties);
-        timelines.Join(parties.AsSpan(0, partyCount));
-        for (int i = 0; i < partyCount; i++)
-        {
-            Predict(parties[i]);
-        }
-
+        JoinLookedAt(key);
         return true;
     }
 

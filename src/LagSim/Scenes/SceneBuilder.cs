@@ -82,7 +82,7 @@ public sealed class SceneBuilder
 
     /// <summary>The contact tolerance, in metres, of a scene that sets none.</summary>
     internal static double DefaultContactTolerance(double smallestRadius) =>
-        double.Parse(Environment.GetEnvironmentVariable("DSCALE") ?? "1") * Math.Max(MinContactTolerance, Math.Min(MaxDefaultContactTolerance, smallestRadius / 100));
+        Math.Max(MinContactTolerance, Math.Min(MaxDefaultContactTolerance, smallestRadius / 100));
 
     /// <summary>
     /// Promises that no body smaller than this, in metres, 1e-9 to 1e9, is in the scene or is spawned; what is smaller is refused, by <see cref="Build"/> or when it
