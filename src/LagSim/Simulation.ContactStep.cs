@@ -356,7 +356,10 @@ public sealed partial class Simulation
         {
             int slot = parties[i];
             int before = timelines.Last(slot);
-            Append(slot, key, MotionSegment.AtRest(key.Time, partyPositions[i].WithoutNegativeZero()), default, spin: new Spin(partySpins[i]));
+            bool turns = partySpins[i].Length * partyRadii[i] > step.Scale.StillSpeed; // on the spot, where nothing resists that
+            Append(
+                slot, key, MotionSegment.AtRest(key.Time, partyPositions[i].WithoutNegativeZero()), default,
+                spin: turns ? new Spin(partySpins[i]) : default);
             int piece = timelines.Last(slot);
             timelines.BeginMember(piece, key.Time, timelines.StillSince(before));
             for (int at = timelines.FirstContact(before); at != TimelineStore.None; at = timelines.NextContact(at))
@@ -400,7 +403,7 @@ public sealed partial class Simulation
             }
             else
             {
-                SimTime still = solved.Velocity.Length <= step.Scale.StillSpeed && timelines.Segment(before).Law == MotionLaw.Constrained
+                SimTime still = IsStill(i, solved) && timelines.Segment(before).Law == MotionLaw.Constrained
                     ? timelines.StillSince(before) : key.Time;
                 OpenChord(slot, key, end, partyPositions[i], solved.Velocity, solved.Spin);
                 int piece = timelines.Last(slot);
@@ -409,6 +412,21 @@ public sealed partial class Simulation
                 timelines.EndMember(piece, bodies[slot].Id);
             }
         }
+    }
+
+    /// <summary>
+    /// Whether a party is so slow that in the time before a sleep it does not move by the tolerance; nor its surface, where rolling resistance is to end its turning.
+    /// </summary>
+    private bool IsStill(int party, in SolverBody solved)
+    {
+        bool isResisted = false;
+        foreach (int i in step.Problem.ListOf(party))
+        {
+            isResisted |= step.Problem.Contacts[i].Lever > 0;
+        }
+
+        double speed = step.Scale.StillSpeed;
+        return solved.Velocity.Length <= speed && (!isResisted || solved.Spin.Length * solved.Radius <= speed);
     }
 
     private void OpenChord(int slot, in EventKey key, SimTime end, in Vector3D position, in Vector3D velocity, in Vector3D spin)
