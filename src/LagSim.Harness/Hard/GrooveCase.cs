@@ -14,6 +14,10 @@ internal sealed class GrooveCase : IHardCase
 {
     private const double Radius = 0.5;
     private const double Seconds = 2;
+    private const double Tolerance = 1e-6;
+
+    /// <summary>The sweeps leave a contact to close by this part of the tolerance in a step.</summary>
+    private const double SweepPart = 0.05;
 
     /// <summary>sin b, and cos b, of a fall of 3 in 4.</summary>
     private const double Sine = 0.6, Cosine = 0.8;
@@ -50,19 +54,21 @@ internal sealed class GrooveCase : IHardCase
         double needed = ((Gravity * Sine) - rolling) * arm / (Gravity * Cosine), mu = needed * (1 + nearness);
         double a = nearness >= 0 ? rolling : (Gravity * Sine) - (mu * Gravity * Cosine / arm);
         double turning = nearness >= 0 ? a / (Radius * arm) : 2.5 * mu * Gravity * Cosine / Radius;
-        Scene scene = new SceneBuilder("groove").WithGravity(V(0, -Gravity * Cosine, Gravity * Sine))
+        Scene scene = new SceneBuilder("groove").WithContactTolerance(Tolerance).WithGravity(V(0, -Gravity * Cosine, Gravity * Sine))
             .AddPlane("left", V(Math.Sin(half), arm), 0.0).AddPlane("right", V(-Math.Sin(half), arm), 0.0)
             .AddBody("ball", new BodySpec(Radius, 3, 0, friction: needed * (1 + actual)), V(0, Radius / arm)).Build();
+        double step = ContactSteps.Step(Tolerance), speed = 2 * SweepPart * Tolerance / step;
         Simulation simulation = context.Run(scene, Seconds);
-        BodyState state = Read(simulation, 0, Seconds);
+        BodyState state = ContactSteps.AtTick(simulation, 0, Seconds, step);
         double way = a * Seconds * Seconds / 2;
         string size = FormattableString.Invariant($"sides at {half:0.###} rad, friction {nearness:+0.###;-0.###} of what rolling needs");
         string law = nearness >= 0 ? "g sin b/(1 + 2/5/cos^2 t)" : "g sin b - mu g cos b/cos t";
         yield return new HardRow(
-            Name, size, (state.Position - V(0, Radius / arm, way)).Length, "position_m", (1e-12 * Gravity * Seconds * Seconds * Seconds * 512) + SceneBuilder.DefaultResolution,
-            "each step solves to 1e-12 of what pulls, 512 a second, added up; and the resolution", law + " t^2/2");
+            Name, size, (state.Position - V(0, Radius / arm, way)).Length, "position_m", (speed * Seconds) + Tolerance,
+            "of two contacts the sweeps leave 0.05 d a step, d being 1e-6 m, as a speed and for as long as is watched: what a contact lacks in one step it has in the next; and d",
+            law + " t^2/2");
         yield return new HardRow(
-            Name, size, (state.Spin - V(turning * Seconds)).Length, "spin_rad_per_s", (1e-12 * Gravity * Seconds * Seconds * 512 / (Radius * arm)) + (SceneBuilder.DefaultResolution / Radius),
-            "the same of the turning", nearness >= 0 ? law + " t/(r cos t)" : "5/2 mu g cos b t/r");
+            Name, size, (state.Spin - V(turning * Seconds)).Length, "spin_rad_per_s", 2.5 * speed / Radius,
+            "5/2 of that speed, over the radius: at a tick, where the mean of both sides is off by nothing else", nearness >= 0 ? law + " t/(r cos t)" : "5/2 mu g cos b t/r");
     }
 }

@@ -14,10 +14,8 @@ namespace LagSim.Harness.Hard;
 /// </summary>
 internal sealed class HeapCase : IHardCase
 {
-    private const double Step = 1.0 / 512;
-
-    /// <summary>By how much, in radians, the line between two centres turns in a step at most.</summary>
-    private const double MostTurn = 1.0 / 128;
+    /// <summary>Contact tolerances, in metres: of what falls into a box, of a few balls that stand, and of the pyramid.</summary>
+    private const double Falling = 1e-5, Standing = 1e-6, OfPyramid = 1e-7;
 
     /// <summary>The edge of the pyramid's base, in balls; 30 balls then, with some 150 contacts.</summary>
     private const int Edge = 4;
@@ -32,7 +30,7 @@ internal sealed class HeapCase : IHardCase
         foreach ((int balls, double friction) in context.Sizes([(8, 0.5)], [(8, 0.0), (8, 0.5), (16, 0.3), (16, 1.0)]))
         {
             Simulation simulation = context.Simulate(Box(balls, friction, context.Seed));
-            yield return Gain($"{balls} balls, mu {friction}", Largest(context, simulation, 3, out double depth), friction);
+            yield return Gain($"{balls} balls, mu {friction}", Largest(context, simulation, 3, out double depth));
             yield return Depth($"{balls} balls, mu {friction}", depth);
         }
 
@@ -59,15 +57,16 @@ internal sealed class HeapCase : IHardCase
     {
         // A ball on a stiff spring in place of a contact, by Euler's steps.
         double y = 1, v = 0, most = 0, depth = 0;
-        for (double t = 0; t < 3; t += Step)
+        const double step = 1.0 / 512;
+        for (double t = 0; t < 3; t += step)
         {
-            (y, v) = (y + (v * Step), v + (((y < 0 ? -1e4 * y : 0) - Gravity) * Step));
+            (y, v) = (y + (v * step), v + (((y < 0 ? -1e4 * y : 0) - Gravity) * step));
             depth = Math.Max(depth, -y);
             most = Math.Max(most, (0.5 * v * v) + (Gravity * y) + (y < 0 ? 0.5e4 * y * y : 0));
         }
 
         const string Springs = "a spring of 10 kN/m for a contact, by Euler's steps";
-        yield return Gain("one ball", (most - Gravity) / Gravity, 1) with { Note = Springs };
+        yield return Gain("one ball", (most - Gravity) / Gravity) with { Note = Springs };
         yield return Depth("one ball", depth) with { Note = Springs };
         yield return Stays(context, 0.26) with { Note = "a friction below tan 15 degrees" };
         yield return Leans(context, 3, 1.01) with { Note = "a hundredth more aslant than resistance holds" };
@@ -87,7 +86,7 @@ internal sealed class HeapCase : IHardCase
     {
         Links.SeededRandom random = new(seed);
         const double half = 0.8;
-        SceneBuilder builder = Bin(new SceneBuilder("box"), half, friction);
+        SceneBuilder builder = Bin(new SceneBuilder("box").WithContactTolerance(Falling), half, friction);
         for (int n = 0; n < balls; n++)
         {
             double radius = random.NextDouble(0.2, 0.35);
@@ -102,7 +101,7 @@ internal sealed class HeapCase : IHardCase
     /// <summary>A square pyramid in a bin that is as wide as its base. A program's own force is its weight: of that nobody knows what it will do, so nothing ever rests.</summary>
     private static Scene Pyramid(double friction, double width)
     {
-        SceneBuilder builder = new SceneBuilder("pyramid").WithGravity(Vector3D.Zero).AddForce(Force.Supplied(new SuppliedWeight()));
+        SceneBuilder builder = new SceneBuilder("pyramid").WithGravity(Vector3D.Zero).WithContactTolerance(OfPyramid).AddForce(Force.Supplied(new SuppliedWeight()));
         Bin(builder, width / 2, friction);
         for (int layer = 0; layer < Edge; layer++)
         {
@@ -117,17 +116,19 @@ internal sealed class HeapCase : IHardCase
         return builder.Build();
     }
 
-    /// <summary>The largest gain of energy, turning included, over all that went before, as part of the energy at the start; and how deep anything was in anything.</summary>
+    /// <summary>The largest gain of energy at ticks, turning included, over all that went before, as part of the energy at the start; and how deep anything was in anything.</summary>
     private static double Largest(HardContext context, Simulation simulation, double seconds, out double depth)
     {
         double least = SceneEnergy.Of(simulation, SimTime.Zero), start = least, gain = 0;
         depth = 0;
         const int Samples = 600;
+        double step = ContactSteps.Step(Falling);
         for (int n = 1; n <= Samples; n++)
         {
             double at = seconds * n / Samples;
             simulation.AdvanceTo(SimTime.FromSeconds(at));
-            double energy = SceneEnergy.Of(simulation, SimTime.FromSeconds(at));
+            double tick = ContactSteps.TickBefore(at, step);
+            double energy = Enumerable.Range(0, simulation.BodyCount).Sum(body => EnergyOf(simulation.SpecOf(BodyId.OfScene(body)), ContactSteps.AtTick(simulation, body, tick, step)));
             gain = double.IsNaN(energy) ? double.NaN : Math.Max(gain, energy - least);
             least = Math.Min(least, energy);
             depth = Math.Max(depth, Deepest(simulation, at));
@@ -136,6 +137,9 @@ internal sealed class HeapCase : IHardCase
 
         return gain / start;
     }
+
+    private static double EnergyOf(in BodySpec spec, in BodyState state) => spec.Mass
+        * ((0.5 * state.Velocity.LengthSquared) + (Gravity * state.Position.Y) + (0.2 * spec.Radius * spec.Radius * state.Spin.LengthSquared));
 
     private static double Deepest(Simulation simulation, double at)
     {
@@ -153,32 +157,26 @@ internal sealed class HeapCase : IHardCase
         return depth;
     }
 
-    /// <summary>With friction, which the solver may leave unsettled where much is pressed together, nothing tighter is known than at the speed of the deepest fall.</summary>
-    private HardRow Gain(string size, double gain, double friction)
-    {
-        double turn = friction > 0 ? Math.Sqrt(2 * Gravity * 4) * Step / 0.4 : MostTurn;
-        return new HardRow(
-            Name, size, gain, "energy_gain_relative", turn * turn,
-            friction > 0
-                ? "second order: the square of the angle by which the line between two of the smallest balls turns in a step, at the speed of the deepest fall"
-                : "second order: the square of 1/128 rad, by which at most a line between two centres turns in a step, for steps are shorter where balls pass faster",
-            "all the energy there was before");
-    }
+    /// <summary>What is exact in free flight is off by the second order at ticks: places by d or two, speeds by the square of a kick g h, which is 2 g d.</summary>
+    private HardRow Gain(string size, double gain) => new(
+        Name, size, gain, "energy_gain_relative", 3 * Falling / 0.4,
+        "all of it lifted by 2 d, d being 1e-5 m, and half the square of a kick, g d, as part of the energy of what lies 0.4 m high as the lowest layer does; at ticks",
+        "all the energy there was before");
 
     private HardRow Depth(string size, double depth) => new(
-        Name, size, depth, "depth_m", 1000 * SceneBuilder.DefaultResolution, "a thousand resolutions, within which a contact lasts", "no ball is in another or in a plane");
+        Name, size, depth, "depth_m", 2 * Falling, "two of d, 1e-5 m: a fall in a step, and the turning of a line of centres in one", "no ball is in another or in a plane");
 
     /// <summary>A ball on two that touch, on a floor: friction keeps them so from the tangent of 15 degrees on, half the angle between the line of centres and the vertical.</summary>
     private HardRow Stays(HardContext context, double friction)
     {
         BodySpec ball = new(0.5, 1, 0, friction: friction);
-        Scene scene = new SceneBuilder("three").AddPlane("floor", Vector3D.Up, 0.0, 0, friction)
+        Scene scene = new SceneBuilder("three").WithContactTolerance(Standing).AddPlane("floor", Vector3D.Up, 0.0, 0, friction)
             .AddBody("left", ball, V(-0.5, 0.5)).AddBody("right", ball, V(0.5, 0.5)).AddBody("top", ball, V(0, 0.5 + Math.Sqrt(0.75))).Build();
         Simulation simulation = context.Run(scene, 3);
         double drift = Enumerable.Range(0, 3).Max(n => (Read(simulation, n, 3).Position - scene.Bodies[n].Position).Length);
         return new HardRow(
-            Name, FormattableString.Invariant($"a ball on two, mu {friction}, 3 s"), drift, "drift_m", 1000 * SceneBuilder.DefaultResolution,
-            "a thousand resolutions, within which a contact lasts", "they stay where mu is at least tan 15 degrees, 0.268");
+            Name, FormattableString.Invariant($"a ball on two, mu {friction}, 3 s"), drift, "drift_m", 4 * ContactSteps.Closing * Standing,
+            "a tenth of d, 1e-6 m, for each of four contacts: sweeps leave one to close by half of that, and a step later it is put right", "they stay where mu is at least tan 15 degrees, 0.268");
     }
 
     /// <summary>
@@ -191,7 +189,7 @@ internal sealed class HeapCase : IHardCase
         const double Resistance = 0.05, Seconds = 3;
         double tangent = part * Resistance / (balls - 1), up = 1 / Math.Sqrt(1 + (tangent * tangent));
         BodySpec ball = new(0.5, 1, 0, friction: 0.4, rollingResistance: Resistance);
-        SceneBuilder builder = new SceneBuilder("tower").AddPlane("floor", Vector3D.Up, 0.0, 0, 0.4);
+        SceneBuilder builder = new SceneBuilder("tower").WithContactTolerance(Standing).AddPlane("floor", Vector3D.Up, 0.0, 0, 0.4);
         for (int n = 0; n < balls; n++)
         {
             builder.AddBody($"ball {n}", ball, V(n * up * tangent, 0.5 + (n * up)), spin: V(0, 0, -2e-7));
@@ -203,7 +201,7 @@ internal sealed class HeapCase : IHardCase
         drift += Enumerable.Range(0, balls).Max(n => (ends[n].Position - simulation.Scene.Bodies[n].Position).Length);
         return new HardRow(
             Name, FormattableString.Invariant($"a tower of {balls}, c {Resistance}, aslant by {part} of what that holds, {Seconds} s"), drift, "drift_m",
-            1000 * SceneBuilder.DefaultResolution, "a thousand resolutions, within which a contact lasts",
+            balls * Standing, "d, 1e-6 m, for each contact below it, in which that settles so near to the most that it holds",
             "it rests where the number of balls but one, times the tangent of its slant, is at most c; NaN where it does not rest");
     }
 
@@ -223,15 +221,19 @@ internal sealed class HeapCase : IHardCase
             context.Report(n / (double)samples);
         }
 
-        bool isStepped = simulation.EventsProcessed > 0.9 * 512 * seconds; // else nothing was shown
+        double step = ContactSteps.Step(OfPyramid, ContactSteps.PullWithoutGravity), most = Edge * ContactSteps.Closing * OfPyramid;
+        bool isStepped = simulation.EventsProcessed > 0.9 * seconds / step; // else nothing was shown
         string size = FormattableString.Invariant($"a pyramid of {pyramid.Bodies.Count}, mu {friction}, {seconds} s");
         drift = isStepped ? drift : double.NaN;
-        yield return new HardRow(Name, size, drift, "drift_m", SceneBuilder.DefaultResolution, "the scene's resolution: what is nearer to equilibrium stands", "nothing moves; NaN where no steps were taken");
+        yield return new HardRow(Name, size, drift, "drift_m", most,
+            "a tenth of d, 1e-7 m, a layer: sweeps leave a contact to close by half of that, and a step later it is put right",
+            "nothing moves; NaN where no steps were taken");
         yield return new HardRow(
-            Name, size, momentum, "momentum_s", SceneBuilder.DefaultResolution / Step, "the resolution in a step: what carries is that near to the weight", "forces that sum to the weight leave no momentum");
+            Name, size, momentum, "momentum_s", ContactSteps.Closing / 2 * OfPyramid / step / Gravity,
+            "each ball at the 0.05 d in a step that sweeps leave", "forces that sum to the weight leave no momentum");
         yield return new HardRow(
-            Name, size, gain, "energy_gain_relative_standing", 512 * Rounding.Unit * 4 * 30,
-            "a rounding of each of 30 balls in each step of 4 s", "the energy at the start");
+            Name, size, gain, "energy_gain_relative_standing", weight * most / start,
+            "all of it lifted by as much as it may drift", "the energy at the start");
 
         // The weight is a program's own force, of whose potential nobody knows.
         double Energy(double at) => SceneEnergy.Of(simulation, SimTime.FromSeconds(at))

@@ -9,14 +9,13 @@ namespace LagSim.Harness.Hard;
 
 /// <summary>Three balls that a spring presses together swing to and fro over a floor, as one island, for a long time: the energy of a method that keeps it is off by what it was in the first period.</summary>
 /// <remarks>
-/// A spring of its own holds each to the middle of the row across which they swing, so the outer ones push on the inner one for ever, and the floor carries all. Without friction RATTLE (Hairer,
-/// Lubich and Wanner, Geometric Numerical Integration, VII.1.4) is velocity Verlet along the floor. Of an oscillator that keeps v^2 + (1 - (omega h)^2/4) omega^2 x^2 at the ends of steps, so the
-/// energy is off by up to (omega h)^2/4 of itself, however long it swings. Between two ends the path is the cubic with the places and velocities of both; half way its velocity is v0 + (5 a0 - a1) h/8 where
-/// v0 + a0 h/2 + a' h^2/8 is right, so off by a' h^2/4 = (omega h)^2/4 v, and the energy by twice that part.
+/// A spring of its own holds each to the middle of the row across which they swing, so the outer ones push on the inner one for ever, and the floor carries all. Contact steps are leapfrog (Hairer,
+/// Lubich and Wanner, Geometric Numerical Integration, I.1.4): of an oscillator that keeps v^2 + (1 - (omega h)^2/4) omega^2 x^2 at ticks, v being the mean of both sides, so the energy is off by up to
+/// (omega h)^2/4 of itself, however long it swings, and its phase by (omega h)^2/24 of itself. Within a step its velocity is that of the middle, off by up to a h/2, and so the energy by omega h/2.
 /// </remarks>
 internal sealed class IslandEnergyCase : IHardCase
 {
-    private const double Step = 1.0 / 512;
+    private const double Tolerance = 1e-4;
     private const double Omega = 4; // rad/s
     private const double Swing = 1; // m/s
 
@@ -25,41 +24,58 @@ internal sealed class IslandEnergyCase : IHardCase
     public string Title =>
         "three balls pressed together swing over a floor as one island, for long: the energy neither grows nor falls, and the contacts stay closed";
 
+    private static readonly double Step = ContactSteps.Step(Tolerance);
+
     public IEnumerable<HardRow> Rows(HardContext context)
     {
         foreach (double seconds in context.Sizes([10.0], [10, 100, 1000]))
         {
-            Simulation simulation = context.Simulate(Scene());
-            double start = SceneEnergy.Of(simulation, SimTime.Zero), worst = 0, apart = 0;
-            bool isIsland = true;
-            int samples = (int)(seconds * 20);
-            for (int n = 1; n <= samples; n++)
-            {
-                SimTime at = SimTime.FromSeconds(seconds * n / samples);
-                simulation.AdvanceTo(at);
-                worst = Math.Max(worst, Math.Abs(SceneEnergy.Of(simulation, at) - start));
-                for (int body = 0; body < 3; body++)
-                {
-                    BodyState state = Read(simulation, BodyId.OfScene(body), at);
-                    isIsland &= state.Motion == MotionLaw.Constrained;
-                    apart = Math.Max(apart, Math.Abs(state.Position.Y - 0.5));
-                    apart = Math.Max(apart, body == 0 ? 0 : Math.Abs((state.Position - Read(simulation, BodyId.OfScene(body - 1), at).Position).Length - 1));
-                }
-
-                context.Report(n / (double)samples);
-            }
-
-            foreach (HardRow row in Rows(seconds, isIsland ? worst / Kinetic : double.NaN, apart))
+            foreach (HardRow row in Rows(seconds, Errors(context, seconds, Tolerance, Step)))
             {
                 yield return row;
             }
         }
+
+        const double Coarse = 1.0 / 128, Fine = 1.0 / 1024, Share = 0.05;
+        Seen coarse = Errors(context, 10, ContactSteps.ToleranceOf(Coarse), Coarse), fine = Errors(context, 10, ContactSteps.ToleranceOf(Fine), Fine);
+        const string Next = "the next order is (omega h)^2, a thousandth, of this one; samples are that near to the largest";
+        yield return ContactSteps.Order(Name, "energy at ticks", coarse.AtTicks, fine.AtTicks, Coarse / Fine, 2, Share, Next);
+        yield return ContactSteps.Order(Name, "energy within steps", coarse.Within, fine.Within, Coarse / Fine, 1, Share, "the next order is omega h/2 of this one, 0.016, over ln 8");
+        yield return ContactSteps.Order(Name, "place", coarse.Place, fine.Place, Coarse / Fine, 2, Share, Next);
+    }
+
+    private static Seen Errors(HardContext context, double seconds, double tolerance, double step)
+    {
+        Simulation simulation = context.Simulate(Scene(tolerance));
+        double start = SceneEnergy.Of(simulation, SimTime.Zero), within = 0, atTicks = 0, place = 0, apart = 0;
+        bool isIsland = true;
+        int samples = (int)(seconds * 20);
+        for (int n = 1; n <= samples; n++)
+        {
+            double at = seconds * n / samples, tick = ContactSteps.TickBefore(at, step), energy = 0;
+            simulation.AdvanceTo(SimTime.FromSeconds(at));
+            within = Math.Max(within, Math.Abs(SceneEnergy.Of(simulation, SimTime.FromSeconds(at)) - start));
+            for (int body = 0; body < 3; body++)
+            {
+                BodyState state = ContactSteps.AtTick(simulation, body, tick, step);
+                energy += (0.5 * state.Velocity.LengthSquared) + (0.5 * Omega * Omega * (state.Position - V(0, 0.5)).LengthSquared) + (Gravity * state.Position.Y);
+                isIsland &= state.Motion == MotionLaw.Constrained;
+                place = Math.Max(place, Math.Abs(state.Position.Z - (Swing / Omega * Math.Sin(Omega * tick))));
+                apart = Math.Max(apart, Math.Abs(state.Position.Y - 0.5));
+                apart = Math.Max(apart, body == 0 ? 0 : Math.Abs((state.Position - Read(simulation, body - 1, tick).Position).Length - 1));
+            }
+
+            atTicks = Math.Max(atTicks, Math.Abs(energy - start));
+            context.Report(n / (double)samples);
+        }
+
+        return isIsland ? new Seen(atTicks / Kinetic, within / Kinetic, place, apart) : new Seen(double.NaN, double.NaN, double.NaN, double.NaN);
     }
 
     public IEnumerable<HardRow> Controls(HardContext context)
     {
         // Euler's steps, which put the contact right only by how fast it opens: the energy grows with each, and what is off stays off.
-        double z = 0, v = Swing, apart = 0, y = 0, fall = 0;
+        double z = 0, v = Swing, apart = 0, y = 0, fall = 0, place = 0;
         for (double t = 0; t < 10; t += Step)
         {
             (z, v) = (z + (v * Step), v - (Omega * Omega * z * Step));
@@ -67,10 +83,11 @@ internal sealed class IslandEnergyCase : IHardCase
             y += fall * Step;
             fall = 0;
             apart = Math.Max(apart, -y);
+            place = Math.Max(place, Math.Abs(z - (Swing / Omega * Math.Sin(Omega * (t + Step)))));
         }
 
         double energy = ((v * v) + (Omega * Omega * z * z)) / (Swing * Swing);
-        foreach (HardRow row in Rows(10, Math.Abs(energy - 1), apart))
+        foreach (HardRow row in Rows(10, new Seen(Math.Abs(energy - 1), Math.Abs(energy - 1), place, apart)))
         {
             yield return row with { Note = "Euler's steps, and contacts closed by their speed alone" };
         }
@@ -79,20 +96,30 @@ internal sealed class IslandEnergyCase : IHardCase
     /// <summary>What swings, in J, of three balls of 1 kg.</summary>
     private static double Kinetic => 1.5 * Swing * Swing;
 
-    private static Scene Scene() => new SceneBuilder("swing").AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0).AddForce(Force.Spring("spring", V(0, 0.5), Omega * Omega))
+    private static Scene Scene(double tolerance) => new SceneBuilder("swing").WithContactTolerance(tolerance).AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0).AddForce(Force.Spring("spring", V(0, 0.5), Omega * Omega))
         .AddBody("left", Body(), V(-1, 0.5), V(0, 0, Swing)).AddBody("middle", Body(), V(0, 0.5), V(0, 0, Swing)).AddBody("right", Body(), V(1, 0.5), V(0, 0, Swing)).Build();
 
     private static BodySpec Body() => new(0.5, 1, 0, MotionLaw.Automatic, forces: ForceSet.Of(0));
 
-    private IEnumerable<HardRow> Rows(double seconds, double energy, double apart)
+    private IEnumerable<HardRow> Rows(double seconds, Seen seen)
     {
         string size = FormattableString.Invariant($"{seconds} s, {seconds * Omega / (2 * Math.PI):0} swings");
+        double square = Omega * Step * Omega * Step, closing = ContactSteps.Closing * Tolerance;
+        double contacts = closing / 2 * ((2 * Omega * Omega) + (3 * Gravity)) / Kinetic;
         yield return new HardRow(
-            Name, size, energy, "energy_relative", 0.75 * Omega * Step * Omega * Step,
-            "(omega h)^2/4, which Verlet's energy is off at the ends of steps, and (omega h)^2/2, which the cubic between them adds, however long it swings",
+            Name, size, seen.AtTicks, "energy_at_ticks_relative", (0.25 * square) + contacts,
+            "(omega h)^2/4, which leapfrog's energy is off at ticks, and the work of springs and weight on the 0.05 d, of 1e-4 m, that sweeps leave; however long it swings",
             "the energy at the start; NaN where they were no island");
         yield return new HardRow(
-            Name, size, apart, "distance_m", 1000 * SceneBuilder.DefaultResolution,
-            "a thousand resolutions, within which a contact lasts; no drift is added from step to step", "the radii");
+            Name, size, seen.Within, "energy_within_steps_relative", (0.5 * Omega * Step) + (0.25 * square) + contacts,
+            "omega h/2 more: within a step the velocity is that of its middle", "the energy at the start");
+        yield return new HardRow(
+            Name, size, seen.Place, "place_m", Swing * square * ((seconds / 24) + (0.125 / Omega)),
+            "(omega h)^2/24 of the phase, and an eighth of the square of the swing's size", "v sin(omega t)/omega");
+        yield return new HardRow(
+            Name, size, seen.Apart, "distance_m", closing,
+            "a tenth of d: sweeps leave a contact to close by half of that, and a step later it is put right; no drift is added from step to step", "the radii");
     }
+
+    private readonly record struct Seen(double AtTicks, double Within, double Place, double Apart);
 }

@@ -10,6 +10,9 @@ namespace LagSim.Harness.Hard;
 /// <summary>What lies still: on a plane, on a slope, on another ball, in a small pile. No drift, no gain of energy, a finite number of events.</summary>
 internal sealed class RestCase : IHardCase
 {
+    /// <summary>The contact tolerance of the balls on each other.</summary>
+    private const double Tolerance = 1e-5;
+
     public string Name => "rest";
 
     public string Title => "at rest on a plane, on another ball, in a small pile: no drift, no gain of energy, finitely many events; down a slope as the"
@@ -27,7 +30,7 @@ internal sealed class RestCase : IHardCase
         // Contacts: the floor and each other; the floor twice, a wall each, and the two below.
         foreach ((string what, Scene scene, int contacts) in new[] { ("two balls, one on the other", Stack(), 2), ("three balls in a bin", Pile(), 6) })
         {
-            foreach (HardRow row in Lasting(what, contacts, seconds, Energy(scene), Watch(context, scene, seconds)))
+            foreach (HardRow row in Lasting(what, contacts, seconds, Gravity * scene.Bodies.Count, Watch(context, scene, seconds)))
             {
                 yield return row;
             }
@@ -40,7 +43,7 @@ internal sealed class RestCase : IHardCase
 
         (double drift, _) = Tremble(1e-3);
         (_, long impacts) = Tremble(5e-5);
-        foreach (HardRow row in Lasting("one ball on a plane", 1, 2, Gravity * 0.5, (drift, Gravity * drift, impacts)))
+        foreach (HardRow row in Lasting("one ball on a plane", 1, 2, Gravity, (drift, Gravity * drift, impacts)))
         {
             yield return row with { Note = "a step at a time: a millisecond for drift and energy, 50 us for the number of impacts" };
         }
@@ -99,7 +102,7 @@ internal sealed class RestCase : IHardCase
             "the scene's resolution, below which a contact is taken to last, and 32 roundings", "g sin(a) t^2/2 along the slope");
     }
 
-    private static Scene Stack() => new SceneBuilder("stack").AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0.5)
+    private static Scene Stack() => new SceneBuilder("stack").WithContactTolerance(Tolerance).AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0.5)
         .AddBody("below", Ball(e: 0.5), V(0, 0.5)).AddBody("above", Ball(e: 0.5), V(0, 1.5)).Build();
 
     /// <summary>A ball on two, between two walls.</summary>
@@ -107,12 +110,10 @@ internal sealed class RestCase : IHardCase
     {
         const double half = 0.55;
         double up = 0.5 + Math.Sqrt(1 - (half * half));
-        return new SceneBuilder("pile").AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0.5)
+        return new SceneBuilder("pile").WithContactTolerance(Tolerance).AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0.5)
             .AddPlane("west", V(1), -half - 0.5, 0.5).AddPlane("east", V(-1), -half - 0.5, 0.5)
             .AddBody("left", Ball(e: 0.5), V(-half, 0.5)).AddBody("right", Ball(e: 0.5), V(half, 0.5)).AddBody("top", Ball(e: 0.5), V(0, up)).Build();
     }
-
-    private static double Energy(Scene scene) => SceneEnergy.Of(new Simulation(scene), SimTime.Zero);
 
     private static (double Drift, double Gain, long Events) Watch(HardContext context, Scene scene, double seconds)
     {
@@ -134,15 +135,18 @@ internal sealed class RestCase : IHardCase
         return (drift, gain, simulation.EventsProcessed);
     }
 
-    private IEnumerable<HardRow> Lasting(string what, int contacts, double seconds, double energy, (double Drift, double Gain, long Events) seen)
+    private IEnumerable<HardRow> Lasting(string what, int contacts, double seconds, double weight, (double Drift, double Gain, long Events) seen)
     {
         string size = FormattableString.Invariant($"{what}, {seconds} s");
+        double drift = ContactSteps.Closing * Tolerance * contacts;
         yield return new HardRow(
-            Name, size, seen.Drift, "drift_m", SceneBuilder.DefaultResolution, "the scene's resolution: what is nearer to equilibrium rests", "nothing moves");
+            Name, size, seen.Drift, "drift_m", drift, "a tenth of d, 1e-5 m, a contact: sweeps leave it to close by half of that, and a step later it is put right",
+            "nothing moves");
         yield return new HardRow(
-            Name, size, seen.Gain, "energy_gain_j", 64 * Rounding.Unit * energy, "64 roundings of the energy above the floor", "the energy at the start");
+            Name, size, seen.Gain, "energy_gain_j", weight * drift, "that all of the weight is lifted by as much", "the energy at the start");
         yield return new HardRow(
-            Name, size, seen.Events, "events", 2 * contacts, "an impact a contact, as it is found, and as many steps until all rest",
+            Name, size, seen.Events, "events", (0.5 / ContactSteps.Step(Tolerance)) + 1 + (2 * contacts),
+            "the steps of the half second after which it sleeps, the one at which it does; an impact a contact, as it is found, and as many steps until all is still",
             "nothing happens any more");
     }
 }

@@ -11,7 +11,9 @@ namespace LagSim.Harness.Hard;
 /// <content>Slipping against rolling resistance, by closed form and in an island's steps; turning on the spot in steps.</content>
 internal sealed partial class RollingCase
 {
-    private static readonly double Step = new Contacts.ContactScale(1e-3, SceneBuilder.DefaultGravity).Step.ToSeconds();
+    /// <summary>The contact tolerance of what moves in steps, and how long these are: the weight is a program's own force, and there is no gravity.</summary>
+    private const double Tolerance = 1e-5;
+    private static readonly double Step = ContactSteps.Step(Tolerance, ContactSteps.PullWithoutGravity);
 
     /// <summary>How a ball is thrown along the floor: its friction, its resistance, its speed, and that with which its spin would have it roll.</summary>
     private static readonly (double Mu, double C, double Speed, double Turn)[] Throws = [(0.3, 0.1, 2, 0), (0.3, 0.02, 2, -3), (0.2, 0.1, 1, 4), (0.3, 0.3, 2, 0), (0.5, 0.4, 3, -1)];
@@ -75,7 +77,7 @@ internal sealed partial class RollingCase
 
     /// <summary>Its weight is a program's own force, and so the ball moves in steps, alone as it is.</summary>
     private static Simulation OnFloorInSteps(HardContext context, BodySpec ball, Vector3D velocity, Vector3D spin, double seconds) => context.Run(
-        new SceneBuilder("steps").WithGravity(Vector3D.Zero).AddForce(Force.Supplied(new SuppliedWeight())).AddPlane("floor", Vector3D.Up, Vector3D.Zero)
+        new SceneBuilder("steps").WithGravity(Vector3D.Zero).WithContactTolerance(Tolerance).AddForce(Force.Supplied(new SuppliedWeight())).AddPlane("floor", Vector3D.Up, Vector3D.Zero)
             .AddBody("ball", ball, V(0, Radius), velocity, spin: spin).Build(),
         seconds);
 
@@ -148,24 +150,26 @@ internal sealed partial class RollingCase
         yield return new HardRow(Name, size, (state.Position - x - way).Length, "position_m", bound * seconds, Argument + ", for as long as is watched", "20000 Runge-Kutta steps");
     }
 
-    /// <summary>Turns about the normal in an island's steps, until it does not turn at all.</summary>
+    /// <summary>Turns about the normal in contact steps, until it does not turn at all.</summary>
     private IEnumerable<HardRow> TurningInSteps(HardContext context, double resistance, double actual)
     {
         const double turning = 4;
-        double rate = 2.5 * resistance * Gravity / Radius, stops = turning / rate, middle = SimTime.FromSeconds(stops / 2).ToSeconds();
+        double rate = 2.5 * resistance * Gravity / Radius, stops = turning / rate, middle = ContactSteps.TickBefore(stops / 2, Step);
         Simulation simulation = OnFloorInSteps(context, Resisting(1, actual, true), default, V(0, turning), stops + (4 * Step));
         double still = double.NaN;
         foreach (TimelineEntry entry in simulation.Timeline(First))
         {
-            bool isStill = entry.State.Spin == Vector3D.Zero;
+            bool isStill = entry.State.Spin.Length <= 16 * Rounding.Unit * turning;
             still = !isStill ? double.NaN : double.IsNaN(still) ? entry.Key.Time.ToSeconds() : still;
         }
 
-        BodyState state = Read(simulation, 0, middle);
+        BodyState state = ContactSteps.AtTick(simulation, 0, middle, Step);
         string size = FormattableString.Invariant($"turns on the spot with resistance {resistance} in steps");
         yield return new HardRow(
             Name, size, state.Motion == MotionLaw.Constrained ? Math.Abs(state.Spin.Y - (turning - (rate * middle))) : double.NaN, "spin_rad_per_s",
-            2 * middle / Step * 16 * Rounding.Unit * turning, "16 roundings in each half of a step", "w - 5 c g t/(2 r)");
-        yield return new HardRow(Name, size, Math.Abs(still - stops), "time_s", Step, "it is nothing at the end of the step in which it ends", "2 w r/(5 c g)");
+            middle / Step * 16 * Rounding.Unit * turning, "at a tick, the mean of both sides: 16 roundings a step", "w - 5 c g t/(2 r)");
+        yield return new HardRow(
+            Name, size, Math.Abs(still - stops), "time_s", (Step / 2) + Rounding.Tick,
+            "half a step: a step in whose middle nothing is left of it has none; 16 roundings of it count as nothing", "2 w r/(5 c g)");
     }
 }

@@ -14,9 +14,9 @@ internal sealed class StiffCase : IHardCase
     private const double Step = 1.0 / 64;
     private const int Steps = 50;
 
-    /// <summary>The shortest step of what is in lasting contact, and how many are taken: after more of them it is so slow that it rests.</summary>
+    /// <summary>The shortest step of what is in lasting contact, and how many are taken from the middle of the second step on.</summary>
     private const double ShortestOnFloor = 1.0 / (1 << 20);
-    private const int StepsOnFloor = 5;
+    private const int StepsOnFloor = 20;
 
     private const string OnFloor = ", on a floor";
 
@@ -38,7 +38,7 @@ internal sealed class StiffCase : IHardCase
 
         foreach (double z in context.Sizes([0.25, 0.9], [0.1, 0.25, 0.5, 0.9]))
         {
-            yield return DecayRowOnFloor(z, SpeedOnFloor(context, Force.LinearDrag("damping", z / ShortestOnFloor)));
+            yield return DecayRowOnFloor(z, DecayOnFloor(context, Force.LinearDrag("damping", z / ShortestOnFloor)));
         }
 
         foreach (double z in context.Sizes([3.0], [3, 10, 1000]))
@@ -70,21 +70,32 @@ internal sealed class StiffCase : IHardCase
         return Read(context.Run(scene, Steps * Step), 0, Steps * Step).Velocity.X;
     }
 
-    private static double SpeedOnFloor(HardContext context, Force force)
+    private static double SpeedOnFloor(HardContext context, Force force) => ReadOnFloor(RunOnFloor(context, force), StepsOnFloor);
+
+    /// <summary>By how much it gets slower from the middle of the second step to that of one so many steps later: a member's velocity is that of the middle.</summary>
+    private static double DecayOnFloor(HardContext context, Force force)
+    {
+        Simulation simulation = RunOnFloor(context, force);
+        return ReadOnFloor(simulation, StepsOnFloor + 1.5) / ReadOnFloor(simulation, 1.5);
+    }
+
+    private static double ReadOnFloor(Simulation simulation, double steps) => Read(simulation, 0, steps * ShortestOnFloor).Velocity.X;
+
+    private static Simulation RunOnFloor(HardContext context, Force force)
     {
         Scene scene = new SceneBuilder("on a floor").AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0).AddForce(force)
             .AddBody("ball", new BodySpec(0.5, 1, 0, forces: ForceSet.Of(0)), V(0, 0.5), V(1)).Build();
-        return Read(context.Run(scene, StepsOnFloor * ShortestOnFloor), 0, StepsOnFloor * ShortestOnFloor).Velocity.X;
+        return context.Run(scene, (StepsOnFloor + 2) * ShortestOnFloor);
     }
 
-    /// <summary>The trapezoidal rule's.</summary>
-    private HardRow DecayRowOnFloor(double z, double speed)
+    /// <summary>The implicit midpoint rule's.</summary>
+    private HardRow DecayRowOnFloor(double z, double decay)
     {
         double factor = (1 - (z / 2)) / (1 + (z / 2));
         return new HardRow(
-            Name, FormattableString.Invariant($"k h = {z}, {StepsOnFloor} steps{OnFloor}"), Math.Abs((speed / Math.Pow(factor, StepsOnFloor)) - 1), "speed_relative",
-            40 * (1 + z) / factor * StepsOnFloor * Rounding.Unit,
-            "a rounding a step of the size of the two kicks, 1 + z, magnified by 40 for the cubic's coefficients and the rest, over the factor",
+            Name, FormattableString.Invariant($"k h = {z}, {StepsOnFloor} steps{OnFloor}"), Math.Abs((decay / Math.Pow(factor, StepsOnFloor)) - 1), "speed_relative",
+            10 * (1 + z) / (1 - (z / 2)) / factor * StepsOnFloor * Rounding.Unit,
+            "five roundings a step of the size 1 + z, and as much where the iteration ends, over 1 - z/2 for what it multiplies, over the factor",
             "factor (1 - z/2) / (1 + z/2) a step of 2^-20 s");
     }
 
