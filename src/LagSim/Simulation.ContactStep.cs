@@ -241,6 +241,11 @@ public sealed partial class Simulation
     {
         ref readonly BodySpec spec = ref bodies[slot].Spec;
         double rate = spec.Forces.IsEmpty ? 0 : forces.FixedStepRateAt(spec, position, velocity, spin);
+        if (!(rate * SimDuration.FromTicks(ContactScale.ShortestTicks).ToSeconds() <= 1)) // what is not a number is too stiff
+        {
+            throw TooStiff(slot, clock.Time, position, velocity, spin, double.IsNaN(rate) ? double.PositiveInfinity : rate);
+        }
+
         return rate > 0 ? MostRateTimesStep / rate : double.PositiveInfinity;
     }
 

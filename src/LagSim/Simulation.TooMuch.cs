@@ -55,6 +55,16 @@ public sealed partial class Simulation
             + $"Allow a larger error, make them weaker, or keep it out of the singularity, if there is one.{Jumps(spec)}");
     }
 
+    /// <summary>Why no contact step can be taken: forces act too fast on a member even for the shortest there is.</summary>
+    private SimulationException TooStiff(int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, double rate)
+    {
+        double most = 1 / SimDuration.FromTicks(Contacts.ContactScale.ShortestTicks).ToSeconds();
+        return new SimulationException(
+            $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {Whose(slot)}, which touches something, "
+            + $"{ActTooFast(rate, rate, most)}: there {RatesOn(slot, x, v, spin)}. What is in lasting contact moves by steps that follow at most"
+            + $" {Limits.Short(most)} 1/s, halved to {Limits.Short(1 / most)} s. Make them weaker, or the body heavier.");
+    }
+
     private static string ActTooFast(double here, double met, double most) =>
         here > most ? $"act at a rate of {Limits.Short(here)} 1/s" : $"lead in a step to where they act at a rate of {Limits.Short(met)} 1/s";
 

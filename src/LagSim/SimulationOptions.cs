@@ -35,8 +35,7 @@ public sealed class SimulationOptions
     /// <param name="healing">How an event is brought in that lies before the simulated time. It has no influence on the result, to the bit.</param>
     /// <param name="threads">
     /// How many threads at most may be at work for this simulation at once, the one that calls it included: from 1 to <see cref="SceneBuilder.MaxThreads"/>;
-    /// default as many as there are processors, at most 8. The others are the pool's, and take steps of islands ahead where there are several; what comes of it
-    /// is the same, to the bit, on any number.
+    /// default as many as there are processors, at most 8. At present all is done on the calling thread; what comes of it is the same, to the bit, on any number.
     /// </param>
     /// <exception cref="ArgumentOutOfRangeException">
     /// The threads are not from 1 to 64, the history or the most segments are not above zero, or the start more than 72 days from the origin.
@@ -90,9 +89,6 @@ public sealed class SimulationOptions
     /// <summary>How many threads at most may be at work for the simulation at once.</summary>
     public int Threads { get; }
 
-    /// <summary>Has something done on another thread, some time; null for the pool. A test sets it.</summary>
-    internal Action<WaitCallback, object>? OtherThread { get; set; }
-
     /// <summary>Up to how many bodies all pairs are looked at; a test sets it to have an index in small worlds.</summary>
     internal int MostPairs { get; set; } = DefaultMostPairs;
 
@@ -107,5 +103,5 @@ public sealed class SimulationOptions
 
     /// <summary>The same with an observer.</summary>
     internal SimulationOptions WithObserver(IImpactObserver? observer) =>
-        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = observer, MostPairs = MostPairs, OtherThread = OtherThread };
+        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = observer, MostPairs = MostPairs };
 }

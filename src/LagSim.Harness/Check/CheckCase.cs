@@ -250,7 +250,7 @@ internal sealed class CheckCase
     private bool IsWithin(long budget, CancellationToken cancellation)
     {
         Scene scene = room.Build([.. Enumerable.Range(0, room.BodyCount)]);
-        Simulation alone = new(scene, new SimulationOptions(cancellation: cancellation, threads: 2) { OtherThread = static (take, step) => take(step) });
+        Simulation alone = new(scene, new SimulationOptions(cancellation: cancellation));
         BodyId[] bodies = new BodyId[deeds.Count];
         for (int i = 0; i < deeds.Count; i++)
         {

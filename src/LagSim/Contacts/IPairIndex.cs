@@ -4,7 +4,7 @@ using LagSim.Time;
 namespace LagSim.Contacts;
 
 /// <summary>
-/// Which bodies another body's path could touch, or come as near to as a hop is high: by what they do, did inside the window, or are to do. An
+/// Which bodies another body's path could touch: by what they do, did inside the window, or are to do. An
 /// index may name too many, never too few, none twice, and its order decides nothing.
 /// </summary>
 internal interface IPairIndex

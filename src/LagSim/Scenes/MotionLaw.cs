@@ -54,7 +54,7 @@ public enum MotionLaw : byte
     Rolling = 9,
 
     /// <summary>
-    /// In lasting contact with other bodies, with a static sphere, or with planes under forces: an island of such bodies moves by steps of at most 1/512 s, a
+    /// In lasting contact with other bodies, with a static sphere, or with planes under forces: an island of such bodies moves by steps of at most 1/64 s, a
     /// cubic each, that are taken for all of it together. Entered from an impact, ends in flight, on planes, or at rest; never a scene's choice.
     /// </summary>
     Constrained = 10,

@@ -51,7 +51,7 @@ internal static class CorpusWorlds
     private static CorpusWorld World(string name, Scene scene, double seconds, params ExternalEvent[] events) =>
         new(name, scene, CorpusWorld.Accepted(events), seconds, 20, SimTime.Zero);
 
-    /// <summary>A row of masses up to twelve decades apart, a billiard of ten thousand to one against a wall, and a light ball squeezed by 1e30 kg.</summary>
+    /// <summary>A row of masses up to twelve decades apart, a billiard of ten thousand to one against a wall, and a light ball, inelastic, squeezed by 1e30 kg.</summary>
     private static CorpusWorld MassRatios()
     {
         SceneBuilder builder = new SceneBuilder("mass ratios").WithGravity(Floating).AddPlane("wall", V(1), V(-10));
@@ -63,7 +63,7 @@ internal static class CorpusWorlds
         ];
         for (int i = 0; i < balls.Length; i++)
         {
-            builder.AddBody($"ball {i}", Ball(mass: balls[i].Mass), V(balls[i].X, balls[i].Y), V(balls[i].Speed));
+            builder.AddBody($"ball {i}", Ball(mass: balls[i].Mass, e: i < 7 ? 1 : 0.5), V(balls[i].X, balls[i].Y), V(balls[i].Speed));
         }
 
         return World("mass-ratios", builder.Build(), 10);

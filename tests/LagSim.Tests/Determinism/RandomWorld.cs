@@ -211,8 +211,12 @@ internal sealed class RandomWorld
         }
 
         bool steps = integrated > random.Next(3);
+        double radius = Pick(0.25, 0.25, 0.3125), mass = Pick(masses);
+
+        // An elastic ball that is squeezed by one of twelve decades more has a million impacts, all of which happen.
+        double restitution = Math.Min(Pick(Restitutions), masses == ExtremeMasses ? 0.8 : 1);
         return Ball(
-            Pick(0.25, 0.25, 0.3125), Pick(masses), Pick(Restitutions), steps ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic,
+            radius, mass, restitution, steps ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic,
             steps ? Pick(0.03125, 0.03125, 0.05) : 0, (byte)(steps ? random.Next(2) : 0));
     }
 
