@@ -18,6 +18,8 @@ public sealed partial class Simulation
 {
     private readonly ContactStep step;
     private readonly List<int> lookedAt = new(); // slots of partners that carry no contact any more that another still carries
+    private int[] stepOf = Array.Empty<int>(); // by slot: the last step that it was of and in which it strikes nobody of its island
+    private int stepNumber = 1;
     private bool[] holdsPair = Array.Empty<bool>(); // by party: whether another body holds it
 
     /// <summary>How many contact steps were taken, and of how many bodies.</summary>
@@ -59,14 +61,33 @@ public sealed partial class Simulation
             SettleForces(canonical.Time, length, tolerance);
             step.FindHolding(seconds);
             OpenStep(canonical, length);
+            MarkStep();
         }
 
         StepsTaken++;
         SweepsTaken += step.Sweeps;
         ContactsSolved += step.Problem.ContactCount;
         JoinLookedAt(canonical);
+        stepNumber++;
         return true;
     }
+
+    /// <summary>Marks those of the step who strike nobody of it, so that in the predictions that follow nobody looks.</summary>
+    private void MarkStep()
+    {
+        if (stepOf.Length < slotCount)
+        {
+            Array.Resize(ref stepOf, bodies.Length);
+        }
+
+        for (int i = 0; i < partyCount; i++)
+        {
+            stepOf[parties[i]] = !step.MayMeet(i) && timelines.Segment(timelines.Last(parties[i])).Law == MotionLaw.Constrained ? stepNumber : -1;
+        }
+    }
+
+    /// <summary>Whether a body was opened by the step at hand, and strikes nobody of it.</summary>
+    private bool IsOfStep(int slot) => slot < stepOf.Length && stepOf[slot] == stepNumber;
 
     /// <summary>
     /// The parties, and those that the event at hand has looked at and that are no part of it, are opened by one event, and predicted again: who is cut later cuts

@@ -56,10 +56,11 @@ public sealed partial class Simulation
             ConsiderSurface(slot, surface, ref next);
         }
 
+        bool isOfStep = IsOfStep(slot) && !TakesNoShortcut;
         SimTime end = SimTime.Min(until, timelines.Segment(timelines.Last(slot)).End);
         foreach (int other in candidates)
         {
-            if (other != except && !flights.AreApart(slot, other, from, SimTime.Max(from, next.Earliest(end))))
+            if (other != except && !(isOfStep && IsOfStep(other)) && !flights.AreApart(slot, other, from, SimTime.Max(from, next.Earliest(end))))
             {
                 ConsiderMeeting(slot, other, until, ref next);
             }

@@ -26,6 +26,9 @@ internal sealed class ContactStep
     private double[] places = new double[8];
     private long[] pairs = new long[16]; // the lesser body and the greater
     private int pairCount;
+    private long[] near = new long[16]; // those that are no contacts of the step, and might come to touch if the step makes them faster
+    private int nearCount;
+    private double fastest; // that the near ones were found for
 
     internal ContactStep(Scene scene, in ContactScale scale)
     {
@@ -82,6 +85,7 @@ internal sealed class ContactStep
     internal void FindContacts(double seconds)
     {
         pairCount = 0;
+        nearCount = 0;
         FindPairs(seconds);
         Array.Sort(pairs, 0, pairCount);
         int next = 0;
@@ -120,6 +124,7 @@ internal sealed class ContactStep
     /// </summary>
     internal void FindHolding(double seconds)
     {
+        FindMeetings(seconds);
         for (int i = 0; i < Problem.ContactCount; i++)
         {
             ref SolverContact c = ref Problem.Contacts[i];
@@ -227,26 +232,75 @@ internal sealed class ContactStep
                 double reach = p.Radius + q.Radius;
                 double square = apart.LengthSquared;
                 double along = Vector3D.Dot(apart, opens);
-                double margin = reach + Scale.Length;
-                if ((square > margin * margin && along >= 0) || (p.InverseMass == 0 && q.InverseMass == 0))
+                double margin = reach + Math.Max(Scale.Length, 2 * fastest * seconds);
+                if (square > margin * margin || (p.InverseMass == 0 && q.InverseMass == 0))
                 {
                     continue;
                 }
 
                 double length = Math.Sqrt(square);
                 double opening = length > 0 ? along / length : opens.Y;
-                if (MayTouch(length - reach, opening, seconds, Math.Min(members[i].Restitution, members[j].Restitution)))
+                bool mayTouch = MayTouch(length - reach, opening, seconds, Math.Min(members[i].Restitution, members[j].Restitution));
+                long pair = ((long)Math.Min(i, j) << 32) | (uint)Math.Max(i, j);
+                if (mayTouch)
                 {
-                    if (pairCount == pairs.Length)
-                    {
-                        Array.Resize(ref pairs, 2 * pairCount);
-                    }
-
-                    pairs[pairCount++] = ((long)Math.Min(i, j) << 32) | (uint)Math.Max(i, j);
+                    Add(ref pairs, ref pairCount, pair);
+                }
+                else if (length - reach <= 2 * fastest * seconds)
+                {
+                    Add(ref near, ref nearCount, pair);
                 }
             }
         }
     }
+
+    private static void Add(ref long[] to, ref int count, long pair)
+    {
+        if (count == to.Length)
+        {
+            Array.Resize(ref to, 2 * count);
+        }
+
+        to[count++] = pair;
+    }
+
+    /// <summary>
+    /// Marks the bodies that might strike another of the island within the step that was solved, which is no contact of it: for all others nobody need look.
+    /// </summary>
+    private void FindMeetings(double seconds)
+    {
+        bool isTooFast = false;
+        for (int b = 0; b < Problem.BodyCount; b++)
+        {
+            members[b].MayMeet = false;
+            isTooFast |= !(Problem.Bodies[b].Velocity.LengthSquared <= fastest * fastest);
+        }
+
+        for (int b = 0; b < Problem.BodyCount && isTooFast; b++)
+        {
+            members[b].MayMeet = true;
+        }
+
+        for (int n = 0; n < nearCount && !isTooFast; n++)
+        {
+            int i = (int)(near[n] >> 32);
+            int j = (int)(uint)near[n];
+            Vector3D apart = members[i].Position - members[j].Position;
+            Vector3D opens = Problem.Bodies[i].Velocity - Problem.Bodies[j].Velocity;
+            double reach = (Problem.Bodies[i].Radius + Problem.Bodies[j].Radius) * (1 + 1e-9);
+            double along = Vector3D.Dot(apart, opens);
+            double square = opens.LengthSquared;
+            double nearest = along >= 0 ? 0 : square * seconds <= -along ? seconds : -along / square;
+            if ((apart + (opens * nearest)).LengthSquared <= reach * reach)
+            {
+                members[i].MayMeet = true;
+                members[j].MayMeet = true;
+            }
+        }
+    }
+
+    /// <summary>Whether a body might strike another of the island within the step.</summary>
+    internal bool MayMeet(int body) => members[body].MayMeet;
 
     private void AddPair(int first, int second)
     {
@@ -287,7 +341,8 @@ internal sealed class ContactStep
         }
 
         Array.Sort(places, byPlace, 0, count);
-        widest = (2 * largest) + Scale.Length + (2 * speed * Scale.Step.ToSeconds());
+        fastest = speed + Scale.CaptureSpeed;
+        widest = (2 * largest) + Scale.Length + (2 * fastest * Scale.Step.ToSeconds());
     }
 
     private struct Member
@@ -295,6 +350,7 @@ internal sealed class ContactStep
         internal Vector3D Position;
         internal Vector3D Free; // the velocity without contacts
         internal Vector3D FreeSpin;
+        internal bool MayMeet;
         internal double Friction;
         internal double Lever;
         internal double Restitution;
