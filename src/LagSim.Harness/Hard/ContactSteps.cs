@@ -4,15 +4,20 @@ using static LagSim.Harness.Hard.HardWorlds;
 
 namespace LagSim.Harness.Hard;
 
-/// <summary>What a contact tolerance d promises of bodies in lasting contact, and how their steps are read: what bounds of such bodies are argued from.</summary>
+/// <summary>What a contact tolerance d promises of bodies in lasting contact, and how their steps are read: what bounds of such bodies are
+/// argued from.</summary>
 /// <remarks>
-/// A step h is the largest power of two of seconds in which a fall from rest stays within d, so g h^2 / 2 is at most d, and the chord of a step at most d / 4 from its
-/// parabola. A member's velocity is that of the middle of its step: read within one it is off by up to a h / 2, and at a tick the mean of both sides is off by the
-/// second order alone. Sweeps leave a contact to close by 0.05 d in a step, which the next puts right, so a contact that holds still is off by twice that.
+/// A step h is the largest power of two of seconds in which a fall from rest stays within d, so g h^2 / 2 is at most d, and the chord of a
+/// step at most d / 4 from its
+/// parabola. A member's velocity is that of the middle of its step: read within one it is off by up to a h / 2, and at a tick the mean of
+/// both sides is off by the
+/// second order alone. Sweeps leave a contact to close by 0.05 d in a step, which the next puts right, so a contact that holds still is
+/// off by twice that.
 /// </remarks>
 internal static class ContactSteps
 {
-    /// <summary>The part of d by which a contact that is left to close by 0.05 d in a step, and put right in the next, may be off.</summary>
+    /// <summary>The part of d by which a contact that is left to close by 0.05 d in a step, and put right in the next, may be
+    /// off.</summary>
     internal const double Closing = 0.1;
 
     /// <summary>What is pressed together where a scene has no gravity: by 1 m/s².</summary>
@@ -45,12 +50,14 @@ internal static class ContactSteps
     }
 
     /// <summary>That errors fall with the step as they should: measured between two steps.</summary>
-    internal static HardRow Order(string name, string size, double coarse, double fine, double ratio, double expected, double share, string argument)
+    internal static HardRow Order(
+        string name, string size, double coarse, double fine, double ratio, double expected, double share, string argument)
     {
         double order = Math.Log(coarse / fine) / Math.Log(ratio);
         return new HardRow(
             name, FormattableString.Invariant($"{size}, d over {ratio * ratio:0}"), Math.Abs(order - expected),
-            FormattableString.Invariant($"order_off_{expected:0.##}"), share, argument, "order in the step, of which d goes with the square")
+            FormattableString.Invariant($"order_off_{expected:0.##}"), share, argument, "order in the step, of which d goes with the"
+                + " square")
         {
             Note = FormattableString.Invariant($"measured order {order:0.000}"),
         };

@@ -11,8 +11,10 @@ namespace LagSim.Harness.Hard;
 
 /// <summary>A ball slides off a dome, which carries it until the dome would have to pull: lasting contact on what is round, and its end.</summary>
 /// <remarks>
-/// In steps of h the ball moves on chords, which lead away from the dome by (v h)^2/(2 R) at most. It is let go once it is d/4 off it. Where the dome ceases to push the
-/// gap grows as g sin(a) w t^3/2, w being the angular velocity, so that is (d/(2 g sin(a) w))^(1/3) later, on a path that is free by then. All else is of the second
+/// In steps of h the ball moves on chords, which lead away from the dome by (v h)^2/(2 R) at most. It is let go once it is d/4 off it.
+/// Where the dome ceases to push the
+/// gap grows as g sin(a) w t^3/2, w being the angular velocity, so that is (d/(2 g sin(a) w))^(1/3) later, on a path that is free by then.
+/// All else is of the second
 /// order at ticks, where velocities are the means of both sides.
 /// </remarks>
 internal sealed class DomeCase : IHardCase
@@ -37,7 +39,8 @@ internal sealed class DomeCase : IHardCase
             }
 
             const double Coarse = 1.0 / 256, Fine = 1.0 / 4096;
-            Seen coarse = Errors(context, start, ContactSteps.ToleranceOf(Coarse), Coarse), fine = Errors(context, start, ContactSteps.ToleranceOf(Fine), Fine);
+            Seen coarse = Errors(context, start, ContactSteps.ToleranceOf(Coarse), Coarse),
+                fine = Errors(context, start, ContactSteps.ToleranceOf(Fine), Fine);
             foreach (HardRow row in Orders(start, coarse, fine, Coarse / Fine))
             {
                 yield return row;
@@ -53,7 +56,8 @@ internal sealed class DomeCase : IHardCase
             yield return row with { Note = "goes on along the tangent and is never put back onto the dome, and leaves it 0.05 rad late" };
         }
 
-        foreach (HardRow row in Orders(0.1, Tangents(1.0 / 256), Tangents(1.0 / 4096), 16).Where(row => !row.Size.Contains("within", StringComparison.Ordinal)))
+        foreach (HardRow row in Orders(0.1, Tangents(1.0 / 256), Tangents(1.0 / 4096), 16)
+            .Where(row => !row.Size.Contains("within", StringComparison.Ordinal)))
         {
             yield return row with { Note = "goes on along the tangent and is never put back onto the dome, and leaves it 0.05 rad late" };
         }
@@ -63,12 +67,15 @@ internal sealed class DomeCase : IHardCase
     {
         Simulation simulation = context.Run(Scene(start, d), Length(start));
         TimelineEntry[] path = [.. simulation.Timeline(First)];
-        TimelineEntry[] steps = [.. path.Where(entry => entry.State.Motion == MotionLaw.Constrained && entry.Key.Kind == EventKind.StepEnd)];
+        TimelineEntry[] steps = [.. path
+            .Where(entry => entry.State.Motion == MotionLaw.Constrained && entry.Key.Kind == EventKind.StepEnd)];
         TimelineEntry left = path.First(entry => entry.Key.Time > SimTime.Zero && entry.State.Motion == MotionLaw.Ballistic);
         double let = left.Key.Time.ToSeconds(), early = ContactSteps.TickBefore(0.7 * let, step), full = Gravity * Reach * Math.Cos(start);
         return new Seen(
             Angle(left.State.Position) - Leaves(start),
-            steps.Skip(1).Max(entry => Math.Abs(Energy(ContactSteps.AtTick(simulation, 0, entry.Key.Time.ToSeconds(), step)) - full)) / (Gravity * Reach),
+            steps.Skip(1)
+                .Max(entry => Math.Abs(Energy(ContactSteps.AtTick(simulation, 0, entry.Key.Time.ToSeconds(), step)) - full))
+                    / (Gravity * Reach),
             steps.Max(entry => Math.Abs(Energy(entry.State) - full)) / (Gravity * Reach),
             steps.Max(entry => Math.Abs(entry.State.Position.Length - Reach)),
             (Read(simulation, 0, early).Position - Exact(start, early)).Length,
@@ -96,7 +103,8 @@ internal sealed class DomeCase : IHardCase
         return new Seen(Math.Atan2(p.X, p.Y) + 0.05 - Leaves(0.1), worst, 10 * worst, off, place, place);
     }
 
-    /// <summary>Where an exact ball is: by 20,000 classical Runge-Kutta steps on the dome, and on a parabola from where that would have to pull.</summary>
+    /// <summary>Where an exact ball is: by 20,000 classical Runge-Kutta steps on the dome, and on a parabola from where that would have to
+    /// pull.</summary>
     private static Vector3D Exact(double start, double seconds)
     {
         const int Steps = 20_000;
@@ -124,7 +132,8 @@ internal sealed class DomeCase : IHardCase
 
     private static double Leaves(double start) => Math.Acos(2.0 / 3 * Math.Cos(start));
 
-    private static Scene Scene(double angle, double d) => new SceneBuilder("dome").WithContactTolerance(d).AddStaticSphere("dome", V(0), Reach - 0.5, 0)
+    private static Scene Scene(double angle, double d) =>
+        new SceneBuilder("dome").WithContactTolerance(d).AddStaticSphere("dome", V(0), Reach - 0.5, 0)
         .AddBody("ball", Ball(e: 0), OnDome(angle)).Build();
 
     // From the angle at which it begins it takes some ln(1/angle) times sqrt(R/g); by then it has fallen off.
@@ -142,11 +151,13 @@ internal sealed class DomeCase : IHardCase
         string size = FormattableString.Invariant($"let go {start} rad from the top, d {d} m");
         yield return new HardRow(
             Name, size, Math.Abs(seen.Angle), "angle_rad", rate * (late + (2 * step)),
-            "the way until it is d/4 off where nothing holds it, (d/(2 g sin(a) w))^(1/3) s, and of two steps: it is let go at the end of one in which the dome pushed last",
+            "the way until it is d/4 off where nothing holds it, (d/(2 g sin(a) w))^(1/3) s, and of two steps: it is let go at the end of"
+                + " one in which the dome pushed last",
             "cos = 2/3 of the cosine at which it began");
         yield return new HardRow(
             Name, size, seen.AtTicks, "energy_at_ticks_relative", 13.0 / 12 * turn * turn,
-            "second order in the angle of a step, w h: half its square for the height that a chord leads away, as much for what pushes meanwhile, a twelfth for the mean of two velocities",
+            "second order in the angle of a step, w h: half its square for the height that a chord leads away, as much for what pushes"
+                + " meanwhile, a twelfth for the mean of two velocities",
             "the energy at the start");
         yield return new HardRow(
             Name, size, seen.Within, "energy_within_steps_relative", (0.5 * turn) + (13.0 / 12 * turn * turn),
@@ -154,14 +165,18 @@ internal sealed class DomeCase : IHardCase
         double off = (turn * turn * Reach / 2) + (0.25 * d) + (ContactSteps.Closing / 2 * d);
         yield return new HardRow(
             Name, size, seen.Off, "distance_m", off,
-            "a chord leads away by (v h)^2/(2 R), it is let go d/4 off, and 0.05 d is what sweeps leave; no drift is added from step to step", "the sum of the radii");
+            "a chord leads away by (v h)^2/(2 R), it is let go d/4 off, and 0.05 d is what sweeps leave; no drift is added from step to"
+                + " step", "the sum of the radii");
         double place = off + (Reach * leaves * growth * Length(start) * growth * step * growth * step / 24);
         yield return new HardRow(
             Name, size, seen.Place, "place_m", place,
-            "that, and the (W h)^2/24 by which leapfrog's rate of leaving the top is off, W being the root of g/R, for as long as it takes", "20,000 Runge-Kutta steps");
+            "that, and the (W h)^2/24 by which leapfrog's rate of leaving the top is off, W being the root of g/R, for as long as it"
+                + " takes", "20,000 Runge-Kutta steps");
         yield return new HardRow(
-            Name, size, seen.Flown, "place_in_flight_m", place + (0.25 * d) + (Flight * ((growth * place) + (rate * Reach * turn * turn / 8))),
-            "that, d/4, and for 0.2 s the speeds that go with it: W times the place, and an eighth of the square of w h", "20,000 Runge-Kutta steps and a parabola");
+            Name, size, seen.Flown, "place_in_flight_m",
+                place + (0.25 * d) + (Flight * ((growth * place) + (rate * Reach * turn * turn / 8))),
+            "that, d/4, and for 0.2 s the speeds that go with it: W times the place, and an eighth of the square of w h", "20,000"
+                + " Runge-Kutta steps and a parabola");
     }
 
     private IEnumerable<HardRow> Orders(double start, Seen coarse, Seen fine, double ratio)

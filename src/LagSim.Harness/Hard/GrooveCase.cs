@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using LagSim.Scenes;
 using static LagSim.Harness.Hard.HardWorlds;
 
@@ -38,6 +39,8 @@ internal sealed class GrooveCase : IHardCase
                 }
             }
         }
+
+        yield return Order(context);
     }
 
     public IEnumerable<HardRow> Controls(HardContext context)
@@ -48,27 +51,43 @@ internal sealed class GrooveCase : IHardCase
         }
     }
 
-    private IEnumerable<HardRow> Rows(HardContext context, double half, double nearness, double actual)
+    /// <summary>Where the sides meet at a right angle sweeps settle at once, and the friction of the first half step is all that is
+    /// off.</summary>
+    private HardRow Order(HardContext context)
+    {
+        const double Coarse = 1.0 / 256, Fine = 1.0 / 4096;
+        double[] places = [.. new[] { Coarse, Fine }
+            .Select(step => Rows(context, Math.PI / 4, -0.1, -0.1, ContactSteps.ToleranceOf(step)).First().Error)];
+        return ContactSteps.Order(
+            Name, "sides at a right angle, friction -0.1 of what rolling needs, place", places[0], places[1], Coarse / Fine, 1, 0.05,
+            "the next order is a step over the time that is watched, a thousandth, of this one");
+    }
+
+    private IEnumerable<HardRow> Rows(HardContext context, double half, double nearness, double actual, double tolerance = Tolerance)
     {
         double arm = Math.Cos(half), rolling = Gravity * Sine / (1 + (0.4 / (arm * arm)));
         double needed = ((Gravity * Sine) - rolling) * arm / (Gravity * Cosine), mu = needed * (1 + nearness);
         double a = nearness >= 0 ? rolling : (Gravity * Sine) - (mu * Gravity * Cosine / arm);
         double turning = nearness >= 0 ? a / (Radius * arm) : 2.5 * mu * Gravity * Cosine / Radius;
-        Scene scene = new SceneBuilder("groove").WithContactTolerance(Tolerance).WithGravity(V(0, -Gravity * Cosine, Gravity * Sine))
+        Scene scene = new SceneBuilder("groove").WithContactTolerance(tolerance).WithGravity(V(0, -Gravity * Cosine, Gravity * Sine))
             .AddPlane("left", V(Math.Sin(half), arm), 0.0).AddPlane("right", V(-Math.Sin(half), arm), 0.0)
             .AddBody("ball", new BodySpec(Radius, 3, 0, friction: needed * (1 + actual)), V(0, Radius / arm)).Build();
-        double step = ContactSteps.Step(Tolerance), speed = 2 * SweepPart * Tolerance / step;
+        double step = ContactSteps.Step(tolerance), brake = ((Gravity * Sine) - rolling) * Math.Min(1, 1 + nearness);
+        double speed = (2 * SweepPart * tolerance / step) + (brake * step / 2);
         Simulation simulation = context.Run(scene, Seconds);
         BodyState state = ContactSteps.AtTick(simulation, 0, Seconds, step);
         double way = a * Seconds * Seconds / 2;
         string size = FormattableString.Invariant($"sides at {half:0.###} rad, friction {nearness:+0.###;-0.###} of what rolling needs");
         string law = nearness >= 0 ? "g sin b/(1 + 2/5/cos^2 t)" : "g sin b - mu g cos b/cos t";
         yield return new HardRow(
-            Name, size, (state.Position - V(0, Radius / arm, way)).Length, "position_m", (speed * Seconds) + Tolerance,
-            "of two contacts the sweeps leave 0.05 d a step, d being 1e-6 m, as a speed and for as long as is watched: what a contact lacks in one step it has in the next; and d",
+            Name, size, (state.Position - V(0, Radius / arm, way)).Length, "position_m", (speed * Seconds) + tolerance,
+            "as a speed, for as long as is watched, 0.05 d a step of each of two contacts, which sweeps leave: what one lacks in a step it"
+                + " has in the next;"
+                + " the friction of the first half step, in which there is no slip yet to be along; and d, 1e-6 m",
             law + " t^2/2");
         yield return new HardRow(
             Name, size, (state.Spin - V(turning * Seconds)).Length, "spin_rad_per_s", 2.5 * speed / Radius,
-            "5/2 of that speed, over the radius: at a tick, where the mean of both sides is off by nothing else", nearness >= 0 ? law + " t/(r cos t)" : "5/2 mu g cos b t/r");
+            "5/2 of that speed, over the radius: at a tick, where the mean of both sides is off by nothing"
+                + " else", nearness >= 0 ? law + " t/(r cos t)" : "5/2 mu g cos b t/r");
     }
 }

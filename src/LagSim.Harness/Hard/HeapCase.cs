@@ -101,7 +101,8 @@ internal sealed class HeapCase : IHardCase
     /// <summary>A square pyramid in a bin that is as wide as its base. A program's own force is its weight: of that nobody knows what it will do, so nothing ever rests.</summary>
     private static Scene Pyramid(double friction, double width)
     {
-        SceneBuilder builder = new SceneBuilder("pyramid").WithGravity(Vector3D.Zero).WithContactTolerance(OfPyramid).AddForce(Force.Supplied(new SuppliedWeight()));
+        SceneBuilder builder = new SceneBuilder("pyramid").WithGravity(Vector3D.Zero).WithContactTolerance(OfPyramid)
+            .AddForce(Force.Supplied(new SuppliedWeight()));
         Bin(builder, width / 2, friction);
         for (int layer = 0; layer < Edge; layer++)
         {
@@ -116,7 +117,8 @@ internal sealed class HeapCase : IHardCase
         return builder.Build();
     }
 
-    /// <summary>The largest gain of energy at ticks, turning included, over all that went before, as part of the energy at the start; and how deep anything was in anything.</summary>
+    /// <summary>The largest gain of energy at ticks, turning included, over all that went before, as part of the energy at the start; and
+    /// how deep anything was in anything.</summary>
     private static double Largest(HardContext context, Simulation simulation, double seconds, out double depth)
     {
         double least = SceneEnergy.Of(simulation, SimTime.Zero), start = least, gain = 0;
@@ -128,7 +130,8 @@ internal sealed class HeapCase : IHardCase
             double at = seconds * n / Samples;
             simulation.AdvanceTo(SimTime.FromSeconds(at));
             double tick = ContactSteps.TickBefore(at, step);
-            double energy = Enumerable.Range(0, simulation.BodyCount).Sum(body => EnergyOf(simulation.SpecOf(BodyId.OfScene(body)), ContactSteps.AtTick(simulation, body, tick, step)));
+            double energy = Enumerable.Range(0, simulation.BodyCount).Sum(
+                body => EnergyOf(simulation.SpecOf(BodyId.OfScene(body)), ContactSteps.AtTick(simulation, body, tick, step)));
             gain = double.IsNaN(energy) ? double.NaN : Math.Max(gain, energy - least);
             least = Math.Min(least, energy);
             depth = Math.Max(depth, Deepest(simulation, at));
@@ -139,7 +142,8 @@ internal sealed class HeapCase : IHardCase
     }
 
     private static double EnergyOf(in BodySpec spec, in BodyState state) => spec.Mass
-        * ((0.5 * state.Velocity.LengthSquared) + (Gravity * state.Position.Y) + (0.2 * spec.Radius * spec.Radius * state.Spin.LengthSquared));
+        * ((0.5 * state.Velocity.LengthSquared)
+            + (Gravity * state.Position.Y) + (0.2 * spec.Radius * spec.Radius * state.Spin.LengthSquared));
 
     private static double Deepest(Simulation simulation, double at)
     {
@@ -157,14 +161,17 @@ internal sealed class HeapCase : IHardCase
         return depth;
     }
 
-    /// <summary>What is exact in free flight is off by the second order at ticks: places by d or two, speeds by the square of a kick g h, which is 2 g d.</summary>
+    /// <summary>What is exact in free flight is off by the second order at ticks: places by d or two, speeds by the square of a kick g h,
+    /// which is 2 g d.</summary>
     private HardRow Gain(string size, double gain) => new(
         Name, size, gain, "energy_gain_relative", 3 * Falling / 0.4,
-        "all of it lifted by 2 d, d being 1e-5 m, and half the square of a kick, g d, as part of the energy of what lies 0.4 m high as the lowest layer does; at ticks",
+        "all of it lifted by 2 d, d being 1e-5 m, and half the square of a kick, g d, as part of the energy of what lies 0.4 m high as the"
+            + " lowest layer does; at ticks",
         "all the energy there was before");
 
     private HardRow Depth(string size, double depth) => new(
-        Name, size, depth, "depth_m", 2 * Falling, "two of d, 1e-5 m: a fall in a step, and the turning of a line of centres in one", "no ball is in another or in a plane");
+        Name, size, depth, "depth_m", 2 * Falling, "two of d, 1e-5 m: a fall in a step, and the turning of a line of centres in one", "no"
+            + " ball is in another or in a plane");
 
     /// <summary>A ball on two that touch, on a floor: friction keeps them so from the tangent of 15 degrees on, half the angle between the line of centres and the vertical.</summary>
     private HardRow Stays(HardContext context, double friction)
@@ -176,7 +183,8 @@ internal sealed class HeapCase : IHardCase
         double drift = Enumerable.Range(0, 3).Max(n => (Read(simulation, n, 3).Position - scene.Bodies[n].Position).Length);
         return new HardRow(
             Name, FormattableString.Invariant($"a ball on two, mu {friction}, 3 s"), drift, "drift_m", 4 * ContactSteps.Closing * Standing,
-            "a tenth of d, 1e-6 m, for each of four contacts: sweeps leave one to close by half of that, and a step later it is put right", "they stay where mu is at least tan 15 degrees, 0.268");
+            "a tenth of d, 1e-6 m, for each of four contacts: sweeps leave one to close by half of that, and a step later it is put"
+                + " right", "they stay where mu is at least tan 15 degrees, 0.268");
     }
 
     /// <summary>

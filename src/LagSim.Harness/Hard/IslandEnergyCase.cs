@@ -9,9 +9,12 @@ namespace LagSim.Harness.Hard;
 
 /// <summary>Three balls that a spring presses together swing to and fro over a floor, as one island, for a long time: the energy of a method that keeps it is off by what it was in the first period.</summary>
 /// <remarks>
-/// A spring of its own holds each to the middle of the row across which they swing, so the outer ones push on the inner one for ever, and the floor carries all. Contact steps are leapfrog (Hairer,
-/// Lubich and Wanner, Geometric Numerical Integration, I.1.4): of an oscillator that keeps v^2 + (1 - (omega h)^2/4) omega^2 x^2 at ticks, v being the mean of both sides, so the energy is off by up to
-/// (omega h)^2/4 of itself, however long it swings, and its phase by (omega h)^2/24 of itself. Within a step its velocity is that of the middle, off by up to a h/2, and so the energy by omega h/2.
+/// A spring of its own holds each to the middle of the row across which they swing, so the outer ones push on the inner one for ever, and
+/// the floor carries all. Contact steps are leapfrog (Hairer,
+/// Lubich and Wanner, Geometric Numerical Integration, I.1.4): of an oscillator that keeps v^2 + (1 - (omega h)^2/4) omega^2 x^2 at ticks,
+/// v being the mean of both sides, so the energy is off by up to
+/// (omega h)^2/4 of itself, however long it swings, and its phase by (omega h)^2/24 of itself. Within a step its velocity is that of the
+/// middle, off by up to a h/2, and so the energy by omega h/2.
 /// </remarks>
 internal sealed class IslandEnergyCase : IHardCase
 {
@@ -37,10 +40,12 @@ internal sealed class IslandEnergyCase : IHardCase
         }
 
         const double Coarse = 1.0 / 128, Fine = 1.0 / 1024, Share = 0.05;
-        Seen coarse = Errors(context, 10, ContactSteps.ToleranceOf(Coarse), Coarse), fine = Errors(context, 10, ContactSteps.ToleranceOf(Fine), Fine);
+        Seen coarse = Errors(context, 10, ContactSteps.ToleranceOf(Coarse), Coarse),
+            fine = Errors(context, 10, ContactSteps.ToleranceOf(Fine), Fine);
         const string Next = "the next order is (omega h)^2, a thousandth, of this one; samples are that near to the largest";
         yield return ContactSteps.Order(Name, "energy at ticks", coarse.AtTicks, fine.AtTicks, Coarse / Fine, 2, Share, Next);
-        yield return ContactSteps.Order(Name, "energy within steps", coarse.Within, fine.Within, Coarse / Fine, 1, Share, "the next order is omega h/2 of this one, 0.016, over ln 8");
+        yield return ContactSteps.Order(Name, "energy within steps", coarse.Within, fine.Within, Coarse / Fine, 1, Share, "the next order"
+            + " is omega h/2 of this one, 0.016, over ln 8");
         yield return ContactSteps.Order(Name, "place", coarse.Place, fine.Place, Coarse / Fine, 2, Share, Next);
     }
 
@@ -58,7 +63,8 @@ internal sealed class IslandEnergyCase : IHardCase
             for (int body = 0; body < 3; body++)
             {
                 BodyState state = ContactSteps.AtTick(simulation, body, tick, step);
-                energy += (0.5 * state.Velocity.LengthSquared) + (0.5 * Omega * Omega * (state.Position - V(0, 0.5)).LengthSquared) + (Gravity * state.Position.Y);
+                energy += (0.5 * state.Velocity.LengthSquared)
+                    + (0.5 * Omega * Omega * (state.Position - V(0, 0.5)).LengthSquared) + (Gravity * state.Position.Y);
                 isIsland &= state.Motion == MotionLaw.Constrained;
                 place = Math.Max(place, Math.Abs(state.Position.Z - (Swing / Omega * Math.Sin(Omega * tick))));
                 apart = Math.Max(apart, Math.Abs(state.Position.Y - 0.5));
@@ -69,7 +75,8 @@ internal sealed class IslandEnergyCase : IHardCase
             context.Report(n / (double)samples);
         }
 
-        return isIsland ? new Seen(atTicks / Kinetic, within / Kinetic, place, apart) : new Seen(double.NaN, double.NaN, double.NaN, double.NaN);
+        return isIsland ? new Seen(atTicks / Kinetic, within / Kinetic, place, apart)
+            : new Seen(double.NaN, double.NaN, double.NaN, double.NaN);
     }
 
     public IEnumerable<HardRow> Controls(HardContext context)
@@ -96,7 +103,9 @@ internal sealed class IslandEnergyCase : IHardCase
     /// <summary>What swings, in J, of three balls of 1 kg.</summary>
     private static double Kinetic => 1.5 * Swing * Swing;
 
-    private static Scene Scene(double tolerance) => new SceneBuilder("swing").WithContactTolerance(tolerance).AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0).AddForce(Force.Spring("spring", V(0, 0.5), Omega * Omega))
+    private static Scene Scene(double tolerance) =>
+        new SceneBuilder("swing").WithContactTolerance(tolerance).AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0)
+        .AddForce(Force.Spring("spring", V(0, 0.5), Omega * Omega))
         .AddBody("left", Body(), V(-1, 0.5), V(0, 0, Swing)).AddBody("middle", Body(), V(0, 0.5), V(0, 0, Swing)).AddBody("right", Body(), V(1, 0.5), V(0, 0, Swing)).Build();
 
     private static BodySpec Body() => new(0.5, 1, 0, MotionLaw.Automatic, forces: ForceSet.Of(0));
@@ -108,7 +117,8 @@ internal sealed class IslandEnergyCase : IHardCase
         double contacts = closing / 2 * ((2 * Omega * Omega) + (3 * Gravity)) / Kinetic;
         yield return new HardRow(
             Name, size, seen.AtTicks, "energy_at_ticks_relative", (0.25 * square) + contacts,
-            "(omega h)^2/4, which leapfrog's energy is off at ticks, and the work of springs and weight on the 0.05 d, of 1e-4 m, that sweeps leave; however long it swings",
+            "(omega h)^2/4, which leapfrog's energy is off at ticks, and the work of springs and weight on the 0.05 d, of 1e-4 m, that"
+                + " sweeps leave; however long it swings",
             "the energy at the start; NaN where they were no island");
         yield return new HardRow(
             Name, size, seen.Within, "energy_within_steps_relative", (0.5 * Omega * Step) + (0.25 * square) + contacts,
@@ -118,7 +128,8 @@ internal sealed class IslandEnergyCase : IHardCase
             "(omega h)^2/24 of the phase, and an eighth of the square of the swing's size", "v sin(omega t)/omega");
         yield return new HardRow(
             Name, size, seen.Apart, "distance_m", closing,
-            "a tenth of d: sweeps leave a contact to close by half of that, and a step later it is put right; no drift is added from step to step", "the radii");
+            "a tenth of d: sweeps leave a contact to close by half of that, and a step later it is put right; no drift is added from step"
+                + " to step", "the radii");
     }
 
     private readonly record struct Seen(double AtTicks, double Within, double Place, double Apart);

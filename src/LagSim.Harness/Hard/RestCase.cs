@@ -102,7 +102,8 @@ internal sealed class RestCase : IHardCase
             "the scene's resolution, below which a contact is taken to last, and 32 roundings", "g sin(a) t^2/2 along the slope");
     }
 
-    private static Scene Stack() => new SceneBuilder("stack").WithContactTolerance(Tolerance).AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0.5)
+    private static Scene Stack() => new SceneBuilder("stack").WithContactTolerance(Tolerance)
+        .AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0.5)
         .AddBody("below", Ball(e: 0.5), V(0, 0.5)).AddBody("above", Ball(e: 0.5), V(0, 1.5)).Build();
 
     /// <summary>A ball on two, between two walls.</summary>
@@ -135,18 +136,22 @@ internal sealed class RestCase : IHardCase
         return (drift, gain, simulation.EventsProcessed);
     }
 
-    private IEnumerable<HardRow> Lasting(string what, int contacts, double seconds, double weight, (double Drift, double Gain, long Events) seen)
+    private IEnumerable<HardRow> Lasting(
+        string what, int contacts, double seconds, double weight, (double Drift, double Gain, long Events) seen)
     {
         string size = FormattableString.Invariant($"{what}, {seconds} s");
         double drift = ContactSteps.Closing * Tolerance * contacts;
         yield return new HardRow(
-            Name, size, seen.Drift, "drift_m", drift, "a tenth of d, 1e-5 m, a contact: sweeps leave it to close by half of that, and a step later it is put right",
+            Name, size, seen.Drift, "drift_m", drift, "a tenth of d, 1e-5 m, a contact: sweeps leave it to close by half of that, and a"
+                + " step later it is put right",
             "nothing moves");
         yield return new HardRow(
-            Name, size, seen.Gain, "energy_gain_j", weight * drift, "that all of the weight is lifted by as much", "the energy at the start");
+            Name, size, seen.Gain, "energy_gain_j", weight * drift, "that all of the weight is lifted by as much", "the energy at the"
+                + " start");
         yield return new HardRow(
             Name, size, seen.Events, "events", (0.5 / ContactSteps.Step(Tolerance)) + 1 + (2 * contacts),
-            "the steps of the half second after which it sleeps, the one at which it does; an impact a contact, as it is found, and as many steps until all is still",
+            "the steps of the half second after which it sleeps, the one at which it does; an impact a contact, as it is found, and as"
+                + " many steps until all is still",
             "nothing happens any more");
     }
 }

@@ -11,7 +11,8 @@ namespace LagSim.Harness.Hard;
 /// <content>Slipping against rolling resistance, by closed form and in an island's steps; turning on the spot in steps.</content>
 internal sealed partial class RollingCase
 {
-    /// <summary>The contact tolerance of what moves in steps, and how long these are: the weight is a program's own force, and there is no gravity.</summary>
+    /// <summary>The contact tolerance of what moves in steps, and how long these are: the weight is a program's own force, and there is no
+    /// gravity.</summary>
     private const double Tolerance = 1e-5;
     private static readonly double Step = ContactSteps.Step(Tolerance, ContactSteps.PullWithoutGravity);
 
@@ -77,7 +78,8 @@ internal sealed partial class RollingCase
 
     /// <summary>Its weight is a program's own force, and so the ball moves in steps, alone as it is.</summary>
     private static Simulation OnFloorInSteps(HardContext context, BodySpec ball, Vector3D velocity, Vector3D spin, double seconds) => context.Run(
-        new SceneBuilder("steps").WithGravity(Vector3D.Zero).WithContactTolerance(Tolerance).AddForce(Force.Supplied(new SuppliedWeight())).AddPlane("floor", Vector3D.Up, Vector3D.Zero)
+        new SceneBuilder("steps").WithGravity(Vector3D.Zero).WithContactTolerance(Tolerance)
+            .AddForce(Force.Supplied(new SuppliedWeight())).AddPlane("floor", Vector3D.Up, Vector3D.Zero)
             .AddBody("ball", ball, V(0, Radius), velocity, spin: spin).Build(),
         seconds);
 

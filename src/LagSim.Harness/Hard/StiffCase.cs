@@ -72,7 +72,8 @@ internal sealed class StiffCase : IHardCase
 
     private static double SpeedOnFloor(HardContext context, Force force) => ReadOnFloor(RunOnFloor(context, force), StepsOnFloor);
 
-    /// <summary>By how much it gets slower from the middle of the second step to that of one so many steps later: a member's velocity is that of the middle.</summary>
+    /// <summary>By how much it gets slower from the middle of the second step to that of one so many steps later: a member's velocity is
+    /// that of the middle.</summary>
     private static double DecayOnFloor(HardContext context, Force force)
     {
         Simulation simulation = RunOnFloor(context, force);
@@ -93,9 +94,11 @@ internal sealed class StiffCase : IHardCase
     {
         double factor = (1 - (z / 2)) / (1 + (z / 2));
         return new HardRow(
-            Name, FormattableString.Invariant($"k h = {z}, {StepsOnFloor} steps{OnFloor}"), Math.Abs((decay / Math.Pow(factor, StepsOnFloor)) - 1), "speed_relative",
+            Name, FormattableString.Invariant($"k h = {z}, {StepsOnFloor} steps{OnFloor}"),
+                Math.Abs((decay / Math.Pow(factor, StepsOnFloor)) - 1), "speed_relative",
             10 * (1 + z) / (1 - (z / 2)) / factor * StepsOnFloor * Rounding.Unit,
-            "five roundings a step of the size 1 + z, and as much where the iteration ends, over 1 - z/2 for what it multiplies, over the factor",
+            "five roundings a step of the size 1 + z, and as much where the iteration ends, over 1 - z/2 for what it multiplies, over the"
+                + " factor",
             "factor (1 - z/2) / (1 + z/2) a step of 2^-20 s");
     }
 
