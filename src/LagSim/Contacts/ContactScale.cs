@@ -22,7 +22,7 @@ internal readonly struct ContactScale
     private const double LeastPull = 1;
 
     /// <summary>The sweeps leave contacts to close by this part of the tolerance in a step.</summary>
-    private const double SweepPart = 0.05;
+    private const double SweepPart = 0.005;
 
     /// <summary>So long nobody of an island may have moved by the tolerance before it sleeps.</summary>
     internal static readonly SimDuration StillFor = SimDuration.FromTicks(SimDuration.TicksPerSecond / 2);
