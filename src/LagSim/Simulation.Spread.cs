@@ -23,7 +23,7 @@ public sealed partial class Simulation
     /// </summary>
     private bool IsLast(in ContactPoint c, double restitution, double rebound)
     {
-        if (restitution >= 1 || IgnoresIslands || Scene.Box.Exists || IsCarriedByClosedForm(c))
+        if (IgnoresIslands || Scene.Box.Exists)
         {
             return false;
         }
@@ -38,7 +38,17 @@ public sealed partial class Simulation
             hands += IsHeld(piece) ? 1 : 0;
         }
 
-        if (isPair && members > 0 && members + hands == 2)
+        if (isPair && hands == 1 && (members > 0 || IsBacked(c)))
+        {
+            return rebound <= step.Scale.CaptureSpeed; // whatever its restitution: a hand gives and takes energy
+        }
+
+        if (restitution >= 1 || IsCarriedByClosedForm(c))
+        {
+            return false;
+        }
+
+        if (members == 2)
         {
             return rebound <= step.Scale.CaptureSpeed;
         }

@@ -207,11 +207,11 @@ internal sealed class ContactStep
     /// Whether two may touch in the step, and are then a contact of it: not what is elastic, nor what closes so fast that its rebound would rise by more than the
     /// tolerance, for which there are impacts.
     /// </summary>
-    private bool MayTouch(double gap, double opening, double seconds, double restitution)
+    private bool MayTouch(double gap, double opening, double seconds, double restitution, bool isByHand = false)
     {
         double span = Scale.Length;
         bool isNear = gap + (Math.Min(0, opening) * seconds) <= span;
-        return isNear && restitution < 1 && (gap <= 0 || -opening * restitution <= Scale.CaptureSpeed);
+        return isNear && (restitution < 1 || isByHand) && (gap <= 0 || -opening * restitution <= Scale.CaptureSpeed);
     }
 
     /// <summary>Finds the pairs of bodies that may touch, in no order.</summary>
@@ -240,7 +240,7 @@ internal sealed class ContactStep
 
                 double length = Math.Sqrt(square);
                 double opening = length > 0 ? along / length : opens.Y;
-                bool mayTouch = MayTouch(length - reach, opening, seconds, Math.Min(members[i].Restitution, members[j].Restitution));
+                bool mayTouch = MayTouch(length - reach, opening, seconds, Math.Min(members[i].Restitution, members[j].Restitution), p.InverseMass == 0 || q.InverseMass == 0);
                 long pair = ((long)Math.Min(i, j) << 32) | (uint)Math.Max(i, j);
                 if (mayTouch)
                 {
