@@ -17,13 +17,14 @@ public sealed partial class Simulation
     private Vector3D[] spinsBefore = Array.Empty<Vector3D>();
 
     /// <summary>
-    /// Whether a rebound is the last of its contact, which lasts from then on (docs/CONTACT.md, rule of capture): not of an elastic one; of two that are members
-    /// already if it is slower than the capture speed; else if something presses them together so that the rebound would rise less than the contact tolerance, and
-    /// all bounces to come would be over within a step.
+    /// Whether a rebound is the last of its contact, which lasts from then on (docs/CONTACT.md, rule of capture): of two that are members
+    /// already if it is slower than the capture speed; else if something presses them together so that the rebound would rise less than the
+    /// contact tolerance, and all bounces to come would be over within a step. An elastic one would go on for ever, so there the last is
+    /// the one that would rise less than the scene resolves, as on a plane.
     /// </summary>
     private bool IsLast(in ContactPoint c, double restitution, double rebound)
     {
-        if (restitution >= 1 || IgnoresIslands || Scene.Box.Exists || IsCarriedByClosedForm(c))
+        if (IgnoresIslands || Scene.Box.Exists || IsCarriedByClosedForm(c))
         {
             return false;
         }
@@ -47,6 +48,11 @@ public sealed partial class Simulation
         Vector3D acceleration = partyAccelerations[c.First] - (isPair ? partyAccelerations[c.Second] : Vector3D.Zero);
         bool isPlane = !isPair && c.Surface < Scene.PlaneArray.Length;
         double pressing = -Vector3D.Dot(c.Normal, acceleration) - (isPlane ? 0 : FallingAway(c.Normal, velocity, ReachOf(c)));
+        if (restitution >= 1)
+        {
+            return pressing > 0 && rebound * rebound <= 2 * pressing * Scene.Resolution;
+        }
+
         return pressing > 0 && rebound * rebound <= 2 * pressing * step.Scale.Length
             && ((isPair && members > 0) || 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds());
     }

@@ -199,14 +199,15 @@ internal sealed class ContactStep
     }
 
     /// <summary>
-    /// Whether two may touch in the step, and are then a contact of it: not what is elastic, nor what closes so fast that its rebound would rise by more than the
-    /// tolerance, for which there are impacts.
+    /// Whether two may touch in the step, and are then a contact of it: not what closes so fast that its rebound would rise by more than
+    /// the tolerance, for which there are impacts.
     /// </summary>
     private bool MayTouch(double gap, double opening, double seconds, double restitution)
     {
         double span = Scale.Length;
         bool isNear = gap + (Math.Min(0, opening) * seconds) <= span;
-        return isNear && restitution < 1 && (gap <= 0 || -opening * restitution <= Scale.CaptureSpeed);
+        bool isSlow = -opening * restitution <= Scale.CaptureSpeed;
+        return isNear && (isSlow || (gap <= 0 && restitution < 1));
     }
 
     /// <summary>Finds the pairs of bodies that may touch, in no order.</summary>
