@@ -5,12 +5,15 @@ namespace LagSim.Contacts;
 
 /// <summary>Solves a <see cref="ContactProblem"/> whose masses are too unlike for <see cref="ContactSolver"/>: the normals exactly, friction in turns with them.</summary>
 /// <remarks>
-/// Where a light body carries a heavy one, a sweep hands on as much as the light one weighs, and as many sweeps are needed as the ratio of their masses. So from the
-/// ratio on up to which gradients get to the rounding, <see cref="LastingContactSolver"/> is asked, which works on velocities and not on impulses. Cost: the cube of
-/// the contacts up to a hundred.
+/// Where a light body carries a heavy one, a sweep hands on as much as the light one weighs, and as many sweeps are needed as the ratio of
+/// their masses. So beyond the ratio for which <see cref="ContactStep.MostSweeps"/> are enough, <see cref="LastingContactSolver"/> is
+/// asked, which works on velocities and not on impulses. Cost: the cube of the contacts up to a hundred.
 /// </remarks>
 internal sealed class UnlikeMassSolver
 {
+    /// <summary>Masses that differ by no more than this factor are like enough for sweeps: half as many as there may be of them.</summary>
+    internal const double LikeMasses = ContactStep.MostSweeps / 2;
+
     private readonly LastingContactSolver solver = new();
     private ContactPoint[] points = Array.Empty<ContactPoint>();
     private Rub[] rubs = Array.Empty<Rub>();
@@ -30,7 +33,7 @@ internal sealed class UnlikeMassSolver
             most = Math.Max(most, problem.Bodies[b].InverseMass);
         }
 
-        return least > 0 && most > ImpactSolver.LikeMasses * least;
+        return least > 0 && most > LikeMasses * least;
     }
 
     /// <summary>Changes the bodies' velocities, which are those without contacts, and sets the impulses.</summary>

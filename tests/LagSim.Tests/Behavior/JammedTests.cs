@@ -14,6 +14,7 @@ public sealed class JammedTests
     private const double Half = 0.5;
     private const double Step = 0.0005;
     private const double Until = 1.5;
+    private const double Fine = 1e-5; // a contact tolerance, in metres
 
     [Theory]
     [InlineData(642)]
@@ -30,7 +31,7 @@ public sealed class JammedTests
     [InlineData(109)]
     [InlineData(112)]
     [InlineData(136)]
-    public void Jammed_OnTheWay_IsNotDeep(int seed) => Assert.InRange(Deepest(seed), 0, 5e-7);
+    public void Jammed_OnTheWay_IsNotDeep(int seed) => Assert.InRange(Deepest(seed), 0, 2 * Fine);
 
     [Theory]
     [InlineData(10)]
@@ -67,7 +68,7 @@ public sealed class JammedTests
     /// <summary>How deep at most, every half millisecond, anybody is in anything, in metres.</summary>
     private static double Deepest(int seed)
     {
-        Scene scene = Draw(seed);
+        Scene scene = Draw(seed, Fine);
         Simulation simulation = new(scene, OneThread);
         simulation.AdvanceTo(At(Until));
         double most = 0;
@@ -95,13 +96,13 @@ public sealed class JammedTests
 
     private static SimulationOptions OneThread => new(history: SimDuration.FromSeconds(10), threads: 1);
 
-    private static Scene Draw(int seed)
+    private static Scene Draw(int seed, double tolerance = 1e-3)
     {
         Random random = new(seed);
         double Between(double least, double most) => least + ((most - least) * random.NextDouble());
         double tilt = Half * random.NextDouble();
         double[] masses = [0.01, 0.4, 20];
-        SceneBuilder builder = new SceneBuilder("jam").WithSmallestRadius(0.1)
+        SceneBuilder builder = new SceneBuilder("jam").WithSmallestRadius(0.1).WithContactTolerance(tolerance)
             .AddPlane("floor", V(Math.Sin(tilt), Math.Cos(tilt)), 0.0, 0.5, 2)
             .AddPlane("west", V(1), -Half, 0, 2).AddPlane("east", V(-1), -Half, 0, 2)
             .AddPlane("north", V(0, 0, 1), -Half, 0, 2).AddPlane("south", V(0, 0, -1), -Half, 0, 2);
