@@ -17,10 +17,11 @@ public sealed partial class Simulation
     private Vector3D[] spinsBefore = Array.Empty<Vector3D>();
 
     /// <summary>
-    /// Whether a rebound is the last of its contact, which lasts from then on (docs/CONTACT.md, rule of capture): of two that are members
-    /// already if it is slower than the capture speed; else if something presses them together so that the rebound would rise less than the
-    /// contact tolerance, and all bounces to come would be over within a step. An elastic one would go on for ever, so there the last is
-    /// the one that would rise less than the scene resolves, as on a plane.
+    /// Whether a rebound is the last of its contact, which lasts from then on (docs/CONTACT.md, rule of capture): of a member and another
+    /// body if it is slower than the capture speed, for what is pressed against a member shows no acceleration of its own, and who was not
+    /// pressed leaves at the next tick; else if something presses them together so that the rebound would rise less than the contact
+    /// tolerance, and all bounces to come would be over within a step. An elastic one would go on for ever, so there the last is the one
+    /// that would rise less than the scene resolves, as on a plane.
     /// </summary>
     private bool IsLast(in ContactPoint c, double restitution, double rebound)
     {
@@ -39,7 +40,7 @@ public sealed partial class Simulation
             hands += IsHeld(piece) ? 1 : 0;
         }
 
-        if (isPair && members > 0 && members + hands == 2)
+        if (isPair && members > 0 && (members + hands == 2 || restitution < 1))
         {
             return rebound <= step.Scale.CaptureSpeed;
         }
@@ -54,7 +55,7 @@ public sealed partial class Simulation
         }
 
         return pressing > 0 && rebound * rebound <= 2 * pressing * step.Scale.Length
-            && ((isPair && members > 0) || 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds());
+            && 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds();
     }
 
     /// <summary>Whether the bounces of a contact are followed down to the scene's resolution, and a closed form carries its body then: alone on planes, of which one rubs at most if it is the only one.</summary>

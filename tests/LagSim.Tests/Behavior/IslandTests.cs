@@ -13,6 +13,8 @@ namespace LagSim.Tests.Behavior;
 public sealed class IslandTests
 {
     private const double R = 0.5;
+    private const double Fine = 1e-7; // a contact tolerance, in metres
+    private const double Usual = 1e-6; // one at which a heap that moves all the time is not too long in steps
 
     /// <summary>A ball on two that touch, on a floor: the friction that keeps them is at least the tangent of 15 degrees, 0.268, between the balls.</summary>
     [Theory]
@@ -24,10 +26,11 @@ public sealed class IslandTests
     {
         Simulation world = new(Pile(mu), KeepAll);
         world.AdvanceTo(At(3));
-        Assert.Equal(holds, Math.Abs(Read(world, Third, 3).Position.Y - (R + Math.Sqrt(0.75))) < 1e-6);
-        Assert.Equal(holds, Read(world, First, 3).Motion == MotionLaw.Resting && Read(world, First, 3).Position.X > -R - 1e-6);
-        Assert.True(LeastGap(world, At(3)) > -1e-9);
-        Assert.InRange(world.EventsProcessed, 1, 5000);
+        Assert.Equal(holds, Math.Abs(Read(world, Third, 3).Position.Y - (R + Math.Sqrt(0.75))) < 6 * Fine);
+        Assert.Equal(holds, Read(world, First, 3).Motion == MotionLaw.Resting && Read(world, First, 3).Position.X > -R - (2 * Fine));
+        Assert.True(LeastGap(world, At(3)) > -2 * Fine);
+        double islands = holds ? 1 : 3; // at most, in steps all the time
+        Assert.InRange(world.EventsProcessed, 1, islands * 3 * Tolerance.StepsASecond(Fine));
     }
 
     [Theory]
@@ -41,43 +44,66 @@ public sealed class IslandTests
         }
     }
 
-    /// <summary>Along a groove whose sides lie aslant, by an angle of sine s and cosine k, a ball both rolls and turns on each: resistance c takes c g (k + s) / (k² + 2/5) from its speed.</summary>
+    /// <summary>
+    /// Along a groove whose sides lie aslant, by an angle of sine s and cosine k, a ball presses each with N = m g / (2 k) and turns on it,
+    /// at speed / (R k): resistance against that of c R N from each side takes c g / (k² + 2/5) from its speed.
+    /// </summary>
+    /// <remarks>
+    /// The sides may also carry weight by friction, up or down, which nothing determines: so N may be off by the factor k / (k +- mu s),
+    /// and mu is small here. It is more than rolling needs.
+    /// </remarks>
     [Theory]
     [InlineData(0.02)]
     [InlineData(0)]
     public void RollingResistance_InAGroove_BringsToRest(double resistance)
     {
-        const double sine = 0.6, k = 0.8, speed = 0.5;
-        BodySpec ball = new(R, 1, 0, friction: 0.5, rollingResistance: resistance);
+        const double sine = 0.6, k = 0.8, speed = 0.5, mu = 0.04;
+        BodySpec ball = new(R, 1, 0, friction: mu, rollingResistance: resistance);
         Simulation world = new(
-            new SceneBuilder("groove").AddPlane("left", V(sine, k), 0.0, friction: 1).AddPlane("right", V(-sine, k), 0.0, friction: 1)
+            new SceneBuilder("groove").WithContactTolerance(Fine)
+                .AddPlane("left", V(sine, k), 0.0, friction: 1).AddPlane("right", V(-sine, k), 0.0, friction: 1)
                 .AddBody("ball", ball, V(0, R / k), V(0, 0, speed), spin: V(speed / (R * k))).Build(),
             KeepAll);
-        double brake = resistance * Gravity * (k + sine) / ((k * k) + 0.4);
+        double brake = resistance * Gravity / ((k * k) + 0.4);
         world.AdvanceTo(At(4));
         BodyState end = Read(world, First, 4);
         Assert.Equal(resistance > 0 ? MotionLaw.Resting : MotionLaw.Constrained, end.Motion);
-        Near(resistance > 0 ? speed * speed / (2 * brake) : speed * 4, end.Position.Z, 1e-6);
+        double way = resistance > 0 ? speed * speed / (2 * brake) : speed * 4;
+        Near(way, end.Position.Z, resistance > 0 ? way * mu * sine / k : 1e-6);
     }
 
-    /// <summary>What turns on the top of another is slowed down as that is set turning, by what both have; and once they turn as one, they go on.</summary>
+    /// <summary>
+    /// What turns on the top of another is slowed down as that is set turning, by what both have; and once they turn as one, they go on,
+    /// also asleep, which they are after half a second, since they stay at their places.
+    /// </summary>
     [Fact]
     public void RollingResistance_OfOneThatTurnsOnAnother_TurnsBoth()
     {
-        const double c = 0.02, turning = 2;
+        const double c = 0.05, turning = 2;
         BodySpec ball = new(R, 1, 0, friction: 0.5, rollingResistance: c);
         Simulation world = new(
-            new SceneBuilder("two").AddStaticSphere("bed", V(0), 1, 0, friction: 0).AddBody("lower", ball, V(0, 1 + R)).AddBody("upper", ball, V(0, 1 + (3 * R)), spin: V(0, turning)).Build(),
+            new SceneBuilder("two").WithContactTolerance(Fine).AddStaticSphere("bed", V(0), 1, 0, friction: 0)
+                .AddBody("lower", ball, V(0, 1 + R)).AddBody("upper", ball, V(0, 1 + (3 * R)), spin: V(0, turning)).Build(),
             KeepAll);
         double rate = 2.5 * c * Gravity / R, equal = turning / (2 * rate);
+        double step = rate / Tolerance.StepsASecond(Fine); // what a step changes
+        Assert.True(equal < 0.45, "they turn as one before they sleep");
         world.AdvanceTo(At(3));
-        Near(turning - (rate * equal / 2), Read(world, Second, equal / 2).Spin.Y, 1e-6);
-        Near(rate * equal / 2, Read(world, First, equal / 2).Spin.Y, 1e-6);
-        Near(turning / 2, Read(world, Second, 2 * equal).Spin.Y, 1e-6);
-        Near(turning / 2, Read(world, First, 2 * equal).Spin.Y, 1e-6);
+        Near(turning - (rate * equal / 2), Read(world, Second, equal / 2).Spin.Y, step);
+        Near(rate * equal / 2, Read(world, First, equal / 2).Spin.Y, step);
+        foreach (double t in new[] { 0.45, 3 })
+        {
+            Near(turning / 2, Read(world, Second, t).Spin.Y, step);
+            Near(turning / 2, Read(world, First, t).Spin.Y, step);
+        }
+
+        Assert.Equal((MotionLaw.Constrained, MotionLaw.Resting), (Read(world, First, 0.45).Motion, Read(world, First, 3).Motion));
     }
 
-    /// <summary>In steps that never end what turns against a resistance comes to stand to the last bit, in a groove as on a floor; without it, it turns on.</summary>
+    /// <summary>
+    /// In steps that never end what turns against a resistance comes to stand, in a groove as on a floor, but for what sweeps leave: its
+    /// surface does not turn by the contact tolerance in half a second. Without resistance it turns on.
+    /// </summary>
     [Theory]
     [InlineData(0.02, false)]
     [InlineData(0.02, true)]
@@ -85,14 +111,16 @@ public sealed class IslandTests
     public void Turning_InStepsWithoutEnd_EndsInNothing(double resistance, bool isGroove)
     {
         Vector3D weight = V(0, -Gravity);
-        SceneBuilder scene = new SceneBuilder("endless").WithGravity(V(0)).AddForce(Force.Supplied(new FunctionForce((_, _, _) => weight)), out ForceSet force);
+        SceneBuilder scene = new SceneBuilder("endless").WithGravity(V(0)).WithContactTolerance(Usual)
+            .AddForce(Force.Supplied(new FunctionForce((_, _, _) => weight)), out ForceSet force);
         scene = isGroove ? scene.AddPlane("left", V(0.6, 0.8), 0.0).AddPlane("right", V(-0.6, 0.8), 0.0) : scene.AddPlane("floor", Vector3D.Up, 0.0);
         BodySpec ball = new(R, 1, 0, MotionLaw.Automatic, forces: force, friction: 1, rollingResistance: resistance);
         Simulation world = new(scene.AddBody("ball", ball, V(0, isGroove ? R / 0.8 : R), spin: V(0, 1)).Build());
         world.AdvanceTo(At(3));
         BodyState end = Read(world, First, 3);
         Assert.Equal(MotionLaw.Constrained, end.Motion);
-        Assert.Equal(resistance > 0, end.Spin == Vector3D.Zero);
+        Assert.Equal(resistance > 0, end.Spin.Length * R < Usual / 0.5);
+        Assert.True(resistance > 0 || end.Spin.Length > 0.99, $"{end.Spin}");
     }
 
     /// <summary>What is left touching, closes by rounding alone, parts by itself and falls back is struck then, not looked for when the rounding would have got deep.</summary>
@@ -102,7 +130,7 @@ public sealed class IslandTests
     public void Touching_PartsAndFallsBack_IsStruck(double further)
     {
         Simulation world = new(
-            new SceneBuilder("back").AddPlane("floor", Vector3D.Up, 0.0, 1, 1)
+            new SceneBuilder("back").WithContactTolerance(Fine).AddPlane("floor", Vector3D.Up, 0.0, 1, 1)
                 .AddBody("falls", new BodySpec(0.25, 1, 0.3, friction: 2, rollingResistance: 0.01), V(0.7414639853172622, 0.2956019980417861 + further, 0.7500000000024419),
                     V(-0.20394043781556367, 0.7189095752636673, -1.7606551020872233E-11), spin: V(2.875638301035462, 0.815761751292646, 3.831282350740072))
                 .AddBody("rolls", new BodySpec(0.29552200226836, 1, 0.3, friction: 2, rollingResistance: 0.01), V(0.25323853557908804, 0.29552200226836, 0.5066275307559448),
@@ -111,7 +139,7 @@ public sealed class IslandTests
         for (int n = 1; n <= 30; n++)
         {
             world.AdvanceTo(At(0.01 * n));
-            Assert.True(LeastGap(world, At(0.01 * n)) > -1e-9, $"{LeastGap(world, At(0.01 * n))} m at {0.01 * n} s");
+            Assert.True(LeastGap(world, At(0.01 * n)) > -2 * Fine, $"{LeastGap(world, At(0.01 * n))} m at {0.01 * n} s");
         }
     }
 
@@ -123,10 +151,11 @@ public sealed class IslandTests
     {
         Vector3D place = V(0.1, 1) / V(0.1, 1).Length * (2 + R);
         Simulation world = new(
-            new SceneBuilder("dome").AddStaticSphere("dome", V(0), 2, 0, friction: 1).AddBody("ball", new BodySpec(R, 1, 0, friction: 1, rollingResistance: resistance), place).Build(), KeepAll);
+            new SceneBuilder("dome").WithContactTolerance(Fine).AddStaticSphere("dome", V(0), 2, 0, friction: 1)
+                .AddBody("ball", new BodySpec(R, 1, 0, friction: 1, rollingResistance: resistance), place).Build(), KeepAll);
         world.AdvanceTo(At(1));
         Assert.Equal(holds ? MotionLaw.Resting : MotionLaw.Constrained, Read(world, First, 1).Motion);
-        Assert.Equal(holds, (Read(world, First, 1).Position - place).Length < 1e-9);
+        Assert.Equal(holds, (Read(world, First, 1).Position - place).Length < 2 * Fine);
     }
 
     /// <summary>The control: a world that lets its balls go a fiftieth too fast, twenty times a second, is seen to gain energy in each of the piles.</summary>
@@ -142,14 +171,14 @@ public sealed class IslandTests
         }
     }
 
-    /// <summary>And one that puts a ball two micrometres into what it lies on is seen to do so.</summary>
+    /// <summary>And one that puts a ball twice as deep as it may be into what it lies on is seen to do so.</summary>
     [Fact]
     public void Piles_WhoseBallsSink_AreSeenToSink()
     {
         Assert.Contains(" m at ", Wrong(0, 0.4, (world, t) =>
         {
             Vector3D first = Read(world, First, t).Position, second = Read(world, Second, t).Position;
-            Vector3D into = second + ((first - second) / (first - second).Length * ((2 * R) - 2e-6));
+            Vector3D into = second + ((first - second) / (first - second).Length * ((2 * R) - (4 * Usual)));
             return t < 1 ? [] : [ExternalEvent.Teleport(At(t), 1, (uint)Math.Round(t * 20), First, into)];
         }), StringComparison.Ordinal);
     }
@@ -195,13 +224,14 @@ public sealed class IslandTests
     [Fact]
     public void Spring_ThroughAFloor_EndsAtRest()
     {
-        Scene scene = new SceneBuilder("spring").AddPlane("floor", Vector3D.Up, V(0), 0.3)
+        Scene scene = new SceneBuilder("spring").WithContactTolerance(Fine).AddPlane("floor", Vector3D.Up, V(0), 0.3)
             .AddForce(Force.Spring("spring", V(0, -1), 40, 4), out ForceSet spring)
             .AddBody("ball", new BodySpec(R, 1, 0.3, forces: spring), V(0.4, 1)).Build();
         Simulation world = new(scene, KeepAll);
         world.AdvanceTo(At(20));
         BodyState state = Read(world, First, 20);
-        Near(V(0, R), state.Position, 1e-6);
+        // It swings to and fro over its end at 6 rad/s: who does not move by d in half a second has less than d to go.
+        Near(V(0, R), state.Position, Fine);
         Assert.Equal(MotionLaw.Resting, state.Motion);
     }
 
@@ -209,19 +239,18 @@ public sealed class IslandTests
     private static string? Wrong(int seed, double mu, Func<Simulation, double, IEnumerable<ExternalEvent>> fault)
     {
         Simulation world = new(Heap(seed, mu), KeepAll);
-        double last = Energy(world, At(0)), most = last;
+        double last = Energy(world, At(0)), off = 0, weight = Bodies(world).Sum(body => world.SpecOf(body).Mass) * Gravity;
         for (double t = 0.05; t <= 2; t += 0.05)
         {
             world.AdvanceTo(At(t));
-            double energy = Energy(world, At(t)) + Turning(world, At(t)), gap = LeastGap(world, At(t));
-            if (!(energy <= last + (Gravity / R / 512 / 512 * most))) // what steps of order 2 may be off
+            double energy = Energy(world, At(t)) + Turning(world, At(t));
+
+            // What was 2 d deep is pushed out. Velocities are those of the middle of a step, by when weight and friction have done work.
+            double before = off;
+            off = Bodies(world).Max(body => Read(world, body, t).Velocity.Length) * weight / Tolerance.StepsASecond(Usual);
+            if (!(energy <= last + (weight * 2 * Usual) + before + off))
             {
                 return $"seed {seed}: {energy - last} J more at {t} s";
-            }
-
-            if (!(gap > -1e-6))
-            {
-                return $"seed {seed}: {gap} m at {t} s";
             }
 
             last = energy;
@@ -229,12 +258,22 @@ public sealed class IslandTests
             {
                 world.Submit(external);
             }
+
+            world.AdvanceTo(At(t));
+            double gap = LeastGap(world, At(t));
+            if (!(gap > -2 * Usual))
+            {
+                return $"seed {seed}: {gap} m at {t} s";
+            }
         }
 
-        return null;
+        // As if each ball were an island of its own, always in steps: those on the floor that are not taken in are struck 20 times a step.
+        double most = 2 * Tolerance.StepsASecond(Usual) * world.BodyCount;
+        return world.EventsProcessed <= most ? null : $"seed {seed}: {world.EventsProcessed} events";
     }
 
-    private static Scene Pile(double mu) => new SceneBuilder("pile").AddPlane("floor", Vector3D.Up, V(0), 0.5).AddBody("left", Rough(mu), V(-R, R)).AddBody("right", Rough(mu), V(R, R))
+    private static Scene Pile(double mu) => new SceneBuilder("pile").WithContactTolerance(Fine)
+        .AddPlane("floor", Vector3D.Up, V(0), 0.5).AddBody("left", Rough(mu), V(-R, R)).AddBody("right", Rough(mu), V(R, R))
         .AddBody("top", Rough(mu), V(0, R + Math.Sqrt(0.75))).Build();
 
     private static BodySpec Rough(double mu) => new(R, 1, 0.5, friction: mu);
@@ -242,7 +281,8 @@ public sealed class IslandTests
     private static Scene Heap(int seed, double mu)
     {
         Random random = new(seed);
-        SceneBuilder builder = new SceneBuilder("heap").AddPlane("floor", Vector3D.Up, V(0), 0.4).AddPlane("west", V(1), V(-1.1), 0.4).AddPlane("east", V(-1), V(1.1), 0.4)
+        SceneBuilder builder = new SceneBuilder("heap").WithContactTolerance(Usual)
+            .AddPlane("floor", Vector3D.Up, V(0), 0.4).AddPlane("west", V(1), V(-1.1), 0.4).AddPlane("east", V(-1), V(1.1), 0.4)
             .AddPlane("back", V(0, 0, 1), V(0, 0, -0.8), 0.4).AddPlane("front", V(0, 0, -1), V(0, 0, 0.8), 0.4);
         for (int i = 0; i < 5; i++)
         {
