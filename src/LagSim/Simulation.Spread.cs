@@ -48,7 +48,7 @@ public sealed partial class Simulation
             return false;
         }
 
-        if (members == 2)
+        if (isPair && members > 0) // leaves at the next tick if nothing presses it: a chord's acceleration does not tell
         {
             return rebound <= step.Scale.CaptureSpeed;
         }
@@ -58,7 +58,7 @@ public sealed partial class Simulation
         bool isPlane = !isPair && c.Surface < Scene.PlaneArray.Length;
         double pressing = -Vector3D.Dot(c.Normal, acceleration) - (isPlane ? 0 : FallingAway(c.Normal, velocity, ReachOf(c)));
         return pressing > 0 && rebound * rebound <= 2 * pressing * step.Scale.Length
-            && ((isPair && members > 0) || 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds());
+            && 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds();
     }
 
     /// <summary>Whether the bounces of a contact are followed down to the scene's resolution, and a closed form carries its body then: alone on planes, of which one rubs at most if it is the only one.</summary>

@@ -6,7 +6,7 @@ namespace LagSim.Tests.Behavior;
 internal static class Tolerance
 {
     /// <summary>
-    /// Contact steps a second: a step is the largest power of two of seconds that is at most 1/64 and in which a fall stays within the tolerance.
+    /// Contact steps a second: a step is the largest power of two of seconds that is at most 1/64 and in which a fall stays within d.
     /// </summary>
     internal static double StepsASecond(double d, double gravity = TestWorlds.Gravity)
     {
@@ -20,7 +20,7 @@ internal static class Tolerance
     }
 
     /// <summary>
-    /// How many bounces there are, from a first fall, until one that is the last: it rises less than d, and all to come would be over in a step.
+    /// How many bounces there are, from a first fall, until the last: it rises less than d, and all to come would be over in a step.
     /// </summary>
     internal static double BouncesUntilLast(double fall, double e, double d)
     {
