@@ -50,6 +50,7 @@ public sealed partial class Simulation
         double seconds = FillStep(canonical.Time, out SimDuration length);
         step.FindContacts(seconds);
         Warm();
+        step.DropElastic();
         double tolerance = StepTolerance(canonical.Time, out bool mayRest);
         if (mayRest && HaveRested(canonical.Time))
         {

@@ -43,12 +43,12 @@ public sealed partial class Simulation
             return rebound <= step.Scale.CaptureSpeed; // whatever its restitution: a hand gives and takes energy
         }
 
-        if (restitution >= 1 || IsCarriedByClosedForm(c))
+        if (IsCarriedByClosedForm(c))
         {
             return false;
         }
 
-        if (isPair && members > 0) // leaves at the next tick if nothing presses it: a chord's acceleration does not tell
+        if (restitution < 1 && isPair && members > 0) // leaves at the next tick if nothing presses it: a chord's acceleration does not tell
         {
             return rebound <= step.Scale.CaptureSpeed;
         }
@@ -57,8 +57,17 @@ public sealed partial class Simulation
         Vector3D acceleration = partyAccelerations[c.First] - (isPair ? partyAccelerations[c.Second] : Vector3D.Zero);
         bool isPlane = !isPair && c.Surface < Scene.PlaneArray.Length;
         double pressing = -Vector3D.Dot(c.Normal, acceleration) - (isPlane ? 0 : FallingAway(c.Normal, velocity, ReachOf(c)));
-        return pressing > 0 && rebound * rebound <= 2 * pressing * step.Scale.Length
-            && 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds();
+        double rises = restitution < 1 ? step.Scale.Length : Scene.Resolution;
+        return pressing > 0 && rebound * rebound <= 2 * pressing * rises && (restitution >= 1 || 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds());
+    }
+
+    /// <summary>Whether a contact that a body carries is elastic.</summary>
+    private bool IsElastic(int slot, in LastingContact contact)
+    {
+        int partner = contact.Surface == LastingContact.NoSurface ? SlotOf(contact.Partner) : NoPartner;
+        double other = contact.Surface != LastingContact.NoSurface ? SurfaceRestitution(contact.Surface)
+            : partner >= 0 ? bodies[partner].Spec.Restitution : 0;
+        return Math.Min(bodies[slot].Spec.Restitution, other) >= 1;
     }
 
     /// <summary>Whether the bounces of a contact are followed down to the scene's resolution, and a closed form carries its body then: alone on planes, of which one rubs at most if it is the only one.</summary>
@@ -114,9 +123,19 @@ public sealed partial class Simulation
         return contactCount > 1 || timelines.Segment(timelines.Last(parties[struck])).Supports.Count > 0;
     }
 
+    /// <summary>Whether a hand takes part in the impact at hand.</summary>
+    private bool HasHand() => Array.IndexOf(partyMasses, double.PositiveInfinity, 0, partyCount) >= 0;
+
     /// <summary>Solves the impact at hand with the lasting contacts that it reaches; false if somebody was ahead of it and has been taken back.</summary>
-    private bool TrySpread(in EventKey popped, double residual)
+    /// <param name="popped">The impact's key.</param>
+    /// <param name="residual">Seconds from the tick to the impact.</param>
+    /// <param name="presses">
+    /// Whether a hand takes part, which presses what it strikes against all that is within the contact tolerance on its way: bounces with less room than that are none.
+    /// </param>
+    /// <param name="givesWay">Whether what the hand strikes can give way, or has room: then nothing was done, and it is an impact like others.</param>
+    private bool TrySpread(in EventKey popped, double residual, bool presses, out bool givesWay)
     {
+        givesWay = false;
         EventKey key = CanonicalKey(popped);
         reached.Clear();
         int struckParties = partyCount;
@@ -138,7 +157,7 @@ public sealed partial class Simulation
         LimitAgain(more);
         SolveReached(tolerance);
         ahead.Clear();
-        lookedAt.Clear();
+        bool isNear = false;
         for (bool grows = true; grows && ahead.Count == 0;)
         {
             grows = false;
@@ -148,8 +167,14 @@ public sealed partial class Simulation
                 if (!isReached[i] && (reached.Bodies[i].Velocity - velocitiesBefore[i]).Length > tolerance)
                 {
                     isReached[i] = true;
-                    grows |= TryReachOn(i, key, residual);
+                    grows |= TryReachOn(i, key, residual, presses);
                 }
+
+            }
+
+            for (int i = 0; i < known && ahead.Count == 0 && HasHand(); i++)
+            {
+                isNear |= TryReachNear(i, key, residual, tolerance, ref grows);
             }
 
             if (grows && ahead.Count == 0)
@@ -165,17 +190,129 @@ public sealed partial class Simulation
             return false;
         }
 
+        if (presses && !(isNear && IsPressed()))
+        {
+            givesWay = true;
+            for (int i = struckParties; i < partyCount; i++)
+            {
+                lookedAt.Add(parties[i]);
+            }
+
+            partyCount = struckParties;
+            return true;
+        }
+
         TellContacts(key);
         KeepEnergy(tolerance);
+        KeepPressed(isNear);
+        OpenReached(key, residual);
+        JoinLookedAt(key);
+        return true;
+    }
+
+    /// <summary>Whether a hand that strikes gives all that it may: what it strikes cannot give way.</summary>
+    private bool IsPressed()
+    {
+        bool isPressed = false;
+        for (int i = 0; i < contactCount && !isPressed; i++)
+        {
+            isPressed = IsByHand(contacts[i]) && reached.Contacts[i].Impulse >= reached.Contacts[i].Most;
+        }
+
+        return isPressed;
+    }
+
+    /// <summary>What a hand presses against something lasts, and what it presses it against too.</summary>
+    private void KeepPressed(bool presses)
+    {
         for (int i = 0; i < contactCount; i++)
         {
-            // What a hand presses against something lasts: it cannot give way.
             contacts[i].Lasts |= IsByHand(contacts[i]) && reached.Contacts[i].Impulse >= reached.Contacts[i].Most;
         }
 
-        OpenReached(key, residual, struckParties);
-        JoinLookedAt(key);
-        return true;
+        for (int i = contactCount; i < reached.ContactCount && presses; i++)
+        {
+            ref readonly SolverContact c = ref reached.Contacts[i];
+            if (c.Impulse > 0)
+            {
+                AddContact(new ContactPoint(c.First, c.Second, c.Surface, default) { Normal = c.Normal, IsStruck = false, Lasts = true });
+            }
+        }
+    }
+
+    /// <summary>Adds what a party is pushed towards and would reach within the contact tolerance.</summary>
+    private bool TryReachNear(int party, in EventKey key, double residual, double tolerance, ref bool grows)
+    {
+        int slot = parties[party];
+        Vector3D push = reached.Bodies[party].Velocity - velocitiesBefore[party];
+        if (double.IsPositiveInfinity(partyMasses[party]) || push.Length <= tolerance)
+        {
+            return false;
+        }
+
+        double left = step.Scale.TickFrom(key.Time, double.PositiveInfinity).SecondsSince(key.Time);
+        bool any = false;
+        for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
+        {
+            ContactPoint c = new(party, ContactPoint.Static, surface, default);
+            if (!IsReached(c) && Vector3D.Dot(NormalOf(c), push) < -tolerance && GapOf(c) <= step.Scale.Length)
+            {
+                AddReachedContact(c, left);
+                any = true;
+            }
+        }
+
+        foreach (int other in index.CandidatesAt(slot, bodies[slot].Spec.Radius, key.Time, HealAtHand != 0))
+        {
+            int piece = other == slot || !timelines.IsKnown(other) ? TimelineStore.None : PieceBefore(other, key);
+            if (piece == TimelineStore.None || !timelines.Segment(piece).IsPresent || Gap(slot, timelines.Last(slot), other, piece, key.Time) > step.Scale.Length)
+            {
+                continue;
+            }
+
+            Vector3D normal = Direction(Scene.Box.Nearest(partyPositions[party] - PositionAt(piece, key.Time)));
+            if (Vector3D.Dot(normal, push) >= -tolerance || IsHeld(piece))
+            {
+                continue;
+            }
+
+            if (piece != timelines.Last(other))
+            {
+                ahead.Add(other);
+                return false;
+            }
+
+            int known = PartyOf(other);
+            if (known < 0)
+            {
+                known = AddParty(other);
+                EvaluateParty(known, key.Time, residual);
+                AddReached(known);
+            }
+
+            bool ordered = bodies[slot].Id < bodies[other].Id;
+            ContactPoint c = new(ordered ? party : known, ordered ? known : party, -1, default);
+            if (!IsReached(c))
+            {
+                AddReachedContact(c, left);
+                any = true;
+            }
+        }
+
+        grows |= any;
+        return any;
+    }
+
+    private bool IsReached(in ContactPoint c)
+    {
+        bool isReached = false;
+        for (int i = 0; i < reached.ContactCount && !isReached; i++)
+        {
+            ref readonly SolverContact known = ref reached.Contacts[i];
+            isReached = known.First == c.First && known.Second == c.Second && known.Surface == c.Surface;
+        }
+
+        return isReached;
     }
 
     /// <summary>Goes on from the impulses so far; where masses are unlike, begins again from the velocities before.</summary>
@@ -250,7 +387,7 @@ public sealed partial class Simulation
     }
 
     /// <summary>Adds the lasting contacts of a party whose velocity the impact has changed, and the bodies on their other sides.</summary>
-    private bool TryReachOn(int party, in EventKey key, double residual)
+    private bool TryReachOn(int party, in EventKey key, double residual, bool presses)
     {
         int slot = parties[party];
         int piece = timelines.Last(slot);
@@ -265,7 +402,7 @@ public sealed partial class Simulation
         for (int at = timelines.FirstContact(piece); at != TimelineStore.None; at = timelines.NextContact(at))
         {
             LastingContact contact = timelines.Contact(at);
-            if (!contact.Holds)
+            if (!contact.Holds || (!presses && IsElastic(slot, contact)))
             {
                 continue; // that there is room to close in is not used up yet, or an impact tells when
             }
@@ -327,12 +464,15 @@ public sealed partial class Simulation
     private void AddReachedContact(ContactPoint c, double left)
     {
         c.Normal = NormalOf(c);
-        double gap = c.Second != ContactPoint.Static ? (partyPositions[c.First] - partyPositions[c.Second]).Length - ReachOf(c)
-            : c.Surface < Scene.PlaneArray.Length ? Scene.PlaneArray[c.Surface].Gap(partyPositions[c.First], partyRadii[c.First])
-            : (partyPositions[c.First] - Scene.SphereArray[c.Surface - Scene.PlaneArray.Length].Centre).Length - ReachOf(c);
+        double gap = GapOf(c);
         ref SolverContact added = ref reached.AddContact(c.First, c.Second, c.Surface, c.Normal, gap, Friction(c), RollingLever(c));
         added.Target = gap > 0 && left > 0 ? -gap / left : 0;
     }
+
+    private double GapOf(in ContactPoint c) =>
+        c.Second != ContactPoint.Static ? Scene.Box.Nearest(partyPositions[c.First] - partyPositions[c.Second]).Length - ReachOf(c)
+        : c.Surface < Scene.PlaneArray.Length ? Scene.PlaneArray[c.Surface].Gap(partyPositions[c.First], partyRadii[c.First])
+        : (partyPositions[c.First] - Scene.SphereArray[c.Surface - Scene.PlaneArray.Length].Centre).Length - ReachOf(c);
 
     /// <summary>Rebound and friction together may make energy where several contacts share bodies; then there is no rebound.</summary>
     private void KeepEnergy(double tolerance)
@@ -369,7 +509,7 @@ public sealed partial class Simulation
         SolveReached(tolerance);
     }
 
-    private void OpenReached(in EventKey key, double residual, int struckParties)
+    private void OpenReached(in EventKey key, double residual)
     {
         SimTime end = SimTime.MaxValue;
         for (int i = 0; i < partyCount; i++)
@@ -386,7 +526,7 @@ public sealed partial class Simulation
             int slot = parties[i];
             int before = timelines.Last(slot);
             bool isMember = IsMember(before);
-            bool lasts = i < struckParties && HasLasting(i);
+            bool lasts = HasLasting(i);
             if (IsHeld(before))
             {
                 GoOnHeld(slot, key);
@@ -432,14 +572,14 @@ public sealed partial class Simulation
         return has;
     }
 
-    /// <summary>A member's new piece carries the contacts of the impact at hand that last from here on.</summary>
+    /// <summary>A member's new piece carries the contacts of the impact at hand that last from here on; those that bounced off without a loss hold no more.</summary>
     private void AddLasting(int party, int piece)
     {
         for (int i = 0; i < contactCount; i++)
         {
             ref readonly ContactPoint c = ref contacts[i];
             bool isPair = c.Second != ContactPoint.Static;
-            if (!c.Lasts || (c.First != party && c.Second != party))
+            if ((c.First != party && c.Second != party) || (!c.Lasts && !(c.IsStruck && Restitution(c) >= 1)))
             {
                 continue;
             }
@@ -448,9 +588,9 @@ public sealed partial class Simulation
             int known = isPair ? timelines.ContactWith(piece, partner) : timelines.ContactWith(piece, c.Surface);
             if (known != TimelineStore.None)
             {
-                timelines.Hold(known);
+                timelines.Hold(known, c.Lasts);
             }
-            else
+            else if (c.Lasts)
             {
                 timelines.AddContact(piece, new LastingContact(partner, isPair ? LastingContact.NoSurface : c.Surface, holds: true));
             }

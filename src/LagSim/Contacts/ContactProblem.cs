@@ -79,6 +79,9 @@ internal sealed class ContactProblem
         return ref c;
     }
 
+    /// <summary>Keeps the first contacts alone.</summary>
+    internal void Keep(int count) => ContactCount = count;
+
     /// <summary>Lists the contacts of each body: ascending, so in canonical order if they are.</summary>
     internal void List()
     {
@@ -168,6 +171,7 @@ internal struct SolverContact
     internal double NormalMass;
     internal double RubMass;
     internal double TurnMass;
+    internal bool IsElastic; // loses no energy, and is of a step only if it held before
     internal bool Held; // whether the contact held before the step
     internal bool Holds; // and whether it holds in it
     internal double Impulse; // along the normal, in N s

@@ -99,6 +99,36 @@ internal sealed class ContactStep
         }
     }
 
+    /// <summary>
+    /// Leaves out the elastic contacts that did not hold before: what they do is impacts' affair, which take nothing. Not where there is a hand, which gives and takes.
+    /// </summary>
+    internal void DropElastic()
+    {
+        for (int b = 0; b < Problem.BodyCount; b++)
+        {
+            if (Problem.Bodies[b].InverseMass == 0)
+            {
+                return;
+            }
+        }
+
+        int kept = 0;
+        for (int i = 0; i < Problem.ContactCount; i++)
+        {
+            ref readonly SolverContact c = ref Problem.Contacts[i];
+            if (!c.IsElastic || c.Held)
+            {
+                Problem.Contacts[kept++] = c;
+            }
+            else if (c.Second != ContactPoint.Static)
+            {
+                Add(ref near, ref nearCount, ((long)c.First << 32) | (uint)c.Second);
+            }
+        }
+
+        Problem.Keep(kept);
+    }
+
     /// <summary>Solves the step from the impulses that its contacts have.</summary>
     internal void Solve(double seconds, double tolerance)
     {
@@ -128,7 +158,7 @@ internal sealed class ContactStep
         for (int i = 0; i < Problem.ContactCount; i++)
         {
             ref SolverContact c = ref Problem.Contacts[i];
-            c.Holds = c.Impulse > 0 || (c.Held && c.Gap + (ContactSolver.Opening(Problem, c) * seconds) <= 0.25 * Scale.Length);
+            c.Holds = c.Impulse > 0 || (c.Held && !c.IsElastic && c.Gap + (ContactSolver.Opening(Problem, c) * seconds) <= 0.25 * Scale.Length);
         }
     }
 
@@ -195,23 +225,24 @@ internal sealed class ContactStep
             }
 
             double opening = Vector3D.Dot(normal, body.Velocity);
-            if (MayTouch(gap, opening, seconds, Math.Min(restitution, m.Restitution)))
+            restitution = Math.Min(restitution, m.Restitution);
+            if (MayTouch(gap, opening, seconds, restitution))
             {
                 friction = Math.Min(friction, m.Friction);
-                Problem.AddContact(i, ContactPoint.Static, surface, normal, gap, friction, Math.Min(m.Lever, friction * body.Radius));
+                ref SolverContact c = ref Problem.AddContact(i, ContactPoint.Static, surface, normal, gap, friction, Math.Min(m.Lever, friction * body.Radius));
+                c.IsElastic = restitution >= 1;
             }
         }
     }
 
     /// <summary>
-    /// Whether two may touch in the step, and are then a contact of it: not what is elastic, nor what closes so fast that its rebound would rise by more than the
-    /// tolerance, for which there are impacts.
+    /// Whether two may touch in the step, and are then a contact of it: not what closes so fast that its rebound would rise by more than the tolerance, for which
+    /// there are impacts.
     /// </summary>
-    private bool MayTouch(double gap, double opening, double seconds, double restitution, bool isByHand = false)
+    private bool MayTouch(double gap, double opening, double seconds, double restitution)
     {
-        double span = Scale.Length;
-        bool isNear = gap + (Math.Min(0, opening) * seconds) <= span;
-        return isNear && (restitution < 1 || isByHand) && (gap <= 0 || -opening * restitution <= Scale.CaptureSpeed);
+        bool isNear = gap + (Math.Min(0, opening) * seconds) <= Scale.Length;
+        return isNear && (gap <= 0 || -opening * restitution <= Scale.CaptureSpeed);
     }
 
     /// <summary>Finds the pairs of bodies that may touch, in no order.</summary>
@@ -240,7 +271,7 @@ internal sealed class ContactStep
 
                 double length = Math.Sqrt(square);
                 double opening = length > 0 ? along / length : opens.Y;
-                bool mayTouch = MayTouch(length - reach, opening, seconds, Math.Min(members[i].Restitution, members[j].Restitution), p.InverseMass == 0 || q.InverseMass == 0);
+                bool mayTouch = MayTouch(length - reach, opening, seconds, Math.Min(members[i].Restitution, members[j].Restitution));
                 long pair = ((long)Math.Min(i, j) << 32) | (uint)Math.Max(i, j);
                 if (mayTouch)
                 {
@@ -312,7 +343,8 @@ internal sealed class ContactStep
         double length = apart.Length;
         double friction = Math.Min(a.Friction, b.Friction);
         double lever = Math.Max(Math.Min(a.Lever, friction * p), Math.Min(b.Lever, friction * q));
-        Problem.AddContact(first, second, -1, length > 0 ? apart / length : Vector3D.Up, length - (p + q), friction, lever);
+        ref SolverContact c = ref Problem.AddContact(first, second, -1, length > 0 ? apart / length : Vector3D.Up, length - (p + q), friction, lever);
+        c.IsElastic = Math.Min(a.Restitution, b.Restitution) >= 1;
     }
 
     /// <summary>Numbers the bodies along the axis on which they are furthest apart; so far apart on it two may be that touch.</summary>

@@ -118,11 +118,11 @@ internal sealed partial class TimelineStore
         member.Last = at;
     }
 
-    /// <summary>A contact of the segment begun holds.</summary>
-    internal void Hold(int contact)
+    /// <summary>Whether a contact of the segment begun holds.</summary>
+    internal void Hold(int contact, bool holds)
     {
         ref LastingContact c = ref contacts[contact];
-        c = new LastingContact(c.Partner, c.Surface, holds: true, c.Push, c.Turn);
+        c = new LastingContact(c.Partner, c.Surface, holds, c.Push, c.Turn);
     }
 
     /// <summary>Ends it: from here on it counts in the hash.</summary>
