@@ -25,10 +25,6 @@ public sealed partial class Simulation
     /// <summary>How many contact steps were taken, and of how many bodies.</summary>
     internal long StepsTaken { get; private set; }
 
-    internal long SweepsTaken { get; private set; }
-
-    internal long ContactsSolved { get; private set; }
-
     /// <summary>Takes no contact for one that lasts: only a test's negative control sets it.</summary>
     internal bool IgnoresIslands { get; set; }
 
@@ -47,27 +43,28 @@ public sealed partial class Simulation
         }
 
         EventKey canonical = StepKey();
-        double seconds = FillStep(canonical.Time, out SimDuration length);
-        step.FindContacts(seconds);
-        Warm();
-        step.DropElastic();
-        double tolerance = StepTolerance(canonical.Time, out bool mayRest);
+        EvaluateParties(canonical.Time, 0);
+        SimDuration length = FillStep(canonical.Time, StepWanted());
+        double tolerance = StepTolerance(out bool mayRest);
         if (mayRest && HaveRested(canonical.Time))
         {
             OpenRest(canonical);
         }
         else
         {
-            step.Solve(seconds, tolerance);
-            SettleForces(canonical.Time, length, tolerance);
-            step.FindHolding(seconds);
+            SolveStep(canonical.Time, length, tolerance);
+            for (double wanted = StepWantedAfter(); step.Scale.StepFrom(canonical.Time, wanted) < length; wanted = Math.Min(wanted, StepWantedAfter()))
+            {
+                length = FillStep(canonical.Time, wanted); // a force got strong within it
+                SolveStep(canonical.Time, length, tolerance);
+            }
+
+            step.FindHolding(length.ToSeconds());
             OpenStep(canonical, length);
             MarkStep();
         }
 
         StepsTaken++;
-        SweepsTaken += step.Sweeps;
-        ContactsSolved += step.Problem.ContactCount;
         JoinLookedAt(canonical);
         stepNumber++;
         return true;
@@ -214,19 +211,38 @@ public sealed partial class Simulation
         return least;
     }
 
-    private double FillStep(SimTime tick, out SimDuration length)
+    /// <summary>How long, in seconds, a step of the parties may be at most by where they come from.</summary>
+    private double StepWanted()
     {
         double wanted = double.PositiveInfinity;
-        EvaluateParties(tick, 0);
         for (int i = 0; i < partyCount; i++)
         {
-            if (!double.IsPositiveInfinity(partyMasses[i]))
-            {
-                wanted = Math.Min(wanted, StepWanted(parties[i], partyPositions[i], partyVelocities[i], partySpins[i]));
-            }
+            wanted = double.IsPositiveInfinity(partyMasses[i]) ? wanted
+                : Math.Min(wanted, StepWanted(parties[i], partyPositions[i], partyVelocities[i], partySpins[i]));
         }
 
-        length = step.Scale.StepFrom(tick, wanted);
+        return wanted;
+    }
+
+    /// <summary>The same by where the step that was solved leads them.</summary>
+    private double StepWantedAfter()
+    {
+        double wanted = double.PositiveInfinity;
+        for (int i = 0; i < partyCount; i++)
+        {
+            ref readonly SolverBody solved = ref step.Problem.Bodies[i];
+            wanted = double.IsPositiveInfinity(partyMasses[i]) ? wanted
+                : Math.Min(wanted, StepWanted(parties[i], partyPositions[i], solved.Velocity, solved.Spin));
+        }
+
+        return wanted;
+    }
+
+    /// <summary>Has the step's bodies and contacts ready.</summary>
+    /// <returns>How long it is.</returns>
+    private SimDuration FillStep(SimTime tick, double wanted)
+    {
+        SimDuration length = step.Scale.StepFrom(tick, wanted);
         double seconds = length.ToSeconds();
         SimTime middle = tick + SimDuration.FromTicks(length.Ticks / 2);
         step.Clear();
@@ -252,7 +268,16 @@ public sealed partial class Simulation
             step.AddBody(spec, partyPositions[i], velocity, gain, partySpins[i], isHeld);
         }
 
-        return seconds;
+        step.FindContacts(seconds);
+        Warm();
+        step.DropElastic();
+        return length;
+    }
+
+    private void SolveStep(SimTime tick, SimDuration length, double tolerance)
+    {
+        step.Solve(length.ToSeconds(), tolerance);
+        SettleForces(tick, length, tolerance);
     }
 
     /// <summary>So far, in parts of a force's own time, a step may go.</summary>
@@ -350,7 +375,7 @@ public sealed partial class Simulation
     }
 
     /// <summary>How well the step is solved: the finer, the less the island moves.</summary>
-    private double StepTolerance(SimTime tick, out bool mayRest)
+    private double StepTolerance(out bool mayRest)
     {
         double fastest = 0;
         mayRest = true;
@@ -442,18 +467,20 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// Whether a party is so slow that in the time before a sleep it does not move by the tolerance; nor its surface, where rolling resistance is to end its turning.
+    /// Whether a party is so slow that in the time before a sleep it does not move by the tolerance; nor its surface, against what rolling resistance is to have it turn with.
     /// </summary>
     private bool IsStill(int party, in SolverBody solved)
     {
-        bool isResisted = false;
+        double speed = step.Scale.StillSpeed;
+        bool isStill = solved.Velocity.Length <= speed;
         foreach (int i in step.Problem.ListOf(party))
         {
-            isResisted |= step.Problem.Contacts[i].Lever > 0;
+            ref readonly SolverContact c = ref step.Problem.Contacts[i];
+            Vector3D turning = c.Second == ContactPoint.Static ? solved.Spin : step.Problem.Bodies[c.First].Spin - step.Problem.Bodies[c.Second].Spin;
+            isStill &= c.Lever == 0 || turning.Length * solved.Radius <= speed;
         }
 
-        double speed = step.Scale.StillSpeed;
-        return solved.Velocity.Length <= speed && (!isResisted || solved.Spin.Length * solved.Radius <= speed);
+        return isStill;
     }
 
     private void OpenChord(int slot, in EventKey key, SimTime end, in Vector3D position, in Vector3D velocity, in Vector3D spin)

@@ -133,7 +133,7 @@ public sealed partial class Simulation
         }
         else
         {
-            OpenChord(slot, key, slept ? step.Scale.TickFrom(key.Time, StepWanted(slot, position, velocity, spin)) : path.End, position, velocity, spin);
+            OpenChord(slot, key, slept ? NextTick(slot, key.Time, StepWanted(slot, position, velocity, spin)) : path.End, position, velocity, spin);
         }
 
         int piece = timelines.Last(slot);
@@ -143,6 +143,14 @@ public sealed partial class Simulation
             LastingContact contact = timelines.Contact(at);
             timelines.AddContact(piece, contact);
         }
+    }
+
+    /// <summary>When the first step of a body begins that becomes a member: at this instant if it is a tick, but for one that a step has let go at it.</summary>
+    private SimTime NextTick(int slot, SimTime time, double wanted)
+    {
+        ref readonly EventKey opened = ref timelines.Key(timelines.Last(slot));
+        bool hadIt = opened.Kind == EventKind.StepEnd && opened.Time == time;
+        return step.Scale.TickFrom(hadIt ? time + SimDuration.OneTick : time, wanted);
     }
 
     /// <summary>The parties: those that sleep in contact with a body to which something is about to happen; false if one was ahead of it and has been taken back.</summary>

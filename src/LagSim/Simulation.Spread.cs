@@ -546,7 +546,7 @@ public sealed partial class Simulation
                 else
                 {
                     SupportSet supports = timelines.Segment(before).Supports;
-                    SimTime tick = step.Scale.TickFrom(key.Time, StepWanted(slot, position, partyVelocities[i], partySpins[i]));
+                    SimTime tick = NextTick(slot, key.Time, StepWanted(slot, position, partyVelocities[i], partySpins[i]));
                     OpenChord(slot, key, end == SimTime.MaxValue ? tick : SimTime.Min(end, tick > key.Time ? tick : end), position, partyVelocities[i], partySpins[i]);
                     timelines.BeginMember(timelines.Last(slot), key.Time, key.Time);
                     for (int k = 0; k < supports.Count; k++)
