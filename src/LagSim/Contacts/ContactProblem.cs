@@ -74,6 +74,7 @@ internal sealed class ContactProblem
             NormalInverse = inverse,
             NormalMass = inverse > 0 ? 1 / inverse : 0,
             RubMass = inverse > 0 ? 1 / (ImpactFriction.SlipPerImpulse * inverse) : 0,
+            Follows = friction * friction <= 0.5 ? 1 : 1 / (1 + (friction * friction)),
             TurnMass = turning > 0 ? 1 / (ImpactFriction.TurnPerImpulse * turning) : 0,
         };
         return ref c;
@@ -166,6 +167,8 @@ internal struct SolverContact
     internal double Target; // the least opening, in m/s
     internal double Friction;
     internal double Lever;
+    internal double Follows; // which part of the way the bound of friction follows the normal impulse in a visit
+    internal double Bound; // of friction, in N s, where it follows in parts
     internal double Most; // the largest impulse along the normal
     internal double NormalInverse;
     internal double NormalMass;

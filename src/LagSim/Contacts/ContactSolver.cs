@@ -21,6 +21,7 @@ internal static class ContactSolver
         {
             ref SolverContact c = ref problem.Contacts[i];
             c.HasRub = c.Rub != Vector3D.Zero;
+            c.Bound = c.Friction * c.Impulse;
             if (c.Impulse != 0 || c.HasRub || c.Turn != Vector3D.Zero)
             {
                 Apply(problem, c, (c.Normal * c.Impulse) + c.Rub, c.Rub, c.Turn);
@@ -68,6 +69,11 @@ internal static class ContactSolver
                 a.Changed += change;
                 b.Changed += isPair ? change : 0;
                 c.Seen = changed + (isPair ? 2 * change : change);
+                if (c.Follows < 1 && change > tolerance)
+                {
+                    c.Seen = double.NegativeInfinity; // the bound of its friction has a way to go
+                }
+
                 isDone &= change <= tolerance;
             }
         }
@@ -126,7 +132,7 @@ internal static class ContactSolver
             double sx = vx - (nx * opening) - ((ly * nz) - (lz * ny)), sy = vy - (ny * opening) - ((lz * nx) - (lx * nz));
             double sz = vz - (nz * opening) - ((lx * ny) - (ly * nx));
             double rx = c.Rub.X - (sx * c.RubMass), ry = c.Rub.Y - (sy * c.RubMass), rz = c.Rub.Z - (sz * c.RubMass);
-            double most = c.Friction * impulse;
+            double most = c.Follows == 1 ? c.Friction * impulse : Follow(ref c);
             double square = (rx * rx) + (ry * ry) + (rz * rz);
             if (square > most * most)
             {
@@ -136,7 +142,7 @@ internal static class ContactSolver
 
             double qx = rx - c.Rub.X, qy = ry - c.Rub.Y, qz = rz - c.Rub.Z;
             c.Rub = new Vector3D(rx, ry, rz);
-            c.HasRub = impulse > 0;
+            c.HasRub = impulse > 0 || c.Follows < 1;
             (px, py, pz) = (px + qx, py + qy, pz + qz);
             double slips = Math.Sqrt((qx * qx) + (qy * qy) + (qz * qz)) * ImpactFriction.SlipPerImpulse * c.NormalInverse;
             change = Math.Max(change, slips);
@@ -167,12 +173,12 @@ internal static class ContactSolver
         {
             Vector3D slip = relative - (c.Normal * opening) - (Vector3D.Cross(a.Spin, c.Normal) * a.Radius);
             Vector3D rub = c.Rub - (slip * c.RubMass);
-            double most = c.Friction * impulse;
+            double most = c.Follows == 1 ? c.Friction * impulse : Follow(ref c);
             double square = rub.LengthSquared;
             rub = square > most * most ? rub * (most / Math.Sqrt(square)) : rub;
             Vector3D across = rub - c.Rub;
             c.Rub = rub;
-            c.HasRub = impulse > 0;
+            c.HasRub = impulse > 0 || c.Follows < 1;
             push += across;
             change = Math.Max(change, across.Length * ImpactFriction.SlipPerImpulse * c.NormalInverse);
             a.Spin += Vector3D.Cross(across, c.Normal) * (ImpactFriction.TurnPerImpulse * a.InverseMass / a.Radius);
@@ -182,14 +188,28 @@ internal static class ContactSolver
         return c.Lever > 0 ? Math.Max(change, Resist(ref c, ref a, ref a, isPair: false)) : change;
     }
 
-    /// <summary>Rolling resistance: against turning on each other, also about the normal.</summary>
+    /// <summary>
+    /// The bound of friction, which follows the normal impulse only in part where friction is large. Between a floor and a wall the push of the one is the friction of the
+    /// other, so that sweeps multiply what is off by minus mu²; followed by 1 / (1 + mu²) of the way they multiply it by nothing.
+    /// </summary>
+    private static double Follow(ref SolverContact c)
+    {
+        double most = c.Friction * c.Impulse;
+        c.Bound = c.Bound == 0 ? most : c.Bound + (c.Follows * (most - c.Bound));
+        return c.Bound;
+    }
+
+    /// <summary>Rolling resistance: against rolling on each other, and as much against turning about the normal.</summary>
     private static double Resist(ref SolverContact c, ref SolverBody a, ref SolverBody b, bool isPair)
     {
         Vector3D turning = isPair ? a.Spin - b.Spin : a.Spin;
-        Vector3D turn = c.Turn - (turning * c.TurnMass);
+        Vector3D wanted = c.Turn - (turning * c.TurnMass);
         double most = c.Lever * c.Impulse;
-        double square = turn.LengthSquared;
-        turn = square > most * most ? turn * (most / Math.Sqrt(square)) : turn;
+        double pivot = Vector3D.Dot(wanted, c.Normal);
+        Vector3D rolling = wanted - (c.Normal * pivot);
+        double square = rolling.LengthSquared;
+        rolling = square > most * most ? rolling * (most / Math.Sqrt(square)) : rolling;
+        Vector3D turn = rolling + (c.Normal * Math.Min(most, Math.Max(-most, pivot)));
         Vector3D more = turn - c.Turn;
         c.Turn = turn;
         double speed = ImpactFriction.TurnPerImpulse * a.InverseMass / a.Radius;

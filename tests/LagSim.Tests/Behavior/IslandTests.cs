@@ -46,7 +46,8 @@ public sealed class IslandTests
 
     /// <summary>
     /// Along a groove whose sides lie aslant, by an angle of sine s and cosine k, a ball presses each with N = m g / (2 k) and turns on it,
-    /// at speed / (R k): resistance against that of c R N from each side takes c g / (k² + 2/5) from its speed.
+    /// at speed / (R k), of which k is rolling on a side and s turning about its normal: resistance against both of c R N from each takes
+    /// c g (k + s) / (k² + 2/5) from its speed.
     /// </summary>
     /// <remarks>
     /// The sides may also carry weight by friction, up or down, which nothing determines: so N may be off by the factor k / (k +- mu s),
@@ -64,7 +65,7 @@ public sealed class IslandTests
                 .AddPlane("left", V(sine, k), 0.0, friction: 1).AddPlane("right", V(-sine, k), 0.0, friction: 1)
                 .AddBody("ball", ball, V(0, R / k), V(0, 0, speed), spin: V(speed / (R * k))).Build(),
             KeepAll);
-        double brake = resistance * Gravity / ((k * k) + 0.4);
+        double brake = resistance * Gravity * (k + sine) / ((k * k) + 0.4);
         world.AdvanceTo(At(4));
         BodyState end = Read(world, First, 4);
         Assert.Equal(resistance > 0 ? MotionLaw.Resting : MotionLaw.Constrained, end.Motion);

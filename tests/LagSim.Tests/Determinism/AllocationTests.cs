@@ -105,7 +105,7 @@ public sealed class AllocationTests
     /// <summary>Balls that slide, or roll, to and fro on a floor, each in an island of its own.</summary>
     private static Scene OnSprings(double friction)
     {
-        SceneBuilder builder = new SceneBuilder("springs").AddForce(Force.Spring("spring", V(0, 1), 30), out ForceSet spring).AddPlane("floor", Vector3D.Up, V(0));
+        SceneBuilder builder = new SceneBuilder("springs").WithContactTolerance(1e-6).AddForce(Force.Spring("spring", V(0, 1), 30), out ForceSet spring).AddPlane("floor", Vector3D.Up, V(0));
         for (int i = 0; i < 4; i++)
         {
             builder.AddBody($"ball {i}", new BodySpec(0.2, 1, 0, forces: spring, friction: friction), V(0.5 + i, 0.2), V(0, 0, 1));

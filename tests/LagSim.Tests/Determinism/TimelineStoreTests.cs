@@ -75,7 +75,7 @@ public sealed class TimelineStoreTests
 
         static Scene Heap()
         {
-            SceneBuilder builder = new SceneBuilder("heap").AddPlane("floor", V(0, 1), 0.0)
+            SceneBuilder builder = new SceneBuilder("heap").WithContactTolerance(1e-6).AddPlane("floor", V(0, 1), 0.0)
                 .AddPlane("west", V(1), -1.1).AddPlane("east", V(-1), -1.1).AddPlane("north", V(0, 0, 1), -1.1).AddPlane("south", V(0, 0, -1), -1.1);
             for (int i = 0; i < 12; i++)
             {
