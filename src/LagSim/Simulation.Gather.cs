@@ -48,7 +48,8 @@ public sealed partial class Simulation
             int party = parties[i];
             for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
             {
-                if (TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round)
+                bool now = TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
+                if (now || (key.Round >= CollapseRound && IsTouching(party, surface, key.Time, out contact)))
                 {
                     AddContact(new ContactPoint(i, ContactPoint.Static, surface, contact));
                 }
@@ -71,7 +72,7 @@ public sealed partial class Simulation
                 if (!now && key.Round >= CollapseRound && RoundAfter(then, key.Time) <= key.Round && timelines.Segment(then).IsPresent)
                 {
                     // What was struck in this very round already is not struck in it again.
-                    now = !IsHeld(then) && !IsHeld(timelines.Last(party)) && !AreElastic(party, other) && IsTouching(party, other, then, key.Time, out contact);
+                    now = !(IsHeld(then) && IsHeld(timelines.Last(party))) && IsTouching(party, other, then, key.Time, out contact);
                 }
 
                 if (now)
@@ -94,8 +95,6 @@ public sealed partial class Simulation
         }
     }
 
-    private bool AreElastic(int slot, int other) => bodies[slot].Spec.Restitution == 1 && bodies[other].Spec.Restitution == 1;
-
     /// <summary>The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits whoever asks.</summary>
     private double Gap(int slot, int piece, int other, int otherPiece, SimTime time) =>
         Scene.Box.Nearest(PositionAt(piece, time) - PositionAt(otherPiece, time)).Length - (bodies[slot].Spec.Radius + bodies[other].Spec.Radius);
@@ -104,6 +103,17 @@ public sealed partial class Simulation
     {
         ContactTime.TryMake(time, time, 0, out contact);
         return Gap(slot, timelines.Last(slot), other, piece, time) <= Scene.Resolution;
+    }
+
+    private bool IsTouching(int slot, int surface, SimTime time, out ContactTime contact)
+    {
+        ContactTime.TryMake(time, time, 0, out contact);
+        int last = timelines.Last(slot);
+        Vector3D position = PositionAt(last, time);
+        double radius = bodies[slot].Spec.Radius;
+        double gap = surface < Scene.PlaneArray.Length ? Scene.PlaneArray[surface].Gap(position, radius)
+            : (position - Scene.SphereArray[surface - Scene.PlaneArray.Length].Centre).Length - (radius + Scene.SphereArray[surface - Scene.PlaneArray.Length].Radius);
+        return gap <= Scene.Resolution && !IsHeld(last);
     }
 
     private int PartyOf(int slot) => Array.IndexOf(parties, slot, 0, partyCount);

@@ -102,10 +102,10 @@ public sealed partial class Simulation
         return true;
     }
 
-    /// <summary>Whether no contact of the impact at hand may take energy.</summary>
+    /// <summary>Whether no contact of the impact at hand may take energy; where there is a hand, that gives and takes.</summary>
     private bool IsElastic()
     {
-        bool isElastic = true;
+        bool isElastic = !HasHand();
         for (int i = 0; i < contactCount && isElastic; i++)
         {
             isElastic = Restitution(contacts[i]) == 1;
@@ -181,13 +181,13 @@ public sealed partial class Simulation
 
     private void SetTargets(uint round)
     {
+        bool collapses = round >= CollapseRound && !IsElastic();
         for (int i = 0; i < contactCount; i++)
         {
             ref ContactPoint c = ref contacts[i];
             c.Normal = NormalOf(c);
             double closing = Math.Max(0, -ImpactSolver.Opening(c, partyVelocities));
             double restitution = Restitution(c);
-            bool collapses = round >= CollapseRound && restitution < 1;
             c.Restored = collapses ? 0 : restitution * closing;
             c.Lasts = IsLast(c, restitution, c.Restored);
             c.Restored = c.Lasts ? 0 : c.Restored;

@@ -74,7 +74,6 @@ public sealed partial class Simulation
         double usual = count == 0 ? Scene.SmallestRadius : radii[count * 9 / 10];
         double usualSpeed = present == 0 ? 0 : speeds[present * 9 / 10];
         double tick = Limits.MaxSpeed(Scene.SmallestRadius) * TickConversion.SecondsPerTick;
-        double near = Math.Max(Scene.Resolution, Scene.ContactTolerance);
-        return new ShellIndex(timelines, (CellInRadii * usual) + near, usualSpeed, near, tick, Scene.Box, slotCount);
+        return new ShellIndex(timelines, CellInRadii * usual, usualSpeed, Scene.Resolution, tick, Scene.Box, slotCount);
     }
 }

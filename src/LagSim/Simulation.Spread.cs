@@ -130,7 +130,7 @@ public sealed partial class Simulation
     /// <param name="popped">The impact's key.</param>
     /// <param name="residual">Seconds from the tick to the impact.</param>
     /// <param name="presses">
-    /// Whether a hand takes part, which presses what it strikes against all that is within the contact tolerance on its way: bounces with less room than that are none.
+    /// Whether to press what a hand strikes against the static surfaces that are within the contact tolerance on its way: bounces with less room than that are none.
     /// </param>
     /// <param name="givesWay">Whether what the hand strikes can give way, or has room: then nothing was done, and it is an impact like others.</param>
     private bool TrySpread(in EventKey popped, double residual, bool presses, out bool givesWay)
@@ -174,7 +174,7 @@ public sealed partial class Simulation
 
             for (int i = 0; i < known && ahead.Count == 0 && HasHand(); i++)
             {
-                isNear |= TryReachNear(i, key, residual, tolerance, ref grows);
+                isNear |= TryReachNear(i, key.Time, tolerance, ref grows);
             }
 
             if (grows && ahead.Count == 0)
@@ -190,7 +190,7 @@ public sealed partial class Simulation
             return false;
         }
 
-        if (presses && !(isNear && IsPressed()))
+        if (presses && !(isNear && IsSqueezed()))
         {
             givesWay = true;
             for (int i = struckParties; i < partyCount; i++)
@@ -210,16 +210,17 @@ public sealed partial class Simulation
         return true;
     }
 
-    /// <summary>Whether a hand that strikes gives all that it may: what it strikes cannot give way.</summary>
-    private bool IsPressed()
+    /// <summary>Whether what a hand strikes is pressed against a static surface.</summary>
+    private bool IsSqueezed()
     {
-        bool isPressed = false;
-        for (int i = 0; i < contactCount && !isPressed; i++)
+        bool isSqueezed = false;
+        for (int i = contactCount; i < reached.ContactCount && !isSqueezed; i++)
         {
-            isPressed = IsByHand(contacts[i]) && reached.Contacts[i].Impulse >= reached.Contacts[i].Most;
+            ref readonly SolverContact c = ref reached.Contacts[i];
+            isSqueezed = c.Impulse > 0 && c.Second == ContactPoint.Static;
         }
 
-        return isPressed;
+        return isSqueezed;
     }
 
     /// <summary>What a hand presses against something lasts, and what it presses it against too.</summary>
@@ -240,59 +241,24 @@ public sealed partial class Simulation
         }
     }
 
-    /// <summary>Adds what a party is pushed towards and would reach within the contact tolerance.</summary>
-    private bool TryReachNear(int party, in EventKey key, double residual, double tolerance, ref bool grows)
+    /// <summary>
+    /// Adds the static surfaces that a party is pushed towards and would reach within the contact tolerance. Not other bodies: that one is near without being struck no
+    /// heal would find.
+    /// </summary>
+    private bool TryReachNear(int party, SimTime time, double tolerance, ref bool grows)
     {
-        int slot = parties[party];
         Vector3D push = reached.Bodies[party].Velocity - velocitiesBefore[party];
         if (double.IsPositiveInfinity(partyMasses[party]) || push.Length <= tolerance)
         {
             return false;
         }
 
-        double left = step.Scale.TickFrom(key.Time, double.PositiveInfinity).SecondsSince(key.Time);
+        double left = step.Scale.TickFrom(time, double.PositiveInfinity).SecondsSince(time);
         bool any = false;
         for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
         {
             ContactPoint c = new(party, ContactPoint.Static, surface, default);
             if (!IsReached(c) && Vector3D.Dot(NormalOf(c), push) < -tolerance && GapOf(c) <= step.Scale.Length)
-            {
-                AddReachedContact(c, left);
-                any = true;
-            }
-        }
-
-        foreach (int other in index.CandidatesAt(slot, bodies[slot].Spec.Radius, key.Time, HealAtHand != 0))
-        {
-            int piece = other == slot || !timelines.IsKnown(other) ? TimelineStore.None : PieceBefore(other, key);
-            if (piece == TimelineStore.None || !timelines.Segment(piece).IsPresent || Gap(slot, timelines.Last(slot), other, piece, key.Time) > step.Scale.Length)
-            {
-                continue;
-            }
-
-            Vector3D normal = Direction(Scene.Box.Nearest(partyPositions[party] - PositionAt(piece, key.Time)));
-            if (Vector3D.Dot(normal, push) >= -tolerance || IsHeld(piece))
-            {
-                continue;
-            }
-
-            if (piece != timelines.Last(other))
-            {
-                ahead.Add(other);
-                return false;
-            }
-
-            int known = PartyOf(other);
-            if (known < 0)
-            {
-                known = AddParty(other);
-                EvaluateParty(known, key.Time, residual);
-                AddReached(known);
-            }
-
-            bool ordered = bodies[slot].Id < bodies[other].Id;
-            ContactPoint c = new(ordered ? party : known, ordered ? known : party, -1, default);
-            if (!IsReached(c))
             {
                 AddReachedContact(c, left);
                 any = true;

@@ -27,8 +27,15 @@ internal readonly struct ContactScale
     /// <summary>So long nobody of an island may have moved by the tolerance before it sleeps.</summary>
     internal static readonly SimDuration StillFor = SimDuration.FromTicks(SimDuration.TicksPerSecond / 2);
 
-    internal ContactScale(double tolerance, in Vector3D gravity)
+    private readonly SimTime start;
+
+    /// <summary>The scale of a scene.</summary>
+    /// <param name="tolerance">The contact tolerance, in metres.</param>
+    /// <param name="gravity">The scene's gravity.</param>
+    /// <param name="start">When the scene began, from which on the common clock counts.</param>
+    internal ContactScale(double tolerance, in Vector3D gravity, SimTime start)
     {
+        this.start = start;
         Length = tolerance;
         Pull = Math.Max(gravity.Length, LeastPull);
         double seconds = Math.Sqrt(2 * tolerance / Pull);
@@ -74,14 +81,14 @@ internal readonly struct ContactScale
             step >>= 1;
         }
 
-        return SimTime.FromTicks((time.Ticks + step - 1) & -step); // a power of two
+        return start + SimDuration.FromTicks(((time - start).Ticks + step - 1) & -step); // a power of two
     }
 
     /// <summary>How long a step may be that begins at a tick: of those that the clock has there the longest that is not longer than wanted.</summary>
     internal SimDuration StepFrom(SimTime tick, double seconds)
     {
         long step = Step.Ticks;
-        while (step > ShortestTicks && (step > seconds * SimDuration.TicksPerSecond || (tick.Ticks & (step - 1)) != 0))
+        while (step > ShortestTicks && (step > seconds * SimDuration.TicksPerSecond || ((tick - start).Ticks & (step - 1)) != 0))
         {
             step >>= 1;
         }

@@ -45,7 +45,6 @@ internal sealed class ShellIndex : IPairIndex
     private readonly PeriodicBox box;
     private readonly double cell;
     private readonly double near;
-    private readonly double fits; // the extent of a shell at most, for two of which all that is near is in neighbouring cells
     private readonly double tick;
     private readonly double shortestStay;
     private readonly PresentShells present;
@@ -70,7 +69,6 @@ internal sealed class ShellIndex : IPairIndex
         this.near = near;
         this.box = box;
         tick = tickLength;
-        fits = 0.5 * ((cell * (1 - 1e-9)) - near);
         double shortest = Math.Min(ShortestStay, FarLess * cell / speed); // of the two the first if nobody moves
         shortestStay = Math.Max(FewTicks * TickConversion.SecondsPerTick, shortest);
         CellGrid grid = new(cell, box);
@@ -233,7 +231,7 @@ internal sealed class ShellIndex : IPairIndex
         double speed = path.VelocityAt(seconds, dense).Length;
         double acceleration = CellGrid.LargestAcceleration(path, dense, seconds, seconds + shortestStay);
         double least = 2 * ((speed * shortestStay) + (2 * acceleration * shortestStay * shortestStay)); // twice, for three quarters are for the velocity
-        double stray = Math.Max(least, Math.Min(wanted, Math.Max(LeastStray * cell, fits - radius)));
+        double stray = Math.Max(least, Math.Min(wanted, Math.Max(LeastStray * cell, (0.5 * cell * (1 - 1e-9)) - radius)));
         return new Shell(path.PositionAt(seconds, dense), stray < double.MaxValue ? stray : double.PositiveInfinity, radius);
     }
 

@@ -112,7 +112,7 @@ internal static class SnapshotCheck
             throw new SceneException($"The motion of {whose} is {body.Law}; only what is Constrained, or rests and no plane carries it, has lasting contacts.");
         }
 
-        SimDuration longest = new ContactScale(scene.ContactTolerance, scene.Gravity).Step;
+        SimDuration longest = new ContactScale(scene.ContactTolerance, scene.Gravity, default).Step;
         bool isStep = body.Law == MotionLaw.Constrained;
         if (isStep && (body.Epoch != body.Opened.Time || body.End < body.Epoch || body.End - body.Epoch > longest))
         {

@@ -114,7 +114,7 @@ public sealed class ResistedSlipTests
         SceneBuilder steps = new SceneBuilder("steps").WithContactTolerance(1e-6).WithGravity(Floating).AddForce(Force.Supplied(new FunctionForce((_, _, _) => weight)), out ForceSet force).AddPlane("plane", normal, 0.0);
         Simulation stepped = Run(
             steps.AddBody("ball", new BodySpec(R, 1, 0, MotionLaw.Automatic, forces: force, friction: mu, rollingResistance: inSteps), normal * R, velocity, spin: spin).Build(), 1);
-        double longest = new ContactScale(stepped.Scene.ContactTolerance, stepped.Scene.Gravity).Step.ToSeconds();
+        double longest = new ContactScale(stepped.Scene.ContactTolerance, stepped.Scene.Gravity, default).Step.ToSeconds();
         double change = Gravity * (1 + (3.5 * mu) + (2.5 * c)) * longest, apart = 0; // of a speed in a step
         for (double t = 0.05; t <= 1; t += 0.05)
         {
