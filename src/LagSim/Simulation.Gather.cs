@@ -16,7 +16,13 @@ public sealed partial class Simulation
     /// </summary>
     private double Gather(int slot, in EventKey key)
     {
-        Follow(slot, key);
+        bool collapses = key.Round >= CollapseRound;
+        Follow(slot, key, collapses);
+        if (collapses && ahead.Count == 0 && IsElastic())
+        {
+            Follow(slot, key, collapses: false); // what loses nothing is followed however often it is struck
+        }
+
         if (ahead.Count > 0)
         {
             return 0;
@@ -36,8 +42,8 @@ public sealed partial class Simulation
         return residual;
     }
 
-    /// <summary>Finds contacts from body to body.</summary>
-    private void Follow(int slot, in EventKey key)
+    /// <summary>Finds contacts from body to body: those that are struck, and where all collapses also what touches.</summary>
+    private void Follow(int slot, in EventKey key, bool collapses)
     {
         partyCount = 0;
         contactCount = 0;
@@ -49,7 +55,7 @@ public sealed partial class Simulation
             for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
             {
                 bool now = TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
-                if (now || (key.Round >= CollapseRound && IsTouching(party, surface, key.Time, out contact)))
+                if (now || (collapses && IsTouching(party, surface, key.Time, out contact)))
                 {
                     AddContact(new ContactPoint(i, ContactPoint.Static, surface, contact));
                 }
@@ -69,7 +75,7 @@ public sealed partial class Simulation
                 }
 
                 bool now = TryTouchBody(party, other, then, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
-                if (!now && key.Round >= CollapseRound && RoundAfter(then, key.Time) <= key.Round && timelines.Segment(then).IsPresent)
+                if (!now && collapses && RoundAfter(then, key.Time) <= key.Round && timelines.Segment(then).IsPresent)
                 {
                     // What was struck in this very round already is not struck in it again.
                     now = !(IsHeld(then) && IsHeld(timelines.Last(party))) && IsTouching(party, other, then, key.Time, out contact);

@@ -124,7 +124,16 @@ public sealed partial class Simulation
     }
 
     /// <summary>Whether a hand takes part in the impact at hand.</summary>
-    private bool HasHand() => Array.IndexOf(partyMasses, double.PositiveInfinity, 0, partyCount) >= 0;
+    private bool HasHand()
+    {
+        bool has = false;
+        for (int i = 0; i < partyCount && !has; i++)
+        {
+            has = IsHeld(timelines.Last(parties[i]));
+        }
+
+        return has;
+    }
 
     /// <summary>Solves the impact at hand with the lasting contacts that it reaches; false if somebody was ahead of it and has been taken back.</summary>
     /// <param name="popped">The impact's key.</param>

@@ -49,6 +49,9 @@ internal static class ContactSteps
             : new BodyState(after.Position, (before.Velocity + after.Velocity) * 0.5, after.Motion, (before.Spin + after.Spin) * 0.5);
     }
 
+    /// <summary>Why a control fails that has the same steps at both tolerances: its order is 0.</summary>
+    internal const string SameSteps = "the tolerance does not reach the steps";
+
     /// <summary>That errors fall with the step as they should: measured between two steps.</summary>
     internal static HardRow Order(
         string name, string size, double coarse, double fine, double ratio, double expected, double share, string argument)

@@ -38,7 +38,6 @@ internal sealed class DomeCase : IHardCase
                 }
             }
 
-            const double Coarse = 1.0 / 256, Fine = 1.0 / 4096;
             Seen coarse = Errors(context, start, ContactSteps.ToleranceOf(Coarse), Coarse),
                 fine = Errors(context, start, ContactSteps.ToleranceOf(Fine), Fine);
             foreach (HardRow row in Orders(start, coarse, fine, Coarse / Fine))
@@ -48,8 +47,16 @@ internal sealed class DomeCase : IHardCase
         }
     }
 
+    private const double Coarse = 1.0 / 256, Fine = 1.0 / 4096;
+
     public IEnumerable<HardRow> Controls(HardContext context)
     {
+        Seen same = Errors(context, 0.1, ContactSteps.ToleranceOf(Coarse), Coarse);
+        foreach (HardRow row in Orders(0.1, same, same, Coarse / Fine))
+        {
+            yield return row with { Note = ContactSteps.SameSteps };
+        }
+
         Seen wrong = Tangents(ContactSteps.Step(1e-5));
         foreach (HardRow row in Rows(0.1, 1e-5, wrong))
         {

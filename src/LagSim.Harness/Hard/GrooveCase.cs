@@ -20,6 +20,8 @@ internal sealed class GrooveCase : IHardCase
     /// <summary>The sweeps leave a contact to close by this part of the tolerance in a step.</summary>
     private const double SweepPart = 0.05;
 
+    private const double Coarse = 1.0 / 256;
+
     /// <summary>sin b, and cos b, of a fall of 3 in 4.</summary>
     private const double Sine = 0.6, Cosine = 0.8;
 
@@ -40,7 +42,7 @@ internal sealed class GrooveCase : IHardCase
             }
         }
 
-        yield return Order(context);
+        yield return Order(context, 1.0 / 4096);
     }
 
     public IEnumerable<HardRow> Controls(HardContext context)
@@ -49,17 +51,18 @@ internal sealed class GrooveCase : IHardCase
         {
             yield return row with { Note = "what rolls taken for what slips" };
         }
+
+        yield return Order(context, Coarse) with { Note = ContactSteps.SameSteps };
     }
 
     /// <summary>Where the sides meet at a right angle sweeps settle at once, and the friction of the first half step is all that is
     /// off.</summary>
-    private HardRow Order(HardContext context)
+    private HardRow Order(HardContext context, double fine)
     {
-        const double Coarse = 1.0 / 256, Fine = 1.0 / 4096;
-        double[] places = [.. new[] { Coarse, Fine }
+        double[] places = [.. new[] { Coarse, fine }
             .Select(step => Rows(context, Math.PI / 4, -0.1, -0.1, ContactSteps.ToleranceOf(step)).First().Error)];
         return ContactSteps.Order(
-            Name, "sides at a right angle, friction -0.1 of what rolling needs, place", places[0], places[1], Coarse / Fine, 1, 0.05,
+            Name, "sides at a right angle, friction -0.1 of what rolling needs, place", places[0], places[1], 16, 1, 0.05,
             "the next order is a step over the time that is watched, a thousandth, of this one");
     }
 

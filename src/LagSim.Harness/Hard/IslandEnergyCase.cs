@@ -39,9 +39,19 @@ internal sealed class IslandEnergyCase : IHardCase
             }
         }
 
-        const double Coarse = 1.0 / 128, Fine = 1.0 / 1024, Share = 0.05;
         Seen coarse = Errors(context, 10, ContactSteps.ToleranceOf(Coarse), Coarse),
             fine = Errors(context, 10, ContactSteps.ToleranceOf(Fine), Fine);
+        foreach (HardRow row in Orders(coarse, fine))
+        {
+            yield return row;
+        }
+    }
+
+    private const double Coarse = 1.0 / 128, Fine = 1.0 / 1024;
+
+    private IEnumerable<HardRow> Orders(Seen coarse, Seen fine)
+    {
+        const double Share = 0.05;
         const string Next = "the next order is (omega h)^2, a thousandth, of this one; samples are that near to the largest";
         yield return ContactSteps.Order(Name, "energy at ticks", coarse.AtTicks, fine.AtTicks, Coarse / Fine, 2, Share, Next);
         yield return ContactSteps.Order(Name, "energy within steps", coarse.Within, fine.Within, Coarse / Fine, 1, Share, "the next order"
@@ -81,6 +91,12 @@ internal sealed class IslandEnergyCase : IHardCase
 
     public IEnumerable<HardRow> Controls(HardContext context)
     {
+        Seen same = Errors(context, 10, ContactSteps.ToleranceOf(Coarse), Coarse);
+        foreach (HardRow row in Orders(same, same))
+        {
+            yield return row with { Note = ContactSteps.SameSteps };
+        }
+
         // Euler's steps, which put the contact right only by how fast it opens: the energy grows with each, and what is off stays off.
         double z = 0, v = Swing, apart = 0, y = 0, fall = 0, place = 0;
         for (double t = 0; t < 10; t += Step)

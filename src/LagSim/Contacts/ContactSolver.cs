@@ -132,8 +132,8 @@ internal static class ContactSolver
             double sx = vx - (nx * opening) - ((ly * nz) - (lz * ny)), sy = vy - (ny * opening) - ((lz * nx) - (lx * nz));
             double sz = vz - (nz * opening) - ((lx * ny) - (ly * nx));
             double rx = c.Rub.X - (sx * c.RubMass), ry = c.Rub.Y - (sy * c.RubMass), rz = c.Rub.Z - (sz * c.RubMass);
-            double most = c.Follows == 1 ? c.Friction * impulse : Follow(ref c);
             double square = (rx * rx) + (ry * ry) + (rz * rz);
+            double most = c.Follows == 1 ? c.Friction * impulse : Follow(ref c, square);
             if (square > most * most)
             {
                 double part = most / Math.Sqrt(square);
@@ -173,8 +173,8 @@ internal static class ContactSolver
         {
             Vector3D slip = relative - (c.Normal * opening) - (Vector3D.Cross(a.Spin, c.Normal) * a.Radius);
             Vector3D rub = c.Rub - (slip * c.RubMass);
-            double most = c.Follows == 1 ? c.Friction * impulse : Follow(ref c);
             double square = rub.LengthSquared;
+            double most = c.Follows == 1 ? c.Friction * impulse : Follow(ref c, square);
             rub = square > most * most ? rub * (most / Math.Sqrt(square)) : rub;
             Vector3D across = rub - c.Rub;
             c.Rub = rub;
@@ -189,13 +189,13 @@ internal static class ContactSolver
     }
 
     /// <summary>
-    /// The bound of friction, which follows the normal impulse only in part where friction is large. Between a floor and a wall the push of the one is the friction of the
+    /// The bound of friction, which follows the normal impulse only in part where friction is large and what touches slips. Between a floor and a wall the push of the one is the friction of the
     /// other, so that sweeps multiply what is off by minus mu²; followed by 1 / (1 + mu²) of the way they multiply it by nothing.
     /// </summary>
-    private static double Follow(ref SolverContact c)
+    private static double Follow(ref SolverContact c, double square)
     {
         double most = c.Friction * c.Impulse;
-        c.Bound = c.Bound == 0 ? most : c.Bound + (c.Follows * (most - c.Bound));
+        c.Bound = c.Bound == 0 || square <= most * most ? most : c.Bound + (c.Follows * (most - c.Bound));
         return c.Bound;
     }
 
