@@ -124,7 +124,7 @@ internal sealed class ContactProblem
     }
 
     /// <summary>The contacts of a body, by number, as they were listed last.</summary>
-    internal ReadOnlySpan<int> ListOf(int body) => listed.AsSpan(listFrom[body], listFrom[body + 1] - listFrom[body]);
+    internal Span<int> ListOf(int body) => listed.AsSpan(listFrom[body], listFrom[body + 1] - listFrom[body]);
 
     private int[] listFrom = Array.Empty<int>();
     private int[] listed = Array.Empty<int>();

@@ -11,8 +11,11 @@ namespace LagSim.Contacts;
 /// </remarks>
 internal sealed class UnlikeMassSolver
 {
-    /// <summary>Masses that differ by no more than this factor are like enough for sweeps: half as many as there may be of them.</summary>
-    internal const double LikeMasses = ContactStep.MostSweeps / 2;
+    /// <summary>
+    /// Masses that differ by no more than this factor are like enough for sweeps. What is off falls by e in as many sweeps as the factor, so in as many as there may be at
+    /// most it falls to e^-8, a three thousandth.
+    /// </summary>
+    internal const double LikeMasses = ContactStep.MostSweeps / 8;
 
     private readonly LastingContactSolver solver = new();
     private ContactPoint[] points = Array.Empty<ContactPoint>();
