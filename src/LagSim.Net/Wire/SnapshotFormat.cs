@@ -163,7 +163,7 @@ public static class SnapshotFormat
         writer.WriteInt64(body.Centre.Ticks);
         writer.WriteInt64(body.StillSince.Ticks);
         writer.WriteUInt16((ushort)body.Contacts.Length);
-        foreach (LastingContact contact in body.Contacts)
+        foreach (LastingContact contact in body.Contacts.ToArray()) // an array, for a read-only span does not link everywhere
         {
             writer.WriteUInt64(contact.Partner.Packed);
             writer.WriteUInt32(contact.Surface >= LastingContact.NoSurface ? unchecked((uint)contact.Surface)

@@ -129,7 +129,7 @@ internal static class SnapshotCheck
         }
 
         int surfaces = scene.PlaneArray.Length + scene.SphereArray.Length;
-        foreach (LastingContact contact in body.Contacts)
+        foreach (LastingContact contact in body.ContactArray)
         {
             bool isPair = contact.Surface == LastingContact.NoSurface;
             if (contact.Surface < LastingContact.NoSurface || contact.Surface >= surfaces || isPair == (contact.Partner == body.Id))
