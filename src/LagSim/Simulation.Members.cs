@@ -11,10 +11,10 @@ namespace LagSim;
 public sealed partial class Simulation
 {
     /// <summary>
-    /// Whether a contact that a member's piece carries is the step's affair and no impact's: a surface that the step took into account, or that the member does not
-    /// close on since.
+    /// Whether a contact that a member's piece carries is the step's affair and no impact's: a surface that the step took into account, or an impact by a hand, which may
+    /// press no further, or that the member does not close on. What a step's solver leaves is an error of the step, which the next goes on from.
     /// </summary>
-    private bool IsCovered(int piece, int surface)
+    private bool IsCovered(int slot, int piece, int surface)
     {
         int at = timelines.ContactWith(piece, surface);
         if (at == TimelineStore.None)
@@ -23,8 +23,28 @@ public sealed partial class Simulation
         }
 
         ref readonly MotionSegment path = ref timelines.Segment(piece);
-        return timelines.Key(piece).Kind == EventKind.StepEnd
+        return timelines.Key(piece).Kind == EventKind.StepEnd || (IsSolved(slot, piece, at) && IsOpenedWithHand(piece))
             || (timelines.Contact(at).Holds && Vector3D.Dot(SurfaceNormal(surface, path.Position), path.Velocity) >= -step.Scale.SweepSpeed);
+    }
+
+    /// <summary>Whether the impact that opened a piece solved a contact that it carries: one that holds, but for an elastic one, which impacts do not go on over.</summary>
+    private bool IsSolved(int slot, int piece, int contact) =>
+        timelines.Key(piece).Kind == EventKind.Impact && timelines.Contact(contact).Holds && !IsElastic(slot, timelines.Contact(contact));
+
+    /// <summary>Whether the impact that opened a member's piece was one with a hand that the member touches.</summary>
+    private bool IsOpenedWithHand(int piece)
+    {
+        bool isByHand = false;
+        for (int at = timelines.FirstContact(piece); at != TimelineStore.None && !isByHand; at = timelines.NextContact(at))
+        {
+            ref readonly LastingContact contact = ref timelines.Contact(at);
+            int partner = contact.Surface == LastingContact.NoSurface ? SlotOf(contact.Partner) : NoPartner;
+            int before = partner < 0 ? TimelineStore.None : PieceBefore(partner, timelines.Key(piece));
+            int opened = before == TimelineStore.None ? TimelineStore.None : timelines.Next(before);
+            isByHand = opened != TimelineStore.None && timelines.Key(opened) == timelines.Key(piece) && IsHeld(opened);
+        }
+
+        return isByHand;
     }
 
     /// <summary>Whether a member is surely further from a surface than it gets on its chord.</summary>
@@ -37,7 +57,7 @@ public sealed partial class Simulation
         return gap > 0 && gap * gap > chord.Velocity.LengthSquared * way * way + (step.Scale.Length * step.Scale.Length * 1e-6);
     }
 
-    /// <summary>The same of two bodies: pieces of one step, or such that do not close where the later one begins.</summary>
+    /// <summary>The same of two bodies: pieces of one step or impact, or such that do not close where the later one begins.</summary>
     private bool IsCovered(int slot, int piece, int other, int otherPiece)
     {
         if (IsHeld(otherPiece))
@@ -61,7 +81,7 @@ public sealed partial class Simulation
             return false;
         }
 
-        if (timelines.Key(piece).Kind == EventKind.StepEnd && timelines.Key(piece) == timelines.Key(otherPiece))
+        if (timelines.Key(piece) == timelines.Key(otherPiece) && (timelines.Key(piece).Kind == EventKind.StepEnd || IsSolved(slot, piece, at)))
         {
             return true;
         }

@@ -107,7 +107,7 @@ public sealed partial class Simulation
             return false; // what carries a body stays below it until something else happens, and nothing static stops a hand
         }
 
-        if (segment.Law == MotionLaw.Constrained && (IsOutOfReach(slot, segment, surface) || IsCovered(last, surface)))
+        if (segment.Law == MotionLaw.Constrained && (IsOutOfReach(slot, segment, surface) || IsCovered(slot, last, surface)))
         {
             return false;
         }

@@ -240,12 +240,12 @@ public sealed class HeldTests
             events.Add(ExternalEvent.HoldKnot(At(0.1 + (0.05 * n)), 1, n + 2, Third, V(1, 1.2) + (way * Math.Min(1.2, speed * 0.05 * n)), way * speed));
         }
 
-        Assert.True(IsDone(pressesOn: false));
-        Assert.True(speed > 10 || !IsDone(pressesOn: true)); // the control, but for a hand that is through before it costs much: thousands of events a millisecond
+        Assert.True(IsDone(ignoresIslands: false));
+        Assert.True(speed > 10 || !IsDone(ignoresIslands: true)); // the control, but for a hand that is through before it costs much: thousands of events a millisecond
 
-        bool IsDone(bool pressesOn)
+        bool IsDone(bool ignoresIslands)
         {
-            Simulation simulation = new(scene) { PressesOn = pressesOn };
+            Simulation simulation = new(scene) { IgnoresIslands = ignoresIslands };
             events.ForEach(e => simulation.Submit(e));
             long budget = 3_000;
             try
