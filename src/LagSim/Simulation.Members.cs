@@ -24,7 +24,7 @@ public sealed partial class Simulation
 
         ref readonly MotionSegment path = ref timelines.Segment(piece);
         return timelines.Key(piece).Kind == EventKind.StepEnd || (IsSolved(slot, piece, at) && IsOpenedWithHand(piece))
-            || (timelines.Contact(at).Holds && Vector3D.Dot(SurfaceNormal(surface, path.Position), path.Velocity) >= -step.Scale.SweepSpeed);
+            || (timelines.Contact(at).Holds && Vector3D.Dot(SurfaceNormal(surface, path.Position), path.Velocity) >= -step.Scale.ImpactSpeed);
     }
 
     /// <summary>Whether the impact that opened a piece solved a contact that it carries: one that holds, but for an elastic one, which impacts do not go on over.</summary>
@@ -89,7 +89,7 @@ public sealed partial class Simulation
         SimTime opened = SimTime.Max(timelines.Key(piece).Time, timelines.Key(otherPiece).Time);
         Vector3D normal = Direction(PositionAt(piece, opened) - PositionAt(otherPiece, opened));
         double opening = Vector3D.Dot(normal, timelines.Segment(piece).Velocity - timelines.Segment(otherPiece).Velocity);
-        return timelines.Contact(at).Holds && opening >= -step.Scale.SweepSpeed;
+        return timelines.Contact(at).Holds && opening >= -step.Scale.ImpactSpeed;
     }
 
     /// <summary>The same of a hand, which may speed up, and a member: neither where the later piece begins nor where the step ends do they close.</summary>
@@ -108,7 +108,7 @@ public sealed partial class Simulation
 
         SimTime opened = SimTime.Max(timelines.Key(piece).Time, timelines.Key(handPiece).Time);
         SimTime end = SimTime.Min(timelines.Segment(piece).End, timelines.Segment(handPiece).End);
-        return end >= opened && OpeningAt(handPiece, piece, opened) >= -step.Scale.SweepSpeed && OpeningAt(handPiece, piece, end) >= -step.Scale.SweepSpeed;
+        return end >= opened && OpeningAt(handPiece, piece, opened) >= -step.Scale.ImpactSpeed && OpeningAt(handPiece, piece, end) >= -step.Scale.ImpactSpeed;
     }
 
     private bool Holds(int piece, int surface)

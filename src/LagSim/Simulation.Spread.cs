@@ -11,6 +11,8 @@ namespace LagSim;
 /// <content>Impacts that reach islands, or begin them: an impulse spreads over lasting contacts as far as it changes velocities.</content>
 public sealed partial class Simulation
 {
+    private const int GrowingSweeps = 2;
+
     private readonly ContactProblem reached = new();
     private readonly UnlikeMassSolver unlike = new();
     private Vector3D[] velocitiesBefore = Array.Empty<Vector3D>();
@@ -161,16 +163,19 @@ public sealed partial class Simulation
         }
 
         AddReachedSupports();
-        double tolerance = 0.1 * step.Scale.SweepSpeed;
+        double tolerance = 0.1 * step.Scale.ImpactSpeed;
         double more = step.Scale.Pull * step.Scale.Step.ToSeconds();
         LimitAgain(more);
-        SolveReached(tolerance);
+        SolveReached(tolerance, GrowingSweeps, 0, 0);
         ahead.Clear();
         bool isNear = false;
-        for (bool grows = true; grows && ahead.Count == 0;)
+        bool isSolved = false; // while it grows a sweep to and fro is enough to see how far it goes
+        for (bool grows = true; (grows || !isSolved) && ahead.Count == 0;)
         {
             grows = false;
+            bool hasHand = HasHand();
             int known = partyCount;
+            int knownContacts = reached.ContactCount;
             for (int i = 0; i < known; i++)
             {
                 if (!isReached[i] && (reached.Bodies[i].Velocity - velocitiesBefore[i]).Length > tolerance)
@@ -178,18 +183,18 @@ public sealed partial class Simulation
                     isReached[i] = true;
                     grows |= TryReachOn(i, key, residual, presses);
                 }
-
             }
 
-            for (int i = 0; i < known && ahead.Count == 0 && HasHand(); i++)
+            for (int i = 0; i < known && ahead.Count == 0 && hasHand; i++)
             {
                 isNear |= TryReachNear(i, key.Time, tolerance, ref grows);
             }
 
-            if (grows && ahead.Count == 0)
+            if (ahead.Count == 0 && (grows || !isSolved))
             {
                 LimitAgain(more);
-                SolveReached(tolerance);
+                SolveReached(tolerance, grows ? GrowingSweeps : ContactStep.MostSweeps, known, knownContacts);
+                isSolved = !grows;
             }
         }
 
@@ -291,11 +296,11 @@ public sealed partial class Simulation
     }
 
     /// <summary>Goes on from the impulses so far; where masses are unlike, begins again from the velocities before.</summary>
-    private void SolveReached(double tolerance)
+    private void SolveReached(double tolerance, int sweeps, int knownBodies, int knownContacts)
     {
         if (!UnlikeMassSolver.Suits(reached))
         {
-            ContactSolver.Solve(reached, tolerance, ContactStep.MostSweeps);
+            ContactSolver.Solve(reached, tolerance, sweeps, knownBodies, knownContacts);
             return;
         }
 
@@ -481,7 +486,7 @@ public sealed partial class Simulation
             c.Target = Math.Min(0, c.Target);
         }
 
-        SolveReached(tolerance);
+        SolveReached(tolerance, ContactStep.MostSweeps, 0, 0);
     }
 
     private void OpenReached(in EventKey key, double residual)

@@ -66,8 +66,11 @@ internal readonly struct ContactScale
     /// <summary>What the sweeps of a step leave contacts to close at, in m/s.</summary>
     internal double SweepSpeed { get; }
 
+    /// <summary>What impacts within a step leave contacts that hold to close at, in m/s.</summary>
+    internal double ImpactSpeed => 10 * SweepSpeed;
+
     /// <summary>Twice as deep as what holds may get, in metres, before it is looked at within a step: by a hand that speeds up.</summary>
-    internal double LookDepth => 2 * SweepPart * Length;
+    internal double LookDepth => 20 * SweepPart * Length;
 
     /// <summary>What moves slower than this, in m/s, does not move by the tolerance while it is waited for its sleep.</summary>
     internal double StillSpeed { get; }

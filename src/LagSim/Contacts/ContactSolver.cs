@@ -32,18 +32,23 @@ internal static class ContactSolver
     /// <summary>
     /// Sweeps to and fro until no contact has bodies that others have changed by more than a tolerance, in m/s, since it was visited.
     /// </summary>
+    /// <param name="problem">With targets.</param>
+    /// <param name="tolerance">In m/s.</param>
+    /// <param name="most">How many sweeps at most.</param>
+    /// <param name="knownBodies">So many of the bodies, and</param>
+    /// <param name="knownContacts">so many of the contacts were there when it was solved before, and go on from that.</param>
     /// <returns>How many sweeps that took.</returns>
-    internal static int Solve(ContactProblem problem, double tolerance, int most)
+    internal static int Solve(ContactProblem problem, double tolerance, int most, int knownBodies = 0, int knownContacts = 0)
     {
         SolverContact[] contacts = problem.Contacts;
         SolverBody[] bodies = problem.Bodies;
         int count = problem.ContactCount;
-        for (int b = 0; b < problem.BodyCount; b++)
+        for (int b = knownBodies; b < problem.BodyCount; b++)
         {
             bodies[b].Changed = 0;
         }
 
-        for (int i = 0; i < count; i++)
+        for (int i = knownContacts; i < count; i++)
         {
             contacts[i].Seen = double.NegativeInfinity;
         }
@@ -69,9 +74,9 @@ internal static class ContactSolver
                 a.Changed += change;
                 b.Changed += isPair ? change : 0;
                 c.Seen = changed + (isPair ? 2 * change : change);
-                if (c.Follows < 1 && change > tolerance)
+                if ((c.Follows < 1 || c.Lever > 0) && change > tolerance)
                 {
-                    c.Seen = double.NegativeInfinity; // the bound of its friction has a way to go
+                    c.Seen = double.NegativeInfinity; // the bound of its friction has a way to go, or resistance has changed what slips
                 }
 
                 isDone &= change <= tolerance;
@@ -104,6 +109,7 @@ internal static class ContactSolver
             bool isByHand = problem.Bodies[c.First].InverseMass == 0 || (c.Second >= 0 && problem.Bodies[c.Second].InverseMass == 0);
             c.Most = isByHand ? mass * (Math.Max(0, c.Target - Opening(problem, c)) + more) : double.PositiveInfinity;
             c.Impulse = Math.Min(c.Impulse, c.Most);
+            c.Seen = isByHand ? double.NegativeInfinity : c.Seen;
         }
     }
 

@@ -194,7 +194,7 @@ public sealed class HeldTests
             }
 
             Simulation simulation = With(scene, 2.1, events);
-            Assert.InRange(simulation.EventsProcessed, 20, 500);
+            Assert.InRange(simulation.EventsProcessed, 20, (2.1 * Tolerance.StepsASecond(scene.ContactTolerance)) + 250); // steps of an island, and impacts
             for (int i = 0; i < balls; i++)
             {
                 BodyState state = Read(simulation, BodyId.OfScene(i), 2.1);
