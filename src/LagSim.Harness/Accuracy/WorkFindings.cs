@@ -10,8 +10,8 @@ public static class WorkFindings
 {
     /// <summary>What stands beside any figures of speed against physics engines.</summary>
     public const string Caution =
-        "Sparse frictionless scenes favour an event-driven engine; stacks, friction and joints do not: there the engines compared here are at home, and"
-            + " LagSim is not.";
+        "Scenes of spheres favour LagSim, sparse ones above all; the engines compared here are made for other shapes, joints and many threads too, and for"
+            + " heaps in which bodies may sink into each other by a part of their size.";
 
     private const double Rounding = 1e-12;
 
