@@ -19,7 +19,7 @@ public sealed partial class Simulation
     /// <summary>
     /// So many rounds of impacts in one instant are endless: elastic ones, for all others collapse. The longest that end, 3,141,592 impacts of two balls and a wall, have a few in each.
     /// </summary>
-    private const uint MostRounds = 1 << 20;
+    private const uint MostRounds = 1 << 16;
 
     private readonly ImpactSolver solver = new();
     private readonly ImpactFriction friction = new();

@@ -47,7 +47,7 @@ public sealed class AccuracyCommandTests
         string[] rows = File.ReadAllLines(folder["out/accuracy.csv"]);
         Assert.Equal("scene,method,setting,error,error_kind,cpu_s,simulated_s,events", rows[0]);
         Assert.Equal(13, rows.Length);
-        Assert.Contains("stacks, friction and joints do not", File.ReadAllText(folder["out/report.html"]), StringComparison.Ordinal);
+        Assert.Contains("other shapes, joints and many threads", File.ReadAllText(folder["out/report.html"]), StringComparison.Ordinal);
         string steps = XElement.Load(folder["out/accuracy-drag-steps.svg"]).Value;
         Assert.Contains("order 4", steps, StringComparison.Ordinal);
         Assert.Contains("order 5", steps, StringComparison.Ordinal);
