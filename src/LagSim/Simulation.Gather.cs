@@ -115,11 +115,7 @@ public sealed partial class Simulation
     {
         ContactTime.TryMake(time, time, 0, out contact);
         int last = timelines.Last(slot);
-        Vector3D position = PositionAt(last, time);
-        double radius = bodies[slot].Spec.Radius;
-        double gap = surface < Scene.PlaneArray.Length ? Scene.PlaneArray[surface].Gap(position, radius)
-            : (position - Scene.SphereArray[surface - Scene.PlaneArray.Length].Centre).Length - (radius + Scene.SphereArray[surface - Scene.PlaneArray.Length].Radius);
-        return gap <= Scene.Resolution && !IsHeld(last);
+        return SurfaceGap(surface, PositionAt(last, time), bodies[slot].Spec.Radius) <= Scene.Resolution && !IsHeld(last);
     }
 
     private int PartyOf(int slot) => Array.IndexOf(parties, slot, 0, partyCount);

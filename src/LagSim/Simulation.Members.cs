@@ -50,9 +50,7 @@ public sealed partial class Simulation
     /// <summary>Whether a member is surely further from a surface than it gets on its chord.</summary>
     private bool IsOutOfReach(int slot, in MotionSegment chord, int surface)
     {
-        double gap = surface < Scene.PlaneArray.Length ? Scene.PlaneArray[surface].Gap(chord.Position, bodies[slot].Spec.Radius)
-            : (chord.Position - Scene.SphereArray[surface - Scene.PlaneArray.Length].Centre).Length
-                - (bodies[slot].Spec.Radius + Scene.SphereArray[surface - Scene.PlaneArray.Length].Radius);
+        double gap = SurfaceGap(surface, chord.Position, bodies[slot].Spec.Radius);
         double way = chord.End.SecondsSince(chord.Epoch) * 1.001;
         return gap > 0 && gap * gap > chord.Velocity.LengthSquared * way * way + (step.Scale.Length * step.Scale.Length * 1e-6);
     }

@@ -312,6 +312,18 @@ public sealed partial class Simulation
     private static double UntilDeep(double depth, double closing, double pressing) =>
         depth / (closing + Math.Sqrt((closing * closing) + (Math.Max(0, pressing) * depth)));
 
+    /// <summary>How far a ball is from a static surface, in metres.</summary>
+    private double SurfaceGap(int surface, in Vector3D position, double radius)
+    {
+        if (surface < Scene.PlaneArray.Length)
+        {
+            return Scene.PlaneArray[surface].Gap(position, radius);
+        }
+
+        ref readonly StaticSphere sphere = ref Scene.SphereArray[surface - Scene.PlaneArray.Length];
+        return (position - sphere.Centre).Length - (radius + sphere.Radius);
+    }
+
     private Vector3D SurfaceNormal(int surface, in Vector3D position)
     {
         if (surface < Scene.PlaneArray.Length)

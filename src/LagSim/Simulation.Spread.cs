@@ -11,6 +11,10 @@ namespace LagSim;
 /// <content>Impacts that reach islands, or begin them: an impulse spreads over lasting contacts as far as it changes velocities.</content>
 public sealed partial class Simulation
 {
+    /// <summary>
+    /// One sweep to and one fro, while an impact is still found to reach more: how far it goes shows in its first sweeps, and it is solved to the end once it reaches
+    /// nobody else.
+    /// </summary>
     private const int GrowingSweeps = 2;
 
     private readonly ContactProblem reached = new();
@@ -163,13 +167,13 @@ public sealed partial class Simulation
         }
 
         AddReachedSupports();
-        double tolerance = 0.1 * step.Scale.ImpactSpeed;
+        double tolerance = step.Scale.SweepSpeed;
         double more = step.Scale.Pull * step.Scale.Step.ToSeconds();
         LimitAgain(more);
         SolveReached(tolerance, GrowingSweeps, 0, 0);
         ahead.Clear();
         bool isNear = false;
-        bool isSolved = false; // while it grows a sweep to and fro is enough to see how far it goes
+        bool isSolved = false;
         for (bool grows = true; (grows || !isSolved) && ahead.Count == 0;)
         {
             grows = false;
@@ -187,7 +191,11 @@ public sealed partial class Simulation
 
             for (int i = 0; i < known && ahead.Count == 0 && hasHand; i++)
             {
-                isNear |= TryReachNear(i, key.Time, tolerance, ref grows);
+                if (TryReachNear(i, key.Time, tolerance))
+                {
+                    isNear = true;
+                    grows = true;
+                }
             }
 
             if (ahead.Count == 0 && (grows || !isSolved))
@@ -259,7 +267,7 @@ public sealed partial class Simulation
     /// Adds the static surfaces that a party is pushed towards and would reach within the contact tolerance. Not other bodies: that one is near without being struck no
     /// heal would find.
     /// </summary>
-    private bool TryReachNear(int party, SimTime time, double tolerance, ref bool grows)
+    private bool TryReachNear(int party, SimTime time, double tolerance)
     {
         Vector3D push = reached.Bodies[party].Velocity - velocitiesBefore[party];
         if (double.IsPositiveInfinity(partyMasses[party]) || push.Length <= tolerance)
@@ -279,7 +287,6 @@ public sealed partial class Simulation
             }
         }
 
-        grows |= any;
         return any;
     }
 
@@ -449,10 +456,9 @@ public sealed partial class Simulation
         added.Target = gap > 0 && left > 0 ? -gap / left : 0;
     }
 
-    private double GapOf(in ContactPoint c) =>
-        c.Second != ContactPoint.Static ? Scene.Box.Nearest(partyPositions[c.First] - partyPositions[c.Second]).Length - ReachOf(c)
-        : c.Surface < Scene.PlaneArray.Length ? Scene.PlaneArray[c.Surface].Gap(partyPositions[c.First], partyRadii[c.First])
-        : (partyPositions[c.First] - Scene.SphereArray[c.Surface - Scene.PlaneArray.Length].Centre).Length - ReachOf(c);
+    private double GapOf(in ContactPoint c) => c.Second == ContactPoint.Static
+        ? SurfaceGap(c.Surface, partyPositions[c.First], partyRadii[c.First])
+        : Scene.Box.Nearest(partyPositions[c.First] - partyPositions[c.Second]).Length - ReachOf(c);
 
     /// <summary>Rebound and friction together may make energy where several contacts share bodies; then there is no rebound.</summary>
     private void KeepEnergy(double tolerance)

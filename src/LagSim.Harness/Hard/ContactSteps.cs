@@ -11,7 +11,7 @@ namespace LagSim.Harness.Hard;
 /// step at most d / 4 from its
 /// parabola. A member's velocity is that of the middle of its step: read within one it is off by up to a h / 2, and at a tick the mean of
 /// both sides is off by the
-/// second order alone. Sweeps leave a contact to close by 0.05 d in a step, which the next puts right, so a contact that holds still is
+/// second order alone. Sweeps leave a contact to close by 0.005 d in a step, and impacts within one by 0.05 d, which the next puts right, so a contact that holds still is
 /// off by twice that.
 /// </remarks>
 internal static class ContactSteps

@@ -17,7 +17,7 @@ internal sealed class GrooveCase : IHardCase
     private const double Seconds = 2;
     private const double Tolerance = 1e-6;
 
-    /// <summary>The sweeps leave a contact to close by this part of the tolerance in a step.</summary>
+    /// <summary>Bounds allow a contact to close by this part of the tolerance in a step: ten times what the sweeps leave.</summary>
     private const double SweepPart = 0.05;
 
     private const double Coarse = 1.0 / 256;

@@ -21,8 +21,14 @@ internal readonly struct ContactScale
     /// <summary>What presses where the scene has no gravity, in m/s²: of hands and forces nobody knows beforehand, and a hand moves things by about so much.</summary>
     private const double LeastPull = 1;
 
-    /// <summary>The sweeps leave contacts to close by this part of the tolerance in a step.</summary>
+    /// <summary>
+    /// The sweeps leave contacts to close by this part of the tolerance in a step. Measured: at a twentieth friction at the edge of rolling is turned aside
+    /// (<c>hard groove</c>).
+    /// </summary>
     private const double SweepPart = 0.005;
+
+    /// <summary>Impacts within a step leave contacts that hold to close by this part: ten times what the sweeps leave, or each of their steps would be struck anew.</summary>
+    private const double ImpactPart = 10 * SweepPart;
 
     /// <summary>So long nobody of an island may have moved by the tolerance before it sleeps.</summary>
     internal static readonly SimDuration StillFor = SimDuration.FromTicks(SimDuration.TicksPerSecond / 2);
@@ -67,10 +73,10 @@ internal readonly struct ContactScale
     internal double SweepSpeed { get; }
 
     /// <summary>What impacts within a step leave contacts that hold to close at, in m/s.</summary>
-    internal double ImpactSpeed => 10 * SweepSpeed;
+    internal double ImpactSpeed => ImpactPart * Length / Step.ToSeconds();
 
     /// <summary>Twice as deep as what holds may get, in metres, before it is looked at within a step: by a hand that speeds up.</summary>
-    internal double LookDepth => 20 * SweepPart * Length;
+    internal double LookDepth => 2 * ImpactPart * Length;
 
     /// <summary>What moves slower than this, in m/s, does not move by the tolerance while it is waited for its sleep.</summary>
     internal double StillSpeed { get; }

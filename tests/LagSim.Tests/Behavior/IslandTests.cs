@@ -45,7 +45,7 @@ public sealed class IslandTests
     }
 
     /// <summary>
-    /// Along a groove whose sides lie aslant, by an angle of sine s and cosine k, a ball presses each with N = m g / (2 k) and turns on it,
+    /// A ball in a groove, whose sides slope by an angle of sine s and cosine k, presses each side with N = m g / (2 k) and turns on it,
     /// at speed / (R k), of which k is rolling on a side and s turning about its normal: resistance against both of c R N from each takes
     /// c g (k + s) / (k² + 2/5) from its speed.
     /// </summary>
