@@ -95,7 +95,7 @@ public sealed partial class Simulation
     {
         foreach (int slot in lookedAt)
         {
-            if (PartyOf(slot) >= 0)
+            if (PartyOf(slot) >= 0 || Has(HealingFault.ForgetsWhoWasLookedAt))
             {
                 continue;
             }
@@ -114,7 +114,11 @@ public sealed partial class Simulation
             AddParty(slot);
         }
 
-        timelines.Join(parties.AsSpan(0, partyCount));
+        if (!Has(HealingFault.CutsMembersAlone))
+        {
+            timelines.Join(parties.AsSpan(0, partyCount));
+        }
+
         for (int i = 0; i < partyCount; i++)
         {
             Predict(parties[i]);

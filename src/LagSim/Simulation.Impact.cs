@@ -11,12 +11,6 @@ namespace LagSim;
 public sealed partial class Simulation
 {
     /// <summary>
-    /// The slowest rebound in m/s of a contact that nothing presses together. Bodies that touch and move as one close again and again by rounding
-    /// alone, at some 1e-16 m/s; this parts them, by less than a tenth of a millimetre a day.
-    /// </summary>
-    private const double LeastRebound = 1e-9;
-
-    /// <summary>
     /// So many rounds of impacts in one instant are endless: elastic ones, for all others collapse. The longest that end, 3,141,592 impacts of two balls and a wall, have a few in each.
     /// </summary>
     private const uint MostRounds = 1 << 16;
@@ -207,7 +201,7 @@ public sealed partial class Simulation
         : Direction(Scene.Box.Nearest(partyPositions[c.First] - partyPositions[c.Second]));
 
     /// <summary>The least speed in m/s at which the two of a struck contact part: none on a plane that may carry, else what parts them at all.</summary>
-    private double LeastTarget(in ContactPoint c) => IsSupportable(c) && Vector3D.Dot(c.Normal, Scene.Gravity) < 0 ? 0 : LeastRebound;
+    private double LeastTarget(in ContactPoint c) => IsSupportable(c) && Vector3D.Dot(c.Normal, Scene.Gravity) < 0 ? 0 : step.Scale.LeastRebound;
 
     /// <summary>The lesser of the two parties' restitutions: a material behaves as named against anything more elastic.</summary>
     private double Restitution(in ContactPoint c)

@@ -31,7 +31,7 @@ public sealed partial class Simulation
             return false;
         }
 
-        if (!cutPaths.AreMet(timelines, at, Has(HealingFault.StopsWherePlacesMeet)))
+        if (!cutPaths.AreMet(timelines, at, Fault))
         {
             return false;
         }

@@ -103,6 +103,11 @@ public sealed partial class Simulation
         int at = slot < 0 ? TimelineStore.None : timelines.Last(slot);
         for (bool isBefore = false; at != TimelineStore.None && !isBefore; at = timelines.Previous(at))
         {
+            if (timelines.Key(at).Kind != EventKind.None && !timelines.IsEvent(at))
+            {
+                continue;
+            }
+
             MotionSegment segment = timelines.Segment(at);
             double seconds = SecondsInto(at, timelines.Key(at).Time);
             entries.Add(new TimelineEntry(timelines.Key(at), StateOf(segment, seconds, timelines.Dense(at), Scene.Box, timelines.SpinOf(at))));

@@ -182,7 +182,7 @@ public sealed partial class Simulation
             int knownContacts = reached.ContactCount;
             for (int i = 0; i < known; i++)
             {
-                if (!isReached[i] && (reached.Bodies[i].Velocity - velocitiesBefore[i]).Length > tolerance)
+                if (!isReached[i] && (reached.Bodies[i].Velocity - velocitiesBefore[i]).Length > step.Scale.ReachSpeed)
                 {
                     isReached[i] = true;
                     grows |= TryReachOn(i, key, residual, presses);
@@ -483,15 +483,7 @@ public sealed partial class Simulation
             spinsBefore[i] = reached.Bodies[i].Spin;
         }
 
-        for (int i = 0; i < reached.ContactCount; i++)
-        {
-            ref SolverContact c = ref reached.Contacts[i];
-            c.Impulse = 0;
-            c.Rub = Vector3D.Zero;
-            c.Turn = Vector3D.Zero;
-            c.Target = Math.Min(0, c.Target);
-        }
-
+        reached.DropRebounds();
         SolveReached(tolerance, ContactStep.MostSweeps, 0, 0);
     }
 

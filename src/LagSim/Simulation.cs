@@ -114,7 +114,7 @@ public sealed partial class Simulation
         timelines = new TimelineStore(start, options.MaxSegments, flights, expected, history);
         Observer = options.Observer;
         forces = new Forces(scene, start);
-        step = new ContactStep(scene, new ContactScale(scene.ContactTolerance, scene.Gravity, start));
+        step = new ContactStep(scene, options.Scale ?? new ContactScale(scene.ContactTolerance, scene.Gravity, start));
     }
 
     /// <summary>How many threads at most may be at work for it.</summary>

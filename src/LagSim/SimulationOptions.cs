@@ -1,5 +1,6 @@
 using System;
 using System.Threading;
+using LagSim.Contacts;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -92,16 +93,19 @@ public sealed class SimulationOptions
     /// <summary>Up to how many bodies all pairs are looked at; a test sets it to have an index in small worlds.</summary>
     internal int MostPairs { get; set; } = DefaultMostPairs;
 
+    /// <summary>What contact is measured by, where a test's negative control has it other than the scene; null for the scene's.</summary>
+    internal ContactScale? Scale { get; set; }
+
     /// <summary>Ends whatever the simulation is at.</summary>
     public CancellationToken Cancellation { get; }
 
     /// <summary>The same, for the twin of a sync test: no cancellation, so that it is never behind.</summary>
-    internal SimulationOptions FullyRolledBack() => new(Start, History, MaxSegments, default, HealingMode.FullRollback, 1) { MostPairs = MostPairs };
+    internal SimulationOptions FullyRolledBack() => new(Start, History, MaxSegments, default, HealingMode.FullRollback, 1) { MostPairs = MostPairs, Scale = Scale };
 
     /// <summary>Is told of impacts, those of the very first instant included; null for nobody.</summary>
     internal IImpactObserver? Observer { get; private set; }
 
     /// <summary>The same with an observer.</summary>
     internal SimulationOptions WithObserver(IImpactObserver? observer) =>
-        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = observer, MostPairs = MostPairs };
+        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = observer, MostPairs = MostPairs, Scale = Scale };
 }

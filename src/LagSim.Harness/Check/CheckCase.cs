@@ -29,6 +29,7 @@ internal sealed class CheckCase
     private const double HeapPercent = 7;
     private const double BoxPercent = 4;
     private const double OrbitPercent = 6;
+    private const double PitPercent = 27; // with the heaps on an open floor a third
 
     /// <summary>Of heaps each step is an event in every world, so they take few peers.</summary>
     private const int MostPeersOfHeap = 3;
@@ -69,7 +70,8 @@ internal sealed class CheckCase
         Seed = seed;
         SeededRandom random = new(seed);
         double sort = random.Fork(SortStream).NextDouble() * 100; // a stream of its own: all other sessions are what they would be without
-        isHeap = sort < HeapPercent;
+        bool isPit = sort >= 100 - PitPercent;
+        isHeap = sort < HeapPercent || isPit;
         DrawPlayers(random.Fork(1), options);
         DrawTrouble(random.Fork(TroubleStream), options);
         SeededRandom rest = random.Fork(2);
@@ -77,7 +79,8 @@ internal sealed class CheckCase
         for (ulong attempt = 0; ; attempt++)
         {
             SeededRandom things = random.Fork(FirstRoom + (2 * attempt));
-            room = isHeap ? new HeapScene(things)
+            room = isPit ? new PitScene(things)
+                : sort < HeapPercent ? new HeapScene(things)
                 : sort < HeapPercent + BoxPercent ? new BoxScene(things)
                 : sort < HeapPercent + BoxPercent + OrbitPercent ? new OrbitScene(things)
                 : new RoomScene(things);

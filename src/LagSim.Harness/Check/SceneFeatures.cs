@@ -38,7 +38,7 @@ public readonly record struct SceneFeatures
     /// <summary>A body on which a force acts besides gravity was in lasting contact under both.</summary>
     public bool ForceInContact { get; init; }
 
-    /// <summary>A step of one island could be taken while another's was.</summary>
+    /// <summary>Contact steps were taken.</summary>
     public bool StepsAhead { get; init; }
 
     /// <summary>The world was a periodic box.</summary>
@@ -64,7 +64,7 @@ public readonly record struct SceneFeatures
 
     /// <param name="alone">The world, advanced to its end, with a history without end.</param>
     /// <param name="accepted">What players did in it.</param>
-    /// <param name="stepsAhead">How many steps could be taken ahead.</param>
+    /// <param name="stepsAhead">How many contact steps were taken.</param>
     internal static SceneFeatures Of(Simulation alone, IReadOnlyList<ExternalEvent> accepted, long stepsAhead)
     {
         SceneFeatures met = new() { StepsAhead = stepsAhead > 0, PeriodicBox = alone.Scene.Box.Exists };

@@ -80,6 +80,19 @@ internal sealed class ContactProblem
         return ref c;
     }
 
+    /// <summary>No contact has impulses any more, nor need it open.</summary>
+    internal void DropRebounds()
+    {
+        for (int i = 0; i < ContactCount; i++)
+        {
+            ref SolverContact c = ref Contacts[i];
+            c.Impulse = 0;
+            c.Rub = Vector3D.Zero;
+            c.Turn = Vector3D.Zero;
+            c.Target = Math.Min(0, c.Target);
+        }
+    }
+
     /// <summary>Keeps the first contacts alone.</summary>
     internal void Keep(int count) => ContactCount = count;
 

@@ -33,15 +33,28 @@ internal readonly struct ContactScale
     /// <summary>So long nobody of an island may have moved by the tolerance before it sleeps.</summary>
     internal static readonly SimDuration StillFor = SimDuration.FromTicks(SimDuration.TicksPerSecond / 2);
 
+    /// <summary>
+    /// The two of a contact that was struck part at this speed at least, in m/s, where nothing presses them together: bodies that touch, and move as one, close at
+    /// some 1e-16 m/s by rounding alone. It parts them by less than a tenth of a millimetre a day.
+    /// </summary>
+    private const double UsualLeastRebound = 1e-9;
+
     private readonly SimTime start;
+    private readonly double impactPart;
 
     /// <summary>The scale of a scene.</summary>
     /// <param name="tolerance">The contact tolerance, in metres.</param>
     /// <param name="gravity">The scene's gravity.</param>
     /// <param name="start">When the scene began, from which on the common clock counts.</param>
-    internal ContactScale(double tolerance, in Vector3D gravity, SimTime start)
+    /// <param name="impactPart">See <see cref="ImpactSpeed"/>; other than usual in a test's negative control alone, as what follows.</param>
+    /// <param name="reachPart">See <see cref="ReachSpeed"/>.</param>
+    /// <param name="leastRebound">See <see cref="LeastRebound"/>.</param>
+    internal ContactScale(
+        double tolerance, in Vector3D gravity, SimTime start, double impactPart = ImpactPart, double reachPart = SweepPart, double leastRebound = UsualLeastRebound)
     {
         this.start = start;
+        this.impactPart = impactPart;
+        LeastRebound = leastRebound;
         Length = tolerance;
         Pull = Math.Max(gravity.Length, LeastPull);
         double seconds = Math.Sqrt(2 * tolerance / Pull);
@@ -54,6 +67,7 @@ internal readonly struct ContactScale
         Step = SimDuration.FromTicks(ticks);
         CaptureSpeed = Math.Sqrt(2 * tolerance * Pull);
         SweepSpeed = SweepPart * tolerance / Step.ToSeconds();
+        ReachSpeed = reachPart * tolerance / Step.ToSeconds();
         StillSpeed = tolerance / StillFor.ToSeconds();
     }
 
@@ -73,10 +87,16 @@ internal readonly struct ContactScale
     internal double SweepSpeed { get; }
 
     /// <summary>What impacts within a step leave contacts that hold to close at, in m/s.</summary>
-    internal double ImpactSpeed => ImpactPart * Length / Step.ToSeconds();
+    internal double ImpactSpeed => impactPart * Length / Step.ToSeconds();
 
     /// <summary>Twice as deep as what holds may get, in metres, before it is looked at within a step: by a hand that speeds up.</summary>
-    internal double LookDepth => 2 * ImpactPart * Length;
+    internal double LookDepth => 2 * impactPart * Length;
+
+    /// <summary>An impact goes on from a body to those that it holds if it changed its velocity by more than this, in m/s.</summary>
+    internal double ReachSpeed { get; }
+
+    /// <summary>The speed, in m/s, at which those that were struck part at least.</summary>
+    internal double LeastRebound { get; }
 
     /// <summary>What moves slower than this, in m/s, does not move by the tolerance while it is waited for its sleep.</summary>
     internal double StillSpeed { get; }

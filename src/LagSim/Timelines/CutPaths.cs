@@ -116,14 +116,14 @@ internal sealed class CutPaths
     /// </summary>
     /// <param name="timelines">The paths as they are now.</param>
     /// <param name="time">An instant of which the heal has done all.</param>
-    /// <param name="byPlaceAlone">Wrong on purpose: takes it for the same path if it leads from the same place.</param>
+    /// <param name="fault">Wrong on purpose: what is not compared.</param>
     /// <remarks>O(1) as a rule: the body that was on another path the last time is asked first.</remarks>
-    internal bool AreMet(TimelineStore timelines, SimTime time, bool byPlaceAlone)
+    internal bool AreMet(TimelineStore timelines, SimTime time, HealingFault fault)
     {
         for (int n = 0; n < bodies.Count; n++)
         {
             int at = (n + differing) % bodies.Count;
-            if (!IsMet(timelines, bodies[at].Slot, bodies[at].Earliest, time, byPlaceAlone))
+            if (!IsMet(timelines, bodies[at].Slot, bodies[at].Earliest, time, fault))
             {
                 differing = at;
                 return false;
@@ -170,7 +170,7 @@ internal sealed class CutPaths
         }
     }
 
-    private bool IsMet(TimelineStore timelines, int slot, int earliest, SimTime time, bool byPlaceAlone)
+    private bool IsMet(TimelineStore timelines, int slot, int earliest, SimTime time, HealingFault fault)
     {
         int old = None;
         for (int piece = earliest; piece != None && pieces[piece].Key.Time <= time; piece = pieces[piece].Later)
@@ -184,7 +184,7 @@ internal sealed class CutPaths
             return timelines.Serial(last) <= LastSerial; // it was, and is, on what the heal has left of its path
         }
 
-        if (byPlaceAlone)
+        if ((fault & HealingFault.StopsWherePlacesMeet) != 0)
         {
             return timelines.Segment(last).Position == pieces[old].Segment.Position;
         }
@@ -194,7 +194,7 @@ internal sealed class CutPaths
             && (!timelines.Segment(last).IsDense || timelines.Dense(last).IsSameAs(pieces[old].Dense))
             && timelines.HoldOf(last) == pieces[old].Hold
             && timelines.SpinOf(last).IsSameAs(pieces[old].Spin)
-            && CarriesTheSame(timelines, last, pieces[old]);
+            && ((fault & HealingFault.StopsBeforeImpulsesMeet) != 0 || CarriesTheSame(timelines, last, pieces[old]));
     }
 
     /// <summary>Whether a segment, on the same path, carries the very contacts from step to step that a piece did.</summary>

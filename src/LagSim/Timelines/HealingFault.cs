@@ -35,4 +35,13 @@ internal enum HealingFault
 
     /// <summary>What a late event does to one of an island leaves those asleep that lie on it.</summary>
     LeavesMates = 128,
+
+    /// <summary>The pieces of path that one contact step or one impact on an island opens are not cut together.</summary>
+    CutsMembersAlone = 256,
+
+    /// <summary>Who was looked at by a step, and found to be no part of it, is not told so.</summary>
+    ForgetsWhoWasLookedAt = 512,
+
+    /// <summary>A heal ends where the members of an island are on their old paths again, whatever impulses hold them there.</summary>
+    StopsBeforeImpulsesMeet = 1024,
 }

@@ -16,9 +16,9 @@ internal sealed partial class TimelineStore
     internal ulong HashOf(int segment, BodyId body)
     {
         ref readonly EventKey key = ref pieces[segment].Key;
-        if (key.Kind == EventKind.None)
+        if (!IsEvent(segment))
         {
-            return 0; // a body not yet there: that one has heard of it is not an event
+            return 0;
         }
 
         ref readonly MotionSegment motion = ref pieces[segment].Segment;
@@ -47,6 +47,16 @@ internal sealed partial class TimelineStore
         return hash.Value;
     }
 
+    /// <summary>
+    /// Whether a segment is one that an event opened. That a body is heard of before it is there is no event, and neither is that somebody was looked at who is gone:
+    /// who joins later knows nothing of either.
+    /// </summary>
+    internal bool IsEvent(int segment)
+    {
+        EventKind kind = pieces[segment].Key.Kind;
+        return kind != EventKind.None && (pieces[segment].Segment.IsPresent || kind is not (EventKind.Impact or EventKind.StepEnd));
+    }
+
     /// <summary>Whether nothing counts in the segment's hash but what is known of every segment.</summary>
-    private bool IsPlain(int segment) => spins.Length == 0 && pieces[segment].Segment.Law != MotionLaw.Held && pieces[segment].Key.Kind != EventKind.None;
+    private bool IsPlain(int segment) => spins.Length == 0 && pieces[segment].Segment.Law != MotionLaw.Held && IsEvent(segment);
 }

@@ -44,7 +44,7 @@ public sealed class InvariantCheckTests
     [Fact]
     public void Draw_ManySeeds_EverySortOfSceneLinkAndDeed()
     {
-        CheckCase[] cases = [.. Enumerable.Range(1, 60).Select(seed => new CheckCase((ulong)seed, new CheckOptions()))];
+        CheckCase[] cases = [.. Enumerable.Range(1, 80).Select(seed => new CheckCase((ulong)seed, new CheckOptions()))];
         Assert.All(cases, c => Assert.InRange(c.Scene.Bodies.Count, 8, 12));
         Assert.All(cases, c => Assert.True(c.Deeds.Count >= 20 && c.Deeds.Zip(c.Deeds.Skip(1)).All(pair => pair.First.AtSeconds <= pair.Second.AtSeconds)));
         Assert.Equal(2, cases.Select(c => c.Scene.Gravity == Vector3D.Zero).Distinct().Count());
@@ -54,7 +54,6 @@ public sealed class InvariantCheckTests
         Assert.Contains(cases, c => c.Scene.Bodies.Any(b => b.Spec.Friction > 0 && b.Spin != Vector3D.Zero));
         Assert.All(Enumerable.Range(0, 7), n => Assert.Contains(cases, c => c.Scene.Forces.Count == 7 && c.Scene.Bodies.Any(b => b.Spec.Forces.Contains(n))));
         Assert.Contains(cases, c => c.Scene.Bodies.Any(b => b.Spec.Restitution == 0));
-        Assert.Contains(cases, c => c.Scene.Bodies.Max(b => b.Spec.Mass) >= 1e6 * c.Scene.Bodies.Min(b => b.Spec.Mass));
         Assert.Equal(8, cases.SelectMany(c => c.Deeds).Select(d => d.Kind).Distinct().Count());
         Assert.Contains(cases.SelectMany(c => c.Deeds), d => d.Kind == EventKind.Spawn && d.Spin != Vector3D.Zero && d.Spec.Friction > 0);
         HashSet<string> links = [.. cases.SelectMany(c => c.Players.Skip(1)).Select(p => p.Link.Name)];
@@ -68,6 +67,7 @@ public sealed class InvariantCheckTests
     public void Draw_ManySeeds_WhatIsRareToo()
     {
         CheckCase[] cases = [.. Enumerable.Range(1, 150).Select(seed => new CheckCase((ulong)seed, new CheckOptions()))];
+        Assert.Contains(cases, c => c.Scene.Bodies.Max(b => b.Spec.Mass) >= 1e6 * c.Scene.Bodies.Min(b => b.Spec.Mass));
         CheckCase[] boxes = [.. cases.Where(c => c.Scene.Box.Exists)];
         Assert.InRange(boxes.Length, 2, 15);
         Assert.Contains(boxes, c => c.Deeds.Any(d => d.Kind == EventKind.Spawn));
@@ -78,11 +78,14 @@ public sealed class InvariantCheckTests
         Assert.Contains(orbits, c => c.Scene.Bodies.Any(b => b.Spec.RollingResistance > 0) && c.Scene.StaticSpheres.Count > 0);
         CheckCase[] heaps = [.. cases.Where(c => c.Scene.Planes.Count == 1)];
         Assert.InRange(heaps.Length, 4, 20);
-        Assert.All(heaps, c => Assert.Contains(c.Deeds, d => d.Kind == EventKind.Grab));
+        CheckCase[] pits = [.. cases.Where(c => c.Scene.ContactTolerance is 1e-2 or 1e-4 || (c.Scene.Planes.Count == 6 && c.Scene.Bodies.All(b => b.Spec.RollingResistance == 0.1)))];
+        Assert.InRange(pits.Length, 20, 60);
+        Assert.All(heaps.Concat(pits), c => Assert.Contains(c.Deeds, d => d.Kind == EventKind.Grab));
         Assert.Contains(heaps, c => c.Scene.StaticSpheres.Count > 0);
+        Assert.Contains(pits, c => c.Scene.StaticSpheres.Count > 0);
 
         // Under gravity, among walls.
-        SceneBody[] falling = [.. cases.Where(c => c.Scene.Planes.Count == 6 && c.Scene.Gravity != Vector3D.Zero).SelectMany(c => c.Scene.Bodies)];
+        SceneBody[] falling = [.. cases.Except(pits).Where(c => c.Scene.Planes.Count == 6 && c.Scene.Gravity != Vector3D.Zero).SelectMany(c => c.Scene.Bodies)];
         Assert.All(Enumerable.Range(1, 6), n => Assert.Contains(falling, b => b.Spec.Forces.Contains(n)));
         Assert.Contains(falling, b => !b.Spec.Forces.IsEmpty && b.Spec.RollingResistance > 0);
         Assert.Contains(cases.SelectMany(c => c.Scene.Bodies), b => b.Spec.Flight == MotionLaw.DormandPrince54 && b.Spec.Tolerance == 0);
@@ -149,11 +152,13 @@ public sealed class InvariantCheckTests
     [Theory]
     [InlineData(HealingFault.ForgetsThePast, 1u)]
     [InlineData(HealingFault.OverlooksWhoIsAhead, 1u)]
-    [InlineData(HealingFault.GivesUpByBody, 4u)]
+    [InlineData(HealingFault.GivesUpByBody, 15u)]
     [InlineData(HealingFault.DropsEvents, 1u)]
     [InlineData(HealingFault.LeavesMates, 29u)]
     [InlineData(HealingFault.CutsByTime, 1u)]
     [InlineData(HealingFault.LeavesWhoRests, 29u)]
+    [InlineData(HealingFault.CutsMembersAlone, 4u)]
+    [InlineData(HealingFault.ForgetsWhoWasLookedAt, 4u)]
     internal void Run_HealingInAWayKnownToBeWrong_IsCaughtByItsSeed(HealingFault fault, uint seed)
     {
         // The seeds that docs/HEALING.md names.
@@ -267,7 +272,7 @@ public sealed class InvariantCheckTests
     [Fact]
     public void Run_AskedToStopWhileAPeersWorldComesToNoEnd_EndsAndNamesTheSeed()
     {
-        const ulong Endless = 40;
+        const ulong Endless = 2;
         Assert.Null(CheckSession.Play(Endless, new CheckOptions(), TestContext.Current.CancellationToken).Failure); // by itself it ends
         CheckCase drawn = new(Endless, new CheckOptions());
         using CancellationTokenSource stop = new();

@@ -214,6 +214,8 @@ public sealed class InvariantTests
     [InlineData(HealingFault.CutsByTime)]
     [InlineData(HealingFault.LeavesWhoRests)]
     [InlineData(HealingFault.StopsWherePlacesMeet)]
+    [InlineData(HealingFault.CutsMembersAlone)]
+    [InlineData(HealingFault.ForgetsWhoWasLookedAt)]
     internal void Check_HealingInAWayKnownToBeWrong_IsSeenToFail(HealingFault fault)
     {
         int seed = 0;
@@ -243,6 +245,31 @@ public sealed class InvariantTests
         late.Submit(gone);
         late.AdvanceTo(At(3));
         Assert.Equal(!isLeft, inTime.StateHash(At(3)) == late.StateHash(At(3)));
+    }
+
+    /// <summary>
+    /// What stands in steps and is stopped where it stands goes on along the same path, but the time that it has to be still for begins anew. A heal that ends
+    /// where the paths meet, the control, has it fall asleep too early.
+    /// </summary>
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Stop_HeardOfLateByWhatStands_PutsOffItsSleep(bool isOff)
+    {
+        Scene scene = new SceneBuilder("dome").AddStaticSphere("dome", V(0), 1, 0).AddBody("ball", Ball(e: 0), V(0, 1.5)).Build();
+        ExternalEvent stop = ExternalEvent.SetVelocity(At(0.2), 1, 1, First, V(0));
+        Simulation inTime = new(scene, KeepAll);
+        inTime.Submit(stop);
+        inTime.AdvanceTo(At(1));
+        Simulation late = new(scene, KeepAll) { Fault = isOff ? HealingFault.StopsBeforeImpulsesMeet : default };
+        late.AdvanceTo(At(0.4));
+        Assert.Equal(MotionLaw.Constrained, Read(late, First, 0.4).Motion);
+        late.Submit(stop);
+        late.AdvanceTo(At(1));
+        Assert.Equal(MotionLaw.Constrained, Read(inTime, First, 0.6).Motion);
+        Assert.Equal(MotionLaw.Resting, Read(inTime, First, 0.8).Motion);
+        Assert.Equal(!isOff, inTime.EventHash(At(1)) == late.EventHash(At(1)));
+        Assert.Equal(!isOff, Read(late, First, 0.6).Motion == MotionLaw.Constrained);
     }
 
     [Fact]
