@@ -35,6 +35,8 @@ public static class HardCases
         new DomeCase(),
         new GrooveCase(),
         new HeapCase(),
+        new ArchCase(),
+        new ColumnCase(),
         new IslandEnergyCase(),
         new HardSphereGasCase(),
         new HaffCase(),
