@@ -116,7 +116,7 @@ public sealed class ContactSolverTests
     }
 
     /// <summary>A floor, some balls on it, some on them.</summary>
-    private static ContactProblem Draw(int seed, double friction, double lever)
+    internal static ContactProblem Draw(int seed, double friction, double lever)
     {
         Random random = new(seed);
         ContactProblem problem = new();

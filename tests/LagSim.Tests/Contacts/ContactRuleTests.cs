@@ -1,0 +1,126 @@
+using System;
+using LagSim.Contacts;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Contacts;
+
+/// <summary>Rules of docs/CONTACT.md that a speed decides: what they hold, and what comes without them. The control of each is another scale, handed in.</summary>
+public sealed class ContactRuleTests
+{
+    private const double Tolerance = 1e-3; // the contact tolerance of the heap
+    private const int Balls = 28;
+
+    /// <summary>Rule 8: a heavy ball that falls on a heap is stopped by all of it. The control has its impact end at those that it strikes.</summary>
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Impact_OnAHeap_GoesOnThroughIt(bool isCutShort)
+    {
+        Scene scene = Heap();
+        Simulation simulation = new(scene, Options(Scale(scene, reachPart: isCutShort ? 1e9 : null)));
+        double deepest = 0;
+        for (double t = 0.002; t <= 2; t += 0.002)
+        {
+            simulation.AdvanceTo(At(t));
+            deepest = Math.Max(deepest, -LeastGap(simulation, At(t)));
+        }
+
+        Assert.Equal(isCutShort, deepest > Tolerance);
+        Assert.Equal(isCutShort, simulation.ImpactsProcessed > 1_000);
+    }
+
+    /// <summary>Rule 8: friction and rebound may make energy where contacts share bodies; without the rebound they do not. The control is with it.</summary>
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Impact_SolvedAgainWithoutRebound_GainsNoEnergy(bool rebounds)
+    {
+        double gain = 0;
+        for (int seed = 0; seed < 200; seed++)
+        {
+            ContactProblem problem = ContactSolverTests.Draw(seed, 0.6, 0);
+            for (int i = 0; i < problem.ContactCount; i++)
+            {
+                ref SolverContact c = ref problem.Contacts[i];
+                c.Target = -0.9 * Math.Min(0, ContactSolver.Opening(problem, c));
+            }
+
+            if (!rebounds)
+            {
+                problem.DropRebounds();
+            }
+
+            double before = problem.KineticEnergy();
+            ContactSolver.Solve(problem, 1e-9, 20_000);
+            gain = Math.Max(gain, (problem.KineticEnergy() - before) / before);
+        }
+
+        Assert.Equal(rebounds, gain > 1e-6);
+    }
+
+    /// <summary>Rule 12: what holds, and closes no faster than impacts leave it, is not struck within the step. The control strikes all that closes.</summary>
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Contact_ThatClosesAsSlowlyAsImpactsLeaveIt_IsNotStruck(bool isStruck)
+    {
+        Scene scene = Heap();
+        Simulation simulation = new(scene, Options(Scale(scene, impactPart: isStruck ? 0 : null)));
+        long most = 10_000;
+        simulation.TryAdvanceTo(At(2), ref most);
+        Assert.Equal(isStruck, simulation.ImpactsProcessed > 2_000);
+    }
+
+    /// <summary>Rule 15: those that stick together part at 1 nm/s. The control lets them go on as one, and rounding has them strike each other without end.</summary>
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Bodies_ThatGoOnAsOne_ArePartedAtTheLeastRebound(bool goOnAsOne)
+    {
+        Random random = new(5);
+        double Any() => (2 * random.NextDouble()) - 1;
+        SceneBuilder builder = new SceneBuilder("room").WithGravity(Vector3D.Zero).AddPlane("west", V(1), -2.0).AddPlane("east", V(-1), -2.0)
+            .AddPlane("floor", V(0, 1), -2.0).AddPlane("lid", V(0, -1), -2.0).AddPlane("north", V(0, 0, 1), -2.0).AddPlane("south", V(0, 0, -1), -2.0);
+        for (int n = 0; n < 8; n++)
+        {
+            BodySpec ball = new(0.5, 1 + (2 * random.NextDouble()), 0);
+            Vector3D place = V((n % 2 * 2) - 1 + (0.3 * Any()), (n / 2 % 2 * 2) - 1 + (0.3 * Any()), (n / 4 * 2) - 1 + (0.3 * Any()));
+            builder.AddBody($"ball {n}", ball, place, V(3 * Any(), 3 * Any(), 3 * Any()));
+        }
+
+        Scene scene = builder.Build();
+        Simulation simulation = new(scene, Options(Scale(scene, leastRebound: goOnAsOne ? 0 : null)));
+        long most = 20_000;
+        Assert.Equal(!goOnAsOne, simulation.TryAdvanceTo(At(20), ref most));
+    }
+
+    private static SimulationOptions Options(ContactScale scale) => new(default, SimDuration.FromSeconds(10)) { Scale = scale };
+
+    private static ContactScale Scale(Scene scene, double? impactPart = null, double? reachPart = null, double? leastRebound = null)
+    {
+        ContactScale usual = new(scene.ContactTolerance, scene.Gravity, SimTime.Zero);
+        double whole = scene.ContactTolerance / usual.Step.ToSeconds();
+        return new ContactScale(
+            scene.ContactTolerance, scene.Gravity, SimTime.Zero, impactPart ?? (usual.ImpactSpeed / whole), reachPart ?? (usual.ReachSpeed / whole),
+            leastRebound ?? usual.LeastRebound);
+    }
+
+    /// <summary>27 balls in a pit, and a heavy one that falls on them.</summary>
+    private static Scene Heap()
+    {
+        Random random = new(3);
+        const double half = 0.35;
+        SceneBuilder builder = new SceneBuilder("heap").WithContactTolerance(Tolerance).AddPlane("floor", Vector3D.Up, 0.0)
+            .AddPlane("west", V(1), -half).AddPlane("east", V(-1), -half).AddPlane("north", V(0, 0, 1), -half).AddPlane("south", V(0, 0, -1), -half);
+        for (int n = 0; n < Balls - 1; n++)
+        {
+            double x = (((n % 3) - 1) * 0.22) + (0.01 * random.NextDouble()), z = (((n / 3 % 3) - 1) * 0.22) + (0.01 * random.NextDouble());
+            builder.AddBody($"ball {n}", new BodySpec(0.1, 1, 0.2, friction: 0.3), V(x, 0.15 + (0.25 * (n / 9)), z));
+        }
+
+        return builder.AddBody("heavy", new BodySpec(0.15, 10, 0.2, friction: 0.3), V(0.01, 3, 0.02)).Build();
+    }
+}
