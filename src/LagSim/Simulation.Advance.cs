@@ -49,13 +49,15 @@ public sealed partial class Simulation
         SimTime reached = SimulatedTo;
         bool isCancelled = false;
         bool isThere = true;
+        SimTime until = SimTime.Min(time, standsBefore - SimDuration.OneTick);
         try
         {
-            while (queue.TryGetLeast(out int slot, out EventKey least) && least.Time <= time)
+            while (queue.TryGetLeast(out int slot, out EventKey least) && least.Time <= until)
             {
                 if (least.Time > reached)
                 {
-                    if (HasMet(least.Time - SimDuration.OneTick, time))
+                    bool isBegun = least.Time == within;
+                    if (!isBegun && HasMet(least.Time - SimDuration.OneTick, time))
                     {
                         reached = SimulatedTo;
                         continue;
@@ -69,7 +71,15 @@ public sealed partial class Simulation
                     }
 
                     reached = least.Time;
+                    within = SimTime.MinValue;
                     ForgetUpTo(reached);
+                }
+                else if (WaitsForNews && events <= 0 && twin is null)
+                {
+                    within = reached;
+                    reached -= SimDuration.OneTick;
+                    isThere = false;
+                    break;
                 }
 
                 events--;
@@ -83,6 +93,11 @@ public sealed partial class Simulation
                     Process(slot, clock);
                 }
             }
+        }
+        catch (EndlessInstantException endless) when (WaitsForNews && twin is null)
+        {
+            StandBefore(endless);
+            until = endless.At - SimDuration.OneTick;
         }
         catch (TimelinesFullException full)
         {
@@ -101,7 +116,7 @@ public sealed partial class Simulation
             throw fault;
         }
 
-        SimulatedTo = isCancelled || !isThere ? reached : time;
+        SimulatedTo = isCancelled || !isThere ? reached : until;
         if (front != SimTime.MinValue && SimulatedTo >= front)
         {
             EndHeal();
@@ -114,7 +129,7 @@ public sealed partial class Simulation
         }
 
         FollowWithTwin();
-        return isThere;
+        return isThere && until == time;
     }
 
     /// <summary>Moves the edge of the history along, event by event, so that one long advance takes no more memory than many short ones.</summary>

@@ -73,6 +73,8 @@ public sealed partial class Simulation
             return false;
         }
 
+        BeginAnewFor(key.Time);
+
         if (key == due)
         {
             bodies[slot].NextExternal = log.FirstFrom(slot, key);
@@ -117,6 +119,8 @@ public sealed partial class Simulation
         {
             return SubmitResult.Duplicate;
         }
+
+        BeginAnewFor(key.Time);
 
         if (key.Time <= KnownTo)
         {

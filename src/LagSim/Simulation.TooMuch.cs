@@ -66,9 +66,9 @@ public sealed partial class Simulation
     }
 
     /// <summary>Why an instant does not end.</summary>
-    private SimulationException Endless(int slot, SimTime time) => new(
+    private EndlessInstantException Endless(int slot, SimTime time) => new(
         $"At {time.ToShortString()} the impacts of {Whose(slot)} have no end: {MostRounds} in one instant. What is squeezed between others and loses no energy is struck for ever:"
-        + " give it, or what squeezes it, a restitution below 1, a mass that is less unlike, or room.");
+        + " give it, or what squeezes it, a restitution below 1, a mass that is less unlike, or room.", time);
 
     private static string ActTooFast(double here, double met, double most) =>
         here > most ? $"act at a rate of {Limits.Short(here)} 1/s" : $"lead in a step to where they act at a rate of {Limits.Short(met)} 1/s";

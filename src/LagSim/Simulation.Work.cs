@@ -5,7 +5,7 @@ using LagSim.Timelines;
 
 namespace LagSim;
 
-/// <content>Telling an observer how much work each event is. The observer may stop an advance between two instants, and changes nothing else.</content>
+/// <content>Telling an observer how much work each event is. The observer may stop an advance, between two instants or, of a session's world, within one, and changes nothing else.</content>
 public sealed partial class Simulation
 {
     private readonly int[] aloneAtWork = new int[1];

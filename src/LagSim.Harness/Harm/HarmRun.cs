@@ -122,6 +122,11 @@ internal sealed class HarmRun
 
         double? outAfter = isLate is double begun && isOut is double end ? Math.Max(0, end - begun) : null;
         double? backAfter = isLate is not null && isOut is double gone && isBack is double back ? Math.Max(0, back - gone) : null;
+        foreach (Session ended in others.Where(s => s.State != SessionState.Running))
+        {
+            failures.Add($"Peer {ended.Peer} is no longer there: {ended.EndReason}");
+        }
+
         if (isLate is not null && !(outAfter <= MostSeconds))
         {
             failures.Add(outAfter is null ? "The player stayed." : string.Create(CultureInfo.InvariantCulture, $"The player was out {outAfter:0.0} s after worlds were late."));

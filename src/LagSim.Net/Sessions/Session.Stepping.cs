@@ -60,6 +60,11 @@ public abstract partial class Session
         {
             SimTime shared = SharedTime.Now;
             SimTime worldDue = World.Step(shared);
+            if (World.StandsBefore < SimTime.MaxValue && shared - World.StandsBefore > Options.Window.History)
+            {
+                throw new SimulationException(World.WhyItStands); // what was not taken away by now is too old to be
+            }
+
             if (hasUnshown && !World.IsBehind)
             {
                 Counters.LastShown = SharedTime.Now;

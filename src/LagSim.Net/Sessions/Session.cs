@@ -247,7 +247,11 @@ public abstract partial class Session
         {
             bool isFirst = Forget();
             begunAt = start;
-            world = new LiveWorld(Scene!, WorldOptions(start), Options.Window.LookAhead, Options.PicturePast + DisplayDelay, contacts) { Work = new WorkLedger(Clock) };
+            world = new LiveWorld(Scene!, WorldOptions(start), Options.Window.LookAhead, Options.PicturePast + DisplayDelay, contacts)
+            {
+                Work = new WorkLedger(Clock),
+                WaitsForNews = true,
+            };
             schedule = new CommitSchedule(start, start, Options.CommitInterval);
             BegunFrom = null;
             TellBegun(isFirst);
@@ -262,6 +266,7 @@ public abstract partial class Session
         LiveWorld copied = new(Scene!, snapshot, WorldOptions(snapshot.Start), Options.Window.LookAhead, Options.PicturePast + DisplayDelay, contacts)
         {
             Work = new WorkLedger(Clock),
+            WaitsForNews = true,
         };
         begunAt = copied.Simulation.HistoryEdge;
         world = copied;

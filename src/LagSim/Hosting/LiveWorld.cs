@@ -128,6 +128,22 @@ public sealed class LiveWorld
     /// <summary>Gives the contact notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to be stepped again.</summary>
     public void Retire() => Contacts?.Restart();
 
+    /// <summary>
+    /// Whether the world stands before an instant that has more impacts than can be followed, until an event comes that lies no later than it; default no: then such
+    /// an instant ends the simulation. For a session, whose host removes what makes it so.
+    /// </summary>
+    public bool WaitsForNews
+    {
+        get => Simulation.WaitsForNews;
+        set => Simulation.WaitsForNews = value;
+    }
+
+    /// <summary>The instant before which the world stands, if it <see cref="WaitsForNews"/>; the latest there is if it does not stand.</summary>
+    public SimTime StandsBefore => Simulation.Standing?.At ?? SimTime.MaxValue;
+
+    /// <summary>Why the world stands, in a sentence; empty if it does not.</summary>
+    public string WhyItStands => Simulation.Standing?.Message ?? "";
+
     /// <summary>Tells <see cref="Work"/>, if there is one, whose event is submitted next.</summary>
     /// <param name="player">The player's number.</param>
     public void NoteNews(byte player) => Work?.NoteNews(player, Simulation.IsHealing);
@@ -204,6 +220,11 @@ public sealed class LiveWorld
 
         Contacts?.Tell(Simulation);
         SimTime confirmation = Contacts?.NextDue(Simulation.History, LookAhead) ?? SimTime.MaxValue;
+        if (Simulation.Standing is not null)
+        {
+            return SimTime.Min(confirmation, now + LookAhead); // nothing is to be done before news comes
+        }
+
         return isBehind ? now : SimTime.Min(confirmation, Simulation.Horizon == SimTime.MaxValue ? SimTime.MaxValue : Simulation.Horizon - (LookAhead / 2));
     }
 

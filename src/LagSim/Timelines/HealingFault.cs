@@ -44,4 +44,7 @@ internal enum HealingFault
 
     /// <summary>A heal ends where the members of an island are on their old paths again, whatever impulses hold them there.</summary>
     StopsBeforeImpulsesMeet = 1024,
+
+    /// <summary>What has happened of an instant, of which the rest has not, stays when news comes from before it.</summary>
+    LeavesPartOfAnInstant = 2048,
 }

@@ -55,6 +55,36 @@ public sealed class InvariantTests
         AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed, mode: mode, inPieces: true));
     }
 
+    /// <summary>As a session's world does: an advance ends in the middle of an instant, and what comes then may lie before it, in it, or behind.</summary>
+    [Theory]
+    [MemberData(nameof(Modes))]
+    public void State_StoppedWithinInstantsWhileNewsComes_IsTheSameToo(int block, HealingMode mode)
+    {
+        AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed, mode: mode, inPieces: true, prepare: simulation => simulation.WaitsForNews = true));
+    }
+
+    /// <summary>The control: what has happened of the instant stays when earlier news comes.</summary>
+    [Fact]
+    public void State_StoppedWithinInstantsThatAreNotTakenBack_IsSeenToDiffer()
+    {
+        Assert.Contains(Enumerable.Range(0, 200), seed =>
+        {
+            RandomWorld world = new(seed);
+            try
+            {
+                return RandomWorld.Difference(world.OnTime(), world.Shuffled(seed, inPieces: true, prepare: simulation =>
+                {
+                    simulation.WaitsForNews = true;
+                    simulation.Fault = HealingFault.LeavesPartOfAnInstant;
+                })) is not null;
+            }
+            catch (SimulationException)
+            {
+                return true;
+            }
+        });
+    }
+
     [Theory]
     [MemberData(nameof(Blocks))]
     public void State_ConeThatGrowsToTakeAllBack_IsTheSameToo(int block)

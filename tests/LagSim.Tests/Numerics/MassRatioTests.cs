@@ -1,6 +1,8 @@
 using System;
 using System.Linq;
+using LagSim.Events;
 using LagSim.Scenes;
+using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 
@@ -110,10 +112,35 @@ public sealed class MassRatioTests
     [Fact]
     public void LightBallSqueezedAgainstAWall_WithoutALoss_StopsWithASentence()
     {
-        string message = Assert.Throws<SimulationException>(() => Run(Squeeze(1e30, 1), 3)).Message;
+        string message = Assert.ThrowsAny<SimulationException>(() => Run(Squeeze(1e30, 1), 3)).Message;
         Assert.Contains("'light'", message, StringComparison.Ordinal);
         Assert.Contains("no end", message, StringComparison.Ordinal);
         Assert.Contains("a restitution below 1", message, StringComparison.Ordinal);
+    }
+
+    /// <summary>A world that waits stands before that instant, and goes on once news takes the light ball away; to the bits of one that knew it before.</summary>
+    [Fact]
+    public void LightBallSqueezedAgainstAWall_RemovedLate_LetsAWorldThatWaitsGoOn()
+    {
+        ExternalEvent gone = ExternalEvent.Remove(At(0.3), 1, 1, First);
+        Simulation inTime = new(Squeeze(1e30, 1));
+        inTime.Submit(gone);
+        inTime.AdvanceTo(At(3));
+        Simulation waits = new(Squeeze(1e30, 1)) { WaitsForNews = true };
+        long events = long.MaxValue;
+        Assert.False(waits.TryAdvanceTo(At(3), ref events));
+        long before = waits.EventsProcessed;
+        Assert.False(waits.TryAdvanceTo(At(3), ref events));
+        Assert.Equal((before, waits.Standing!.At - SimDuration.OneTick), (waits.EventsProcessed, waits.SimulatedTo)); // it does nothing meanwhile
+        Assert.InRange(waits.SimulatedTo.ToSeconds(), 0.49, 0.51);
+        Assert.Equal(SubmitResult.Queued, waits.Submit(ExternalEvent.SetVelocity(At(2), 1, 2, Second, V(0)))); // of no help
+        Assert.NotNull(waits.Standing);
+        waits.Submit(gone);
+        inTime.Submit(ExternalEvent.SetVelocity(At(2), 1, 2, Second, V(0)));
+        Assert.True(waits.TryAdvanceTo(At(3), ref events));
+        Assert.Null(waits.Standing);
+        Assert.Equal(inTime.StateHash(At(3)), waits.StateHash(At(3)));
+        Assert.Equal(inTime.EventHash(At(3)), waits.EventHash(At(3)));
     }
 
     private static Scene Squeeze(double ratio, double e) => new SceneBuilder("squeeze").WithGravity(Floating).AddPlane("wall", V(1), V(0), e)
