@@ -1,9 +1,10 @@
+using System;
 using LagSim.Time;
 
 namespace LagSim;
 
-/// <summary>An instant has more impacts than can be followed; what comes before it stands.</summary>
-internal sealed class EndlessInstantException : SimulationException
+/// <summary>An instant has more impacts than can be followed; what comes before it stands. It does not leave the simulation.</summary>
+internal sealed class EndlessInstantException : Exception
 {
     internal EndlessInstantException(string message, SimTime at)
         : base(message)

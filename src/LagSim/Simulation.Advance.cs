@@ -99,6 +99,11 @@ public sealed partial class Simulation
             StandBefore(endless);
             until = endless.At - SimDuration.OneTick;
         }
+        catch (EndlessInstantException endless)
+        {
+            fault = new SimulationException(endless.Message);
+            throw fault;
+        }
         catch (TimelinesFullException full)
         {
             fault = new TimelinesFullException($"{full.Message}{WhoseSegments()}", full);
