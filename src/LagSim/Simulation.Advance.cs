@@ -20,18 +20,26 @@ public sealed partial class Simulation
     public void AdvanceTo(SimTime time)
     {
         long events = long.MaxValue;
-        TryAdvanceTo(time, ref events);
+        if (!TryAdvanceTo(time, ref events) && Standing is EndlessInstantException endless)
+        {
+            throw new SimulationException(endless.Message); // it can go on once an event comes that removes the cause
+        }
     }
 
     /// <summary>
-    /// Lets everything happen up to and including <paramref name="time"/>, or as much of it as so many events are, and stops between two instants.
+    /// Lets everything happen up to and including <paramref name="time"/>, or as much of it as so many events are, and stops between two instants; the world of a
+    /// session (<see cref="Hosting.LiveWorld.WaitsForNews"/>) stops within one too.
     /// </summary>
     /// <param name="time">Up to when.</param>
     /// <param name="events">
-    /// How many events may happen; what is left of them. The events of one instant all happen, so it may end below zero; at or below zero nothing happens.
+    /// How many events may happen; what is left of them. The events of one instant all happen, but in the world of a session, so it may end below zero; at or below zero
+    /// nothing happens.
     /// Looking again what a body meets next counts as an event.
     /// </param>
-    /// <returns>Whether it got there; if not, <see cref="SimulatedTo"/> tells how far, and the next call goes on from there.</returns>
+    /// <returns>
+    /// Whether it got there; if not, <see cref="SimulatedTo"/> tells how far, and the next call goes on from there. A world that stands before an instant without end
+    /// (<see cref="Hosting.LiveWorld.StandsBefore"/>) gets no further, whatever is left, until an event comes that lies no later.
+    /// </returns>
     /// <remarks>Advancing in pieces changes no bit of what happens. Cost: per event, not per time.</remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>.</exception>
     /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their memory.</exception>
@@ -63,7 +71,7 @@ public sealed partial class Simulation
                         continue;
                     }
 
-                    isCancelled = cancellation.IsCancellationRequested; // between instants: one has happened as a whole or not at all
+                    isCancelled = cancellation.IsCancellationRequested;
                     isThere = events > 0;
                     if (isCancelled || !isThere)
                     {
@@ -74,8 +82,9 @@ public sealed partial class Simulation
                     within = SimTime.MinValue;
                     ForgetUpTo(reached);
                 }
-                else if (WaitsForNews && events <= 0 && twin is null)
+                else if (WaitsForNews && twin is null && (events <= 0 || cancellation.IsCancellationRequested))
                 {
+                    isCancelled = events > 0;
                     within = reached;
                     reached -= SimDuration.OneTick;
                     isThere = false;

@@ -75,7 +75,7 @@ public sealed partial class Simulation
 
         BeginAnewFor(key.Time);
 
-        if (key == due)
+        if (key == due && bodies[slot].NextExternal == next) // else what was due before is due again
         {
             bodies[slot].NextExternal = log.FirstFrom(slot, key);
         }

@@ -123,7 +123,7 @@ public sealed partial class Simulation
         }
 
         TakeBack(slot, key);
-        AdvanceTo(DefersAgain ? SimTime.Min(key.Time, to) : to); // put off, it is simulated again once for all that comes at a time
+        AdvanceAsFarAs(DefersAgain ? SimTime.Min(key.Time, to) : to); // put off, it is simulated again once for all that comes at a time
     }
 
     private void Rewrite(int slot, in EventKey key)

@@ -21,7 +21,7 @@ public sealed partial class Simulation
         SimTime to = SimulatedTo;
         SimulatedTo = key.Time - SimDuration.OneTick;
         TakeBackAll(key);
-        AdvanceTo(DefersAgain ? key.Time : to);
+        AdvanceAsFarAs(DefersAgain ? key.Time : to);
     }
 
     /// <summary>Cuts every timeline at the key, and has everybody predicted again.</summary>

@@ -4,7 +4,7 @@ using LagSim.Timelines;
 
 namespace LagSim;
 
-/// <content>A world that stops within an instant, or stands before one without end, and waits for an event that takes away what makes it so dear.</content>
+/// <content>A world that stops within an instant, or stands before one without end, and waits for an event that removes the cause.</content>
 public sealed partial class Simulation
 {
     /// <summary>The instant of which some has happened and the rest has not; the least time there is if there is none.</summary>
@@ -22,6 +22,16 @@ public sealed partial class Simulation
     /// <summary>Why it stands before an instant; null if it does not.</summary>
     internal EndlessInstantException? Standing { get; private set; }
 
+    /// <summary>Whether a part of an instant has happened, and the rest has not.</summary>
+    internal bool IsWithinInstant => within != SimTime.MinValue;
+
+    /// <summary>Lets everything happen up to and including a time, or up to an instant before which the world stands then.</summary>
+    private void AdvanceAsFarAs(SimTime time)
+    {
+        long events = long.MaxValue;
+        TryAdvanceTo(time, ref events);
+    }
+
     /// <summary>Takes back what has happened in an instant without end.</summary>
     private void StandBefore(EndlessInstantException endless)
     {
@@ -34,10 +44,10 @@ public sealed partial class Simulation
     {
         within = SimTime.MinValue;
         GoOnToTheEnd();
-        TakeBackAll(EventKey.Before(instant));
+        TakeBackAll(new EventKey(instant, 0, EventKind.Spawn, default, default, 0, 0)); // what is there from the start stays
     }
 
-    /// <summary>An event is brought in or taken back: what it lies before may be another instant now, and one of which a part has happened begins anew.</summary>
+    /// <summary>An event is brought in or taken back: an instant before which the world stands may be another now, and one of which a part has happened begins anew if the event can change it.</summary>
     private void BeginAnewFor(SimTime time)
     {
         if (time <= standsBefore)
@@ -46,7 +56,7 @@ public sealed partial class Simulation
             standsBefore = SimTime.MaxValue;
         }
 
-        if (within != SimTime.MinValue && !Has(HealingFault.LeavesPartOfAnInstant))
+        if (IsWithinInstant && time <= SimTime.Max(within, KnownTo) && !Has(HealingFault.LeavesPartOfAnInstant))
         {
             TakeBackInstant(within); // or it would be changed in its middle
         }

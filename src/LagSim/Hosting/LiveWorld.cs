@@ -129,9 +129,10 @@ public sealed class LiveWorld
     public void Retire() => Contacts?.Restart();
 
     /// <summary>
-    /// Whether the world stands before an instant that has more impacts than can be followed, until an event comes that lies no later than it; default no: then such
-    /// an instant ends the simulation. For a session, whose host removes what makes it so.
+    /// Whether a step may end within an instant, and whether the world stands before one that has more impacts than can be followed, until an event comes that lies no
+    /// later than it; default no: then an instant happens as a whole, and such a one ends the simulation. For a session, whose host removes the cause.
     /// </summary>
+    /// <remarks>Without effect in a sync test (<see cref="HealingMode.SyncTest"/>). On the world's thread.</remarks>
     public bool WaitsForNews
     {
         get => Simulation.WaitsForNews;
@@ -178,14 +179,14 @@ public sealed class LiveWorld
     public void Advance(SimTime now)
     {
         SimTime target = SimTime.Max(now, Simulation.Start) + LookAhead;
-        changed |= Simulation.Horizon < target;
+        changed |= Simulation.Horizon < target && Simulation.Standing is null;
         Work?.Resume();
         isBehind = target > Simulation.SimulatedTo && !Simulation.TryAdvanceTo(target, ref events);
     }
 
     /// <summary>Brings the world ahead of <paramref name="now"/> again and publishes it if it changed.</summary>
     /// <returns>
-    /// When the next step is due if nothing changes before: <paramref name="now"/> while the world <see cref="IsBehind"/>, and
+    /// When the next step is due if nothing changes before: <paramref name="now"/> while the world <see cref="IsBehind"/>, but a look-ahead later while it stands, and
     /// <see cref="SimTime.MaxValue"/> for a world in which nothing will happen, and of which no contact is to be confirmed.
     /// </returns>
     /// <remarks>It does a bounded number of events, so that whoever calls it gets to other things in between. While late news is made good over several steps
@@ -218,7 +219,11 @@ public sealed class LiveWorld
             changed = false;
         }
 
-        Contacts?.Tell(Simulation);
+        if (!Simulation.IsWithinInstant)
+        {
+            Contacts?.Tell(Simulation);
+        }
+
         SimTime confirmation = Contacts?.NextDue(Simulation.History, LookAhead) ?? SimTime.MaxValue;
         if (Simulation.Standing is not null)
         {

@@ -194,7 +194,7 @@ internal sealed class CutPaths
             && (!timelines.Segment(last).IsDense || timelines.Dense(last).IsSameAs(pieces[old].Dense))
             && timelines.HoldOf(last) == pieces[old].Hold
             && timelines.SpinOf(last).IsSameAs(pieces[old].Spin)
-            && ((fault & HealingFault.StopsBeforeImpulsesMeet) != 0 || CarriesTheSame(timelines, last, pieces[old]));
+            && ((fault & HealingFault.StopsWhereChordsMeet) != 0 || CarriesTheSame(timelines, last, pieces[old]));
     }
 
     /// <summary>Whether a segment, on the same path, carries the very contacts from step to step that a piece did.</summary>

@@ -42,8 +42,8 @@ internal enum HealingFault
     /// <summary>Who was looked at by a step, and found to be no part of it, is not told so.</summary>
     ForgetsWhoWasLookedAt = 512,
 
-    /// <summary>A heal ends where the members of an island are on their old paths again, whatever impulses hold them there.</summary>
-    StopsBeforeImpulsesMeet = 1024,
+    /// <summary>A heal ends where the members of an island are on their old chords again, whatever they carry: instants, contacts and impulses.</summary>
+    StopsWhereChordsMeet = 1024,
 
     /// <summary>What has happened of an instant, of which the rest has not, stays when news comes from before it.</summary>
     LeavesPartOfAnInstant = 2048,

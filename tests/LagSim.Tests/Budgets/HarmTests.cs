@@ -28,6 +28,14 @@ public sealed class HarmTests
         Assert.Contains("The player stayed.", outcome.Failures);
     }
 
+    /// <summary>An elastic heap that a hand squeezes has an instant without end: its owner is sent away, and nobody else's session ends.</summary>
+    [Fact]
+    public void Run_InstantWithoutEnd_EndsNobodysSession()
+    {
+        HarmOutcome outcome = Assert.Single(Play(new HarmOptions { Attacks = 1, Seed = 50_225 }));
+        Assert.True(outcome.IsGood && outcome.IsExpelled && outcome.LateSeconds < 0.25, $"{outcome.LateSeconds} {string.Join(" ", outcome.Failures)}");
+    }
+
     [Fact]
     public void Run_TheSameSeedOnAnyNumberOfThreads_IsTheSameToTheLastFigure()
     {

@@ -39,6 +39,9 @@ internal sealed class RandomWorld
 
     internal bool HasHands { get; }
 
+    /// <summary>How often news came while a world that was shuffled had done a part of an instant.</summary>
+    internal int StopsWithin { get; private set; }
+
     internal Scene Scene { get; }
 
     /// <summary>What happens, in no particular order; no event twice.</summary>
@@ -107,6 +110,7 @@ internal sealed class RandomWorld
             long most = inPieces ? arrivals.Next(8) : long.MaxValue;
             simulation.DefersAgain = inPieces;
             simulation.TryAdvanceTo(SimTime.Max(now, simulation.SimulatedTo), ref most);
+            StopsWithin += simulation.IsWithinInstant ? 1 : 0;
             if (retracts)
             {
                 simulation.Retract(external);
