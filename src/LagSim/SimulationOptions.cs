@@ -31,7 +31,7 @@ public sealed class SimulationOptions
     /// 356 bytes (<see cref="Timelines.LatencyCompensationWindow"/>). A simulation that would need more ends with a <see cref="TimelinesFullException"/>, which tells whose path they are.
     /// </param>
     /// <param name="cancellation">
-    /// Ends whatever the simulation is at, from any thread, between two instants, with an <see cref="OperationCanceledException"/>.
+    /// Ends whatever the simulation is at, from any thread, between two instants, in a session within one too, with an <see cref="OperationCanceledException"/>.
     /// </param>
     /// <param name="healing">How an event is brought in that lies before the simulated time. It has no influence on the result, to the bit.</param>
     /// <param name="threads">

@@ -159,7 +159,7 @@ internal sealed class ColumnCase : IHardCase
         double most = ContactSteps.Closing * Standing * 3 * masses.Length;
         yield return new HardRow(
             Name, size, drift, "drift_m", most,
-            "a tenth of d, 1e-6 m, a contact, two walls and what is below for each ball: sweeps leave it to close by half of that, and a"
+            "a tenth of d, 1e-6 m, a contact, two walls and what is below for each ball: twice what impacts may leave, and a"
                 + " step later it is put right",
             "nothing moves");
         yield return new HardRow(
