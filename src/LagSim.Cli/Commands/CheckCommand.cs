@@ -49,6 +49,7 @@ internal static class CheckCommand
             (int from, int to) = Peers(parsed.GetValue(peers)!);
             CheckOptions options = new()
             {
+                Pits = true,
                 Sessions = parsed.GetValue(sessions),
                 Seed = parsed.GetValue(common.Seed),
                 FromPeers = from,
