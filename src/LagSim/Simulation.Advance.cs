@@ -19,8 +19,8 @@ public sealed partial class Simulation
     /// <exception cref="OperationCanceledException">The options' token asked for an end; what lies behind <see cref="SimulatedTo"/> stands.</exception>
     public void AdvanceTo(SimTime time)
     {
-        long events = long.MaxValue;
-        if (!TryAdvanceTo(time, ref events) && Standing is EndlessInstantException endless)
+        AdvanceAsFarAs(time);
+        if (Blocked is EndlessInstantException endless && endless.At <= time)
         {
             throw new SimulationException(endless.Message); // it can go on once an event comes that removes the cause
         }
@@ -28,17 +28,16 @@ public sealed partial class Simulation
 
     /// <summary>
     /// Lets everything happen up to and including <paramref name="time"/>, or as much of it as so many events are, and stops between two instants; the world of a
-    /// session (<see cref="Hosting.LiveWorld.WaitsForNews"/>) stops within one too.
+    /// session (<see cref="Hosting.LiveWorld.WaitsForLateEvents"/>) stops within one too, if it takes too long.
     /// </summary>
     /// <param name="time">Up to when.</param>
     /// <param name="events">
-    /// How many events may happen; what is left of them. The events of one instant all happen, but in the world of a session, so it may end below zero; at or below zero
-    /// nothing happens.
+    /// How many events may happen; what is left of them. The events of one instant all happen, so it may end below zero; at or below zero nothing happens.
     /// Looking again what a body meets next counts as an event.
     /// </param>
     /// <returns>
-    /// Whether it got there; if not, <see cref="SimulatedTo"/> tells how far, and the next call goes on from there. A world that stands before an instant without end
-    /// (<see cref="Hosting.LiveWorld.StandsBefore"/>) gets no further, whatever is left, until an event comes that lies no later.
+    /// Whether it got there; if not, <see cref="SimulatedTo"/> tells how far, and the next call goes on from there. A world that an instant without end blocks
+    /// (<see cref="Hosting.LiveWorld.BlockedAt"/>) gets no further, whatever is left, until an event comes that lies no later.
     /// </returns>
     /// <remarks>Advancing in pieces changes no bit of what happens. Cost: per event, not per time.</remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>.</exception>
@@ -57,15 +56,15 @@ public sealed partial class Simulation
         SimTime reached = SimulatedTo;
         bool isCancelled = false;
         bool isThere = true;
-        SimTime until = SimTime.Min(time, standsBefore - SimDuration.OneTick);
+        WorkVerdict verdict = WorkVerdict.GoOn;
+        SimTime until = SimTime.Min(time, BlockedAt - SimDuration.OneTick);
         try
         {
             while (queue.TryGetLeast(out int slot, out EventKey least) && least.Time <= until)
             {
                 if (least.Time > reached)
                 {
-                    bool isBegun = least.Time == within;
-                    if (!isBegun && HasMet(least.Time - SimDuration.OneTick, time))
+                    if (least.Time != partDone && HasMet(least.Time - SimDuration.OneTick, time))
                     {
                         reached = SimulatedTo;
                         continue;
@@ -79,13 +78,13 @@ public sealed partial class Simulation
                     }
 
                     reached = least.Time;
-                    within = SimTime.MinValue;
+                    partDone = SimTime.MinValue;
                     ForgetUpTo(reached);
                 }
-                else if (WaitsForNews && twin is null && (events <= 0 || cancellation.IsCancellationRequested))
+                else if (MayWaitBefore(reached) && (verdict == WorkVerdict.StopNow || cancellation.IsCancellationRequested))
                 {
-                    isCancelled = events > 0;
-                    within = reached;
+                    isCancelled = verdict != WorkVerdict.StopNow;
+                    partDone = reached;
                     reached -= SimDuration.OneTick;
                     isThere = false;
                     break;
@@ -95,7 +94,9 @@ public sealed partial class Simulation
                 clock = least;
                 if (Work is IWorkObserver observer)
                 {
-                    ProcessTold(slot, clock, observer, ref events);
+                    WorkVerdict said = ProcessTold(slot, clock, observer);
+                    verdict = said > verdict ? said : verdict;
+                    events = verdict == WorkVerdict.GoOn ? events : Math.Min(events, 0);
                 }
                 else
                 {
@@ -103,15 +104,16 @@ public sealed partial class Simulation
                 }
             }
         }
-        catch (EndlessInstantException endless) when (WaitsForNews && twin is null)
-        {
-            StandBefore(endless);
-            until = endless.At - SimDuration.OneTick;
-        }
         catch (EndlessInstantException endless)
         {
-            fault = new SimulationException(endless.Message);
-            throw fault;
+            if (!MayWaitBefore(endless.At))
+            {
+                fault = new SimulationException(endless.Message);
+                throw fault;
+            }
+
+            BlockAt(endless);
+            until = endless.At - SimDuration.OneTick;
         }
         catch (TimelinesFullException full)
         {

@@ -73,9 +73,8 @@ public sealed partial class Simulation
             return false;
         }
 
-        BeginAnewFor(key.Time);
-
-        if (key == due && bodies[slot].NextExternal == next) // else what was due before is due again
+        Reconsider(key.Time);
+        if (key == due && bodies[slot].NextExternal == next) // else an earlier one is due again
         {
             bodies[slot].NextExternal = log.FirstFrom(slot, key);
         }
@@ -120,7 +119,7 @@ public sealed partial class Simulation
             return SubmitResult.Duplicate;
         }
 
-        BeginAnewFor(key.Time);
+        Reconsider(key.Time);
 
         if (key.Time <= KnownTo)
         {

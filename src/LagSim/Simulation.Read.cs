@@ -103,7 +103,7 @@ public sealed partial class Simulation
         int at = slot < 0 ? TimelineStore.None : timelines.Last(slot);
         for (bool isBefore = false; at != TimelineStore.None && !isBefore; at = timelines.Previous(at))
         {
-            if (timelines.Key(at).Kind != EventKind.None && !timelines.IsEvent(at))
+            if (timelines.IsNote(at))
             {
                 continue;
             }

@@ -5,7 +5,7 @@ using LagSim.Timelines;
 
 namespace LagSim;
 
-/// <content>Telling an observer how much work each event is. The observer may stop an advance, between two instants or, of a session's world, within one, and changes nothing else.</content>
+/// <content>Telling an observer how much work each event is. The observer may stop an advance, in a session's world within an instant too, and changes nothing else.</content>
 public sealed partial class Simulation
 {
     private readonly int[] aloneAtWork = new int[1];
@@ -22,17 +22,15 @@ public sealed partial class Simulation
     /// </summary>
     private static double WorkOf(int bodies) => 2 + ((double)bodies * bodies);
 
-    /// <summary>Processes an event and tells the observer which bodies took part. If the observer asks for a stop, no events are left for this advance.</summary>
-    private void ProcessTold(int slot, in EventKey key, IWorkObserver observer, ref long events)
+    /// <summary>Processes an event and tells the observer which bodies took part.</summary>
+    /// <returns>What the observer says of it.</returns>
+    private WorkVerdict ProcessTold(int slot, in EventKey key, IWorkObserver observer)
     {
         partyCount = 0;
         Process(slot, key);
         bool isOfMany = partyCount > 0 && key.Kind is EventKind.Impact or EventKind.StepEnd;
         aloneAtWork[0] = slot;
         Span<int> who = isOfMany ? parties.AsSpan(0, partyCount) : aloneAtWork;
-        if (!observer.OnWork(key, who, WorkOf(who.Length), key.Time <= front, this))
-        {
-            events = Math.Min(events, 0);
-        }
+        return observer.OnWork(key, who, WorkOf(who.Length), key.Time <= front, this);
     }
 }

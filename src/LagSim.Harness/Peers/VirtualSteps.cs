@@ -147,9 +147,9 @@ public sealed class VirtualSteps
         }
     }
 
-    /// <summary>Whether a step would have the world do more: not one that stands, and waits for news.</summary>
+    /// <summary>Whether a step would have the world do more; one that an instant blocks waits for an event.</summary>
     private static bool IsBehind(Session session) => session.State is not (SessionState.Ended or SessionState.Rejoining)
-        && session.World is LiveWorld world && world.IsBehind && world.StandsBefore == SimTime.MaxValue;
+        && session.World is LiveWorld world && world.IsBehind && world.BlockedAt == SimTime.MaxValue;
 
     /// <summary>Lets that much true time pass.</summary>
     public void RunFor(SimDuration span)

@@ -60,9 +60,9 @@ public abstract partial class Session
         {
             SimTime shared = SharedTime.Now;
             SimTime worldDue = World.Step(shared);
-            if (World.StandsBefore < SimTime.MaxValue && shared - World.StandsBefore > Options.Window.History)
+            if (World.BlockedAt < SimTime.MaxValue && shared - World.BlockedAt > Options.Window.History)
             {
-                throw new SimulationException(World.WhyItStands); // what was not taken away by now is too old to be
+                throw new SimulationException(World.BlockedBecause); // the cause is older than the history by now, and cannot be removed
             }
 
             if (hasUnshown && !World.IsBehind)

@@ -250,7 +250,7 @@ public abstract partial class Session
             world = new LiveWorld(Scene!, WorldOptions(start), Options.Window.LookAhead, Options.PicturePast + DisplayDelay, contacts)
             {
                 Work = new WorkLedger(Clock),
-                WaitsForNews = true,
+                WaitsForLateEvents = true,
             };
             schedule = new CommitSchedule(start, start, Options.CommitInterval);
             BegunFrom = null;
@@ -266,7 +266,7 @@ public abstract partial class Session
         LiveWorld copied = new(Scene!, snapshot, WorldOptions(snapshot.Start), Options.Window.LookAhead, Options.PicturePast + DisplayDelay, contacts)
         {
             Work = new WorkLedger(Clock),
-            WaitsForNews = true,
+            WaitsForLateEvents = true,
         };
         begunAt = copied.Simulation.HistoryEdge;
         world = copied;

@@ -27,15 +27,18 @@ internal readonly struct ContactScale
     /// </summary>
     private const double SweepPart = 0.005;
 
-    /// <summary>Impacts within a step leave contacts that hold to close by this part: ten times what the sweeps leave, or each of their steps would be struck anew.</summary>
+    /// <summary>
+    /// Contacts that hold, and that an impact within a step leaves to close by less than this part, are not struck before the next tick. Measured, on 63 balls that fall
+    /// into a pit: with none of it 490,000 impacts instead of 600; with a tenth of it 9 % more impacts, and half the overlap.
+    /// </summary>
     private const double ImpactPart = 10 * SweepPart;
 
     /// <summary>So long nobody of an island may have moved by the tolerance before it sleeps.</summary>
     internal static readonly SimDuration StillFor = SimDuration.FromTicks(SimDuration.TicksPerSecond / 2);
 
     /// <summary>
-    /// The two of a contact that was struck part at this speed at least, in m/s, where nothing presses them together: bodies that touch, and move as one, close at
-    /// some 1e-16 m/s by rounding alone. It parts them by less than a tenth of a millimetre a day.
+    /// Two that were struck part at this speed at least, in m/s, where nothing presses them together: bodies that touch and move as one close by rounding alone, at some
+    /// 1e-16 m/s. It takes them a tenth of a millimetre apart in a day.
     /// </summary>
     private const double UsualLeastRebound = 1e-9;
 

@@ -129,21 +129,21 @@ public sealed class LiveWorld
     public void Retire() => Contacts?.Restart();
 
     /// <summary>
-    /// Whether a step may end within an instant, and whether the world stands before one that has more impacts than can be followed, until an event comes that lies no
-    /// later than it; default no: then an instant happens as a whole, and such a one ends the simulation. For a session, whose host removes the cause.
+    /// Whether a step may end within an instant, and whether an instant with more impacts than can be followed blocks the world until an event comes that lies no later
+    /// than it; default no: then an instant happens as a whole, and such a one ends the simulation.
     /// </summary>
-    /// <remarks>Without effect in a sync test (<see cref="HealingMode.SyncTest"/>). On the world's thread.</remarks>
-    public bool WaitsForNews
+    /// <remarks>For a session, whose host removes the cause. Without effect in a sync test (<see cref="HealingMode.SyncTest"/>). On the world's thread.</remarks>
+    public bool WaitsForLateEvents
     {
-        get => Simulation.WaitsForNews;
-        set => Simulation.WaitsForNews = value;
+        get => Simulation.WaitsForLateEvents;
+        set => Simulation.WaitsForLateEvents = value;
     }
 
-    /// <summary>The instant before which the world stands, if it <see cref="WaitsForNews"/>; the latest there is if it does not stand.</summary>
-    public SimTime StandsBefore => Simulation.Standing?.At ?? SimTime.MaxValue;
+    /// <summary>The instant that blocks the world, if it <see cref="WaitsForLateEvents"/>; the latest time there is if none does.</summary>
+    public SimTime BlockedAt => Simulation.BlockedAt;
 
-    /// <summary>Why the world stands, in a sentence; empty if it does not.</summary>
-    public string WhyItStands => Simulation.Standing?.Message ?? "";
+    /// <summary>Why an instant blocks the world, in a sentence; empty if none does.</summary>
+    public string BlockedBecause => Simulation.Blocked?.Message ?? "";
 
     /// <summary>Tells <see cref="Work"/>, if there is one, whose event is submitted next.</summary>
     /// <param name="player">The player's number.</param>
@@ -179,14 +179,14 @@ public sealed class LiveWorld
     public void Advance(SimTime now)
     {
         SimTime target = SimTime.Max(now, Simulation.Start) + LookAhead;
-        changed |= Simulation.Horizon < target && Simulation.Standing is null;
+        changed |= Simulation.Horizon < target && Simulation.Blocked is null;
         Work?.Resume();
         isBehind = target > Simulation.SimulatedTo && !Simulation.TryAdvanceTo(target, ref events);
     }
 
     /// <summary>Brings the world ahead of <paramref name="now"/> again and publishes it if it changed.</summary>
     /// <returns>
-    /// When the next step is due if nothing changes before: <paramref name="now"/> while the world <see cref="IsBehind"/>, but a look-ahead later while it stands, and
+    /// When the next step is due if nothing changes before: <paramref name="now"/> while the world <see cref="IsBehind"/>, but a look-ahead later while an instant blocks it, and
     /// <see cref="SimTime.MaxValue"/> for a world in which nothing will happen, and of which no contact is to be confirmed.
     /// </returns>
     /// <remarks>It does a bounded number of events, so that whoever calls it gets to other things in between. While late news is made good over several steps
@@ -219,15 +219,15 @@ public sealed class LiveWorld
             changed = false;
         }
 
-        if (!Simulation.IsWithinInstant)
+        if (!Simulation.IsPartDone)
         {
             Contacts?.Tell(Simulation);
         }
 
         SimTime confirmation = Contacts?.NextDue(Simulation.History, LookAhead) ?? SimTime.MaxValue;
-        if (Simulation.Standing is not null)
+        if (Simulation.Blocked is not null)
         {
-            return SimTime.Min(confirmation, now + LookAhead); // nothing is to be done before news comes
+            return SimTime.Min(confirmation, now + LookAhead); // there is nothing to do before an event comes
         }
 
         return isBehind ? now : SimTime.Min(confirmation, Simulation.Horizon == SimTime.MaxValue ? SimTime.MaxValue : Simulation.Horizon - (LookAhead / 2));

@@ -172,12 +172,12 @@ public sealed class WorkLedger : IWorkObserver
     }
 
     /// <inheritdoc/>
-    bool IWorkObserver.OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, Simulation world)
+    WorkVerdict IWorkObserver.OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, Simulation world)
     {
         amount = Math.Max(isAgain ? Again * amount : amount, Measure());
         Total += amount;
         thisStep += amount;
-        bool goesOn = thisStep < MostAStep;
+        bool goesOn = true;
         bool isAct = key.Kind is >= EventKind.Spawn and <= EventKind.Remove;
         byte owner = Nobody;
         bool isShared = false;
@@ -228,7 +228,7 @@ public sealed class WorkLedger : IWorkObserver
             Note(bodies, owner, key.Time, mine / bodies.Length);
         }
 
-        return goesOn;
+        return thisStep >= MostAStep ? WorkVerdict.StopNow : goesOn ? WorkVerdict.GoOn : WorkVerdict.StopAfterInstant;
     }
 
     private void Note(Span<int> bodies, byte struckBy, SimTime at, double each)

@@ -116,7 +116,7 @@ internal sealed class CutPaths
     /// </summary>
     /// <param name="timelines">The paths as they are now.</param>
     /// <param name="time">An instant of which the heal has done all.</param>
-    /// <param name="fault">Wrong on purpose: what is not compared.</param>
+    /// <param name="fault">Names what is left out of the comparison on purpose, to see that a test notices.</param>
     /// <remarks>O(1) as a rule: the body that was on another path the last time is asked first.</remarks>
     internal bool AreMet(TimelineStore timelines, SimTime time, HealingFault fault)
     {

@@ -45,6 +45,6 @@ internal enum HealingFault
     /// <summary>A heal ends where the members of an island are on their old chords again, whatever they carry: instants, contacts and impulses.</summary>
     StopsWhereChordsMeet = 1024,
 
-    /// <summary>What has happened of an instant, of which the rest has not, stays when news comes from before it.</summary>
+    /// <summary>What has happened of an instant, of which the rest has not, stays when an earlier event comes.</summary>
     LeavesPartOfAnInstant = 2048,
 }

@@ -14,6 +14,6 @@ internal interface IWorkObserver
     /// <param name="amount">How much work it was, in units of about a microsecond.</param>
     /// <param name="isAgain">Whether that instant was simulated before, and news took the world back.</param>
     /// <param name="world">The world.</param>
-    /// <returns>False if the advance is to stop at the next instant.</returns>
-    bool OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, Simulation world);
+    /// <returns>Whether the advance goes on.</returns>
+    WorkVerdict OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, Simulation world);
 }

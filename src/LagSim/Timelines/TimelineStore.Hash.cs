@@ -48,14 +48,14 @@ internal sealed partial class TimelineStore
     }
 
     /// <summary>
-    /// Whether a segment is one that an event opened. That a body is heard of before it is there is no event, and neither is that somebody was looked at who is gone:
-    /// who joins later knows nothing of either.
+    /// Whether a segment only notes that an event looked at a body which is gone: for heals, which cut the event with it. A peer that joined later has no such body, so
+    /// it is in no hash and in no list of events.
     /// </summary>
-    internal bool IsEvent(int segment)
-    {
-        EventKind kind = pieces[segment].Key.Kind;
-        return kind != EventKind.None && (pieces[segment].Segment.IsPresent || kind is not (EventKind.Impact or EventKind.StepEnd));
-    }
+    internal bool IsNote(int segment) =>
+        !pieces[segment].Segment.IsPresent && pieces[segment].Key.Kind is (EventKind.Impact or EventKind.StepEnd);
+
+    /// <summary>Whether an event opened a segment: nothing did where a body is heard of that is not there yet.</summary>
+    private bool IsEvent(int segment) => pieces[segment].Key.Kind != EventKind.None && !IsNote(segment);
 
     /// <summary>Whether nothing counts in the segment's hash but what is known of every segment.</summary>
     private bool IsPlain(int segment) => spins.Length == 0 && pieces[segment].Segment.Law != MotionLaw.Held && IsEvent(segment);

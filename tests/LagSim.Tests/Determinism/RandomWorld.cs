@@ -39,8 +39,8 @@ internal sealed class RandomWorld
 
     internal bool HasHands { get; }
 
-    /// <summary>How often news came while a world that was shuffled had done a part of an instant.</summary>
-    internal int StopsWithin { get; private set; }
+    /// <summary>How often an event came while the world of the last <see cref="Shuffled"/> had done a part of an instant.</summary>
+    internal int PartDoneStops { get; private set; }
 
     internal Scene Scene { get; }
 
@@ -110,7 +110,7 @@ internal sealed class RandomWorld
             long most = inPieces ? arrivals.Next(8) : long.MaxValue;
             simulation.DefersAgain = inPieces;
             simulation.TryAdvanceTo(SimTime.Max(now, simulation.SimulatedTo), ref most);
-            StopsWithin += simulation.IsWithinInstant ? 1 : 0;
+            PartDoneStops += simulation.IsPartDone ? 1 : 0;
             if (retracts)
             {
                 simulation.Retract(external);
@@ -126,6 +126,7 @@ internal sealed class RandomWorld
             }
         }
 
+        simulation.Work = null; // nobody stops it any more
         simulation.AdvanceTo(At(End));
         return simulation;
     }

@@ -126,19 +126,19 @@ public sealed class MassRatioTests
         Simulation inTime = new(Squeeze(1e30, 1));
         inTime.Submit(gone);
         inTime.AdvanceTo(At(3));
-        Simulation waits = new(Squeeze(1e30, 1)) { WaitsForNews = true };
+        Simulation waits = new(Squeeze(1e30, 1)) { WaitsForLateEvents = true };
         long events = long.MaxValue;
         Assert.False(waits.TryAdvanceTo(At(3), ref events));
         long before = waits.EventsProcessed;
         Assert.False(waits.TryAdvanceTo(At(3), ref events));
-        Assert.Equal((before, waits.Standing!.At - SimDuration.OneTick), (waits.EventsProcessed, waits.SimulatedTo)); // it does nothing meanwhile
+        Assert.Equal((before, waits.Blocked!.At - SimDuration.OneTick), (waits.EventsProcessed, waits.SimulatedTo)); // it does nothing meanwhile
         Assert.InRange(waits.SimulatedTo.ToSeconds(), 0.49, 0.51);
         Assert.Equal(SubmitResult.Queued, waits.Submit(ExternalEvent.SetVelocity(At(2), 1, 2, Second, V(0)))); // of no help
-        Assert.NotNull(waits.Standing);
+        Assert.NotNull(waits.Blocked);
         waits.Submit(gone);
         inTime.Submit(ExternalEvent.SetVelocity(At(2), 1, 2, Second, V(0)));
         Assert.True(waits.TryAdvanceTo(At(3), ref events));
-        Assert.Null(waits.Standing);
+        Assert.Null(waits.Blocked);
         Assert.Equal(inTime.StateHash(At(3)), waits.StateHash(At(3)));
         Assert.Equal(inTime.EventHash(At(3)), waits.EventHash(At(3)));
     }
