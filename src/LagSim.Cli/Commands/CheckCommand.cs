@@ -49,7 +49,6 @@ internal static class CheckCommand
             (int from, int to) = Peers(parsed.GetValue(peers)!);
             CheckOptions options = new()
             {
-                Pits = true,
                 Sessions = parsed.GetValue(sessions),
                 Seed = parsed.GetValue(common.Seed),
                 FromPeers = from,

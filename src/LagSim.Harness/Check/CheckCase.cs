@@ -70,7 +70,7 @@ internal sealed class CheckCase
         Seed = seed;
         SeededRandom random = new(seed);
         double sort = random.Fork(SortStream).NextDouble() * 100; // a stream of its own: all other sessions are what they would be without
-        bool isPit = options.Pits && sort >= 100 - PitPercent;
+        bool isPit = sort >= 100 - PitPercent;
         isHeap = sort < HeapPercent || isPit;
         DrawPlayers(random.Fork(1), options);
         DrawTrouble(random.Fork(TroubleStream), options);

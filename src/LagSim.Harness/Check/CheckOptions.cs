@@ -54,7 +54,4 @@ public sealed record CheckOptions
 
     /// <summary>Gets each peer's number in its session and its world, when the world has just been made: for faults put in on purpose.</summary>
     internal Action<int, Simulation>? Prepare { get; init; }
-
-    /// <summary>Whether so many sessions have a heap in a pit that with the others a third have heaps; default no. The tool draws them.</summary>
-    public bool Pits { get; init; }
 }

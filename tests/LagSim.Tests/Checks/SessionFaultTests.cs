@@ -9,7 +9,7 @@ namespace LagSim.Tests.Checks;
 public sealed class SessionFaultTests
 {
     [Theory]
-    [InlineData(SessionFault.ForgetsTooEarly, 40u)]
+    [InlineData(SessionFault.ForgetsTooEarly, 49u)]
     [InlineData(SessionFault.DropsWhenMerging, 3u)]
     [InlineData(SessionFault.DropsWhenMerging, 18u)]
     [InlineData(SessionFault.DropsWhenMerging, 37u)]

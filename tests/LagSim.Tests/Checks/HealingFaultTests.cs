@@ -1,0 +1,101 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Harness.Check;
+using LagSim.Timelines;
+using Xunit;
+
+namespace LagSim.Tests.Checks;
+
+/// <summary>Ways to heal that are known to be wrong: <c>check</c> catches each, shrinks what it caught, and lets the same session pass without it.</summary>
+public sealed class HealingFaultTests
+{
+    [Fact]
+    public void Run_CutsByTime_IsCaughtAndShrunkToTwoDeedsOfOneTick()
+    {
+        CheckOptions options = new() { Sessions = 1, Seed = 2, Strategy = "full-rollback", Prepare = static (_, simulation) => simulation.CutsByTime = true };
+        CheckReport report = Run(options);
+        CheckFailure failure = Assert.Single(report.Failures);
+        Assert.True(failure.Least.Deeds.Count == 2 && failure.Least.Bodies.Count <= 2, failure.Command);
+        Assert.StartsWith("lagsim check --seed 2 --sessions 1 --strategy full-rollback --bodies ", failure.Command, StringComparison.Ordinal);
+        AssertLeast(failure.Least, options);
+        CheckCase least = new(2, options with { Bodies = failure.Least.Bodies, Events = failure.Least.Deeds });
+        Assert.Single(least.DeedIndices.Select(i => least.Deeds[i].AtSeconds).Distinct());
+
+        // What it names plays again to the same; without the fault it does not fail.
+        CheckOptions again = options with { Bodies = failure.Least.Bodies, Events = failure.Least.Deeds, ShrinkingPlays = 0 };
+        Assert.Equal(failure.Least.Difference, Run(again).Failures.Single().Whole.Difference);
+        Assert.Empty(Run(again with { Prepare = null }).Failures);
+    }
+
+    private static void AssertLeast(CheckOutcome least, CheckOptions options)
+    {
+        foreach (int deed in least.Deeds)
+        {
+            Assert.Null(Failure(least.Bodies, [.. least.Deeds.Where(d => d != deed)]));
+        }
+
+        foreach (int body in least.Bodies)
+        {
+            Assert.True(least.Bodies.Count == 1 || Failure([.. least.Bodies.Where(b => b != body)], least.Deeds) is null);
+        }
+
+        string? Failure(IReadOnlyList<int> bodies, IReadOnlyList<int> deeds) =>
+            CheckSession.Play(least.Seed, options with { Bodies = bodies, Events = deeds }, TestContext.Current.CancellationToken).Failure;
+    }
+
+    [Fact]
+    public void Run_OperandsSwappedOnOnePeer_IsCaughtThere()
+    {
+        CheckOptions options = new() { Sessions = 4, ShrinkingPlays = 0, Prepare = static (peer, simulation) => simulation.SwapsOperands = peer == 1 };
+        CheckReport report = Run(options);
+        Assert.NotEmpty(report.Failures);
+        Assert.All(report.Failures, f => Assert.True(f.Whole.Difference is null || f.Whole.Difference.Peer == 1));
+        FirstDifference first = report.Failures.Select(f => f.Whole.Difference).First(d => d is not null)!;
+        Assert.Equal(EventKind.Impact, first.ExpectedKey!.Value.Kind);
+        Assert.NotEqual((first.ExpectedKey, first.Expected.Position), (first.ActualKey, first.Actual.Position));
+    }
+
+    [Theory]
+    [InlineData(HealingFault.ForgetsThePast, 3u)]
+    [InlineData(HealingFault.OverlooksWhoIsAhead, 4u)]
+    [InlineData(HealingFault.GivesUpByBody, 15u)]
+    [InlineData(HealingFault.DropsEvents, 2u)]
+    [InlineData(HealingFault.LeavesMates, 29u)]
+    [InlineData(HealingFault.CutsByTime, 2u)]
+    [InlineData(HealingFault.LeavesWhoRests, 29u)]
+    [InlineData(HealingFault.CutsMembersAlone, 4u)]
+    [InlineData(HealingFault.ForgetsWhoWasLookedAt, 4u)]
+    internal void Run_HealingInAWayKnownToBeWrong_IsCaughtByItsSeed(HealingFault fault, uint seed)
+    {
+        // The seeds that docs/HEALING.md names.
+        CheckOptions options = new() { Sessions = 1, Seed = seed, ShrinkingPlays = 0, Prepare = (_, simulation) => simulation.Fault = fault };
+        CheckOutcome failed = Assert.Single(Run(options).Failures).Whole;
+        Assert.True(failed.DifferingBits > 0 && failed.Difference is not null, failed.Failure);
+    }
+
+    [Theory]
+    [InlineData(2u)]
+    [InlineData(3u)]
+    [InlineData(4u)]
+    [InlineData(15u)]
+    [InlineData(29u)]
+    public void Run_SameSeedWithoutAFault_Passes(uint seed) =>
+        Assert.Empty(Run(new CheckOptions { Sessions = 1, Seed = seed, ShrinkingPlays = 0 }).Failures); // it is the fault that is caught
+
+    [Theory]
+    [InlineData(true, 44)]
+    [InlineData(false, 35)]
+    public void Run_PeriodicBoxOrOrbits_PassesAndCatchesAFault(bool isBox, ulong seed)
+    {
+        CheckOptions options = new() { Sessions = 1, Seed = seed, ShrinkingPlays = 0 };
+        CheckReport right = Run(options);
+        Assert.Empty(right.Failures);
+        Assert.Equal((isBox ? 1 : 0, isBox ? 0 : 1), (right.SessionsThatMet(m => m.PeriodicBox), right.SessionsThatMet(m => m.ClosedOrbit)));
+        CheckReport wrong = Run(options with { Prepare = static (_, simulation) => simulation.Fault = HealingFault.ForgetsThePast });
+        Assert.True(Assert.Single(wrong.Failures).Whole.DifferingBits > 0);
+    }
+
+    private static CheckReport Run(CheckOptions options) => InvariantCheck.Run(options, null, TestContext.Current.CancellationToken);
+}
