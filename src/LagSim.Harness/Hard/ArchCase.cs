@@ -23,9 +23,6 @@ internal sealed class ArchCase : IHardCase
 {
     private const double Tolerance = 1e-6, Radius = 0.5;
 
-    /// <summary>The part of d that sweeps leave a contact to close by, or to slip by, in a step.</summary>
-    private const double Sweep = 0.005;
-
     /// <summary>How near to the edge of falling all of it stands.</summary>
     private const double Near = 0.01;
 
@@ -85,7 +82,7 @@ internal sealed class ArchCase : IHardCase
 
         HardRow Stays(string what, double asked, Scene scene, int contacts) => new(
             Name, FormattableString.Invariant($"{what} {part} of {asked:0.0000}, {Seconds(context)} s"),
-            Drift(context.Run(scene, Seconds(context)), Seconds(context)), "drift_m", contacts * 2 * Sweep / Near * Tolerance,
+            Drift(context.Run(scene, Seconds(context)), Seconds(context)), "drift_m", contacts * 2 * ContactSteps.Sweep / Near * Tolerance,
             "0.005 d, 1e-6 m, which sweeps leave each contact to close by in a step, and as much to slip by; a hundredth from the edge"
                 + " a sweep makes up a hundredth of what is lacking, so that what is left sums to a hundred times that: d a contact",
             "what statics asks for of friction, or of rolling resistance");
@@ -228,12 +225,12 @@ internal sealed class ArchCase : IHardCase
         string size = FormattableString.Invariant($"an inverted hanging chain of {(2 * side) + 1}, {seconds} s");
         yield return new HardRow(
             Name, size, Drift(simulation, seconds), "drift_m", contacts * ContactSteps.Closing * Tolerance,
-            "a tenth of d, 1e-6 m, a contact: sweeps leave it to close by half of that, and a step later it is put right", "nothing moves");
+            "a tenth of d, 1e-6 m, a contact: a step leaves it to close by half of that at most, and a step later it is put right", "nothing moves");
         yield return new HardRow(
             Name, size, Math.Abs((sum / (steps * step) / (side * Gravity)) - 1), "thrust_relative",
             Allowed(side) + (ContactSteps.Closing * Tolerance / step / Watched / Gravity),
             "what rolling resistance c allows by statics, of the two links that allow least: c (1/cos t + 1/cos t') / (sum of the sines"
-                + " - c (cos t + cos t')); and the 0.05 d a step at which sweeps leave it, at both ends of the half second that is watched",
+                + " - c (cos t + cos t')); and the 0.05 d at which a step leaves it, at both ends of the half second that is watched",
             "the weight above a link over its tangent");
     }
 

@@ -169,7 +169,7 @@ internal sealed class ColumnCase : IHardCase
         yield return new HardRow(
             Name, size, amiss, "force_over_weight_above",
             part * ((ContactSteps.Closing * Standing / step / Watched / Gravity) + (2 * most / Radius)),
-            "the 0.05 d a step at which sweeps leave what is above, at both ends of the half second that is watched, and the turning of two"
+            "the 0.05 d at which a step leaves what is above, at both ends of the half second that is watched, and the turning of two"
                 + " lines of centres by that drift; for the weight, and for its two parts along a wall",
             "the weight above, and times the tangent of a line of centres");
     }
@@ -225,10 +225,10 @@ internal sealed class ColumnCase : IHardCase
         string size = FormattableString.Invariant($"{balls} in a row down a slope, {what} {1 + nearness} of what holds, {seconds} s");
         yield return nearness > 0 ? new HardRow(
             Name, size, off, "drift_m", contacts * ContactSteps.Closing * Sliding,
-            "a tenth of d, 1e-7 m, a contact: sweeps leave it to close by half of that, and a step later it is put right", "nothing moves")
+            "a tenth of d, 1e-7 m, a contact: a step leaves it to close by half of that at most, and a step later it is put right", "nothing moves")
             : new HardRow(
                 Name, size, off, "position_m", (speed * seconds) + Sliding,
-                "as a speed, for as long as is watched, 0.05 d a step of each contact, which sweeps leave, and the friction of the first"
+                "as a speed, for as long as is watched, 0.05 d a step of each contact, as much as it may leave, and the friction of the first"
                     + " half step; and d, 1e-7 m",
                 rolls ? "(n g sin a - c g cos a)/(n + 2/5) t^2/2" : "(g sin a - mu g cos a/n) t^2/2");
         double turning = rolls && nearness < 0 ? a * seconds / Radius : 0;

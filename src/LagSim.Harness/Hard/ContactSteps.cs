@@ -20,6 +20,9 @@ internal static class ContactSteps
     /// off.</summary>
     internal const double Closing = 0.1;
 
+    /// <summary>The part of d by which sweeps alone leave a contact to close, or to slip, in a step.</summary>
+    internal const double Sweep = 0.005;
+
     /// <summary>What is pressed together where a scene has no gravity: by 1 m/s².</summary>
     internal const double PullWithoutGravity = 1;
 

@@ -172,7 +172,7 @@ internal sealed class DomeCase : IHardCase
         double off = (turn * turn * Reach / 2) + (0.25 * d) + (ContactSteps.Closing / 2 * d);
         yield return new HardRow(
             Name, size, seen.Off, "distance_m", off,
-            "a chord leads away by (v h)^2/(2 R), it is let go d/4 off, and 0.05 d is what sweeps leave; no drift is added from step to"
+            "a chord leads away by (v h)^2/(2 R), it is let go d/4 off, and 0.05 d is what a step may leave; no drift is added from step to"
                 + " step", "the sum of the radii");
         double place = off + (Reach * leaves * growth * Length(start) * growth * step * growth * step / 24);
         yield return new HardRow(

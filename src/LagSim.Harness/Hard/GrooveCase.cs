@@ -84,7 +84,7 @@ internal sealed class GrooveCase : IHardCase
         string law = nearness >= 0 ? "g sin b/(1 + 2/5/cos^2 t)" : "g sin b - mu g cos b/cos t";
         yield return new HardRow(
             Name, size, (state.Position - V(0, Radius / arm, way)).Length, "position_m", (speed * Seconds) + tolerance,
-            "as a speed, for as long as is watched, 0.05 d a step of each of two contacts, which sweeps leave: what one lacks in a step it"
+            "as a speed, for as long as is watched, 0.05 d a step of each of two contacts, as much as it may leave: what one lacks in a step it"
                 + " has in the next;"
                 + " the friction of the first half step, in which there is no slip yet to be along; and d, 1e-6 m",
             law + " t^2/2");

@@ -183,7 +183,7 @@ internal sealed class HeapCase : IHardCase
         double drift = Enumerable.Range(0, 3).Max(n => (Read(simulation, n, 3).Position - scene.Bodies[n].Position).Length);
         return new HardRow(
             Name, FormattableString.Invariant($"a ball on two, mu {friction}, 3 s"), drift, "drift_m", 4 * ContactSteps.Closing * Standing,
-            "a tenth of d, 1e-6 m, for each of four contacts: sweeps leave one to close by half of that, and a step later it is put"
+            "a tenth of d, 1e-6 m, for each of four contacts: a step leaves one to close by half of that at most, and a step later it is put"
                 + " right", "they stay where mu is at least tan 15 degrees, 0.268");
     }
 
@@ -234,11 +234,11 @@ internal sealed class HeapCase : IHardCase
         string size = FormattableString.Invariant($"a pyramid of {pyramid.Bodies.Count}, mu {friction}, {seconds} s");
         drift = isStepped ? drift : double.NaN;
         yield return new HardRow(Name, size, drift, "drift_m", most,
-            "a tenth of d, 1e-7 m, a layer: sweeps leave a contact to close by half of that, and a step later it is put right",
+            "a tenth of d, 1e-7 m, a layer: a step leaves a contact to close by half of that at most, and a step later it is put right",
             "nothing moves; NaN where no steps were taken");
         yield return new HardRow(
             Name, size, momentum, "momentum_s", ContactSteps.Closing / 2 * OfPyramid / step / Gravity,
-            "each ball at the 0.05 d in a step that sweeps leave", "forces that sum to the weight leave no momentum");
+            "each ball at the 0.05 d that a step may leave", "forces that sum to the weight leave no momentum");
         yield return new HardRow(
             Name, size, gain, "energy_gain_relative_standing", weight * most / start,
             "all of it lifted by as much as it may drift", "the energy at the start");

@@ -144,7 +144,7 @@ internal sealed class IslandEnergyCase : IHardCase
             "(omega h)^2/24 of the phase, and an eighth of the square of the swing's size", "v sin(omega t)/omega");
         yield return new HardRow(
             Name, size, seen.Apart, "distance_m", closing,
-            "a tenth of d: sweeps leave a contact to close by half of that, and a step later it is put right; no drift is added from step"
+            "a tenth of d: a step leaves a contact to close by half of that at most, and a step later it is put right; no drift is added from step"
                 + " to step", "the radii");
     }
 

@@ -142,7 +142,7 @@ internal sealed class RestCase : IHardCase
         string size = FormattableString.Invariant($"{what}, {seconds} s");
         double drift = ContactSteps.Closing * Tolerance * contacts;
         yield return new HardRow(
-            Name, size, seen.Drift, "drift_m", drift, "a tenth of d, 1e-5 m, a contact: sweeps leave it to close by half of that, and a"
+            Name, size, seen.Drift, "drift_m", drift, "a tenth of d, 1e-5 m, a contact: a step leaves it to close by half of that at most, and a"
                 + " step later it is put right",
             "nothing moves");
         yield return new HardRow(
