@@ -42,7 +42,10 @@ public sealed partial class Simulation
         return residual;
     }
 
-    /// <summary>Finds contacts from body to body: those that are struck, and where all collapses also what touches.</summary>
+    /// <summary>
+    /// Finds contacts from body to body: those that are struck, and where all collapses also what touches, of bodies those alone that one impact of this instant struck. Of another
+    /// that is near a heal would not know that it was looked at.
+    /// </summary>
     private void Follow(int slot, in EventKey key, bool collapses)
     {
         partyCount = 0;
@@ -78,7 +81,7 @@ public sealed partial class Simulation
                 if (!now && collapses && RoundAfter(then, key.Time) <= key.Round && timelines.Segment(then).IsPresent)
                 {
                     // What was struck in this very round already is not struck in it again.
-                    now = !(IsHeld(then) && IsHeld(timelines.Last(party))) && IsTouching(party, other, then, key.Time, out contact);
+                    now = WereStruck(timelines.Last(party), then, key.Time) && IsTouching(party, other, then, key.Time, out contact);
                 }
 
                 if (now)
@@ -104,6 +107,24 @@ public sealed partial class Simulation
     /// <summary>The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits whoever asks.</summary>
     private double Gap(int slot, int piece, int other, int otherPiece, SimTime time) =>
         Scene.Box.Nearest(PositionAt(piece, time) - PositionAt(otherPiece, time)).Length - (bodies[slot].Spec.Radius + bodies[other].Spec.Radius);
+
+    /// <summary>Whether two came to these pieces of their paths by impacts of this instant, and by one of them together.</summary>
+    private bool WereStruck(int first, int second, SimTime time)
+    {
+        while (first != TimelineStore.None && second != TimelineStore.None && timelines.Key(first).Time == time && timelines.Key(second).Time == time)
+        {
+            int order = EventKey.Compare(timelines.Key(first), timelines.Key(second));
+            if (order == 0)
+            {
+                return timelines.Key(first).Kind == EventKind.Impact;
+            }
+
+            first = order > 0 ? timelines.Previous(first) : first;
+            second = order < 0 ? timelines.Previous(second) : second;
+        }
+
+        return false;
+    }
 
     private bool IsTouching(int slot, int other, int piece, SimTime time, out ContactTime contact)
     {
