@@ -43,8 +43,8 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// Finds contacts from body to body: those that are struck, and where all collapses also what touches, of bodies those alone that one impact of this instant struck. Of another
-    /// that is near a heal would not know that it was looked at.
+    /// Finds contacts from body to body: those that are struck. In a collapse also surfaces that a body touches, and bodies that it touches if one impact of this
+    /// instant struck both. A heal would not know that a body that merely touches was looked at.
     /// </summary>
     private void Follow(int slot, in EventKey key, bool collapses)
     {
@@ -81,7 +81,8 @@ public sealed partial class Simulation
                 if (!now && collapses && RoundAfter(then, key.Time) <= key.Round && timelines.Segment(then).IsPresent)
                 {
                     // What was struck in this very round already is not struck in it again.
-                    now = WereStruck(timelines.Last(party), then, key.Time) && IsTouching(party, other, then, key.Time, out contact);
+                    now = !(IsHeld(then) && IsHeld(timelines.Last(party))) && WereStruck(timelines.Last(party), then, key.Time)
+                        && IsTouching(party, other, then, key.Time, out contact);
                 }
 
                 if (now)

@@ -39,7 +39,7 @@ public sealed class InvariantCheckTests
         Assert.True(met.Zip([5, 4, 2, 10, 5, 2, 3, 4, 4, 10, 4, 4, 6]).All(pair => pair.First >= pair.Second), string.Join(' ', met));
     }
 
-    /// <summary>Once a collapse took in whoever touched; a heal that moved one of those away did not know that the collapse had looked at it.</summary>
+    /// <summary>A collapse takes in only bodies that one impact struck. When it took in every body that touched, a heal that moved one of them missed the collapse.</summary>
     [Fact]
     public void Run_CollapseInAHeap_IsHealed() => Assert.Empty(Run(new CheckOptions { Sessions = 1, Seed = 20_006, ShrinkingPlays = 0 }).Failures);
 

@@ -89,7 +89,7 @@ public sealed class InvariantTests
         });
     }
 
-    /// <summary>The first instant happens as a whole, whoever would stop it: before it there is nothing to read.</summary>
+    /// <summary>The first instant always happens as a whole, because there is nothing to read before it.</summary>
     [Fact]
     public void Start_IsNotStoppedWithin()
     {
