@@ -31,7 +31,7 @@ public sealed partial class Simulation
     /// </summary>
     private bool IsAlone(int slot, in EventKey key)
     {
-        bool isPlain = front == SimTime.MinValue && key.Round < CollapseRound
+        bool isPlain = front == SimTime.MinValue && key.Round < 2
             && (!bodies[slot].IsTied || IgnoresTies) && flights.IsFree(slot) && !TakesNoShortcut && !SwapsOperands;
         int other = bodies[slot].Partner;
         return isPlain && (other == NoPartner
@@ -83,7 +83,7 @@ public sealed partial class Simulation
             flights.StateAt(parties[i], key.Time, residual, out partyPositions[i], out partyVelocities[i]);
         }
 
-        SetTargets(key.Round);
+        SetTargets(collapses: false, key.Time);
         if (contacts[0].Lasts)
         {
             return false;

@@ -12,15 +12,16 @@ public sealed partial class Simulation
 {
     /// <summary>
     /// All contacts of this tick and round that share bodies with the first, and the bodies as they meet, in canonical order. Returns the
-    /// seconds from the tick to the impact.
+    /// seconds from the tick to the impact. Contacts that were struck in this instant already are among them if one of those is struck again.
     /// </summary>
-    private double Gather(int slot, in EventKey key)
+    private double Gather(int slot, in EventKey key, out bool collapses)
     {
-        bool collapses = key.Round >= CollapseRound;
-        Follow(slot, key, collapses);
-        if (collapses && ahead.Count == 0 && IsElastic())
+        bool mayCollapse = key.Round >= 2 && !NeverCollapses;
+        Follow(slot, key, mayCollapse);
+        collapses = mayCollapse && ahead.Count == 0 && Collapses(key.Time);
+        if (mayCollapse && ahead.Count == 0 && !collapses)
         {
-            Follow(slot, key, collapses: false); // what loses nothing is followed however often it is struck
+            Follow(slot, key, withStruckBefore: false);
         }
 
         if (ahead.Count > 0)
@@ -36,6 +37,7 @@ public sealed partial class Simulation
         for (int i = 0; i < contactCount; i++)
         {
             residual = contacts[i].IsStruck ? Math.Min(residual, contacts[i].Time.Residual) : residual;
+            contacts[i].IsStruck = true;
         }
 
         EvaluateParties(key.Time, residual);
@@ -43,10 +45,10 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// Finds contacts from body to body: those that are struck. In a collapse also surfaces that a body touches, and bodies that it touches if one impact of this
-    /// instant struck both. A heal would not know that a body that merely touches was looked at.
+    /// Finds contacts from body to body: those that are struck, and if so asked those that were struck in this instant already. Whoever of the bodies it begins at,
+    /// it finds the same, so two impacts of one round have no body in common. Bodies that merely touch are left out, for a heal would not know that they were looked at.
     /// </summary>
-    private void Follow(int slot, in EventKey key, bool collapses)
+    private void Follow(int slot, in EventKey key, bool withStruckBefore)
     {
         partyCount = 0;
         contactCount = 0;
@@ -57,10 +59,10 @@ public sealed partial class Simulation
             int party = parties[i];
             for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
             {
-                bool now = TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
-                if (now || (collapses && IsTouching(party, surface, key.Time, out contact)))
+                bool isStruck = TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
+                if (isStruck || (withStruckBefore && WasStruckBefore(party, surface, key.Time, out contact)))
                 {
-                    AddContact(new ContactPoint(i, ContactPoint.Static, surface, contact));
+                    AddContact(new ContactPoint(i, ContactPoint.Static, surface, contact) { IsStruck = isStruck });
                 }
             }
 
@@ -77,15 +79,8 @@ public sealed partial class Simulation
                     continue;
                 }
 
-                bool now = TryTouchBody(party, other, then, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
-                if (!now && collapses && RoundAfter(then, key.Time) <= key.Round && timelines.Segment(then).IsPresent)
-                {
-                    // What was struck in this very round already is not struck in it again.
-                    now = !(IsHeld(then) && IsHeld(timelines.Last(party))) && WereStruck(timelines.Last(party), then, key.Time)
-                        && IsTouching(party, other, then, key.Time, out contact);
-                }
-
-                if (now)
+                bool isStruck = TryTouchBody(party, other, then, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
+                if (isStruck || (withStruckBefore && RoundAfter(then, key.Time) <= key.Round && WereStruckBefore(party, other, then, key.Time, out contact)))
                 {
                     if (then != timelines.Last(other))
                     {
@@ -98,7 +93,7 @@ public sealed partial class Simulation
                     {
                         j = j < 0 ? AddParty(other) : j;
                         bool ordered = bodies[party].Id < bodies[other].Id != SwapsOperands;
-                        AddContact(new ContactPoint(ordered ? i : j, ordered ? j : i, -1, contact));
+                        AddContact(new ContactPoint(ordered ? i : j, ordered ? j : i, -1, contact) { IsStruck = isStruck });
                     }
                 }
             }
@@ -108,37 +103,6 @@ public sealed partial class Simulation
     /// <summary>The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits whoever asks.</summary>
     private double Gap(int slot, int piece, int other, int otherPiece, SimTime time) =>
         Scene.Box.Nearest(PositionAt(piece, time) - PositionAt(otherPiece, time)).Length - (bodies[slot].Spec.Radius + bodies[other].Spec.Radius);
-
-    /// <summary>Whether two came to these pieces of their paths by impacts of this instant, and by one of them together.</summary>
-    private bool WereStruck(int first, int second, SimTime time)
-    {
-        while (first != TimelineStore.None && second != TimelineStore.None && timelines.Key(first).Time == time && timelines.Key(second).Time == time)
-        {
-            int order = EventKey.Compare(timelines.Key(first), timelines.Key(second));
-            if (order == 0)
-            {
-                return timelines.Key(first).Kind == EventKind.Impact;
-            }
-
-            first = order > 0 ? timelines.Previous(first) : first;
-            second = order < 0 ? timelines.Previous(second) : second;
-        }
-
-        return false;
-    }
-
-    private bool IsTouching(int slot, int other, int piece, SimTime time, out ContactTime contact)
-    {
-        ContactTime.TryMake(time, time, 0, out contact);
-        return Gap(slot, timelines.Last(slot), other, piece, time) <= Scene.Resolution;
-    }
-
-    private bool IsTouching(int slot, int surface, SimTime time, out ContactTime contact)
-    {
-        ContactTime.TryMake(time, time, 0, out contact);
-        int last = timelines.Last(slot);
-        return SurfaceGap(surface, PositionAt(last, time), bodies[slot].Spec.Radius) <= Scene.Resolution && !IsHeld(last);
-    }
 
     private int PartyOf(int slot) => Array.IndexOf(parties, slot, 0, partyCount);
 

@@ -46,13 +46,13 @@ public sealed partial class Simulation
             throw Endless(slot, key.Time);
         }
 
-        double residual = Gather(slot, key);
+        double residual = Gather(slot, key, out bool collapses);
         if (TryTakeBack(key))
         {
             return false;
         }
 
-        SetTargets(key.Round);
+        SetTargets(collapses, key.Time);
         lookedAt.Clear();
         bool givesWay = true;
         if (HasHand() && !TrySpread(key, residual, presses: true, out givesWay))
@@ -74,14 +74,13 @@ public sealed partial class Simulation
         int struck = contactCount;
         AddSupports();
         solver.Solve(contacts.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount), partyVelocities.AsSpan(0, partyCount));
-        if (key.Round >= 2 * CollapseRound && !IsElastic())
+        if (!collapses)
+        {
+            Rub(); // a collapse is only to end
+        }
+        else if (StillCloses())
         {
             Unite();
-        }
-
-        if (key.Round < CollapseRound)
-        {
-            Rub(); // from there on a tick is only to end
         }
 
         LimitSpeeds();
@@ -96,16 +95,15 @@ public sealed partial class Simulation
         return true;
     }
 
-    /// <summary>Whether no contact of the impact at hand may take energy; where there is a hand, that gives and takes.</summary>
-    private bool IsElastic()
+    private bool StillCloses()
     {
-        bool isElastic = !HasHand();
-        for (int i = 0; i < contactCount && isElastic; i++)
+        bool closes = false;
+        for (int i = 0; i < contactCount && !closes; i++)
         {
-            isElastic = Restitution(contacts[i]) == 1;
+            closes = ImpactSolver.Opening(contacts[i], partyVelocities) < -CollapseSpeed;
         }
 
-        return isElastic;
+        return closes;
     }
 
     /// <summary>
@@ -173,19 +171,18 @@ public sealed partial class Simulation
         partyRadii[party] = bodies[parties[party]].Spec.Radius;
     }
 
-    private void SetTargets(uint round)
+    private void SetTargets(bool collapses, SimTime time)
     {
-        bool collapses = round >= CollapseRound && !IsElastic();
         for (int i = 0; i < contactCount; i++)
         {
             ref ContactPoint c = ref contacts[i];
             c.Normal = NormalOf(c);
             double closing = Math.Max(0, -ImpactSolver.Opening(c, partyVelocities));
             double restitution = Restitution(c);
-            c.Restored = collapses ? 0 : restitution * closing;
-            c.Lasts = IsLast(c, restitution, c.Restored);
-            c.Restored = c.Lasts ? 0 : c.Restored;
-            c.Target = collapses || c.Lasts ? 0 : Math.Max(c.Restored, LeastTarget(c));
+            bool isLast = collapses && WasStruck(c, time);
+            double rebound = isLast ? 0 : restitution * closing;
+            c.Lasts = IsLast(c, restitution, rebound) || (isLast && HasMember(c));
+            c.Target = c.Lasts ? 0 : rebound;
         }
     }
 
@@ -199,9 +196,6 @@ public sealed partial class Simulation
     private Vector3D NormalOf(in ContactPoint c) => c.Second == ContactPoint.Static
         ? SurfaceNormal(c.Surface, partyPositions[c.First])
         : Direction(Scene.Box.Nearest(partyPositions[c.First] - partyPositions[c.Second]));
-
-    /// <summary>The least speed in m/s at which the two of a struck contact part: none on a plane that may carry, else what parts them at all.</summary>
-    private double LeastTarget(in ContactPoint c) => IsSupportable(c) && Vector3D.Dot(c.Normal, Scene.Gravity) < 0 ? 0 : step.Scale.LeastRebound;
 
     /// <summary>The lesser of the two parties' restitutions: a material behaves as named against anything more elastic.</summary>
     private double Restitution(in ContactPoint c)

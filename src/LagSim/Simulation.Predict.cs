@@ -12,12 +12,9 @@ namespace LagSim;
 public sealed partial class Simulation
 {
     /// <summary>
-    /// From this round on a tick holds an inelastic collapse, or a body squeezed between others: its limit is taken. All that touch are
-    /// solved together without restitution, and what still closes slower than <see cref="CollapseSpeed"/> is asked for again only after
-    /// <see cref="CollapseWait"/>.
+    /// What closes again in the instant in which it bounced, and slower than this, in m/s, waits for <see cref="CollapseWait"/>. What parts slower than this may as well
+    /// be said to close: rounding decides.
     /// </summary>
-    private const uint CollapseRound = 64;
-
     private const double CollapseSpeed = 1e-6;
 
     private static readonly SimDuration CollapseWait = SimDuration.FromTicks(1L << 20);
@@ -132,7 +129,9 @@ public sealed partial class Simulation
             Vector3D velocity = VelocityAt(last, contact);
             double reach = isPlane ? double.PositiveInfinity : bodies[slot].Spec.Radius + Scene.SphereArray[surface - Scene.PlaneArray.Length].Radius;
             double pressing = -Vector3D.Dot(normal, AccelerationAt(last, contact)) - FallingAway(normal, velocity, reach);
-            from = LookAgain(opened, round, -Vector3D.Dot(normal, velocity), pressing, segment.End, segment.IsOfIsland && Holds(last, surface));
+            double closing = -Vector3D.Dot(normal, velocity);
+            bool mayWait = closing <= CollapseSpeed && WasStruck(last, surface, opened);
+            from = LookAgain(opened, mayWait, closing, pressing, segment.End, segment.IsOfIsland && Holds(last, surface));
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -260,7 +259,9 @@ public sealed partial class Simulation
             Vector3D normal = Direction(Scene.Box.Nearest(PositionAt(lastA, contact) - PositionAt(lastB, contact)));
             Vector3D velocity = VelocityAt(lastA, contact) - VelocityAt(lastB, contact);
             double pressing = -Vector3D.Dot(normal, AccelerationAt(lastA, contact) - AccelerationAt(lastB, contact)) - FallingAway(normal, velocity, reach);
-            from = LookAgain(opened, round, -Vector3D.Dot(normal, velocity), pressing, until, HoldTogether(a, lastA, b, lastB));
+            double closing = -Vector3D.Dot(normal, velocity);
+            bool mayWait = closing <= CollapseSpeed && WereStruck(lastA, lastB, opened);
+            from = LookAgain(opened, mayWait, closing, pressing, until, HoldTogether(a, lastA, b, lastB));
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -279,7 +280,7 @@ public sealed partial class Simulation
     /// it holds, that it is a thousandth of the resolution deep, or of the contact tolerance a twentieth, only after <see cref="CollapseWait"/>. <paramref name="opened"/> if it cannot wait,
     /// <see cref="SimTime.MaxValue"/> if the segments end before.
     /// </summary>
-    private SimTime LookAgain(SimTime opened, uint round, double closing, double pressing, SimTime end, bool holds)
+    private SimTime LookAgain(SimTime opened, bool mayWait, double closing, double pressing, SimTime end, bool holds)
     {
         double seconds = UntilDeep(holds ? step.Scale.LookDepth : 2e-3 * Scene.Resolution, closing, pressing);
         SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
@@ -293,7 +294,7 @@ public sealed partial class Simulation
 
         if (wait < CollapseWait)
         {
-            if (round <= CollapseRound || closing > CollapseSpeed)
+            if (!mayWait)
             {
                 return opened;
             }

@@ -71,8 +71,8 @@ internal sealed class CollapseCase : IHardCase
             }
             : slowest < Resolved ? new HardRow(
                 Name, size + "above the threshold", seen.Impacts < 10_000 ? Math.Abs(seen.Apart - apart) : double.NaN, "speed_apart_m_per_s", 2e-9,
-                "the last of them close slower than can be told: no rebound of a lasting contact is slower than 1 nm/s, and there are two contacts; their"
-                    + " number cannot be told either",
+                "the last of them close slower than can be told: what closes again in the instant in which it was struck goes on together, here at less than 1 nm/s;"
+                    + " their number cannot be told either",
                 FormattableString.Invariant($"the recursion of the speeds alone: {exact} impacts, the last at {slowest:0.0e0} m/s"))
             {
                 Note = FormattableString.Invariant($"{seen.Impacts} impacts"),

@@ -16,7 +16,6 @@ internal struct ContactPoint
         Time = time;
         Normal = default;
         Target = 0;
-        Restored = 0;
         Impulse = 0;
         IsStruck = true;
         Lasts = false;
@@ -45,9 +44,6 @@ internal struct ContactPoint
 
     /// <summary>The relative normal speed after the impact where the contact pushes at all, in m/s, at least zero.</summary>
     internal double Target;
-
-    /// <summary>What of the target is restitution, in m/s; the rest is given so that a lasting contact comes to an end.</summary>
-    internal double Restored;
 
     /// <summary>What the contact exchanged along the normal, in N s; the solver sets it.</summary>
     internal double Impulse;

@@ -36,12 +36,6 @@ internal readonly struct ContactScale
     /// <summary>So long nobody of an island may have moved by the tolerance before it sleeps.</summary>
     internal static readonly SimDuration StillFor = SimDuration.FromTicks(SimDuration.TicksPerSecond / 2);
 
-    /// <summary>
-    /// Two that were struck part at this speed at least, in m/s, where nothing presses them together: bodies that touch and move as one close by rounding alone, at some
-    /// 1e-16 m/s. It takes them a tenth of a millimetre apart in a day.
-    /// </summary>
-    private const double UsualLeastRebound = 1e-9;
-
     private readonly SimTime start;
     private readonly double impactPart;
 
@@ -51,13 +45,10 @@ internal readonly struct ContactScale
     /// <param name="start">When the scene began, from which on the common clock counts.</param>
     /// <param name="impactPart">See <see cref="ImpactSpeed"/>; other than usual in a test's negative control alone, as what follows.</param>
     /// <param name="reachPart">See <see cref="ReachSpeed"/>.</param>
-    /// <param name="leastRebound">See <see cref="LeastRebound"/>.</param>
-    internal ContactScale(
-        double tolerance, in Vector3D gravity, SimTime start, double impactPart = ImpactPart, double reachPart = SweepPart, double leastRebound = UsualLeastRebound)
+    internal ContactScale(double tolerance, in Vector3D gravity, SimTime start, double impactPart = ImpactPart, double reachPart = SweepPart)
     {
         this.start = start;
         this.impactPart = impactPart;
-        LeastRebound = leastRebound;
         Length = tolerance;
         Pull = Math.Max(gravity.Length, LeastPull);
         double seconds = Math.Sqrt(2 * tolerance / Pull);
@@ -97,9 +88,6 @@ internal readonly struct ContactScale
 
     /// <summary>An impact goes on from a body to those that it holds if it changed its velocity by more than this, in m/s.</summary>
     internal double ReachSpeed { get; }
-
-    /// <summary>The speed, in m/s, at which those that were struck part at least.</summary>
-    internal double LeastRebound { get; }
 
     /// <summary>What moves slower than this, in m/s, does not move by the tolerance while it is waited for its sleep.</summary>
     internal double StillSpeed { get; }

@@ -8,9 +8,8 @@ namespace LagSim.Contacts;
 /// <para>The law, for every contact i: separation speed u_i' >= target_i, impulse p_i >= 0, and one of the two is an equality. With the
 /// targets e_i |u_i| of closing contacts this is Newton's law of restitution for each, made consistent by leaving out what would have to
 /// pull. Energy changes by -1/2 sum (1 - e_i) p_i |u_i|, so it never grows for e_i at most 1 (Moreau 1988 treats this family).</para>
-/// <para>If no velocities
-/// satisfy all targets (a body squeezed between surfaces that cannot give way), or only at an expense of energy, only restitution is asked for, and
-/// if that cannot be had either every target becomes 0, which always can.</para>
+/// <para>If no velocities satisfy all targets (a body squeezed between surfaces that cannot give way), or only at an expense of energy, every target
+/// becomes 0, which can always be had.</para>
 /// <para>Few contacts are solved exactly (<see cref="ActiveSet"/>), many, as in a heap, by <see cref="ProjectedGradients"/>. Allocates only when an impact has
 /// more contacts or bodies than any before.</para>
 /// </remarks>
@@ -89,9 +88,9 @@ internal sealed class ImpactSolver
 
     private void SolveSeveral(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, bool again)
     {
-        if (!TryMeet(contacts, masses, velocities, c => c.Target, again) && !TryMeet(contacts, masses, velocities, c => c.Restored, again: false))
+        if (!TryMeet(contacts, masses, velocities, again) && !(again && TryMeet(contacts, masses, velocities, again: false)))
         {
-            Demand(contacts, velocities, _ => 0);
+            Demand(contacts, velocities, part: 0);
             TrySolve(contacts, masses, again: false);
         }
 
@@ -147,32 +146,24 @@ internal sealed class ImpactSolver
     }
 
     /// <summary>Solves for these speeds after the impact; false if they cannot be had, or only at an expense of energy.</summary>
-    private bool TryMeet(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, Func<ContactPoint, double> target, bool again)
+    private bool TryMeet(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, bool again)
     {
-        Demand(contacts, velocities, target);
+        Demand(contacts, velocities, part: 1);
         return TrySolve(contacts, masses, again) && !IsCostly(contacts, masses, velocities);
     }
 
-    private void Demand(Span<ContactPoint> contacts, Span<Vector3D> velocities, Func<ContactPoint, double> target)
+    /// <summary>Asks for a part, all or nothing, of the targets.</summary>
+    private void Demand(Span<ContactPoint> contacts, Span<Vector3D> velocities, double part)
     {
         for (int i = 0; i < contacts.Length; i++)
         {
-            demand[i] = target(contacts[i]) - Opening(contacts[i], velocities);
+            demand[i] = (part * contacts[i].Target) - Opening(contacts[i], velocities);
         }
     }
 
-    /// <summary>
-    /// Whether the bodies would gain more energy than the speeds beyond restitution give them where they are free to part: twice the largest of
-    /// those for each. A row that just fits between two walls has almost no way to part, and would be shot out sideways for a micrometre's hop.
-    /// </summary>
+    /// <summary>Whether the bodies would gain energy, beyond rounding.</summary>
     private bool IsCostly(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities)
     {
-        double given = 0;
-        foreach (ref readonly ContactPoint c in contacts)
-        {
-            given = Math.Max(given, c.Target - c.Restored);
-        }
-
         double gain = 0;
         double allowed = 0;
         bool isPushed = false;
@@ -187,7 +178,7 @@ internal sealed class ImpactSolver
             Vector3D v = velocities[b];
             Vector3D d = change[b];
             gain += masses[b] * (Vector3D.Dot(v, d) + (0.5 * d.LengthSquared));
-            allowed += masses[b] * ((2 * given * given) + (Rounding * ((v.Length * d.Length) + d.LengthSquared)));
+            allowed += masses[b] * (Rounding * ((v.Length * d.Length) + d.LengthSquared));
         }
 
         if (isPushed)

@@ -84,7 +84,7 @@ internal sealed class UnlikeMassSolver
         for (int i = 0; i < problem.ContactCount; i++)
         {
             ref readonly SolverContact c = ref problem.Contacts[i];
-            points[i] = new ContactPoint(c.First, c.Second, c.Surface, default) { Normal = c.Normal, Target = c.Target, Restored = c.Target };
+            points[i] = new ContactPoint(c.First, c.Second, c.Surface, default) { Normal = c.Normal, Target = c.Target };
             rubs[i] = new Rub { Friction = c.Friction, Lever = c.Lever };
         }
     }

@@ -30,12 +30,12 @@ public sealed class BudgetTests
         Check(hasBudget, late, group);
     }
 
-    /// <summary>It is sent away, though it kept nobody waiting: while it falls a heap of 64 takes a third of a core, and that is more than one player may cost.</summary>
+    /// <summary>While it falls a heap of 64 takes a third of a core: others wait a moment, he is sent away within 1.5 s, and within 2 s more nobody waits.</summary>
     [Fact]
     public void Step_AHeapOfAllHisBodies_IsSentAway()
     {
         (double late, SessionGroup group) = Play(hasBudget: true, Heap);
-        Check(hasBudget: true, late, group);
+        Check(hasBudget: true, late, group, mayKeepWaiting: true);
     }
 
     /// <summary>The control: on a machine that is far too slow for it a heap does freeze the world.</summary>
@@ -218,7 +218,7 @@ public sealed class BudgetTests
         return group;
     }
 
-    private static void Check(bool hasBudget, double late, SessionGroup group)
+    private static void Check(bool hasBudget, double late, SessionGroup group, bool mayKeepWaiting = false)
     {
         if (!hasBudget)
         {
@@ -226,10 +226,12 @@ public sealed class BudgetTests
             return;
         }
 
-        Assert.True(late < 0.25, $"{late} s");
+        Assert.True(late < (mayKeepWaiting ? 0.5 : 0.25), $"{late} s");
         Assert.Equal(1, group.Host.JoinerCount);
         byte gone = group.Sessions[1].Peer;
-        group.Run(2.5);
+        group.Run(2);
+        Assert.True(Late(group) < 0.25, $"{Late(group)} s");
+        group.Run(0.5);
         foreach (Session session in new[] { group.Sessions[0], group.Sessions[2] })
         {
             Assert.Equal((SessionState.Running, 0L, session != group.Host), (session.State, session.Counters.StatesDiffered, session.Counters.StatesAgreed > 1));
@@ -252,11 +254,15 @@ public sealed class BudgetTests
             }
 
             group.Run(0.01);
-            late = Math.Max(late, new[] { group.Sessions[0], group.Sessions[2] }.Max(s => (s.SharedTime.Now - s.World!.Simulation.Horizon).ToSeconds()));
+            late = Math.Max(late, Late(group));
         }
 
         return (late, group);
     }
+
+    /// <summary>How far behind the shared time the worlds of the others are, in seconds.</summary>
+    private static double Late(SessionGroup group) =>
+        new[] { group.Sessions[0], group.Sessions[2] }.Max(s => (s.SharedTime.Now - s.World!.Simulation.Horizon).ToSeconds());
 
     private static void Gap(SessionGroup group, int n)
     {

@@ -19,11 +19,11 @@ public sealed class HarmTests
         Assert.All(outcomes, o => Assert.True(o.HonestPart < 0.5, $"{o.Case}: {o.HonestPart}"));
     }
 
-    /// <summary>A heap that is shaken, on seed 3.</summary>
+    /// <summary>A heap that is shaken, on seed 9.</summary>
     [Fact]
     public void Run_WithoutABudget_WhoHarmsIsFoundToStay()
     {
-        HarmOutcome outcome = Assert.Single(Play(new HarmOptions { Attacks = 1, Seed = 3, Budget = null, WorkPerSecond = 3e5 }));
+        HarmOutcome outcome = Assert.Single(Play(new HarmOptions { Attacks = 1, Seed = 9, Budget = null, WorkPerSecond = 3e5 }));
         Assert.True(outcome.LateSeconds > 0.25, $"{outcome.LateSeconds}");
         Assert.Contains("The player stayed.", outcome.Failures);
     }

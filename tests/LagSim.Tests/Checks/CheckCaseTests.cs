@@ -26,7 +26,7 @@ public sealed class CheckCaseTests
         MotionLaw[] flights = [.. cases.SelectMany(c => c.Scene.Bodies).Select(b => b.Spec.Flight).Distinct()];
         Assert.Superset(new HashSet<MotionLaw> { MotionLaw.Ballistic, MotionLaw.RungeKutta4, MotionLaw.ClosedForm, MotionLaw.DormandPrince54 }, flights.ToHashSet());
         Assert.Contains(cases, c => c.Scene.Bodies.Any(b => b.Spec.Friction > 0 && b.Spin != Vector3D.Zero));
-        Assert.All(Enumerable.Range(0, 7), n => Assert.Contains(cases, c => c.Scene.Forces.Count == 7 && c.Scene.Bodies.Any(b => b.Spec.Forces.Contains(n))));
+        Assert.All(Enumerable.Range(0, 7), n => Assert.Contains(Cases, c => c.Scene.Forces.Count == 7 && c.Scene.Bodies.Any(b => b.Spec.Forces.Contains(n))));
         Assert.Contains(cases, c => c.Scene.Bodies.Any(b => b.Spec.Restitution == 0));
         Assert.Equal(8, cases.SelectMany(c => c.Deeds).Select(d => d.Kind).Distinct().Count());
         Assert.Contains(cases.SelectMany(c => c.Deeds), d => d.Kind == EventKind.Spawn && d.Spin != Vector3D.Zero && d.Spec.Friction > 0);

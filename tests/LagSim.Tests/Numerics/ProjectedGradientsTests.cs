@@ -33,8 +33,8 @@ public sealed class ProjectedGradientsTests
         {
             masses[b] = 1 + b;
             velocities[b] = V(b % 2 == 0 ? 1 : -1, 0.5);
-            contacts.Add(new ContactPoint(b, ContactPoint.Static, 0, default) { Normal = V(1), Target = 1, Restored = 1 });
-            contacts.Add(new ContactPoint(b, ContactPoint.Static, 1, default) { Normal = V(-1), Target = 1, Restored = 1 });
+            contacts.Add(new ContactPoint(b, ContactPoint.Static, 0, default) { Normal = V(1), Target = 1 });
+            contacts.Add(new ContactPoint(b, ContactPoint.Static, 1, default) { Normal = V(-1), Target = 1 });
         }
 
         ContactPoint[] all = [.. contacts];

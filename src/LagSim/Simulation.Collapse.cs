@@ -1,0 +1,148 @@
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <content>
+/// Inelastic collapse: below a threshold of restitution infinitely many impacts come in a finite time. A contact that closes again in the instant in which it was struck has not
+/// parted, for the clock cannot tell the two apart; so it bounces no second time (docs/CONTACT.md, rule 14).
+/// </content>
+public sealed partial class Simulation
+{
+    /// <summary>Bounces as often as it closes: only a test's negative control sets it.</summary>
+    internal bool NeverCollapses { get; set; }
+
+    private readonly KnownToBeStruck[] knownToBeStruck = new KnownToBeStruck[64];
+
+    /// <summary>Whether the impact at hand strikes a contact that can lose energy, and that was struck in this instant already.</summary>
+    private bool Collapses(SimTime time)
+    {
+        bool collapses = false;
+        for (int i = 0; i < contactCount && !collapses; i++)
+        {
+            collapses = contacts[i].IsStruck && MayLose(contacts[i]) && WasStruck(contacts[i], time);
+        }
+
+        return collapses;
+    }
+
+    private bool WasStruck(in ContactPoint c, SimTime time)
+    {
+        int first = timelines.Last(parties[c.First]);
+        return c.Second == ContactPoint.Static ? WasStruck(first, c.Surface, time) : WereStruck(first, timelines.Last(parties[c.Second]), time);
+    }
+
+    /// <summary>Whether a contact may lose energy: it does not bounce back in full, or there is a hand, which gives and takes.</summary>
+    private bool MayLose(in ContactPoint c) => Restitution(c) < 1 || IsHeld(timelines.Last(parties[c.First]))
+        || (c.Second != ContactPoint.Static && IsHeld(timelines.Last(parties[c.Second])));
+
+    private bool HasMember(in ContactPoint c) =>
+        IsMember(timelines.Last(parties[c.First])) || (c.Second != ContactPoint.Static && IsMember(timelines.Last(parties[c.Second])));
+
+    /// <summary>Whether a body touches a surface that it struck in this instant.</summary>
+    private bool WasStruckBefore(int slot, int surface, SimTime time, out ContactTime contact)
+    {
+        ContactTime.TryMake(time, time, 0, out contact);
+        int last = timelines.Last(slot);
+        return !IsHeld(last) && SurfaceGap(surface, PositionAt(last, time), bodies[slot].Spec.Radius) <= Scene.Resolution
+            && WasStruck(last, surface, time);
+    }
+
+    /// <summary>Whether two bodies touch that struck each other in this instant.</summary>
+    private bool WereStruckBefore(int slot, int other, int piece, SimTime time, out ContactTime contact)
+    {
+        ContactTime.TryMake(time, time, 0, out contact);
+        int last = timelines.Last(slot);
+        return timelines.Segment(piece).IsPresent && !(IsHeld(last) && IsHeld(piece))
+            && Gap(slot, last, other, piece, time) <= Scene.Resolution && WereStruck(last, piece, time);
+    }
+
+    /// <summary>Whether an impact of this instant was on a body while it did not part from a surface that it touches.</summary>
+    private bool WasStruck(int piece, int surface, SimTime time)
+    {
+        if (timelines.Key(piece).Time != time)
+        {
+            return false;
+        }
+
+        ref KnownToBeStruck known = ref Known(timelines.Owner(piece), ~surface);
+        ContactTime.TryMake(time, time, 0, out ContactTime tick);
+        int at = piece;
+        bool wasStruck = false;
+        while (!wasStruck && timelines.Key(at).Time == time && timelines.Previous(at) != TimelineStore.None)
+        {
+            if (known.First == timelines.Serial(at) && known.Second == ~surface)
+            {
+                wasStruck = known.WasStruck;
+                break;
+            }
+
+            bool isImpact = timelines.Key(at).Kind == EventKind.Impact;
+            at = timelines.Previous(at);
+            wasStruck = isImpact && Vector3D.Dot(SurfaceNormal(surface, PositionAt(at, tick)), VelocityAt(at, tick)) <= CollapseSpeed;
+        }
+
+        known = new KnownToBeStruck(timelines.Serial(piece), ~surface, wasStruck);
+        return wasStruck;
+    }
+
+    /// <summary>Whether one impact of this instant was on two bodies that touch, while they did not part from each other.</summary>
+    private bool WereStruck(int first, int second, SimTime time)
+    {
+        if (timelines.Key(first).Time != time || timelines.Key(second).Time != time)
+        {
+            return false;
+        }
+
+        if (bodies[timelines.Owner(first)].Id > bodies[timelines.Owner(second)].Id)
+        {
+            (first, second) = (second, first);
+        }
+
+        ref KnownToBeStruck known = ref Known(timelines.Owner(first), timelines.Owner(second));
+        ContactTime.TryMake(time, time, 0, out ContactTime tick);
+        int a = first;
+        int b = second;
+        bool wasStruck = false;
+        while (!wasStruck && timelines.Key(a).Time == time && timelines.Key(b).Time == time
+            && timelines.Previous(a) != TimelineStore.None && timelines.Previous(b) != TimelineStore.None)
+        {
+            if (known.First == timelines.Serial(a) && known.Second == timelines.Serial(b))
+            {
+                wasStruck = known.WasStruck;
+                break;
+            }
+
+            int order = EventKey.Compare(timelines.Key(a), timelines.Key(b));
+            bool isImpact = order == 0 && timelines.Key(a).Kind == EventKind.Impact;
+            a = order >= 0 ? timelines.Previous(a) : a;
+            b = order <= 0 ? timelines.Previous(b) : b;
+            wasStruck = isImpact
+                && Vector3D.Dot(Direction(Scene.Box.Nearest(PositionAt(a, tick) - PositionAt(b, tick))), VelocityAt(a, tick) - VelocityAt(b, tick)) <= CollapseSpeed;
+        }
+
+        known = new KnownToBeStruck(timelines.Serial(first), timelines.Serial(second), wasStruck);
+        return wasStruck;
+    }
+
+    /// <summary>The place of what was last found out about two.</summary>
+    private ref KnownToBeStruck Known(int first, int second) => ref knownToBeStruck[((first * 31) + second) & (knownToBeStruck.Length - 1)];
+
+    /// <summary>
+    /// What was found out about two pieces of paths: a walk back through an instant ends there. It only saves time, for the same two pieces always give the same; without it
+    /// an instant of many rounds takes their square.
+    /// </summary>
+    private readonly struct KnownToBeStruck(long first, long second, bool wasStruck)
+    {
+        /// <summary>The serial number of the first piece; those of pieces begin at 0, so that 0 and 0 is nobody.</summary>
+        internal readonly long First = first;
+
+        /// <summary>That of the second, or the complement of the surface.</summary>
+        internal readonly long Second = second;
+
+        internal readonly bool WasStruck = wasStruck;
+    }
+}
