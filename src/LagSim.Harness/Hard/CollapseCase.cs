@@ -70,9 +70,8 @@ internal sealed class CollapseCase : IHardCase
                 Note = FormattableString.Invariant($"{seen.Impacts} impacts"),
             }
             : slowest < Resolved ? new HardRow(
-                Name, size + "above the threshold", seen.Impacts < 10_000 ? Math.Abs(seen.Apart - apart) : double.NaN, "speed_apart_m_per_s", 2e-9,
-                "the last of them close slower than can be told: what closes again in the instant in which it was struck goes on together, here at less than 1 nm/s;"
-                    + " their number cannot be told either",
+                Name, size + "above the threshold", seen.Impacts < 10_000 ? Math.Abs(seen.Apart - apart) : double.NaN, "speed_apart_m_per_s", 1e-12,
+                "the last of them close in one instant, and slower than rounding in the others' speeds can tell; so their number cannot be told",
                 FormattableString.Invariant($"the recursion of the speeds alone: {exact} impacts, the last at {slowest:0.0e0} m/s"))
             {
                 Note = FormattableString.Invariant($"{seen.Impacts} impacts"),
