@@ -31,7 +31,7 @@ public sealed partial class Simulation
     /// </summary>
     private bool IsAlone(int slot, in EventKey key)
     {
-        bool isPlain = front == SimTime.MinValue && key.Round < 2
+        bool isPlain = front == SimTime.MinValue && !MayBeStruckAgain(key)
             && (!bodies[slot].IsTied || IgnoresTies) && flights.IsFree(slot) && !TakesNoShortcut && !SwapsOperands;
         int other = bodies[slot].Partner;
         return isPlain && (other == NoPartner

@@ -7,15 +7,30 @@ using LagSim.Timelines;
 namespace LagSim;
 
 /// <content>
-/// Inelastic collapse: below a threshold of restitution infinitely many impacts come in a finite time. A contact that closes again in the instant in which it was struck has not
-/// parted, for the clock cannot tell the two apart; so it bounces no second time (docs/CONTACT.md, rule 14).
+/// Inelastic collapse: below a threshold of restitution infinitely many impacts come in a finite time. A contact that closes again in the
+/// instant in which it was struck has not parted, for the clock cannot tell the two apart; so it bounces no second time (docs/CONTACT.md,
+/// rule 14).
 /// </content>
 public sealed partial class Simulation
 {
+    /// <summary>
+    /// What closes again in the instant in which it bounced, and slower than this, in m/s, waits for <see cref="CollapseWait"/>. What parts
+    /// slower than this may as well be said to close: rounding decides.
+    /// </summary>
+    private const double CollapseSpeed = 1e-6;
+
+    private static readonly SimDuration CollapseWait = SimDuration.FromTicks(1L << 20);
+
+    private readonly KnownToBeStruck[] knownToBeStruck = new KnownToBeStruck[64];
+
     /// <summary>Bounces as often as it closes: only a test's negative control sets it.</summary>
     internal bool NeverCollapses { get; set; }
 
-    private readonly KnownToBeStruck[] knownToBeStruck = new KnownToBeStruck[64];
+    /// <summary>
+    /// Whether a contact can have been struck in this instant already. It is struck, then something else strikes one of the two, a round later,
+    /// and only then can they close again: that is the third round, which is numbered 2. Before it there is nothing to look for.
+    /// </summary>
+    private static bool MayBeStruckAgain(in EventKey key) => key.Round >= 2;
 
     /// <summary>Whether the impact at hand strikes a contact that can lose energy, and that was struck in this instant already.</summary>
     private bool Collapses(SimTime time)
@@ -39,11 +54,49 @@ public sealed partial class Simulation
     private bool MayLose(in ContactPoint c) => Restitution(c) < 1 || IsHeld(timelines.Last(parties[c.First]))
         || (c.Second != ContactPoint.Static && IsHeld(timelines.Last(parties[c.Second])));
 
+    /// <summary>Whether a contact closes after all that the solver could do.</summary>
+    private bool StillCloses()
+    {
+        bool closes = false;
+        for (int i = 0; i < contactCount && !closes; i++)
+        {
+            closes = ImpactSolver.Opening(contacts[i], partyVelocities) < -CollapseSpeed;
+        }
+
+        return closes;
+    }
+
+    /// <summary>
+    /// What is squeezed so that even plastic impacts do not end it (a mass ratio beyond what the solver resolves) goes on together: with the
+    /// velocity of its centre of mass, with that of the first hand that takes part, or at rest where something static does. Nothing closes then, but for what
+    /// a hand presses, which is left alone; so the tick ends.
+    /// </summary>
+    private void Unite()
+    {
+        double mass = 0;
+        Vector3D common = Vector3D.Zero;
+        for (int i = 0; i < partyCount && !double.IsPositiveInfinity(mass); i++)
+        {
+            mass += partyMasses[i];
+            common = double.IsPositiveInfinity(mass) ? partyVelocities[i] : common + ((partyVelocities[i] - common) * (partyMasses[i] / mass));
+        }
+
+        for (int i = 0; i < contactCount; i++)
+        {
+            common = contacts[i].Second == ContactPoint.Static ? Vector3D.Zero : common;
+        }
+
+        for (int i = 0; i < partyCount; i++)
+        {
+            partyVelocities[i] = double.IsPositiveInfinity(partyMasses[i]) ? partyVelocities[i] : common;
+        }
+    }
+
     private bool HasMember(in ContactPoint c) =>
         IsMember(timelines.Last(parties[c.First])) || (c.Second != ContactPoint.Static && IsMember(timelines.Last(parties[c.Second])));
 
     /// <summary>Whether a body touches a surface that it struck in this instant.</summary>
-    private bool WasStruckBefore(int slot, int surface, SimTime time, out ContactTime contact)
+    private bool IsStillTouching(int slot, int surface, SimTime time, out ContactTime contact)
     {
         ContactTime.TryMake(time, time, 0, out contact);
         int last = timelines.Last(slot);
@@ -52,7 +105,7 @@ public sealed partial class Simulation
     }
 
     /// <summary>Whether two bodies touch that struck each other in this instant.</summary>
-    private bool WereStruckBefore(int slot, int other, int piece, SimTime time, out ContactTime contact)
+    private bool AreStillTouching(int slot, int other, int piece, SimTime time, out ContactTime contact)
     {
         ContactTime.TryMake(time, time, 0, out contact);
         int last = timelines.Last(slot);
@@ -132,8 +185,8 @@ public sealed partial class Simulation
     private ref KnownToBeStruck Known(int first, int second) => ref knownToBeStruck[((first * 31) + second) & (knownToBeStruck.Length - 1)];
 
     /// <summary>
-    /// What was found out about two pieces of paths: a walk back through an instant ends there. It only saves time, for the same two pieces always give the same; without it
-    /// an instant of many rounds takes their square.
+    /// What was found out about two pieces of paths: a walk back through an instant ends there. It only saves time, for the same two pieces
+    /// always give the same; without it an instant of many rounds takes their square.
     /// </summary>
     private readonly struct KnownToBeStruck(long first, long second, bool wasStruck)
     {

@@ -16,7 +16,7 @@ public sealed partial class Simulation
     /// </summary>
     private double Gather(int slot, in EventKey key, out bool collapses)
     {
-        bool mayCollapse = key.Round >= 2 && !NeverCollapses;
+        bool mayCollapse = MayBeStruckAgain(key) && !NeverCollapses;
         Follow(slot, key, mayCollapse);
         collapses = mayCollapse && ahead.Count == 0 && Collapses(key.Time);
         if (mayCollapse && ahead.Count == 0 && !collapses)
@@ -37,7 +37,7 @@ public sealed partial class Simulation
         for (int i = 0; i < contactCount; i++)
         {
             residual = contacts[i].IsStruck ? Math.Min(residual, contacts[i].Time.Residual) : residual;
-            contacts[i].IsStruck = true;
+            contacts[i].IsStruck = true; // in a collapse all of them are struck anew
         }
 
         EvaluateParties(key.Time, residual);
@@ -45,8 +45,9 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// Finds contacts from body to body: those that are struck, and if so asked those that were struck in this instant already. Whoever of the bodies it begins at,
-    /// it finds the same, so two impacts of one round have no body in common. Bodies that merely touch are left out, for a heal would not know that they were looked at.
+    /// Finds contacts from body to body: those that are struck and, if asked to, those that were struck earlier in this instant and still touch.
+    /// It finds the same contacts whichever of the bodies it begins at, so two impacts of one round have no body in common. Bodies that merely
+    /// touch are left out, because a heal would not know that they were looked at.
     /// </summary>
     private void Follow(int slot, in EventKey key, bool withStruckBefore)
     {
@@ -60,7 +61,7 @@ public sealed partial class Simulation
             for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
             {
                 bool isStruck = TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
-                if (isStruck || (withStruckBefore && WasStruckBefore(party, surface, key.Time, out contact)))
+                if (isStruck || (withStruckBefore && IsStillTouching(party, surface, key.Time, out contact)))
                 {
                     AddContact(new ContactPoint(i, ContactPoint.Static, surface, contact) { IsStruck = isStruck });
                 }
@@ -80,7 +81,8 @@ public sealed partial class Simulation
                 }
 
                 bool isStruck = TryTouchBody(party, other, then, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
-                if (isStruck || (withStruckBefore && RoundAfter(then, key.Time) <= key.Round && WereStruckBefore(party, other, then, key.Time, out contact)))
+                if (isStruck || (withStruckBefore && RoundAfter(then, key.Time) <= key.Round
+                    && AreStillTouching(party, other, then, key.Time, out contact)))
                 {
                     if (then != timelines.Last(other))
                     {

@@ -95,43 +95,6 @@ public sealed partial class Simulation
         return true;
     }
 
-    private bool StillCloses()
-    {
-        bool closes = false;
-        for (int i = 0; i < contactCount && !closes; i++)
-        {
-            closes = ImpactSolver.Opening(contacts[i], partyVelocities) < -CollapseSpeed;
-        }
-
-        return closes;
-    }
-
-    /// <summary>
-    /// What is squeezed so that even plastic impacts do not end it (a mass ratio beyond what the solver resolves) goes on together: with the
-    /// velocity of its centre of mass, with that of the first hand that takes part, or at rest where something static does. Nothing closes then, but for what
-    /// a hand presses, which is left alone; so the tick ends.
-    /// </summary>
-    private void Unite()
-    {
-        double mass = 0;
-        Vector3D common = Vector3D.Zero;
-        for (int i = 0; i < partyCount && !double.IsPositiveInfinity(mass); i++)
-        {
-            mass += partyMasses[i];
-            common = double.IsPositiveInfinity(mass) ? partyVelocities[i] : common + ((partyVelocities[i] - common) * (partyMasses[i] / mass));
-        }
-
-        for (int i = 0; i < contactCount; i++)
-        {
-            common = contacts[i].Second == ContactPoint.Static ? Vector3D.Zero : common;
-        }
-
-        for (int i = 0; i < partyCount; i++)
-        {
-            partyVelocities[i] = double.IsPositiveInfinity(partyMasses[i]) ? partyVelocities[i] : common;
-        }
-    }
-
     /// <summary>
     /// What an impact would make faster than <see cref="Limits.MaxReboundSpeed"/> leaves it at that speed, in its direction: a rule of the world, the same bits
     /// on every peer. What is not finite stays as it is, and ends the simulation.

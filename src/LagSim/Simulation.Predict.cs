@@ -11,14 +11,6 @@ namespace LagSim;
 /// <content>Prediction: the one pending event of a body.</content>
 public sealed partial class Simulation
 {
-    /// <summary>
-    /// What closes again in the instant in which it bounced, and slower than this, in m/s, waits for <see cref="CollapseWait"/>. What parts slower than this may as well
-    /// be said to close: rounding decides.
-    /// </summary>
-    private const double CollapseSpeed = 1e-6;
-
-    private static readonly SimDuration CollapseWait = SimDuration.FromTicks(1L << 20);
-
     /// <summary>Finds the body's next event, the least of step or law end, external event and contact, and queues it in place of any other.</summary>
     /// <param name="slot">The body.</param>
     /// <param name="except">Another that is not met, whatever the paths say: only a fault put in on purpose names one.</param>

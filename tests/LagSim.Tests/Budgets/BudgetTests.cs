@@ -226,7 +226,7 @@ public sealed class BudgetTests
             return;
         }
 
-        Assert.True(late < (mayKeepWaiting ? 0.5 : 0.25), $"{late} s");
+        Assert.True(late < (mayKeepWaiting ? 0.3 : 0.25), $"{late} s");
         Assert.Equal(1, group.Host.JoinerCount);
         byte gone = group.Sessions[1].Peer;
         group.Run(2);

@@ -39,9 +39,14 @@ public sealed class InvariantCheckTests
         Assert.True(met.Zip([5, 4, 2, 10, 5, 2, 3, 4, 4, 10, 4, 4, 6]).All(pair => pair.First >= pair.Second), string.Join(' ', met));
     }
 
-    /// <summary>A collapse takes in only bodies that one impact struck. When it took in every body that touched, a heal that moved one of them missed the collapse.</summary>
-    [Fact]
-    public void Run_CollapseInAHeap_IsHealed() => Assert.Empty(Run(new CheckOptions { Sessions = 1, Seed = 20_006, ShrinkingPlays = 0 }).Failures);
+    /// <summary>
+    /// A collapse takes in only bodies that one impact struck: when it took in every body that touched, a heal that moved one of them missed it.
+    /// And it takes in the same, whichever of them is asked first: when it did not, two impacts of a round took each other back for ever.
+    /// </summary>
+    [Theory]
+    [InlineData(20_006)]
+    [InlineData(20_253)]
+    public void Run_CollapseInAHeap_IsHealed(ulong seed) => Assert.Empty(Run(new CheckOptions { Sessions = 1, Seed = seed, ShrinkingPlays = 0 }).Failures);
 
     [Fact]
     public void Run_OneAtATimeOrTwo_IsTheSame()
