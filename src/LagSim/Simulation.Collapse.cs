@@ -38,7 +38,7 @@ public sealed partial class Simulation
         bool collapses = false;
         for (int i = 0; i < contactCount && !collapses; i++)
         {
-            collapses = contacts[i].IsStruck && MayLose(contacts[i]) && WasStruck(contacts[i], time);
+            collapses = !contacts[i].IsFromBefore && MayLose(contacts[i]) && WasStruck(contacts[i], time);
         }
 
         return collapses;

@@ -36,8 +36,7 @@ public sealed partial class Simulation
         double residual = double.MaxValue;
         for (int i = 0; i < contactCount; i++)
         {
-            residual = contacts[i].IsStruck ? Math.Min(residual, contacts[i].Time.Residual) : residual;
-            contacts[i].IsStruck = true; // in a collapse all of them are struck anew
+            residual = !contacts[i].IsFromBefore ? Math.Min(residual, contacts[i].Time.Residual) : residual;
         }
 
         EvaluateParties(key.Time, residual);
@@ -63,7 +62,7 @@ public sealed partial class Simulation
                 bool isStruck = TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
                 if (isStruck || (withStruckBefore && IsStillTouching(party, surface, key.Time, out contact)))
                 {
-                    AddContact(new ContactPoint(i, ContactPoint.Static, surface, contact) { IsStruck = isStruck });
+                    AddContact(new ContactPoint(i, ContactPoint.Static, surface, contact) { IsFromBefore = !isStruck });
                 }
             }
 
@@ -95,7 +94,7 @@ public sealed partial class Simulation
                     {
                         j = j < 0 ? AddParty(other) : j;
                         bool ordered = bodies[party].Id < bodies[other].Id != SwapsOperands;
-                        AddContact(new ContactPoint(ordered ? i : j, ordered ? j : i, -1, contact) { IsStruck = isStruck });
+                        AddContact(new ContactPoint(ordered ? i : j, ordered ? j : i, -1, contact) { IsFromBefore = !isStruck });
                     }
                 }
             }

@@ -247,11 +247,14 @@ public sealed partial class Simulation
         return false;
     }
 
+    /// <summary>What a collapse takes in besides has no part in its key: that would come before impacts of the round that are done already.</summary>
+    private static bool IsOfThisRound(in ContactPoint c) => c.IsStruck && !c.IsFromBefore;
+
     /// <summary>The impact's key whichever of its contacts was popped: named by the least party that is struck and that one's least partner.</summary>
     private EventKey CanonicalKey(in EventKey popped)
     {
         int at = 0;
-        while (!contacts[at].IsStruck)
+        while (!IsOfThisRound(contacts[at]))
         {
             at++;
         }
@@ -261,7 +264,7 @@ public sealed partial class Simulation
         BodyId second = first;
         for (int i = at; i < contactCount && contacts[i].First == least && second == first; i++)
         {
-            second = contacts[i].Second == ContactPoint.Static || !contacts[i].IsStruck ? first : bodies[parties[contacts[i].Second]].Id;
+            second = contacts[i].Second == ContactPoint.Static || !IsOfThisRound(contacts[i]) ? first : bodies[parties[contacts[i].Second]].Id;
         }
 
         return new EventKey(popped.Time, popped.Round, EventKind.Impact, first, second, 0, 0);

@@ -18,6 +18,7 @@ internal struct ContactPoint
         Target = 0;
         Impulse = 0;
         IsStruck = true;
+        IsFromBefore = false;
         Lasts = false;
     }
 
@@ -35,6 +36,9 @@ internal struct ContactPoint
 
     /// <summary>Whether the two strike each other in this impact, or only last on each other while something strikes them.</summary>
     internal bool IsStruck;
+
+    /// <summary>Whether the two struck each other earlier in the instant, and are in this impact because it is a collapse.</summary>
+    internal bool IsFromBefore;
 
     /// <summary>Whether it is the last rebound of the two, after which they are in lasting contact.</summary>
     internal bool Lasts;

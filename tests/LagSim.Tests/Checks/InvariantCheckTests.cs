@@ -41,11 +41,13 @@ public sealed class InvariantCheckTests
 
     /// <summary>
     /// A collapse takes in only bodies that one impact struck: when it took in every body that touched, a heal that moved one of them missed it.
-    /// And it takes in the same, whichever of them is asked first: when it did not, two impacts of a round took each other back for ever.
+    /// And it takes in the same, whichever of them is asked first, and has the key of what is struck in its round: when that was not so, two
+    /// impacts of a round took each other back for ever.
     /// </summary>
     [Theory]
     [InlineData(20_006)]
     [InlineData(20_253)]
+    [InlineData(500_049)]
     public void Run_CollapseInAHeap_IsHealed(ulong seed) => Assert.Empty(Run(new CheckOptions { Sessions = 1, Seed = seed, ShrinkingPlays = 0 }).Failures);
 
     [Fact]
