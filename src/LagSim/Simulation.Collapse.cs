@@ -101,7 +101,7 @@ public sealed partial class Simulation
         ContactTime.TryMake(time, time, 0, out contact);
         int last = timelines.Last(slot);
         return !IsHeld(last) && SurfaceGap(surface, PositionAt(last, time), bodies[slot].Spec.Radius) <= Scene.Resolution
-            && WasStruck(last, surface, time);
+            && (Has(HealingFault.CollapsesWithWhoTouches) || WasStruck(last, surface, time));
     }
 
     /// <summary>Whether two bodies touch that struck each other in this instant.</summary>
@@ -110,7 +110,7 @@ public sealed partial class Simulation
         ContactTime.TryMake(time, time, 0, out contact);
         int last = timelines.Last(slot);
         return timelines.Segment(piece).IsPresent && !(IsHeld(last) && IsHeld(piece))
-            && Gap(slot, last, other, piece, time) <= Scene.Resolution && WereStruck(last, piece, time);
+            && Gap(slot, last, other, piece, time) <= Scene.Resolution && (Has(HealingFault.CollapsesWithWhoTouches) || WereStruck(last, piece, time));
     }
 
     /// <summary>Whether an impact of this instant was on a body while it did not part from a surface that it touches.</summary>

@@ -356,6 +356,7 @@ internal sealed class CheckSession
         List<Member> there = members.FindAll(m => !m.HasGone);
         SimTime end = members.Where(m => m.Session.World is not null).Max(m => m.Session.World!.Simulation.SimulatedTo);
         Simulation alone = new(drawn.Scene, new SimulationOptions(Host.World!.Simulation.Start, SimDuration.MaxValue, cancellation: cancellation, threads: 1)); // no step of it is taken ahead; peers may
+        options.PrepareAlone?.Invoke(alone);
         foreach (ExternalEvent external in accepted)
         {
             alone.Submit(external);

@@ -47,4 +47,7 @@ internal enum HealingFault
 
     /// <summary>What has happened of an instant, of which the rest has not, stays when an earlier event comes.</summary>
     LeavesPartOfAnInstant = 2048,
+
+    /// <summary>A collapse takes in whoever touches, struck or not. Nothing remembers who did not touch, so a heal that brings one there misses the collapse.</summary>
+    CollapsesWithWhoTouches = 4096,
 }

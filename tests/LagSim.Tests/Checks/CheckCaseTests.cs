@@ -13,7 +13,7 @@ namespace LagSim.Tests.Checks;
 /// <summary>What <c>check</c> draws: every sort of scene, link and deed, and what is rare.</summary>
 public sealed class CheckCaseTests
 {
-    private static readonly CheckCase[] Cases = [.. Enumerable.Range(1, 100).Select(seed => new CheckCase((ulong)seed, new CheckOptions()))];
+    private static readonly CheckCase[] Cases = [.. Enumerable.Range(1, 150).Select(seed => new CheckCase((ulong)seed, new CheckOptions()))];
 
     [Fact]
     public void Draw_ManySeeds_EverySortOfSceneLinkAndDeed()

@@ -84,6 +84,19 @@ public sealed class HealingFaultTests
     public void Run_SameSeedWithoutAFault_Passes(uint seed) =>
         Assert.Empty(Run(new CheckOptions { Sessions = 1, Seed = seed, ShrinkingPlays = 0 }).Failures); // it is the fault that is caught
 
+    /// <summary>Every world collapses in the same way here, so that what differs is the heal.</summary>
+    [Theory]
+    [InlineData(HealingFault.None)]
+    [InlineData(HealingFault.CollapsesWithWhoTouches)]
+    internal void Run_CollapseThatTakesInWhoTouches_IsSeenToHealWrong(HealingFault fault)
+    {
+        CheckOptions options = new()
+        {
+            Sessions = 1, Seed = 20_004, ShrinkingPlays = 0, Prepare = (_, simulation) => simulation.Fault = fault, PrepareAlone = alone => alone.Fault = fault,
+        };
+        Assert.Equal(fault == HealingFault.None ? 0 : 1, Run(options).Failures.Count);
+    }
+
     [Theory]
     [InlineData(true, 44)]
     [InlineData(false, 35)]

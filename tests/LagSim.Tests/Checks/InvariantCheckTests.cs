@@ -17,11 +17,11 @@ public sealed class InvariantCheckTests
     [Fact]
     public void Run_RandomSessions_NoBitDiffersAndNothingIsLost()
     {
-        CheckOptions options = new() { Sessions = 100, Seed = 1_000_001 };
+        CheckOptions options = new() { Sessions = 150, Seed = 1_000_001 };
         CheckReport report = Run(options);
 
         Assert.True(report.Failures.Count == 0, string.Join(Environment.NewLine, report.Failures.Select(f => $"{f.Whole.Failure} {f.Least.Difference} {f.Command}")));
-        Assert.Equal((100, 0L, 0L), (report.Outcomes.Count, report.DifferingBits, report.LostEvents));
+        Assert.Equal((150, 0L, 0L), (report.Outcomes.Count, report.DifferingBits, report.LostEvents));
         Assert.All(report.Outcomes, o => Assert.True(o.TooLateEvents == 0 || o.HasFullLinks || o.HasStops, $"seed {o.Seed}: {o.TooLateEvents} too late"));
 
         // Else little was shown.

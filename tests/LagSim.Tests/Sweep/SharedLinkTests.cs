@@ -30,7 +30,7 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
     [InlineData(500, 0.8, 0.4)]
     public void TwoSessionsOnOneLink_ShareIt(double queueMs, double first, double second)
     {
-        const int seeds = 6;
+        const int seeds = 12;
         List<double> ratios = [];
         double used = 0;
         for (ulong seed = 1; seed <= seeds; seed++)

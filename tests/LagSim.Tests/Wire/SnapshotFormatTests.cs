@@ -156,7 +156,7 @@ public sealed class SnapshotFormatTests
         RandomWorld[] worlds = [.. Enumerable.Range(1, 20).Select(seed => new RandomWorld(seed, hands: true))];
         byte[][] valid = [.. worlds.Select(world => SnapshotFormat.Encode(world.OnTime().Snapshot(At(0.6))))];
         int made = 0, refused = 0;
-        for (int i = 0; i < 2000; i++)
+        for (int i = 0; i < 3000; i++)
         {
             int which = random.Next(valid.Length);
             byte[] bytes = (byte[])valid[which].Clone();
