@@ -92,7 +92,11 @@ public sealed class HealingFaultTests
     {
         CheckOptions options = new()
         {
-            Sessions = 1, Seed = 20_004, ShrinkingPlays = 0, Prepare = (_, simulation) => simulation.Fault = fault, PrepareAlone = alone => alone.Fault = fault,
+            Sessions = 1,
+            Seed = 20_004,
+            ShrinkingPlays = 0,
+            Prepare = (_, simulation) => simulation.Fault = fault,
+            PrepareAlone = alone => alone.Fault = fault,
         };
         Assert.Equal(fault == HealingFault.None ? 0 : 1, Run(options).Failures.Count);
     }
