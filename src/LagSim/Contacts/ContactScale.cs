@@ -62,11 +62,18 @@ internal readonly struct ContactScale
         CaptureSpeed = Math.Sqrt(2 * tolerance * Pull);
         SweepSpeed = SweepPart * tolerance / Step.ToSeconds();
         ReachSpeed = reachPart * tolerance / Step.ToSeconds();
+        SpeculativeMargin = Math.Min(tolerance, 2 * Pull * Step.ToSeconds() * Step.ToSeconds());
         StillSpeed = tolerance / StillFor.ToSeconds();
     }
 
     /// <summary>The contact tolerance d, in metres.</summary>
     internal double Length { get; }
+
+    /// <summary>
+    /// What comes within this gap in a step, in metres, is a contact of it: two bodies that the pull drives at each other from rest close by so much in a
+    /// step. Never more than the tolerance, and less only where that would allow a step longer than the longest.
+    /// </summary>
+    internal double SpeculativeMargin { get; }
 
     /// <summary>What presses bodies together, in m/s²: the scene's gravity.</summary>
     internal double Pull { get; }

@@ -241,7 +241,7 @@ internal sealed class ContactStep
     /// </summary>
     private bool MayTouch(double gap, double opening, double seconds, double restitution)
     {
-        bool isNear = gap + (Math.Min(0, opening) * seconds) <= Scale.Length;
+        bool isNear = gap + (Math.Min(0, opening) * seconds) <= Scale.SpeculativeMargin;
         return isNear && (gap <= 0 || -opening * restitution <= Scale.CaptureSpeed);
     }
 
@@ -263,7 +263,7 @@ internal sealed class ContactStep
                 double reach = p.Radius + q.Radius;
                 double square = apart.LengthSquared;
                 double along = Vector3D.Dot(apart, opens);
-                double margin = reach + Math.Max(Scale.Length, 2 * fastest * seconds);
+                double margin = reach + Math.Max(Scale.SpeculativeMargin, 2 * fastest * seconds);
                 if (square > margin * margin || (p.InverseMass == 0 && q.InverseMass == 0))
                 {
                     continue;
@@ -374,7 +374,7 @@ internal sealed class ContactStep
 
         Array.Sort(places, byPlace, 0, count);
         fastest = speed + Scale.CaptureSpeed;
-        widest = (2 * largest) + Scale.Length + (2 * fastest * Scale.Step.ToSeconds());
+        widest = (2 * largest) + Scale.SpeculativeMargin + (2 * fastest * Scale.Step.ToSeconds());
     }
 
     private struct Member

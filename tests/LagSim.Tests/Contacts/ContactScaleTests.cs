@@ -27,6 +27,7 @@ public sealed class ContactScaleTests
         Assert.Equal(d, scale.CaptureSpeed * scale.CaptureSpeed / (2 * Gravity), 1e-12 * d);
         Assert.True(scale.SweepSpeed * h < 0.01 * d && scale.SweepSpeed < scale.ImpactSpeed && scale.ImpactSpeed < scale.CaptureSpeed);
         Assert.Equal(d, scale.StillSpeed * 0.5, 1e-12 * d);
+        Assert.Equal(d < 0.5 * Gravity / 64 / 64 * 4 ? d : 2 * Gravity / 64 / 64, scale.SpeculativeMargin, 1e-12 * d);
     }
 
     [Fact]
