@@ -1,3 +1,4 @@
+using System;
 using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Scenes;
@@ -21,6 +22,7 @@ public sealed partial class Simulation
 
     private static readonly SimDuration CollapseWait = SimDuration.FromTicks(1L << 20);
 
+    private readonly InelasticCollapse collapse = new();
     private readonly KnownToBeStruck[] knownToBeStruck = new KnownToBeStruck[64];
 
     /// <summary>Bounces as often as it closes: only a test's negative control sets it.</summary>
@@ -32,16 +34,38 @@ public sealed partial class Simulation
     /// </summary>
     private static bool MayBeStruckAgain(in EventKey key) => key.Round >= 2;
 
-    /// <summary>Whether the impact at hand strikes a contact that can lose energy, and that was struck in this instant already.</summary>
+    /// <summary>
+    /// Whether the impact at hand strikes a contact that can lose energy, and that was struck in this instant already, and infinitely many impacts
+    /// may follow. Where a member of an island takes part they always may: what holds it gives way to no push, however light it is itself.
+    /// </summary>
     private bool Collapses(SimTime time)
     {
-        bool collapses = false;
-        for (int i = 0; i < contactCount && !collapses; i++)
+        bool isStruckAgain = false;
+        bool hasMember = false;
+        for (int i = 0; i < contactCount; i++)
         {
-            collapses = !contacts[i].IsFromBefore && MayLose(contacts[i]) && WasStruck(contacts[i], time);
+            isStruckAgain |= !contacts[i].IsFromBefore && MayLose(contacts[i]) && WasStruck(contacts[i], time);
+            hasMember |= HasMember(contacts[i]);
         }
 
-        return collapses;
+        if (!isStruckAgain || hasMember)
+        {
+            return isStruckAgain;
+        }
+
+        if (coefficients.Length < contactCount)
+        {
+            coefficients = new double[2 * contactCount];
+        }
+
+        EvaluateParties(time, 0);
+        for (int i = 0; i < contactCount; i++)
+        {
+            contacts[i].Normal = NormalOf(contacts[i]);
+            coefficients[i] = Restitution(contacts[i]);
+        }
+
+        return collapse.IsPossible(contacts.AsSpan(0, contactCount), coefficients.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount));
     }
 
     private bool WasStruck(in ContactPoint c, SimTime time)

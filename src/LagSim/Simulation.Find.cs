@@ -16,7 +16,7 @@ public sealed partial class Simulation
     private void FindInFlight(int slot, Span<int> candidates, SimTime from, SimTime until, int except, ref Pending next)
     {
         bool isOnly = candidates.Length == 1 && candidates[0] == slot;
-        Span<Approach> approaches = isOnly ? default : flights.Approaches(slot, candidates, from, next.Earliest(until));
+        Span<Approach> approaches = isOnly ? default : flights.Approaches(slot, candidates, from, next.Horizon(from, until));
         int count = approaches.Length;
         while (count > 0)
         {
@@ -26,7 +26,7 @@ public sealed partial class Simulation
                 first = approaches[i].Seconds < approaches[first].Seconds ? i : first;
             }
 
-            if (FreeFlights.IsLater(approaches[first].Seconds, from, next.Earliest(until)))
+            if (FreeFlights.IsLater(approaches[first].Seconds, from, next.Horizon(from, until)))
             {
                 break;
             }
@@ -41,7 +41,7 @@ public sealed partial class Simulation
 
         for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
         {
-            if (surface >= Scene.PlaneArray.Length || !flights.Misses(slot, Scene.PlaneArray[surface], from, next.Earliest(until)))
+            if (surface >= Scene.PlaneArray.Length || !flights.Misses(slot, Scene.PlaneArray[surface], from, next.Horizon(from, until)))
             {
                 ConsiderSurface(slot, surface, ref next);
             }
@@ -60,7 +60,7 @@ public sealed partial class Simulation
         SimTime end = SimTime.Min(until, timelines.Segment(timelines.Last(slot)).End);
         foreach (int other in candidates)
         {
-            if (other != except && !(isOfStep && IsOfStep(other)) && !flights.AreApart(slot, other, from, SimTime.Max(from, next.Earliest(end))))
+            if (other != except && !(isOfStep && IsOfStep(other)) && !flights.AreApart(slot, other, from, SimTime.Max(from, next.Horizon(from, end))))
             {
                 ConsiderMeeting(slot, other, until, ref next);
             }
@@ -126,7 +126,10 @@ public sealed partial class Simulation
         internal double Residual;
         internal bool IsTied; // something else was considered at that tick
 
-        internal readonly SimTime Earliest(SimTime until) => Any ? SimTime.Min(until, Key.Time) : until;
+        /// <summary>
+        /// Up to when contacts may come before what was considered: those that come soon may be at once (<see cref="ContactTime.IsSoonAfter"/>).
+        /// </summary>
+        internal readonly SimTime Horizon(SimTime from, SimTime until) => Any ? SimTime.Min(until, SimTime.Max(Key.Time, from + ContactTime.Soon)) : until;
 
         internal bool Consider(in EventKey key)
         {

@@ -18,19 +18,20 @@ public sealed partial class Simulation
     {
         bool mayCollapse = MayBeStruckAgain(key) && !NeverCollapses;
         Follow(slot, key, mayCollapse);
+        SortParties();
+        SortContacts();
         collapses = mayCollapse && ahead.Count == 0 && Collapses(key.Time);
         if (mayCollapse && ahead.Count == 0 && !collapses)
         {
             Follow(slot, key, withStruckBefore: false);
+            SortParties();
+            SortContacts();
         }
 
         if (ahead.Count > 0)
         {
             return 0;
         }
-
-        SortParties();
-        SortContacts();
 
         // One instant for all: the earliest root. The others are met within a tick, so nothing is yet deep in anything.
         double residual = double.MaxValue;

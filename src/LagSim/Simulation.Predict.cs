@@ -111,6 +111,11 @@ public sealed partial class Simulation
 
         while (TouchSurface(slot, last, surface, isPlane, from, out contact))
         {
+            if (contact.Tick != opened && contact.IsSoonAfter(opened) && ClosesAtOnce(slot, last, surface, opened))
+            {
+                ContactTime.TryMake(opened, opened, 0, out contact);
+            }
+
             round = RoundAt(contact.Tick, slot);
             if (contact.Tick != opened)
             {
@@ -242,6 +247,11 @@ public sealed partial class Simulation
         while (from <= until && ContactFinder.WithSphere(
             segmentA, timelines.Dense(lastA), segmentB, timelines.Dense(lastB), reach, from, until, out contact))
         {
+            if (contact.Tick != opened && contact.IsSoonAfter(opened) && ClosesAtOnce(lastA, lastB, reach, opened))
+            {
+                ContactTime.TryMake(opened, opened, 0, out contact);
+            }
+
             round = Math.Max(RoundAfter(lastA, contact.Tick), RoundAfter(lastB, contact.Tick));
             if (contact.Tick != opened)
             {
@@ -296,6 +306,31 @@ public sealed partial class Simulation
 
         return end.SecondsSince(opened) < wait.ToSeconds() ? SimTime.MaxValue : opened + wait;
     }
+
+    /// <summary>Whether a body closes on a surface that is no further off than places are rounded: no path can tell the instant, so it is this one.</summary>
+    private bool ClosesAtOnce(int slot, int piece, int surface, SimTime opened)
+    {
+        Vector3D position = PositionAt(piece, opened);
+        return SurfaceGap(surface, position, bodies[slot].Spec.Radius) <= RoundingOf(position, bodies[slot].Spec.Radius)
+            && Vector3D.Dot(SurfaceNormal(surface, position), timelines.Segment(piece).VelocityAt(SecondsInto(piece, opened), timelines.Dense(piece))) < 0;
+    }
+
+    /// <summary>The same of two bodies.</summary>
+    private bool ClosesAtOnce(int first, int second, double reach, SimTime opened)
+    {
+        Vector3D position = PositionAt(first, opened);
+        Vector3D apart = Scene.Box.Nearest(position - PositionAt(second, opened));
+        return apart.Length - reach <= RoundingOf(position, reach) && Vector3D.Dot(
+            apart,
+            timelines.Segment(first).VelocityAt(SecondsInto(first, opened), timelines.Dense(first))
+                - timelines.Segment(second).VelocityAt(SecondsInto(second, opened), timelines.Dense(second))) < 0;
+    }
+
+    /// <summary>What a gap may be off by because places are rounded, in metres: a rounding for each of four sums.</summary>
+    private static double RoundingOf(in Vector3D position, double reach) =>
+        4 * DoubleRounding * (Math.Abs(position.X) + Math.Abs(position.Y) + Math.Abs(position.Z) + reach);
+
+    private const double DoubleRounding = 1.0 / (1L << 52);
 
     /// <summary>How fast, in m/s², the gap to what is round opens because one slides along it.</summary>
     private static double FallingAway(in Vector3D normal, in Vector3D velocity, double reach) =>

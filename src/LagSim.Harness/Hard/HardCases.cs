@@ -36,6 +36,7 @@ public static class HardCases
         new GrooveCase(),
         new HeapCase(),
         new ArchCase(),
+        new JamCase(),
         new ColumnCase(),
         new IslandEnergyCase(),
         new HardSphereGasCase(),

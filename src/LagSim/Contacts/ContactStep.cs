@@ -143,7 +143,6 @@ internal sealed class ContactStep
             ContactSolver.LimitHands(Problem, Scale.Pull * seconds);
         }
 
-
         Sweeps = 0;
         Sweep(tolerance);
     }

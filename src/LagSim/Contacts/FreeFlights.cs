@@ -312,7 +312,7 @@ internal sealed class FreeFlights
 
     /// <summary>
     /// Whether two bodies in free flight touch, however late, and when: the bits that <see cref="ContactFinder"/> tells of their segments, the body of lesser
-    /// identity first. False if they touch at the very tick from which both hold, for then more has to be looked at.
+    /// identity first. False if they touch so soon after both hold that more has to be looked at.
     /// </summary>
     internal bool TryTouch(int first, int second, out bool touches, out ContactTime contact)
     {
@@ -330,7 +330,7 @@ internal sealed class FreeFlights
         touches = ContactFinder.OfParabolas(
             a.Position, a.Velocity, from.SecondsSince(a.From), positionB, b.Velocity, from.SecondsSince(b.From), gravity, radii[first] + radii[second],
             from, SimTime.MaxValue, out contact);
-        return !touches || contact.Tick != from;
+        return !touches || !contact.IsSoonAfter(from);
     }
 
     /// <summary>Whether so many seconds after a time is surely after another.</summary>

