@@ -15,12 +15,10 @@ namespace LagSim;
 public sealed partial class Simulation
 {
     /// <summary>
-    /// What closes again in the instant in which it bounced, and slower than this, in m/s, waits for <see cref="CollapseWait"/>. What parts
+    /// What closes again in the instant in which it bounced, and slower than this, in m/s, waits for <see cref="ContactTime.Soon"/>. What parts
     /// slower than this may as well be said to close: rounding decides.
     /// </summary>
     private const double CollapseSpeed = 1e-6;
-
-    private static readonly SimDuration CollapseWait = SimDuration.FromTicks(1L << 20);
 
     private readonly InelasticCollapse collapse = new();
     private readonly KnownToBeStruck[] knownToBeStruck = new KnownToBeStruck[64];
@@ -35,8 +33,8 @@ public sealed partial class Simulation
     private static bool MayBeStruckAgain(in EventKey key) => key.Round >= 2;
 
     /// <summary>
-    /// Whether the impact at hand strikes a contact that can lose energy, and that was struck in this instant already, and infinitely many impacts
-    /// may follow. Where a member of an island takes part they always may: what holds it gives way to no push, however light it is itself.
+    /// Whether the impact at hand strikes a contact that can lose energy, and that was struck in this instant already, and infinitely many
+    /// impacts may follow. Where a member of an island takes part they always may: what holds it gives way to no push, however light it is itself.
     /// </summary>
     private bool Collapses(SimTime time)
     {
@@ -53,19 +51,15 @@ public sealed partial class Simulation
             return isStruckAgain;
         }
 
-        if (coefficients.Length < contactCount)
-        {
-            coefficients = new double[2 * contactCount];
-        }
-
         EvaluateParties(time, 0);
+        Span<double> restitutions = contactCount <= 64 ? stackalloc double[contactCount] : new double[contactCount];
         for (int i = 0; i < contactCount; i++)
         {
             contacts[i].Normal = NormalOf(contacts[i]);
-            coefficients[i] = Restitution(contacts[i]);
+            restitutions[i] = Restitution(contacts[i]);
         }
 
-        return collapse.IsPossible(contacts.AsSpan(0, contactCount), coefficients.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount));
+        return collapse.IsPossible(contacts.AsSpan(0, contactCount), restitutions, partyMasses.AsSpan(0, partyCount));
     }
 
     private bool WasStruck(in ContactPoint c, SimTime time)
@@ -122,7 +116,7 @@ public sealed partial class Simulation
     /// <summary>Whether a body touches a surface that it struck in this instant.</summary>
     private bool IsStillTouching(int slot, int surface, SimTime time, out ContactTime contact)
     {
-        ContactTime.TryMake(time, time, 0, out contact);
+        contact = ContactTime.At(time);
         int last = timelines.Last(slot);
         return !IsHeld(last) && SurfaceGap(surface, PositionAt(last, time), bodies[slot].Spec.Radius) <= Scene.Resolution
             && (Has(HealingFault.CollapsesWithWhoTouches) || WasStruck(last, surface, time));
@@ -131,10 +125,11 @@ public sealed partial class Simulation
     /// <summary>Whether two bodies touch that struck each other in this instant.</summary>
     private bool AreStillTouching(int slot, int other, int piece, SimTime time, out ContactTime contact)
     {
-        ContactTime.TryMake(time, time, 0, out contact);
+        contact = ContactTime.At(time);
         int last = timelines.Last(slot);
         return timelines.Segment(piece).IsPresent && !(IsHeld(last) && IsHeld(piece))
-            && Gap(slot, last, other, piece, time) <= Scene.Resolution && (Has(HealingFault.CollapsesWithWhoTouches) || WereStruck(last, piece, time));
+            && Gap(slot, last, other, piece, time) <= Scene.Resolution
+            && (Has(HealingFault.CollapsesWithWhoTouches) || WereStruck(last, piece, time));
     }
 
     /// <summary>Whether an impact of this instant was on a body while it did not part from a surface that it touches.</summary>
@@ -146,7 +141,7 @@ public sealed partial class Simulation
         }
 
         ref KnownToBeStruck known = ref Known(timelines.Owner(piece), ~surface);
-        ContactTime.TryMake(time, time, 0, out ContactTime tick);
+        ContactTime tick = ContactTime.At(time);
         int at = piece;
         bool wasStruck = false;
         while (!wasStruck && timelines.Key(at).Time == time && timelines.Previous(at) != TimelineStore.None)
@@ -180,7 +175,7 @@ public sealed partial class Simulation
         }
 
         ref KnownToBeStruck known = ref Known(timelines.Owner(first), timelines.Owner(second));
-        ContactTime.TryMake(time, time, 0, out ContactTime tick);
+        ContactTime tick = ContactTime.At(time);
         int a = first;
         int b = second;
         bool wasStruck = false;

@@ -60,7 +60,8 @@ public sealed partial class Simulation
         SimTime end = SimTime.Min(until, timelines.Segment(timelines.Last(slot)).End);
         foreach (int other in candidates)
         {
-            if (other != except && !(isOfStep && IsOfStep(other)) && !flights.AreApart(slot, other, from, SimTime.Max(from, next.Horizon(from, end))))
+            if (other != except && !(isOfStep && IsOfStep(other))
+                && !flights.AreApart(slot, other, from, SimTime.Max(from, next.Horizon(from, end))))
             {
                 ConsiderMeeting(slot, other, until, ref next);
             }
@@ -129,7 +130,8 @@ public sealed partial class Simulation
         /// <summary>
         /// Up to when contacts may come before what was considered: those that come soon may be at once (<see cref="ContactTime.IsSoonAfter"/>).
         /// </summary>
-        internal readonly SimTime Horizon(SimTime from, SimTime until) => Any ? SimTime.Min(until, SimTime.Max(Key.Time, from + ContactTime.Soon)) : until;
+        internal readonly SimTime Horizon(SimTime from, SimTime until) =>
+            Any ? SimTime.Min(until, SimTime.Max(Key.Time, from + ContactTime.Soon)) : until;
 
         internal bool Consider(in EventKey key)
         {

@@ -18,14 +18,10 @@ public sealed partial class Simulation
     {
         bool mayCollapse = MayBeStruckAgain(key) && !NeverCollapses;
         Follow(slot, key, mayCollapse);
-        SortParties();
-        SortContacts();
         collapses = mayCollapse && ahead.Count == 0 && Collapses(key.Time);
         if (mayCollapse && ahead.Count == 0 && !collapses)
         {
             Follow(slot, key, withStruckBefore: false);
-            SortParties();
-            SortContacts();
         }
 
         if (ahead.Count > 0)
@@ -100,6 +96,9 @@ public sealed partial class Simulation
                 }
             }
         }
+
+        SortParties();
+        SortContacts();
     }
 
     /// <summary>The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits whoever asks.</summary>

@@ -113,7 +113,7 @@ public sealed partial class Simulation
         {
             if (contact.Tick != opened && contact.IsSoonAfter(opened) && ClosesAtOnce(slot, last, surface, opened))
             {
-                ContactTime.TryMake(opened, opened, 0, out contact);
+                contact = ContactTime.At(opened);
             }
 
             round = RoundAt(contact.Tick, slot);
@@ -249,7 +249,7 @@ public sealed partial class Simulation
         {
             if (contact.Tick != opened && contact.IsSoonAfter(opened) && ClosesAtOnce(lastA, lastB, reach, opened))
             {
-                ContactTime.TryMake(opened, opened, 0, out contact);
+                contact = ContactTime.At(opened);
             }
 
             round = Math.Max(RoundAfter(lastA, contact.Tick), RoundAfter(lastB, contact.Tick));
@@ -279,7 +279,7 @@ public sealed partial class Simulation
 
     /// <summary>
     /// From when on a contact that closes from the opening of its segments on is to be looked for again: so slow, as rounding leaves it, or a step's sweeps where
-    /// it holds, that it is a thousandth of the resolution deep, or of the contact tolerance a twentieth, only after <see cref="CollapseWait"/>. <paramref name="opened"/> if it cannot wait,
+    /// it holds, that it is a thousandth of the resolution deep, or of the contact tolerance a twentieth, only after <see cref="ContactTime.Soon"/>. <paramref name="opened"/> if it cannot wait,
     /// <see cref="SimTime.MaxValue"/> if the segments end before.
     /// </summary>
     private SimTime LookAgain(SimTime opened, bool mayWait, double closing, double pressing, SimTime end, bool holds)
@@ -290,47 +290,47 @@ public sealed partial class Simulation
         {
             // It parts by itself, and from then on may come back as fast as it likes.
             SimDuration parts = TickConversion.TryFromSeconds(-2 * closing / pressing, out ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
-            parts = parts < CollapseWait ? CollapseWait : parts;
+            parts = parts < ContactTime.Soon ? ContactTime.Soon : parts;
             wait = parts < wait ? parts : wait;
         }
 
-        if (wait < CollapseWait)
+        if (wait < ContactTime.Soon)
         {
             if (!mayWait)
             {
                 return opened;
             }
 
-            wait = CollapseWait;
+            wait = ContactTime.Soon;
         }
 
         return end.SecondsSince(opened) < wait.ToSeconds() ? SimTime.MaxValue : opened + wait;
     }
 
-    /// <summary>Whether a body closes on a surface that is no further off than places are rounded: no path can tell the instant, so it is this one.</summary>
+    /// <summary>
+    /// Whether a body closes on a surface that is no further off than places are rounded: no path can tell the instant, so it is this one.
+    /// </summary>
     private bool ClosesAtOnce(int slot, int piece, int surface, SimTime opened)
     {
-        Vector3D position = PositionAt(piece, opened);
-        return SurfaceGap(surface, position, bodies[slot].Spec.Radius) <= RoundingOf(position, bodies[slot].Spec.Radius)
-            && Vector3D.Dot(SurfaceNormal(surface, position), timelines.Segment(piece).VelocityAt(SecondsInto(piece, opened), timelines.Dense(piece))) < 0;
+        ContactTime now = ContactTime.At(opened);
+        Vector3D position = PositionAt(piece, now);
+        double radius = bodies[slot].Spec.Radius;
+        return SurfaceGap(surface, position, radius) <= RoundingOf(position, radius)
+            && Vector3D.Dot(SurfaceNormal(surface, position), VelocityAt(piece, now)) < 0;
     }
 
     /// <summary>The same of two bodies.</summary>
     private bool ClosesAtOnce(int first, int second, double reach, SimTime opened)
     {
-        Vector3D position = PositionAt(first, opened);
-        Vector3D apart = Scene.Box.Nearest(position - PositionAt(second, opened));
-        return apart.Length - reach <= RoundingOf(position, reach) && Vector3D.Dot(
-            apart,
-            timelines.Segment(first).VelocityAt(SecondsInto(first, opened), timelines.Dense(first))
-                - timelines.Segment(second).VelocityAt(SecondsInto(second, opened), timelines.Dense(second))) < 0;
+        ContactTime now = ContactTime.At(opened);
+        Vector3D position = PositionAt(first, now);
+        Vector3D apart = Scene.Box.Nearest(position - PositionAt(second, now));
+        return apart.Length - reach <= RoundingOf(position, reach) && Vector3D.Dot(apart, VelocityAt(first, now) - VelocityAt(second, now)) < 0;
     }
 
-    /// <summary>What a gap may be off by because places are rounded, in metres: a rounding for each of four sums.</summary>
+    /// <summary>What a gap may be off by because places are rounded, in metres: four roundings of a double, 2^-52 each, of what is summed.</summary>
     private static double RoundingOf(in Vector3D position, double reach) =>
-        4 * DoubleRounding * (Math.Abs(position.X) + Math.Abs(position.Y) + Math.Abs(position.Z) + reach);
-
-    private const double DoubleRounding = 1.0 / (1L << 52);
+        4.0 / (1L << 52) * (Math.Abs(position.X) + Math.Abs(position.Y) + Math.Abs(position.Z) + reach);
 
     /// <summary>How fast, in m/s², the gap to what is round opens because one slides along it.</summary>
     private static double FallingAway(in Vector3D normal, in Vector3D velocity, double reach) =>

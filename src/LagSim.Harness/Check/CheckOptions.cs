@@ -55,6 +55,8 @@ public sealed record CheckOptions
     /// <summary>Gets each peer's number in its session and its world, when the world has just been made: for faults put in on purpose.</summary>
     internal Action<int, Simulation>? Prepare { get; init; }
 
-    /// <summary>Gets the world that has all events before it begins: for a fault that changes what is right, not only how it is healed.</summary>
+    /// <summary>
+    /// Gets the world that has all events before it begins: for a fault that changes what is right, not only how it is healed.
+    /// </summary>
     internal Action<Simulation>? PrepareAlone { get; init; }
 }

@@ -24,7 +24,8 @@ internal sealed class JamCase : IHardCase
 
     public IEnumerable<HardRow> Rows(HardContext context)
     {
-        foreach ((double degrees, int load) in context.Sizes([(10.0, 0), (10.0, 8)], [(30.0, 0), (30.0, 24), (10.0, 0), (10.0, 24), (4.0, 0), (4.0, 24)]))
+        foreach ((double degrees, int load) in context.Sizes(
+            [(10.0, 0), (10.0, 8)], [(30.0, 0), (30.0, 24), (10.0, 0), (10.0, 24), (4.0, 0), (4.0, 24)]))
         {
             yield return Sits(context, degrees, load, 1);
         }
@@ -50,8 +51,9 @@ internal sealed class JamCase : IHardCase
         SeededRandom random = new(context.Seed);
         for (int n = 0; n < load; n++)
         {
-            Vector3D at = V((((n % 2) - 0.5) * 0.6) + random.NextDouble(-0.05, 0.05), Math.Max(Rim, rest + radius) + (1.5 * Ball) + (n / 4 * 0.5), (((n / 2 % 2) - 0.5) * 0.6) + random.NextDouble(-0.05, 0.05));
-            builder.AddBody(FormattableString.Invariant($"ball {n + 1}"), new BodySpec(Ball, 1, 0.2, friction: 0.3), at);
+            double x = (((n % 2) - 0.5) * 0.6) + random.NextDouble(-0.05, 0.05), z = (((n / 2 % 2) - 0.5) * 0.6) + random.NextDouble(-0.05, 0.05);
+            double y = Math.Max(Rim, rest + radius) + (1.5 * Ball) + (n / 4 * 0.5);
+            builder.AddBody(FormattableString.Invariant($"ball {n + 1}"), new BodySpec(Ball, 1, 0.2, friction: 0.3), V(x, y, z));
         }
 
         Simulation simulation = context.Run(builder.Build(), Seconds);

@@ -19,11 +19,16 @@ internal readonly struct ContactTime
     /// <summary>The root minus the tick, in seconds; at most half a tick either way.</summary>
     internal double Residual { get; }
 
-    /// <summary>Whether it comes so soon after an instant that the gap may be no more than rounding there.</summary>
+    /// <summary>
+    /// 2^-20 s. What closes a gap of rounding later than that closes at less than 1 nm/s. What closes slowly is asked for again only so much later.
+    /// </summary>
+    internal static readonly SimDuration Soon = SimDuration.FromTicks(ContactScale.ShortestTicks);
+
+    /// <summary>Whether it comes so soon after two paths were opened that their gap may have been no more than rounding then.</summary>
     internal bool IsSoonAfter(SimTime opened) => Tick - opened < Soon;
 
-    /// <summary>2^-20 s.</summary>
-    internal static readonly SimDuration Soon = SimDuration.FromTicks(ContactScale.ShortestTicks);
+    /// <summary>The contact at a tick itself.</summary>
+    internal static ContactTime At(SimTime tick) => new(tick, 0);
 
     /// <summary>The contact a root in seconds after <paramref name="from"/> stands for; none if the root is NaN or after <paramref name="until"/>.</summary>
     internal static bool TryMake(SimTime from, SimTime until, double root, out ContactTime contact)

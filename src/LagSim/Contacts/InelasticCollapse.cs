@@ -35,7 +35,8 @@ internal sealed class InelasticCollapse
         {
             for (int j = 0; j < i; j++)
             {
-                double part = Math.Sqrt((1 + restitutions[i]) * (1 + restitutions[j])) / (Math.Sqrt(restitutions[i]) + Math.Sqrt(restitutions[j]));
+                (double e, double f) = (restitutions[i], restitutions[j]);
+                double part = Math.Sqrt((1 + e) * (1 + f)) / (Math.Sqrt(e) + Math.Sqrt(f));
                 double cosine = Cosine(contacts[i], contacts[j], masses);
                 if (cosine * part >= 1)
                 {

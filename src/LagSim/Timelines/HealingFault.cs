@@ -48,6 +48,9 @@ internal enum HealingFault
     /// <summary>What has happened of an instant, of which the rest has not, stays when an earlier event comes.</summary>
     LeavesPartOfAnInstant = 2048,
 
-    /// <summary>A collapse takes in whoever touches, struck or not. Nothing remembers who did not touch, so a heal that brings one there misses the collapse.</summary>
+    /// <summary>
+    /// A collapse takes in every body that touches, also those that nothing struck in this instant. A heal that brings such a body into touch
+    /// then does not notice that it has to solve the collapse again.
+    /// </summary>
     CollapsesWithWhoTouches = 4096,
 }

@@ -39,6 +39,18 @@ public sealed class ContactStepTests
         Assert.Equal(0, Contacts(new BodySpec(0.1, 1, 0.5), 0.01, -0.2)); // it does not get there
     }
 
+    /// <summary>
+    /// Rule 5: at a coarse tolerance the longest step decides what is a contact of it, and not the tolerance, which would take in all that is near.
+    /// </summary>
+    [Fact]
+    public void WhatNothingCanClose_IsNoContactAtACoarseTolerance()
+    {
+        double margin = new ContactScale(0.1, Down, default).SpeculativeMargin;
+        Assert.Equal(1, Contacts(new BodySpec(0.1, 1, 0.5), 0.99 * margin, 0, 0.1));
+        Assert.Equal(0, Contacts(new BodySpec(0.1, 1, 0.5), 1.01 * margin, 0, 0.1));
+        Assert.InRange(margin, 0, 0.005);
+    }
+
     [Theory]
     [InlineData(false, 0)]
     [InlineData(true, 1)]
@@ -83,9 +95,9 @@ public sealed class ContactStepTests
         Assert.Equal(n, step.Problem.ContactCount);
     }
 
-    private static int Contacts(BodySpec spec, double gap, double speed)
+    private static int Contacts(BodySpec spec, double gap, double speed, double tolerance = Tolerance)
     {
-        ContactStep step = On(spec, gap, new Vector3D(0, speed, 0));
+        ContactStep step = On(spec, gap, new Vector3D(0, speed, 0), tolerance);
         step.FindContacts(step.Scale.Step.ToSeconds());
         return step.Problem.ContactCount;
     }
@@ -99,9 +111,9 @@ public sealed class ContactStepTests
         return seconds;
     }
 
-    private static ContactStep On(BodySpec spec, double gap, Vector3D velocity)
+    private static ContactStep On(BodySpec spec, double gap, Vector3D velocity, double tolerance = Tolerance)
     {
-        ContactStep step = new(Floor(spec.Restitution), new ContactScale(Tolerance, Down, default));
+        ContactStep step = new(Floor(spec.Restitution), new ContactScale(tolerance, Down, default));
         step.AddBody(spec, new Vector3D(0, spec.Radius + gap, 0), velocity, Vector3D.Zero, Vector3D.Zero, isHeld: false);
         return step;
     }

@@ -66,11 +66,29 @@ public sealed class InelasticCollapseTests
         Assert.InRange(Left(0.9 * threshold, ratio, 1e-9, out _), 0, 1e-9);
     }
 
+    /// <summary>
+    /// A light ball between two heavy ones, a rounding away from one of them: places do not tell in how many picoseconds it gets there. Were they asked,
+    /// it would be struck every time anew.
+    /// </summary>
+    [Fact]
+    public void Impacts_AcrossAGapOfRounding_AreOfOneInstant()
+    {
+        BodySpec heavy = new(0.2, 1e9, 0.3), light = new(0.2, 1, 0.3);
+        Scene scene = new SceneBuilder("rounding").WithGravity(Vector3D.Zero).AddBody("left", heavy, V(0.6906116835972948), V(2e-6))
+            .AddBody("middle", light, V(1.0906116835972948)).AddBody("right", heavy, V(1.490611683597295)).Build();
+        Simulation simulation = new(scene, new SimulationOptions());
+        long most = 1_000;
+        Assert.True(simulation.TryAdvanceTo(At(1), ref most), $"at {simulation.SimulatedTo}");
+        Assert.Equal(1e-6, Read(simulation, BodyId.OfScene(0), 1).Velocity.X, 1e-9);
+        Assert.Equal(1e-6, Read(simulation, BodyId.OfScene(2), 1).Velocity.X, 1e-9);
+    }
+
     /// <summary>What is left of the energy when a heavy ball has driven a light one against a wall.</summary>
     private static double Left(double e, double ratio, double gap, out long impacts)
     {
         Scene scene = new SceneBuilder("narrow").WithGravity(Vector3D.Zero).AddPlane("wall", V(1), 0.0)
-            .AddBody("light", new BodySpec(0.5, 1, e), V(0.5 + gap)).AddBody("heavy", new BodySpec(0.5, ratio, e), V(1.5 + (2 * gap)), V(-1)).Build();
+            .AddBody("light", new BodySpec(0.5, 1, e), V(0.5 + gap))
+            .AddBody("heavy", new BodySpec(0.5, ratio, e), V(1.5 + (2 * gap)), V(-1)).Build();
         Simulation simulation = new(scene, new SimulationOptions());
         simulation.AdvanceTo(At(10));
         impacts = simulation.ImpactsProcessed;
