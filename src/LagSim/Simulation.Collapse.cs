@@ -21,7 +21,7 @@ public sealed partial class Simulation
     private const double CollapseSpeed = 1e-6;
 
     private readonly InelasticCollapse collapse = new();
-    private readonly KnownToBeStruck[] knownToBeStruck = new KnownToBeStruck[64];
+    private readonly KnownStrikes[] knownStrikes = new KnownStrikes[64];
 
     /// <summary>Bounces as often as it closes: only a test's negative control sets it.</summary>
     internal bool NeverCollapses { get; set; }
@@ -53,19 +53,21 @@ public sealed partial class Simulation
 
         EvaluateParties(time, 0);
         Span<double> restitutions = contactCount <= 64 ? stackalloc double[contactCount] : new double[contactCount];
+        Span<double> frictions = contactCount <= 64 ? stackalloc double[contactCount] : new double[contactCount];
         for (int i = 0; i < contactCount; i++)
         {
             contacts[i].Normal = NormalOf(contacts[i]);
             restitutions[i] = Restitution(contacts[i]);
+            frictions[i] = Friction(contacts[i]);
         }
 
-        return collapse.IsPossible(contacts.AsSpan(0, contactCount), restitutions, partyMasses.AsSpan(0, partyCount));
+        return collapse.IsPossible(contacts.AsSpan(0, contactCount), restitutions, frictions, partyMasses.AsSpan(0, partyCount));
     }
 
     private bool WasStruck(in ContactPoint c, SimTime time)
     {
         int first = timelines.Last(parties[c.First]);
-        return c.Second == ContactPoint.Static ? WasStruck(first, c.Surface, time) : WereStruck(first, timelines.Last(parties[c.Second]), time);
+        return (c.Second == ContactPoint.Static ? StrikesOn(first, c.Surface, time) : StrikesBetween(first, timelines.Last(parties[c.Second]), time)) > 0;
     }
 
     /// <summary>Whether a contact may lose energy: it does not bounce back in full, or there is a hand, which gives and takes.</summary>
@@ -119,7 +121,7 @@ public sealed partial class Simulation
         contact = ContactTime.At(time);
         int last = timelines.Last(slot);
         return !IsHeld(last) && SurfaceGap(surface, PositionAt(last, time), bodies[slot].Spec.Radius) <= Scene.Resolution
-            && (Has(HealingFault.CollapsesWithWhoTouches) || WasStruck(last, surface, time));
+            && (Has(HealingFault.CollapsesWithWhoTouches) || StrikesOn(last, surface, time) > 0);
     }
 
     /// <summary>Whether two bodies touch that struck each other in this instant.</summary>
@@ -129,44 +131,45 @@ public sealed partial class Simulation
         int last = timelines.Last(slot);
         return timelines.Segment(piece).IsPresent && !(IsHeld(last) && IsHeld(piece))
             && Gap(slot, last, other, piece, time) <= Scene.Resolution
-            && (Has(HealingFault.CollapsesWithWhoTouches) || WereStruck(last, piece, time));
+            && (Has(HealingFault.CollapsesWithWhoTouches) || StrikesBetween(last, piece, time) > 0);
     }
 
-    /// <summary>Whether an impact of this instant was on a body while it did not part from a surface that it touches.</summary>
-    private bool WasStruck(int piece, int surface, SimTime time)
+    /// <summary>How many impacts of this instant were on a body while it did not part from a surface that it touches; two where it is more.</summary>
+    private int StrikesOn(int piece, int surface, SimTime time)
     {
         if (timelines.Key(piece).Time != time)
         {
-            return false;
+            return 0;
         }
 
-        ref KnownToBeStruck known = ref Known(timelines.Owner(piece), ~surface);
+        ref KnownStrikes known = ref Known(timelines.Owner(piece), ~surface);
         ContactTime tick = ContactTime.At(time);
         int at = piece;
-        bool wasStruck = false;
-        while (!wasStruck && timelines.Key(at).Time == time && timelines.Previous(at) != TimelineStore.None)
+        int strikes = 0;
+        while (strikes < 2 && timelines.Key(at).Time == time && timelines.Previous(at) != TimelineStore.None)
         {
             if (known.First == timelines.Serial(at) && known.Second == ~surface)
             {
-                wasStruck = known.WasStruck;
+                strikes += known.Strikes;
                 break;
             }
 
             bool isImpact = timelines.Key(at).Kind == EventKind.Impact;
             at = timelines.Previous(at);
-            wasStruck = isImpact && Vector3D.Dot(SurfaceNormal(surface, PositionAt(at, tick)), VelocityAt(at, tick)) <= CollapseSpeed;
+            strikes += isImpact && Vector3D.Dot(SurfaceNormal(surface, PositionAt(at, tick)), VelocityAt(at, tick)) <= CollapseSpeed ? 1 : 0;
         }
 
-        known = new KnownToBeStruck(timelines.Serial(piece), ~surface, wasStruck);
-        return wasStruck;
+        strikes = Math.Min(strikes, 2);
+        known = new KnownStrikes(timelines.Serial(piece), ~surface, strikes);
+        return strikes;
     }
 
-    /// <summary>Whether one impact of this instant was on two bodies that touch, while they did not part from each other.</summary>
-    private bool WereStruck(int first, int second, SimTime time)
+    /// <summary>How many impacts of this instant were on two bodies that touch, while they did not part from each other; two where it is more.</summary>
+    private int StrikesBetween(int first, int second, SimTime time)
     {
         if (timelines.Key(first).Time != time || timelines.Key(second).Time != time)
         {
-            return false;
+            return 0;
         }
 
         if (bodies[timelines.Owner(first)].Id > bodies[timelines.Owner(second)].Id)
@@ -174,17 +177,17 @@ public sealed partial class Simulation
             (first, second) = (second, first);
         }
 
-        ref KnownToBeStruck known = ref Known(timelines.Owner(first), timelines.Owner(second));
+        ref KnownStrikes known = ref Known(timelines.Owner(first), timelines.Owner(second));
         ContactTime tick = ContactTime.At(time);
         int a = first;
         int b = second;
-        bool wasStruck = false;
-        while (!wasStruck && timelines.Key(a).Time == time && timelines.Key(b).Time == time
+        int strikes = 0;
+        while (strikes < 2 && timelines.Key(a).Time == time && timelines.Key(b).Time == time
             && timelines.Previous(a) != TimelineStore.None && timelines.Previous(b) != TimelineStore.None)
         {
             if (known.First == timelines.Serial(a) && known.Second == timelines.Serial(b))
             {
-                wasStruck = known.WasStruck;
+                strikes += known.Strikes;
                 break;
             }
 
@@ -192,22 +195,23 @@ public sealed partial class Simulation
             bool isImpact = order == 0 && timelines.Key(a).Kind == EventKind.Impact;
             a = order >= 0 ? timelines.Previous(a) : a;
             b = order <= 0 ? timelines.Previous(b) : b;
-            wasStruck = isImpact
-                && Vector3D.Dot(Direction(Scene.Box.Nearest(PositionAt(a, tick) - PositionAt(b, tick))), VelocityAt(a, tick) - VelocityAt(b, tick)) <= CollapseSpeed;
+            strikes += isImpact
+                && Vector3D.Dot(Direction(Scene.Box.Nearest(PositionAt(a, tick) - PositionAt(b, tick))), VelocityAt(a, tick) - VelocityAt(b, tick)) <= CollapseSpeed ? 1 : 0;
         }
 
-        known = new KnownToBeStruck(timelines.Serial(first), timelines.Serial(second), wasStruck);
-        return wasStruck;
+        strikes = Math.Min(strikes, 2);
+        known = new KnownStrikes(timelines.Serial(first), timelines.Serial(second), strikes);
+        return strikes;
     }
 
     /// <summary>The place of what was last found out about two.</summary>
-    private ref KnownToBeStruck Known(int first, int second) => ref knownToBeStruck[((first * 31) + second) & (knownToBeStruck.Length - 1)];
+    private ref KnownStrikes Known(int first, int second) => ref knownStrikes[((first * 31) + second) & (knownStrikes.Length - 1)];
 
     /// <summary>
     /// What was found out about two pieces of paths: a walk back through an instant ends there. It only saves time, for the same two pieces
     /// always give the same; without it an instant of many rounds takes their square.
     /// </summary>
-    private readonly struct KnownToBeStruck(long first, long second, bool wasStruck)
+    private readonly struct KnownStrikes(long first, long second, int strikes)
     {
         /// <summary>The serial number of the first piece; those of pieces begin at 0, so that 0 and 0 is nobody.</summary>
         internal readonly long First = first;
@@ -215,6 +219,6 @@ public sealed partial class Simulation
         /// <summary>That of the second, or the complement of the surface.</summary>
         internal readonly long Second = second;
 
-        internal readonly bool WasStruck = wasStruck;
+        internal readonly int Strikes = strikes;
     }
 }

@@ -11,6 +11,9 @@ namespace LagSim;
 /// <content>Prediction: the one pending event of a body.</content>
 public sealed partial class Simulation
 {
+    /// <summary>What closes slower than this part of how fast the two move may as well not: a solver's rounding decides.</summary>
+    private const double RoundingOfSpeed = 1e-9;
+
     /// <summary>Finds the body's next event, the least of step or law end, external event and contact, and queues it in place of any other.</summary>
     /// <param name="slot">The body.</param>
     /// <param name="except">Another that is not met, whatever the paths say: only a fault put in on purpose names one.</param>
@@ -122,13 +125,17 @@ public sealed partial class Simulation
                 return true;
             }
 
-            Vector3D normal = SurfaceNormal(surface, PositionAt(last, contact));
+            Vector3D position = PositionAt(last, contact);
+            double radius = bodies[slot].Spec.Radius;
+            Vector3D normal = SurfaceNormal(surface, position);
             Vector3D velocity = VelocityAt(last, contact);
-            double reach = isPlane ? double.PositiveInfinity : bodies[slot].Spec.Radius + Scene.SphereArray[surface - Scene.PlaneArray.Length].Radius;
+            double reach = isPlane ? double.PositiveInfinity : radius + Scene.SphereArray[surface - Scene.PlaneArray.Length].Radius;
             double pressing = -Vector3D.Dot(normal, AccelerationAt(last, contact)) - FallingAway(normal, velocity, reach);
             double closing = -Vector3D.Dot(normal, velocity);
-            bool mayWait = closing <= CollapseSpeed && WasStruck(last, surface, opened);
-            from = LookAgain(opened, mayWait, closing, pressing, segment.End, segment.IsOfIsland && Holds(last, surface));
+            bool isRounding = closing <= RoundingOfSpeed * velocity.Length;
+            bool mayWait = closing <= CollapseSpeed && StrikesOn(last, surface, opened) > (isRounding ? 0 : 1);
+            double room = segment.IsOfIsland && Holds(last, surface) ? step.Scale.LookDepth : RoomOf(SurfaceGap(surface, position, radius), isRounding);
+            from = LookAgain(opened, mayWait, closing, pressing, segment.End, room, RoundingOf(position, radius));
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -258,12 +265,18 @@ public sealed partial class Simulation
                 return true;
             }
 
-            Vector3D normal = Direction(Scene.Box.Nearest(PositionAt(lastA, contact) - PositionAt(lastB, contact)));
-            Vector3D velocity = VelocityAt(lastA, contact) - VelocityAt(lastB, contact);
+            Vector3D position = PositionAt(lastA, contact);
+            Vector3D apart = Scene.Box.Nearest(position - PositionAt(lastB, contact));
+            Vector3D normal = Direction(apart);
+            Vector3D velocityA = VelocityAt(lastA, contact);
+            Vector3D velocityB = VelocityAt(lastB, contact);
+            Vector3D velocity = velocityA - velocityB;
             double pressing = -Vector3D.Dot(normal, AccelerationAt(lastA, contact) - AccelerationAt(lastB, contact)) - FallingAway(normal, velocity, reach);
             double closing = -Vector3D.Dot(normal, velocity);
-            bool mayWait = closing <= CollapseSpeed && WereStruck(lastA, lastB, opened);
-            from = LookAgain(opened, mayWait, closing, pressing, until, HoldTogether(a, lastA, b, lastB));
+            bool isRounding = closing <= RoundingOfSpeed * (velocityA.Length + velocityB.Length);
+            bool mayWait = closing <= CollapseSpeed && StrikesBetween(lastA, lastB, opened) > (isRounding ? 0 : 1);
+            double room = HoldTogether(a, lastA, b, lastB) ? step.Scale.LookDepth : RoomOf(apart.Length - reach, isRounding);
+            from = LookAgain(opened, mayWait, closing, pressing, until, room, RoundingOf(position, reach));
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -279,17 +292,18 @@ public sealed partial class Simulation
 
     /// <summary>
     /// From when on a contact that closes from the opening of its segments on is to be looked for again: so slow, as rounding leaves it, or a step's sweeps where
-    /// it holds, that it is a thousandth of the resolution deep, or of the contact tolerance a twentieth, only after <see cref="ContactTime.Soon"/>. <paramref name="opened"/> if it cannot wait,
+    /// it holds, that it uses up half of its room only after <see cref="ContactTime.Soon"/>. <paramref name="opened"/> if it cannot wait,
     /// <see cref="SimTime.MaxValue"/> if the segments end before.
     /// </summary>
-    private SimTime LookAgain(SimTime opened, bool mayWait, double closing, double pressing, SimTime end, bool holds)
+    private static SimTime LookAgain(SimTime opened, bool mayWait, double closing, double pressing, SimTime end, double room, double rounding)
     {
-        double seconds = UntilDeep(holds ? step.Scale.LookDepth : 2e-3 * Scene.Resolution, closing, pressing);
+        double seconds = UntilDeep(room, closing, pressing);
         SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
         if (pressing < 0)
         {
-            // It parts by itself, and from then on may come back as fast as it likes.
-            SimDuration parts = TickConversion.TryFromSeconds(-2 * closing / pressing, out ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
+            // It parts by itself, and from then on may come back as fast as it likes; but not before it has parted by more than rounding.
+            double apart = Math.Max(-2 * closing / pressing, Math.Sqrt(-2 * rounding / pressing));
+            SimDuration parts = TickConversion.TryFromSeconds(apart, out ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
             parts = parts < ContactTime.Soon ? ContactTime.Soon : parts;
             wait = parts < wait ? parts : wait;
         }
@@ -306,6 +320,12 @@ public sealed partial class Simulation
 
         return end.SecondsSince(opened) < wait.ToSeconds() ? SimTime.MaxValue : opened + wait;
     }
+
+    /// <summary>
+    /// How much room, in metres, what no island holds has to close in unseen; it may use up half of it: a thousandth of the resolution. What closes by more than rounding has no more than is left of
+    /// that: else a light body between two that close goes to and fro for ever.
+    /// </summary>
+    private double RoomOf(double gap, bool isRounding) => 2 * Math.Max(0, (isRounding ? 0 : Math.Min(0, gap)) + (1e-3 * Scene.Resolution));
 
     /// <summary>
     /// Whether a body closes on a surface that is no further off than places are rounded: no path can tell the instant, so it is this one.

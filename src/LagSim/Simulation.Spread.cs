@@ -305,9 +305,9 @@ public sealed partial class Simulation
     /// <summary>Goes on from the impulses so far; where masses are unlike, begins again from the velocities before.</summary>
     private void SolveReached(double tolerance, int sweeps, int knownBodies, int knownContacts)
     {
-        if (!UnlikeMassSolver.Suits(reached))
+        if (sweeps == GrowingSweeps || !UnlikeMassSolver.Suits(reached))
         {
-            ContactSolver.Solve(reached, tolerance, sweeps, knownBodies, knownContacts);
+            CountSweeps(ContactSolver.Solve(reached, tolerance, sweeps, knownBodies, knownContacts), reached.ContactCount);
             return;
         }
 
@@ -318,6 +318,7 @@ public sealed partial class Simulation
         }
 
         unlike.Solve(reached);
+        CountUnlike(partyCount, 1);
     }
 
     /// <summary>The more bodies are reached, the more a hand may give; by the velocities before.</summary>

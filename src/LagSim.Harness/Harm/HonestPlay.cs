@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Threading;
 using LagSim.Events;
+using LagSim.Harness.Accuracy;
 using LagSim.Harness.Check;
 using LagSim.Harness.Links;
 using LagSim.Harness.Peers;
@@ -27,8 +28,11 @@ public static class HonestPlay
     private const int MostSpawned = 6;
     private const double KnotSeconds = 0.05;
 
-    /// <summary>The scenes that are played: all that are built in, and two more crowds.</summary>
-    public static IReadOnlyList<string> Scenes { get; } = [.. BuiltInScenes.Names, "crowd-1000", "crowd-5000"];
+    private const string Heap = "heap";
+    private const int HeapBalls = 32;
+
+    /// <summary>The scenes that are played: all that are built in, two more crowds, and a heap of 32 balls that are poured as those of <c>lagsim accuracy heap</c>.</summary>
+    public static IReadOnlyList<string> Scenes { get; } = [.. BuiltInScenes.Names, "crowd-1000", "crowd-5000", Heap];
 
     /// <summary>Plays one scene.</summary>
     /// <param name="scene">Its name.</param>
@@ -39,10 +43,7 @@ public static class HonestPlay
     public static HonestCost Play(string scene, ulong seed, double seconds, PlayerBudget budget, CancellationToken cancellation = default)
     {
         ArgumentNullException.ThrowIfNull(budget);
-        if (!BuiltInScenes.TryGet(scene, out Scene? built))
-        {
-            throw new ArgumentException($"There is no scene '{scene}'; there are {BuiltInScenes.KnownNames}.", nameof(scene));
-        }
+        Scene built = SceneOf(scene);
 
         SeededRandom random = new SeededRandom(seed).Fork(0x40E5);
         VirtualClock clock = new(SimTime.FromSeconds(10));
@@ -86,6 +87,9 @@ public static class HonestPlay
         return new HonestCost(
             scene, Players, costs.Select(c => c.Work).DefaultIfEmpty(0).Max() / seconds, most, most / budget.WorkAtOnce, host.Counters.EventsAccepted + host.Counters.EventsRefused, expelled);
     }
+
+    private static Scene SceneOf(string name) => name == Heap ? new HeapWork(HeapBalls).Scene : BuiltInScenes.TryGet(name, out Scene? built) ? built
+        : throw new ArgumentException($"There is no scene '{name}'; there are {BuiltInScenes.KnownNames}, {Heap}.", nameof(name));
 
     private sealed class Player(VirtualSteps steps, int peer, Scene scene, SeededRandom random)
     {

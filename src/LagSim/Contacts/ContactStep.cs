@@ -47,6 +47,9 @@ internal sealed class ContactStep
     /// <summary>How many sweeps the last took.</summary>
     internal int Sweeps { get; private set; }
 
+    /// <summary>How often the last was solved by the solver of unlike masses, which counts no sweeps.</summary>
+    internal int UnlikeSolves { get; private set; }
+
     /// <summary>Begins again, with nobody.</summary>
     internal void Clear() => Problem.Clear();
 
@@ -144,6 +147,7 @@ internal sealed class ContactStep
         }
 
         Sweeps = 0;
+        UnlikeSolves = 0;
         Sweep(tolerance);
     }
 
@@ -185,6 +189,7 @@ internal sealed class ContactStep
         if (UnlikeMassSolver.Suits(Problem))
         {
             unlike.Solve(Problem);
+            UnlikeSolves++;
             return;
         }
 

@@ -12,7 +12,8 @@ namespace LagSim.Contacts;
 /// threshold tan^2 (pi/4 (1 - 1/N)).</para>
 /// <para>Reference: Bernu and Mazighi 1990 (J. Phys. A 23, 5745-5754); Constantin, Grossman and Mungan 1995 (Physica D 83, 409-420). Restitutions
 /// that differ: the impact at a contact turns its speed by -e and gives the others 1 + e times the coupling, so the cosine is multiplied by
-/// the root of (1 + e)(1 + f), over the root of e and the root of f.</para>
+/// the root of (1 + e)(1 + f), over the root of e and the root of f. Friction drives a body across the normal by mu of its push at most, in whatever direction it slips, so the cosine is taken at
+/// the direction that couples most: where two contacts of one body are at right angles it is the root of the product of their frictions.</para>
 /// <para>A pure function; the order of contacts counts for rounding alone. Cost: the cube of the contacts.</para>
 /// </remarks>
 internal sealed class InelasticCollapse
@@ -22,8 +23,9 @@ internal sealed class InelasticCollapse
     /// <summary>Whether infinitely many impacts may follow among these contacts, all of which touch.</summary>
     /// <param name="contacts">With their normals.</param>
     /// <param name="restitutions">Of each contact, 0 to 1.</param>
+    /// <param name="frictions">Of each contact, the coefficient.</param>
     /// <param name="masses">Of the bodies, in kg; infinite of one in a hand.</param>
-    internal bool IsPossible(Span<ContactPoint> contacts, Span<double> restitutions, Span<double> masses)
+    internal bool IsPossible(Span<ContactPoint> contacts, Span<double> restitutions, Span<double> frictions, Span<double> masses)
     {
         int count = contacts.Length;
         if (matrix.Length < count * count)
@@ -37,7 +39,7 @@ internal sealed class InelasticCollapse
             {
                 (double e, double f) = (restitutions[i], restitutions[j]);
                 double part = Math.Sqrt((1 + e) * (1 + f)) / (Math.Sqrt(e) + Math.Sqrt(f));
-                double cosine = Cosine(contacts[i], contacts[j], masses);
+                double cosine = Cosine(contacts[i], frictions[i], contacts[j], frictions[j], masses);
                 if (cosine * part >= 1)
                 {
                     return true; // two alone; infinite where neither bounces
@@ -50,19 +52,28 @@ internal sealed class InelasticCollapse
         return !IsPositiveDefinite(count);
     }
 
-    /// <summary>The cosine at which the pushes of two contacts meet, positive where either makes the other close.</summary>
-    private static double Cosine(in ContactPoint a, in ContactPoint b, Span<double> masses)
+    /// <summary>
+    /// The cosine at which the pushes of two contacts meet, positive where each makes the other close. Where friction makes the two unlike, their geometric mean: the product of the two is what an
+    /// impact to and one fro leave.
+    /// </summary>
+    private static double Cosine(in ContactPoint a, double frictionOfA, in ContactPoint b, double frictionOfB, Span<double> masses)
     {
-        double coupling = Coupling(a, b, a.First, masses) + (a.Second == ContactPoint.Static ? 0 : Coupling(a, b, a.Second, masses));
+        double to = Closing(a, frictionOfA, b, masses);
+        double fro = Closing(b, frictionOfB, a, masses);
         double square = Inverse(a, masses) * Inverse(b, masses);
-        return square > 0 ? -coupling / Math.Sqrt(square) : 0;
+        return to > 0 && fro > 0 && square > 0 ? Math.Sqrt(to * fro / square) : 0;
     }
 
-    /// <summary>How fast b opens for a unit of push in a, by way of a body.</summary>
-    private static double Coupling(in ContactPoint a, in ContactPoint b, int body, Span<double> masses)
+    /// <summary>How fast b closes for a unit of push in a, by way of the bodies that they share, where friction in a drives it as it can at most.</summary>
+    private static double Closing(in ContactPoint a, double friction, in ContactPoint b, Span<double> masses) =>
+        Closing(a, friction, b, a.First, masses) + (a.Second == ContactPoint.Static ? 0 : Closing(a, friction, b, a.Second, masses));
+
+    private static double Closing(in ContactPoint a, double friction, in ContactPoint b, int body, Span<double> masses)
     {
         double sign = (a.First == body ? 1 : -1) * (b.First == body ? 1 : b.Second == body ? -1 : 0);
-        return sign * Vector3D.Dot(a.Normal, b.Normal) * ImpactSolver.Inverse(masses[body]);
+        double along = Vector3D.Dot(a.Normal, b.Normal);
+        double across = friction > 0 && sign != 0 ? friction * Math.Sqrt(Math.Max(0, 1 - (along * along))) : 0;
+        return (across - (sign * along)) * ImpactSolver.Inverse(masses[body]);
     }
 
     private static double Inverse(in ContactPoint c, Span<double> masses) =>

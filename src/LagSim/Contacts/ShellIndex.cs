@@ -142,7 +142,7 @@ internal sealed class ShellIndex : IPairIndex
     {
         if (slot < stays.Length && stays[slot].IsListed)
         {
-            Leave(slot);
+            Leave(slot, heal: 0);
         }
     }
 
@@ -164,7 +164,7 @@ internal sealed class ShellIndex : IPairIndex
             }
 
             stay.Wanted *= heal != 0 ? 1 : stay.Predictions < FewPredictions ? Larger : stay.Predictions > ManyPredictions ? Smaller : 1;
-            Leave(slot);
+            Leave(slot, heal);
         }
 
         stay.Wanted = stay.Wanted == 0 ? FirstStray * cell : Math.Min(0.5 * cell, Math.Max(LeastStray * cell, stay.Wanted));
@@ -206,15 +206,18 @@ internal sealed class ShellIndex : IPairIndex
         present.Add(slot, shell, stay.Cell);
     }
 
-    /// <summary>Takes the body out of its cell, and out of the lists of others.</summary>
-    private void Leave(int slot)
+    /// <summary>
+    /// Takes the body out of its cell, and out of the lists of others; but for those that the heal at hand has made, whose bodies may still meet where this one was: it may be
+    /// further in time than they are.
+    /// </summary>
+    private void Leave(int slot, long heal)
     {
         stays[slot].IsListed = false;
         lookingBack -= stays[slot].Heal != 0 ? 1 : 0;
         present.Remove(slot, stays[slot].Cell);
         foreach (int other in lists.Of(slot))
         {
-            int at = lists.Of(other).IndexOf(slot);
+            int at = heal != 0 && stays[other].Heal == heal ? -1 : lists.Of(other).IndexOf(slot);
             if (at >= 0)
             {
                 lists.RemoveAt(other, at);

@@ -1,4 +1,6 @@
 using System;
+using LagSim.Harness.Check;
+using LagSim.Harness.Links;
 using LagSim.Scenes;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
@@ -87,6 +89,38 @@ public sealed class LastingContactTests
         {
             Assert.True(LeastGap(simulation, At(t)) > -2 * Fine, $"{LeastGap(simulation, At(t))} m at {t} s");
         }
+    }
+
+    /// <summary>Two to seven balls in a shaft, each on the one below and against two of its walls, stand where they are put: whatever they weigh, with and without friction and rolling resistance.</summary>
+    [Fact]
+    public void Column_OfAnyMassesInAShaft_Stands()
+    {
+        const double Aside = 0.25, Wall = -Aside - 0.5, Tolerance = 1e-4;
+        double rise = Math.Sqrt(1 - (8 * Aside * Aside));
+        for (ulong seed = 1; seed <= 40; seed++)
+        {
+            SeededRandom random = new(seed);
+            int count = 2 + random.NextInt(6);
+            double friction = random.IsLucky(33) ? 0 : random.NextDouble();
+            double resistance = random.IsLucky(33) ? 0.05 * random.NextDouble() : 0;
+            SceneBuilder builder = new SceneBuilder("shaft").WithContactTolerance(Tolerance).AddPlane("floor", Vector3D.Up, 0.0, 0, friction)
+                .AddPlane("west", V(1), Wall, 0, friction).AddPlane("east", V(-1), Wall, 0, friction).AddPlane("north", V(0, 0, 1), Wall, 0, friction).AddPlane("south", V(0, 0, -1), Wall, 0, friction);
+            for (int n = 0; n < count; n++)
+            {
+                double mass = Math.Pow(10, random.NextDouble(-6, 6));
+                builder.AddBody($"ball {n}", new BodySpec(0.5, mass, 0, friction: friction, rollingResistance: resistance), Place(n));
+            }
+
+            Simulation simulation = new(builder.Build(), new SimulationOptions());
+            simulation.AdvanceTo(At(2));
+            for (int n = 0; n < count; n++)
+            {
+                double moved = (Read(simulation, BodyId.OfScene(n), 2).Position - Place(n)).Length;
+                Assert.True(moved < 0.01 * Tolerance, $"seed {seed}, ball {n} of {count}: {moved} m");
+            }
+        }
+
+        Vector3D Place(int n) => V(n % 2 == 0 ? -Aside : Aside, 0.5 + (n * rise), n % 2 == 0 ? -Aside : Aside);
     }
 
     [Fact]

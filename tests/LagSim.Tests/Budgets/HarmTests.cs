@@ -48,6 +48,7 @@ public sealed class HarmTests
     [Theory]
     [InlineData("billiards")]
     [InlineData("cradle")]
+    [InlineData("heap")]
     public void Play_HonestPlayers_ComeNowhereNearTheirBudgets(string scene)
     {
         HonestCost cost = HonestPlay.Play(scene, 1, 5, PlayerBudget.Default, TestContext.Current.CancellationToken);

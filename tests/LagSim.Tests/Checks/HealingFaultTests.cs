@@ -93,7 +93,7 @@ public sealed class HealingFaultTests
         CheckOptions options = new()
         {
             Sessions = 1,
-            Seed = 20_636,
+            Seed = 20_004,
             ShrinkingPlays = 0,
             Prepare = (_, simulation) => simulation.Fault = fault,
             PrepareAlone = alone => alone.Fault = fault,

@@ -80,8 +80,9 @@ public sealed class ContactRuleTests
     [InlineData(0.05)]
     public void Bodies_ThatCloseAgainInOneInstant_GoOnTogether(double e)
     {
-        Assert.InRange(Storm(e, neverCollapses: false), 10, 5_000);
-        Assert.Equal(e == 0, Storm(e, neverCollapses: true) >= 20_000);
+        long storm = Storm(e, neverCollapses: false);
+        Assert.InRange(storm, 10, 500);
+        Assert.True(Storm(e, neverCollapses: true) > 3 * storm);
     }
 
     /// <summary>How many events take eight balls in a box to 20 s, or 20,000 if they do not.</summary>
