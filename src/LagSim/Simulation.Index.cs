@@ -1,5 +1,6 @@
 using System;
 using LagSim.Contacts;
+using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -27,6 +28,11 @@ public sealed partial class Simulation
         if (!outgrown && (index is ShellIndex || order.Count <= mostPairs))
         {
             return;
+        }
+
+        if (front == SimTime.MinValue && clock.Time <= SimulatedTo)
+        {
+            clock = EventKey.Before(SimulatedTo + SimDuration.OneTick); // it is of the last event, which may be long ago: from there on nobody would be listed
         }
 
         index = NewIndex();

@@ -39,6 +39,35 @@ public sealed class CrowdedIndexTests
         }
     }
 
+    /// <summary>The index comes with the body that is one too many to look at all pairs; before that nothing has happened for a second, in which a body is to be met by what is heard of later.</summary>
+    [Theory]
+    [InlineData(SimulationOptions.DefaultMostPairs)]
+    [InlineData(SimulationOptions.DefaultMostPairs + 1)]
+    public void Late_WhereTheIndexBegan_IsMetBeforeThat(int mostPairs)
+    {
+        SceneBuilder builder = new SceneBuilder("row").WithGravity(Vector3D.Zero)
+            .AddBody("mover", new BodySpec(0.1, 1, 1), V(0), V(1)).AddBody("shooter", new BodySpec(0.1, 1, 1), V(0.5, 1));
+        for (int n = 2; n < SimulationOptions.DefaultMostPairs; n++)
+        {
+            builder.AddBody($"other {n}", new BodySpec(0.1, 1, 1), V(n, 50));
+        }
+
+        Scene scene = builder.Build();
+        ExternalEvent spawn = ExternalEvent.Spawn(At(1), 1, 1, new BodySpec(0.1, 1, 1), V(-5, 50));
+        ExternalEvent shot = ExternalEvent.SetVelocity(At(0.1), 1, 2, Second, V(0, -2));
+        Simulation inTime = new(scene, new SimulationOptions(default, SimDuration.MaxValue) { MostPairs = mostPairs });
+        Simulation late = new(scene, new SimulationOptions(default, SimDuration.MaxValue) { MostPairs = mostPairs });
+        inTime.Submit(shot);
+        inTime.Submit(spawn);
+        late.AdvanceTo(At(1));
+        late.Submit(spawn);
+        late.Submit(shot);
+        inTime.AdvanceTo(At(1.5));
+        late.AdvanceTo(At(1.5));
+        Assert.Equal(1, inTime.ImpactsProcessed);
+        Assert.Equal(inTime.EventHash(At(1.5)), late.EventHash(At(1.5)));
+    }
+
     private static List<ExternalEvent> Shaken(SeededRandom random)
     {
         double e = random.Pick(0.5, 0.9, 1), friction = random.Pick(0, 0.3, 1);
