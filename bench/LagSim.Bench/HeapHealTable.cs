@@ -29,7 +29,8 @@ internal static class HeapHealTable
             $"Heaps of balls of {Radius} m and 1 kg in a pit, friction 0.3, restitution 0.2, at the default tolerance; once all lies, {Players} players push balls drawn at random by {Push} N s,"
             + $" {EventsPerSecond} times a second each, and what they do comes {Late * 1000:0} ms late, at frames of 1/60 s; H = {History} s; {ThreadClock.Name} of the thread"));
         Console.WriteLine(
-            "| balls | pit, m | share of real time | of it in heals | in time: share of real time | late events a heal | bodies a heal | events run again a heal | heal p50 / p99, ms | segments kept a body | whole world by the collector, MB | work counted a µs, late / in time |");
+            "| balls | pit, m | share of real time | of it in heals | in time: share of real time | late events a heal | bodies a heal | events run again a heal | heal p50 / p99, ms | segments kept a body | "
+            + "whole world by the collector, MB | work counted a µs, late / in time |");
         Console.WriteLine("|---|---|---|---|---|---|---|---|---|---|---|---|");
         foreach (Row row in brief ? [new Row(20, 0.4, 1, true)] : new[] { new Row(63, 0.4, 5, true), new Row(63, 0.8, 5, true), new Row(1_000, 1.1, 2, true), new Row(1_000, 1.1, 1, true, 0.01) })
         {
@@ -45,11 +46,13 @@ internal static class HeapHealTable
         return string.Create(
             CultureInfo.InvariantCulture,
             $"| {row.Balls:N0}{(row.Tolerance is double d ? $", d = {d} m" : "")} | {2 * row.Half} | {seconds / row.Seconds:0.00} | {heals.Sum(h => h.Milliseconds) / 1000 / row.Seconds:0.00} | {inTime / row.Seconds:0.00} "
-            + $"| {heals.Average(h => h.Heal.News):0.0} | {heals.Average(h => h.Heal.Bodies):0} | {heals.Average(h => h.Heal.Events):0} | {times.P50:0.0} / {times.P99:0.0} | {kept:0.0} | {mega:0.0} | {counted / seconds * 1e-6:0.0} / {countedInTime / inTime * 1e-6:0.0} |");
+            + $"| {heals.Average(h => h.Heal.News):0.0} | {heals.Average(h => h.Heal.Bodies):0} | {heals.Average(h => h.Heal.Events):0} | {times.P50:0.0} / {times.P99:0.0} "
+            + $"| {kept:0.0} | {mega:0.0} | {counted / seconds * 1e-6:0.0} / {countedInTime / inTime * 1e-6:0.0} |");
     }
 
     /// <summary>Runs the heap; CPU seconds, heals, what is kept in the end, and how much work a session's host would count.</summary>
-    private static (double Seconds, List<(HealReport Heal, double Milliseconds)> Heals, double Kept, double Mega, double Counted) Play(Row row)
+    private static (double Seconds, List<(HealReport Heal, double Milliseconds)> Heals, double Kept, double Mega, double Counted) Play(
+        Row row)
     {
         const double settled = 3;
         Scene scene = Heap(row);
@@ -88,7 +91,8 @@ internal static class HeapHealTable
         }
 
         double seconds = (ThreadClock.Microseconds - began) / 1e6;
-        return (seconds, heals, world.Timelines.Alive / (double)row.Balls, (GC.GetTotalMemory(forceFullCollection: true) - before) * 1e-6, work.Total);
+        double mega = (GC.GetTotalMemory(forceFullCollection: true) - before) * 1e-6;
+        return (seconds, heals, world.Timelines.Alive / (double)row.Balls, mega, work.Total);
     }
 
     private static Scene Heap(Row row)

@@ -15,8 +15,8 @@ namespace LagSim;
 public sealed partial class Simulation
 {
     /// <summary>
-    /// What closes again in the instant in which it bounced, and slower than this, in m/s, waits for <see cref="ContactTime.Soon"/>. What parts
-    /// slower than this may as well be said to close: rounding decides.
+    /// What was struck twice in an instant and closes again, slower than this, in m/s, waits for <see cref="ContactTime.Soon"/>. What parts slower
+    /// than this may as well be said to close: rounding decides.
     /// </summary>
     private const double CollapseSpeed = 1e-6;
 
@@ -34,7 +34,8 @@ public sealed partial class Simulation
 
     /// <summary>
     /// Whether the impact at hand strikes a contact that can lose energy, and that was struck in this instant already, and infinitely many
-    /// impacts may follow. Where a member of an island takes part they always may: what holds it gives way to no push, however light it is itself.
+    /// impacts may follow. Where a member of an island takes part they always may: what holds it gives way to no push, however light it is
+    /// itself.
     /// </summary>
     private bool Collapses(SimTime time)
     {
@@ -67,7 +68,9 @@ public sealed partial class Simulation
     private bool WasStruck(in ContactPoint c, SimTime time)
     {
         int first = timelines.Last(parties[c.First]);
-        return (c.Second == ContactPoint.Static ? StrikesOn(first, c.Surface, time) : StrikesBetween(first, timelines.Last(parties[c.Second]), time)) > 0;
+        int strikes = c.Second == ContactPoint.Static
+            ? StrikesOn(first, c.Surface, time) : StrikesBetween(first, timelines.Last(parties[c.Second]), time);
+        return strikes > 0;
     }
 
     /// <summary>Whether a contact may lose energy: it does not bounce back in full, or there is a hand, which gives and takes.</summary>
@@ -134,7 +137,9 @@ public sealed partial class Simulation
             && (Has(HealingFault.CollapsesWithWhoTouches) || StrikesBetween(last, piece, time) > 0);
     }
 
-    /// <summary>How many impacts of this instant were on a body while it did not part from a surface that it touches; two where it is more.</summary>
+    /// <summary>
+    /// How many impacts of this instant were on a body while it did not part from a surface that it touches; two where it is more.
+    /// </summary>
     private int StrikesOn(int piece, int surface, SimTime time)
     {
         if (timelines.Key(piece).Time != time)
@@ -156,7 +161,8 @@ public sealed partial class Simulation
 
             bool isImpact = timelines.Key(at).Kind == EventKind.Impact;
             at = timelines.Previous(at);
-            strikes += isImpact && Vector3D.Dot(SurfaceNormal(surface, PositionAt(at, tick)), VelocityAt(at, tick)) <= CollapseSpeed ? 1 : 0;
+            Vector3D normal = SurfaceNormal(surface, PositionAt(at, tick));
+            strikes += isImpact && Vector3D.Dot(normal, VelocityAt(at, tick)) <= CollapseSpeed ? 1 : 0;
         }
 
         strikes = Math.Min(strikes, 2);
@@ -164,7 +170,9 @@ public sealed partial class Simulation
         return strikes;
     }
 
-    /// <summary>How many impacts of this instant were on two bodies that touch, while they did not part from each other; two where it is more.</summary>
+    /// <summary>
+    /// How many impacts of this instant were on two bodies that touch, while they did not part from each other; two where it is more.
+    /// </summary>
     private int StrikesBetween(int first, int second, SimTime time)
     {
         if (timelines.Key(first).Time != time || timelines.Key(second).Time != time)
@@ -195,8 +203,8 @@ public sealed partial class Simulation
             bool isImpact = order == 0 && timelines.Key(a).Kind == EventKind.Impact;
             a = order >= 0 ? timelines.Previous(a) : a;
             b = order <= 0 ? timelines.Previous(b) : b;
-            strikes += isImpact
-                && Vector3D.Dot(Direction(Scene.Box.Nearest(PositionAt(a, tick) - PositionAt(b, tick))), VelocityAt(a, tick) - VelocityAt(b, tick)) <= CollapseSpeed ? 1 : 0;
+            Vector3D normal = Direction(Scene.Box.Nearest(PositionAt(a, tick) - PositionAt(b, tick)));
+            strikes += isImpact && Vector3D.Dot(normal, VelocityAt(a, tick) - VelocityAt(b, tick)) <= CollapseSpeed ? 1 : 0;
         }
 
         strikes = Math.Min(strikes, 2);

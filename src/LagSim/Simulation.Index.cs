@@ -32,7 +32,8 @@ public sealed partial class Simulation
 
         if (front == SimTime.MinValue && clock.Time <= SimulatedTo)
         {
-            clock = EventKey.Before(SimulatedTo + SimDuration.OneTick); // it is of the last event, which may be long ago: from there on nobody would be listed
+            // The clock shows the last event, which may be long ago, and the index would list nobody between then and now.
+            clock = EventKey.Before(SimulatedTo + SimDuration.OneTick);
         }
 
         index = NewIndex();

@@ -11,9 +11,6 @@ namespace LagSim;
 /// <content>Prediction: the one pending event of a body.</content>
 public sealed partial class Simulation
 {
-    /// <summary>What closes slower than this part of how fast the two move may as well not: a solver's rounding decides.</summary>
-    private const double RoundingOfSpeed = 1e-9;
-
     /// <summary>Finds the body's next event, the least of step or law end, external event and contact, and queues it in place of any other.</summary>
     /// <param name="slot">The body.</param>
     /// <param name="except">Another that is not met, whatever the paths say: only a fault put in on purpose names one.</param>
@@ -131,11 +128,11 @@ public sealed partial class Simulation
             Vector3D velocity = VelocityAt(last, contact);
             double reach = isPlane ? double.PositiveInfinity : radius + Scene.SphereArray[surface - Scene.PlaneArray.Length].Radius;
             double pressing = -Vector3D.Dot(normal, AccelerationAt(last, contact)) - FallingAway(normal, velocity, reach);
-            double closing = -Vector3D.Dot(normal, velocity);
-            bool isRounding = closing <= RoundingOfSpeed * velocity.Length;
-            bool mayWait = closing <= CollapseSpeed && StrikesOn(last, surface, opened) > (isRounding ? 0 : 1);
-            double room = segment.IsOfIsland && Holds(last, surface) ? step.Scale.LookDepth : RoomOf(SurfaceGap(surface, position, radius), isRounding);
-            from = LookAgain(opened, mayWait, closing, pressing, segment.End, room, RoundingOf(position, radius));
+            Closing closing = new(
+                -Vector3D.Dot(normal, velocity), pressing, velocity.Length,
+                SurfaceGap(surface, position, radius), RoundingOf(position, radius));
+            int strikes = closing.Speed <= CollapseSpeed ? StrikesOn(last, surface, opened) : 0;
+            from = LookAgain(opened, segment.End, closing, strikes, segment.IsOfIsland && Holds(last, surface));
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -272,11 +269,11 @@ public sealed partial class Simulation
             Vector3D velocityB = VelocityAt(lastB, contact);
             Vector3D velocity = velocityA - velocityB;
             double pressing = -Vector3D.Dot(normal, AccelerationAt(lastA, contact) - AccelerationAt(lastB, contact)) - FallingAway(normal, velocity, reach);
-            double closing = -Vector3D.Dot(normal, velocity);
-            bool isRounding = closing <= RoundingOfSpeed * (velocityA.Length + velocityB.Length);
-            bool mayWait = closing <= CollapseSpeed && StrikesBetween(lastA, lastB, opened) > (isRounding ? 0 : 1);
-            double room = HoldTogether(a, lastA, b, lastB) ? step.Scale.LookDepth : RoomOf(apart.Length - reach, isRounding);
-            from = LookAgain(opened, mayWait, closing, pressing, until, room, RoundingOf(position, reach));
+            Closing closing = new(
+                -Vector3D.Dot(normal, velocity), pressing, velocityA.Length + velocityB.Length,
+                apart.Length - reach, RoundingOf(position, reach));
+            int strikes = closing.Speed <= CollapseSpeed ? StrikesBetween(lastA, lastB, opened) : 0;
+            from = LookAgain(opened, until, closing, strikes, HoldTogether(a, lastA, b, lastB));
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -292,22 +289,23 @@ public sealed partial class Simulation
 
     /// <summary>
     /// From when on a contact that closes from the opening of its segments on is to be looked for again: so slow, as rounding leaves it, or a step's sweeps where
-    /// it holds, that it uses up half of its room only after <see cref="ContactTime.Soon"/>. <paramref name="opened"/> if it cannot wait,
+    /// it holds, that it uses up its room only after <see cref="ContactTime.Soon"/>. <paramref name="opened"/> if it cannot wait,
     /// <see cref="SimTime.MaxValue"/> if the segments end before.
     /// </summary>
-    private static SimTime LookAgain(SimTime opened, bool mayWait, double closing, double pressing, SimTime end, double room, double rounding)
+    private SimTime LookAgain(SimTime opened, SimTime end, in Closing closing, int strikes, bool holds)
     {
-        double seconds = UntilDeep(room, closing, pressing);
+        double seconds = UntilDeep(holds ? step.Scale.LookDepth : 2 * closing.Room(Scene.Resolution), closing.Speed, closing.Pressing);
         SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
-        if (pressing < 0)
+        if (closing.Pressing < 0)
         {
             // It parts by itself, and from then on may come back as fast as it likes; but not before it has parted by more than rounding.
-            double apart = Math.Max(-2 * closing / pressing, Math.Sqrt(-2 * rounding / pressing));
+            double apart = Math.Max(-2 * closing.Speed / closing.Pressing, Math.Sqrt(-2 * closing.Rounding / closing.Pressing));
             SimDuration parts = TickConversion.TryFromSeconds(apart, out ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
             parts = parts < ContactTime.Soon ? ContactTime.Soon : parts;
             wait = parts < wait ? parts : wait;
         }
 
+        bool mayWait = strikes > (closing.IsRounding ? 0 : 1); // what is struck twice in an instant was in a collapse, if one was possible
         if (wait < ContactTime.Soon)
         {
             if (!mayWait)
@@ -320,12 +318,6 @@ public sealed partial class Simulation
 
         return end.SecondsSince(opened) < wait.ToSeconds() ? SimTime.MaxValue : opened + wait;
     }
-
-    /// <summary>
-    /// How much room, in metres, what no island holds has to close in unseen; it may use up half of it: a thousandth of the resolution. What closes by more than rounding has no more than is left of
-    /// that: else a light body between two that close goes to and fro for ever.
-    /// </summary>
-    private double RoomOf(double gap, bool isRounding) => 2 * Math.Max(0, (isRounding ? 0 : Math.Min(0, gap)) + (1e-3 * Scene.Resolution));
 
     /// <summary>
     /// Whether a body closes on a surface that is no further off than places are rounded: no path can tell the instant, so it is this one.
@@ -345,10 +337,13 @@ public sealed partial class Simulation
         ContactTime now = ContactTime.At(opened);
         Vector3D position = PositionAt(first, now);
         Vector3D apart = Scene.Box.Nearest(position - PositionAt(second, now));
-        return apart.Length - reach <= RoundingOf(position, reach) && Vector3D.Dot(apart, VelocityAt(first, now) - VelocityAt(second, now)) < 0;
+        return apart.Length - reach <= RoundingOf(position, reach)
+            && Vector3D.Dot(apart, VelocityAt(first, now) - VelocityAt(second, now)) < 0;
     }
 
-    /// <summary>What a gap may be off by because places are rounded, in metres: four roundings of a double, 2^-52 each, of what is summed.</summary>
+    /// <summary>
+    /// What a gap may be off by because places are rounded, in metres: four roundings of a double, 2^-52 each, of what is summed.
+    /// </summary>
     private static double RoundingOf(in Vector3D position, double reach) =>
         4.0 / (1L << 52) * (Math.Abs(position.X) + Math.Abs(position.Y) + Math.Abs(position.Z) + reach);
 

@@ -16,22 +16,28 @@ public sealed partial class Simulation
     /// <summary>The identity of the body in a place that a <see cref="IWorkObserver"/> was told.</summary>
     internal BodyId BodyIn(int slot) => bodies[slot].Id;
 
-    /// <summary>What a body costs in an event that a contact solver solves, besides.</summary>
+    /// <summary>
+    /// What a body costs in an event that a contact solver solves, besides the sweeps. Measured with the next, by <c>LagSim.Bench --
+    /// heapheals</c>.
+    /// </summary>
     private const double WorkPerBody = 2;
 
     /// <summary>What it costs to visit a contact in a sweep; most visits find that nothing has changed.</summary>
     private const double WorkPerVisit = 0.03;
 
-    /// <summary>How many times what no contact solver solves counts where it is simulated again: it was measured at 2 to 40 times.</summary>
+    /// <summary>
+    /// How many times what no contact solver solves counts where it is simulated again: it was measured at 2 to 40 times.
+    /// </summary>
     private const double WorkAgain = 4;
 
     /// <summary>What the contact solvers did for the event at hand.</summary>
     private double solverWork;
 
     /// <summary>
-    /// How much an event of so many bodies costs, in units of about a microsecond on a core of the 2020s: what contact solvers solve, by their sweeps, and no more where it is done again; a lone
-    /// bounce 2 to 4, an impact in a crowd as the square of who takes part, for all are held against all, and these several times where they are held against paths that stand already.
-    /// docs/BUDGETS.md has how near that is.
+    /// How much an event of so many bodies costs, in units of about a microsecond on a core of the 2020s. What contact solvers solve counts
+    /// by their sweeps, and no more where it is done again. Else a lone bounce is 3, an impact in a crowd the square of who takes part, for
+    /// all are held against all; and several times that where they are held against paths that stand already. docs/BUDGETS.md has how near
+    /// that is.
     /// </summary>
     private double WorkOf(int bodies, bool isAgain) =>
         solverWork > 0 ? 2 + (WorkPerBody * bodies) + solverWork : (isAgain ? WorkAgain : 1) * (2 + ((double)bodies * bodies));

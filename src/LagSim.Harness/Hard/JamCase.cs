@@ -51,7 +51,8 @@ internal sealed class JamCase : IHardCase
         SeededRandom random = new(context.Seed);
         for (int n = 0; n < load; n++)
         {
-            double x = (((n % 2) - 0.5) * 0.6) + random.NextDouble(-0.05, 0.05), z = (((n / 2 % 2) - 0.5) * 0.6) + random.NextDouble(-0.05, 0.05);
+            double x = (((n % 2) - 0.5) * 0.6) + random.NextDouble(-0.05, 0.05);
+            double z = (((n / 2 % 2) - 0.5) * 0.6) + random.NextDouble(-0.05, 0.05);
             double y = Math.Max(Rim, rest + radius) + (1.5 * Ball) + (n / 4 * 0.5);
             builder.AddBody(FormattableString.Invariant($"ball {n + 1}"), new BodySpec(Ball, 1, 0.2, friction: 0.3), V(x, y, z));
         }

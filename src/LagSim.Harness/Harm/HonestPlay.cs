@@ -31,7 +31,10 @@ public static class HonestPlay
     private const string Heap = "heap";
     private const int HeapBalls = 32;
 
-    /// <summary>The scenes that are played: all that are built in, two more crowds, and a heap of 32 balls that are poured as those of <c>lagsim accuracy heap</c>.</summary>
+    /// <summary>
+    /// The scenes that are played: all that are built in, two more crowds, and a heap of 32 balls that are poured as those of <c>lagsim
+    /// accuracy heap</c>.
+    /// </summary>
     public static IReadOnlyList<string> Scenes { get; } = [.. BuiltInScenes.Names, "crowd-1000", "crowd-5000", Heap];
 
     /// <summary>Plays one scene.</summary>
@@ -88,7 +91,8 @@ public static class HonestPlay
             scene, Players, costs.Select(c => c.Work).DefaultIfEmpty(0).Max() / seconds, most, most / budget.WorkAtOnce, host.Counters.EventsAccepted + host.Counters.EventsRefused, expelled);
     }
 
-    private static Scene SceneOf(string name) => name == Heap ? new HeapWork(HeapBalls).Scene : BuiltInScenes.TryGet(name, out Scene? built) ? built
+    private static Scene SceneOf(string name) => name == Heap ? new HeapWork(HeapBalls).Scene
+        : BuiltInScenes.TryGet(name, out Scene? built) ? built
         : throw new ArgumentException($"There is no scene '{name}'; there are {BuiltInScenes.KnownNames}, {Heap}.", nameof(name));
 
     private sealed class Player(VirtualSteps steps, int peer, Scene scene, SeededRandom random)

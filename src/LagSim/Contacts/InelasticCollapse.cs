@@ -12,8 +12,9 @@ namespace LagSim.Contacts;
 /// threshold tan^2 (pi/4 (1 - 1/N)).</para>
 /// <para>Reference: Bernu and Mazighi 1990 (J. Phys. A 23, 5745-5754); Constantin, Grossman and Mungan 1995 (Physica D 83, 409-420). Restitutions
 /// that differ: the impact at a contact turns its speed by -e and gives the others 1 + e times the coupling, so the cosine is multiplied by
-/// the root of (1 + e)(1 + f), over the root of e and the root of f. Friction drives a body across the normal by mu of its push at most, in whatever direction it slips, so the cosine is taken at
-/// the direction that couples most: where two contacts of one body are at right angles it is the root of the product of their frictions.</para>
+/// the root of (1 + e)(1 + f), over the root of e and the root of f. Friction drives a body across the normal by mu of its push at most, in
+/// whatever direction it slips, so the cosine is taken at the direction that couples most: where two contacts of one body are at right
+/// angles it is the root of the product of their frictions.</para>
 /// <para>A pure function; the order of contacts counts for rounding alone. Cost: the cube of the contacts.</para>
 /// </remarks>
 internal sealed class InelasticCollapse
@@ -53,8 +54,8 @@ internal sealed class InelasticCollapse
     }
 
     /// <summary>
-    /// The cosine at which the pushes of two contacts meet, positive where each makes the other close. Where friction makes the two unlike, their geometric mean: the product of the two is what an
-    /// impact to and one fro leave.
+    /// The cosine at which the pushes of two contacts meet, positive where each makes the other close. Where friction makes the two unlike,
+    /// their geometric mean: the product of the two is what an impact to and one fro leave.
     /// </summary>
     private static double Cosine(in ContactPoint a, double frictionOfA, in ContactPoint b, double frictionOfB, Span<double> masses)
     {
@@ -64,7 +65,9 @@ internal sealed class InelasticCollapse
         return to > 0 && fro > 0 && square > 0 ? Math.Sqrt(to * fro / square) : 0;
     }
 
-    /// <summary>How fast b closes for a unit of push in a, by way of the bodies that they share, where friction in a drives it as it can at most.</summary>
+    /// <summary>
+    /// How fast b closes for a unit of push in a, by way of the bodies that they share, where friction in a drives it as it can at most.
+    /// </summary>
     private static double Closing(in ContactPoint a, double friction, in ContactPoint b, Span<double> masses) =>
         Closing(a, friction, b, a.First, masses) + (a.Second == ContactPoint.Static ? 0 : Closing(a, friction, b, a.Second, masses));
 

@@ -14,7 +14,7 @@ namespace LagSim.Contacts;
 /// <para>Where a body's shell is can be told of the past too: a shell that is left is kept, with the span of time in which it held, until that lies before the
 /// history. So what is healed finds who was near then, whatever he did since.</para>
 /// <para>A list may name too many, for what is healed sees the past and the present at once; and never too few: of two shells whichever was made later found
-/// the other.</para>
+/// the other, and a list that a heal has made keeps who moves on ahead of it.</para>
 /// <para>How far a body may stray is its own: who leaves a shell before long gets a larger one, and who stays for many predictions a smaller one with fewer to
 /// look at. Who is too wide or too fast for the cells is listed apart, and looked at whenever a shell is made.</para>
 /// <para>Cost: the length of a list for a prediction, and what lies in the 27 cells around for a shell, which holds for some ten predictions.</para>
@@ -207,8 +207,8 @@ internal sealed class ShellIndex : IPairIndex
     }
 
     /// <summary>
-    /// Takes the body out of its cell, and out of the lists of others; but for those that the heal at hand has made, whose bodies may still meet where this one was: it may be
-    /// further in time than they are.
+    /// Takes the body out of its cell, and out of the lists of others. Not out of those that the heal at hand has made: this one may be
+    /// ahead of their bodies, which then still have to meet it where it was.
     /// </summary>
     private void Leave(int slot, long heal)
     {

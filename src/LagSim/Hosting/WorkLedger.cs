@@ -13,7 +13,9 @@ namespace LagSim.Hosting;
 /// that account for 30 s of simulated time, and one that is struck by a body on an account for 2 s, and no longer than 2 s after the act that it comes of: what the scene would do
 /// without them is not the players'. What happens is charged to the accounts of the bodies that take part, to each in equal shares, however many bodies it has in it. What news has simulated again is charged
 /// by one half to whose news it was.</para>
-/// <para>The unit is about a microsecond on one core of a machine of the 2020s. It is counted by events, by how many bodies take part in each and what contact solvers did for it. Where the ledger has a clock, and something took longer by that than was counted, that is what it cost: no count foresees all that can be
+/// <para>The unit is about a microsecond on one core of a machine of the 2020s. It is counted by events, by how many bodies take part in
+/// each and what contact solvers did for it. Where the ledger has a clock, and something took longer by that than was counted, that is what
+/// it cost: no count foresees all that can be
 /// dear, and a clock that stands still, as in virtual time, leaves what was counted, the same in every run. The world never hears of it: it enters no state and no hash.</para>
 /// <para>For the simulation's thread. Cost: some ten nanoseconds an event, and a reading of the clock; for each body that was there at a time some 24 bytes.</para>
 /// </remarks>

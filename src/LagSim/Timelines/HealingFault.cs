@@ -49,8 +49,8 @@ internal enum HealingFault
     LeavesPartOfAnInstant = 2048,
 
     /// <summary>
-    /// A collapse takes in every body that touches, also those that nothing struck in this instant. A heal that brings such a body into touch
-    /// then does not notice that it has to solve the collapse again.
+    /// A collapse takes in every body that touches, also those that nothing struck in this instant. A heal that brings such a body into
+    /// touch then does not notice that it has to solve the collapse again.
     /// </summary>
     CollapsesWithWhoTouches = 4096,
 }

@@ -91,7 +91,10 @@ public sealed class LastingContactTests
         }
     }
 
-    /// <summary>Two to seven balls in a shaft, each on the one below and against two of its walls, stand where they are put: whatever they weigh, with and without friction and rolling resistance.</summary>
+    /// <summary>
+    /// Two to seven balls in a shaft, each on the one below and against two of its walls, stand where they are put: whatever they weigh,
+    /// with and without friction and rolling resistance.
+    /// </summary>
     [Fact]
     public void Column_OfAnyMassesInAShaft_Stands()
     {
@@ -103,8 +106,10 @@ public sealed class LastingContactTests
             int count = 2 + random.NextInt(6);
             double friction = random.IsLucky(33) ? 0 : random.NextDouble();
             double resistance = random.IsLucky(33) ? 0.05 * random.NextDouble() : 0;
-            SceneBuilder builder = new SceneBuilder("shaft").WithContactTolerance(Tolerance).AddPlane("floor", Vector3D.Up, 0.0, 0, friction)
-                .AddPlane("west", V(1), Wall, 0, friction).AddPlane("east", V(-1), Wall, 0, friction).AddPlane("north", V(0, 0, 1), Wall, 0, friction).AddPlane("south", V(0, 0, -1), Wall, 0, friction);
+            SceneBuilder builder = new SceneBuilder("shaft").WithContactTolerance(Tolerance)
+                .AddPlane("floor", Vector3D.Up, 0.0, 0, friction)
+                .AddPlane("west", V(1), Wall, 0, friction).AddPlane("east", V(-1), Wall, 0, friction)
+                .AddPlane("north", V(0, 0, 1), Wall, 0, friction).AddPlane("south", V(0, 0, -1), Wall, 0, friction);
             for (int n = 0; n < count; n++)
             {
                 double mass = Math.Pow(10, random.NextDouble(-6, 6));

@@ -30,7 +30,9 @@ public sealed class BudgetTests
         Check(hasBudget, late, group);
     }
 
-    /// <summary>What is no harm: all 64 balls that a player may have dropped at once into one heap, and a push to it once it sleeps.</summary>
+    /// <summary>
+    /// What is no harm: all 64 balls that a player may have dropped at once into one heap, and a push to it once it sleeps.
+    /// </summary>
     [Fact]
     public void Step_AHeapOfAllHisBodiesAndAPush_HarmsNobody()
     {
@@ -52,7 +54,7 @@ public sealed class BudgetTests
         Assert.InRange(cost.MostAtOnce, 1000, 0.9 * PlayerBudget.Default.WorkAtOnce);
     }
 
-    /// <summary>The control: on a machine that is far too slow for it a heap does freeze the world, and with a budget its owner is sent away.</summary>
+    /// <summary>The control: on a machine that is far too slow for it a heap does freeze the world.</summary>
     [Theory]
     [InlineData(MicrosecondsASecond, false)]
     [InlineData(Slow, true)]
@@ -332,7 +334,8 @@ public sealed class BudgetTests
     private static bool Sleeps(SessionGroup group)
     {
         Simulation world = group.Host.World!.Simulation;
-        return Bodies(group.Host).Where(body => body.Sequence > 0).All(body => world.TryRead(body, world.SimulatedTo, out BodyState state) && state.Velocity == Vector3D.Zero);
+        return Bodies(group.Host).Where(body => body.Sequence > 0)
+            .All(body => world.TryRead(body, world.SimulatedTo, out BodyState state) && state.Velocity == Vector3D.Zero);
     }
 
     private static Scene Room() => new SceneBuilder("room").WithSmallestRadius(0.1)

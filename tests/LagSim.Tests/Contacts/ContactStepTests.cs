@@ -40,7 +40,8 @@ public sealed class ContactStepTests
     }
 
     /// <summary>
-    /// Rule 5: at a coarse tolerance the longest step decides what is a contact of it, and not the tolerance, which would take in all that is near.
+    /// Rule 5: at a coarse tolerance the longest step decides what is a contact of it, and not the tolerance, which would take in all that
+    /// is near.
     /// </summary>
     [Fact]
     public void WhatNothingCanClose_IsNoContactAtACoarseTolerance()

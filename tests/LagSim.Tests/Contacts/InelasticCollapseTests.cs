@@ -38,8 +38,8 @@ public sealed class InelasticCollapseTests
     }
 
     /// <summary>
-    /// A ball between floor and wall, which only friction couples, with cosine mu where it slips: mu (1 + e) = 2 sqrt e at the threshold, and from mu = 1 on any loss is enough. Without friction at
-    /// one of the two the ball is driven to it and never back.
+    /// A ball between floor and wall, which only friction couples, with cosine mu where it slips: mu (1 + e) = 2 sqrt e at the threshold,
+    /// and from mu = 1 on any loss is enough. Without friction at one of the two the ball is driven to it and never back.
     /// </summary>
     [Theory]
     [InlineData(0.3)]
@@ -54,7 +54,9 @@ public sealed class InelasticCollapseTests
 
         static bool InCorner(double e, double floor, double wall)
         {
-            ContactPoint[] contacts = [new(0, ContactPoint.Static, 0, default) { Normal = V(0, 1) }, new(0, ContactPoint.Static, 1, default) { Normal = V(1) }];
+            ContactPoint below = new(0, ContactPoint.Static, 0, default) { Normal = V(0, 1) };
+            ContactPoint beside = new(0, ContactPoint.Static, 1, default) { Normal = V(1) };
+            ContactPoint[] contacts = [below, beside];
             return new InelasticCollapse().IsPossible(contacts, [e, e], [floor, wall], [1.0]);
         }
     }
@@ -89,8 +91,8 @@ public sealed class InelasticCollapseTests
     }
 
     /// <summary>
-    /// A light ball between two heavy ones, a rounding away from one of them: places do not tell in how many picoseconds it gets there. Were they asked,
-    /// it would be struck every time anew.
+    /// A light ball between two heavy ones, a rounding away from one of them: places do not tell in how many picoseconds it gets there. If
+    /// they decided, it would be struck every few picoseconds for ever.
     /// </summary>
     [Fact]
     public void Impacts_AcrossAGapOfRounding_AreOfOneInstant()
@@ -118,8 +120,8 @@ public sealed class InelasticCollapseTests
     }
 
     /// <summary>
-    /// What closes slowly on a ball that touches both, heavier by a million or a thousand million, has it go to and fro without end: by less than a thousandth of the resolution each time, and by a
-    /// millionth less fast. It is one collapse, after which they go on together.
+    /// Two heavy balls close slowly on a light one that touches both. If each touch could wait, it would go to and fro without end, by a
+    /// thousandth of the resolution and a millionth less fast each time. It is one collapse, after which they go on together.
     /// </summary>
     [Theory]
     [InlineData(1e-6, 8.7e-7, 0)]
@@ -128,7 +130,8 @@ public sealed class InelasticCollapseTests
     public void SlowSqueeze_OfALightBall_IsOneCollapse(double light, double speed, double e)
     {
         Scene scene = new SceneBuilder("squeeze").WithGravity(Vector3D.Zero)
-            .AddBody("slow", new BodySpec(0.5, 1000, e), V(1), V(0.3 * speed)).AddBody("light", new BodySpec(0.5, light, e), V(0)).AddBody("fast", new BodySpec(0.5, 1, e), V(-1), V(speed)).Build();
+            .AddBody("slow", new BodySpec(0.5, 1000, e), V(1), V(0.3 * speed)).AddBody("light", new BodySpec(0.5, light, e), V(0))
+            .AddBody("fast", new BodySpec(0.5, 1, e), V(-1), V(speed)).Build();
         Simulation simulation = new(scene, new SimulationOptions());
         simulation.AdvanceTo(At(10));
         Assert.InRange(simulation.ImpactsProcessed, 1, 20);
@@ -139,19 +142,25 @@ public sealed class InelasticCollapseTests
         }
     }
 
-    /// <summary>Two that slide along each other part by so little that no place can tell: they are not struck for it.</summary>
+    /// <summary>
+    /// Two that slide along each other, 1.9 pm deep, part by so little that no place can tell (from <c>check --seed 300199</c>): they are not struck for
+    /// it every microsecond.
+    /// </summary>
     [Fact]
-    public void SlidingApart_ByLessThanRounding_IsNoImpact()
+    public void SlidingApart_ByLessThanRounding_IsNoStorm()
     {
         Scene scene = new SceneBuilder("slide").WithGravity(Vector3D.Zero)
-            .AddBody("one", new BodySpec(0.2, 1, 0), V(0)).AddBody("other", new BodySpec(0.2, 20, 0.9), V(0.4 - 1.9e-12, 2e-12), V(-3e-23, 4.5e-12)).Build();
+            .AddBody("one", new BodySpec(0.2, 1, 0), V(-1.7440272628554248, 0.199999999999), V(-5.286773078206401e-17))
+            .AddBody("other", new BodySpec(0.2, 20, 0.9), V(-1.3440272628573402, 0.20000000000203097), V(-5.286776469215463e-17, 4.4751552964854584e-12))
+            .Build();
         Simulation simulation = new(scene, new SimulationOptions());
-        simulation.AdvanceTo(At(1));
-        Assert.InRange(simulation.ImpactsProcessed, 0, 2);
+        long most = 10_000;
+        Assert.True(simulation.TryAdvanceTo(At(1), ref most), $"at {simulation.SimulatedTo}");
     }
 
     private static bool IsPossible((ContactPoint[] Contacts, double[] Masses) row, double e) =>
-        new InelasticCollapse().IsPossible(row.Contacts, row.Contacts.Select(_ => e).ToArray(), new double[row.Contacts.Length], row.Masses);
+        new InelasticCollapse().IsPossible(
+            row.Contacts, row.Contacts.Select(_ => e).ToArray(), new double[row.Contacts.Length], row.Masses);
 
     /// <summary>Balls that touch along a line.</summary>
     private static (ContactPoint[] Contacts, double[] Masses) Row(double[] masses, bool hasWall)

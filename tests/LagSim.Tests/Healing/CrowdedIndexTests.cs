@@ -9,7 +9,10 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Healing;
 
-/// <summary>Fast balls in a heap that a hand shakes, all of which is heard of late: who is ahead of what is being healed moves from shell to shell, and is met where it was.</summary>
+/// <summary>
+/// Heals by the index of who is near: a body that is ahead of what is being healed moves from shell to shell, and must still be met where
+/// it was.
+/// </summary>
 public sealed class CrowdedIndexTests
 {
     private const double End = 0.6;
@@ -39,7 +42,10 @@ public sealed class CrowdedIndexTests
         }
     }
 
-    /// <summary>The index comes with the body that is one too many to look at all pairs; before that nothing has happened for a second, in which a body is to be met by what is heard of later.</summary>
+    /// <summary>
+    /// The index begins with the 65th body, here after a second without any event. What is heard of later strikes a body within that
+    /// second. With one body less there is no index yet.
+    /// </summary>
     [Theory]
     [InlineData(SimulationOptions.DefaultMostPairs)]
     [InlineData(SimulationOptions.DefaultMostPairs + 1)]
@@ -75,7 +81,8 @@ public sealed class CrowdedIndexTests
         uint sequence = 1;
         for (int n = 0; n < 60; n++)
         {
-            Vector3D place = V(-0.499 + (0.201 * (n % 3)), 0.7 + (0.201 * (n / 9)) + (0.001 * random.NextDouble()), -0.499 + (0.201 * (n / 3 % 3)));
+            double height = 0.7 + (0.201 * (n / 9)) + (0.001 * random.NextDouble());
+            Vector3D place = V(-0.499 + (0.201 * (n % 3)), height, -0.499 + (0.201 * (n / 3 % 3)));
             events.Add(ExternalEvent.Spawn(At(0.06 + (0.002 * n)), 1, sequence++, new BodySpec(0.1, 1, e, friction: friction), place));
         }
 
