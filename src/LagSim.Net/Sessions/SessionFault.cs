@@ -17,4 +17,7 @@ internal enum SessionFault
 
     /// <summary>Neither a queue nor a loss has a link send less.</summary>
     NeverBacksOff = 4,
+
+    /// <summary>Every datagram that comes is taken for a round trip, also where it answers the one that the last has answered.</summary>
+    CountsTripsAgain = 8,
 }

@@ -60,6 +60,7 @@ internal sealed class UpdateLink
     private int newsBytes; // how much, in entries
     private int unanswered; // how many times in a row answers were overdue
     private SimTime answered; // when something was answered, or began to be waited for
+    private uint echoed; // the newest number that a round trip was taken of
     private bool isProbe; // the next update goes whatever the window
     private bool isHeldBack; // something has to go and may not yet
     private long datagramsSent;
@@ -167,9 +168,11 @@ internal sealed class UpdateLink
             echoReceived = now;
             SimDuration held = update.EchoNumber == 0 ? SimDuration.Zero : update.Sent - update.EchoReceived; // both by its own clock
             unheard = held;
-            if (sent.TryGetTime(update.EchoNumber, out SimTime at) && held >= SimDuration.Zero && held <= now - at) // else it is made up
+            bool isNewTrip = update.EchoNumber > echoed || (fault & SessionFault.CountsTripsAgain) != 0; // else only half of it is
+            if (isNewTrip && sent.TryGetTime(update.EchoNumber, out SimTime at) && held >= SimDuration.Zero && held <= now - at) // else it is made up
             {
                 trips.Add(now - at - held, now);
+                echoed = update.EchoNumber;
             }
         }
 
