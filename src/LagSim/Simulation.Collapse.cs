@@ -20,17 +20,20 @@ public sealed partial class Simulation
     /// </summary>
     private const double CollapseSpeed = 1e-6;
 
+    /// <summary>
+    /// A contact is struck, then something else strikes one of the two, a round later, and only then can they close again: that is the third round,
+    /// numbered 2. Before it there is nothing that could collapse.
+    /// </summary>
+    private const uint CollapseRound = 2;
+
     private readonly InelasticCollapse collapse = new();
     private readonly KnownStrikes[] knownStrikes = new KnownStrikes[64];
 
     /// <summary>Bounces as often as it closes: only a test's negative control sets it.</summary>
     internal bool NeverCollapses { get; set; }
 
-    /// <summary>
-    /// Whether a contact can have been struck in this instant already. It is struck, then something else strikes one of the two, a round later,
-    /// and only then can they close again: that is the third round, which is numbered 2. Before it there is nothing to look for.
-    /// </summary>
-    private static bool MayBeStruckAgain(in EventKey key) => key.Round >= 2;
+    /// <summary>Whether a contact can have been struck in this instant already.</summary>
+    private static bool MayBeStruckAgain(in EventKey key) => key.Round >= CollapseRound;
 
     /// <summary>
     /// Whether the impact at hand strikes a contact that can lose energy, and that was struck in this instant already, and infinitely many

@@ -17,9 +17,19 @@ public sealed partial class Simulation
     /// <summary>At about so many others a body looks, however many there are.</summary>
     internal const int MostLooks = 64;
 
-    private readonly int mostPairs;
+    private int mostPairs;
     private IPairIndex index = new AllPairs();
     private int outgrownAt; // number of bodies too wide or fast for the cells at which other cells are tried
+
+    /// <summary>
+    /// From now on uses the index above so many bodies, 0 for always; what has one keeps it. It changes no bit, and is for tests: worlds small enough to
+    /// be played by the thousand would never use it.
+    /// </summary>
+    internal void UseIndexAbove(int bodies)
+    {
+        mostPairs = bodies;
+        FitIndex();
+    }
 
     /// <summary>Looks whether the bodies have become so many, or so much larger, that another index serves them better.</summary>
     private void FitIndex()
@@ -81,6 +91,9 @@ public sealed partial class Simulation
         double usual = count == 0 ? Scene.SmallestRadius : radii[count * 9 / 10];
         double usualSpeed = present == 0 ? 0 : speeds[present * 9 / 10];
         double tick = Limits.MaxSpeed(Scene.SmallestRadius) * TickConversion.SecondsPerTick;
-        return new ShellIndex(timelines, CellInRadii * usual, usualSpeed, Scene.Resolution, tick, Scene.Box, slotCount);
+        return new ShellIndex(timelines, CellInRadii * usual, usualSpeed, Scene.Resolution, tick, Scene.Box, slotCount)
+        {
+            ForgetsWhoMovedOn = Has(HealingFault.ForgetsWhoMovedOn),
+        };
     }
 }

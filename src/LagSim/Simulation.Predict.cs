@@ -132,7 +132,8 @@ public sealed partial class Simulation
                 -Vector3D.Dot(normal, velocity), pressing, velocity.Length,
                 SurfaceGap(surface, position, radius), RoundingOf(position, radius));
             int strikes = closing.Speed <= CollapseSpeed ? StrikesOn(last, surface, opened) : 0;
-            from = LookAgain(opened, segment.End, closing, strikes, segment.IsOfIsland && Holds(last, surface));
+            bool mayWait = MayWait(closing, strikes, round);
+            from = LookAgain(opened, segment.End, closing, mayWait, segment.IsOfIsland && Holds(last, surface));
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -273,7 +274,8 @@ public sealed partial class Simulation
                 -Vector3D.Dot(normal, velocity), pressing, velocityA.Length + velocityB.Length,
                 apart.Length - reach, RoundingOf(position, reach));
             int strikes = closing.Speed <= CollapseSpeed ? StrikesBetween(lastA, lastB, opened) : 0;
-            from = LookAgain(opened, until, closing, strikes, HoldTogether(a, lastA, b, lastB));
+            bool mayWait = MayWait(closing, strikes, round);
+            from = LookAgain(opened, until, closing, mayWait, HoldTogether(a, lastA, b, lastB));
             if (from == opened || from == SimTime.MaxValue)
             {
                 return from == opened;
@@ -292,7 +294,7 @@ public sealed partial class Simulation
     /// it holds, that it uses up its room only after <see cref="ContactTime.Soon"/>. <paramref name="opened"/> if it cannot wait,
     /// <see cref="SimTime.MaxValue"/> if the segments end before.
     /// </summary>
-    private SimTime LookAgain(SimTime opened, SimTime end, in Closing closing, int strikes, bool holds)
+    private SimTime LookAgain(SimTime opened, SimTime end, in Closing closing, bool mayWait, bool holds)
     {
         double seconds = UntilDeep(holds ? step.Scale.LookDepth : 2 * closing.Room(Scene.Resolution), closing.Speed, closing.Pressing);
         SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
@@ -305,7 +307,6 @@ public sealed partial class Simulation
             wait = parts < wait ? parts : wait;
         }
 
-        bool mayWait = strikes > (closing.IsRounding ? 0 : 1); // what is struck twice in an instant was in a collapse, if one was possible
         if (wait < ContactTime.Soon)
         {
             if (!mayWait)
@@ -318,6 +319,13 @@ public sealed partial class Simulation
 
         return end.SecondsSince(opened) < wait.ToSeconds() ? SimTime.MaxValue : opened + wait;
     }
+
+    /// <summary>
+    /// Whether what closes in the instant in which it was struck may wait: rounding after one impact, and what a collapse has left, or would have ended if one
+    /// were possible. Before the round of a collapse there was none, however slow it is.
+    /// </summary>
+    private static bool MayWait(in Closing closing, int strikes, uint round) =>
+        closing.IsRounding ? strikes > 0 : strikes > 1 && round > CollapseRound;
 
     /// <summary>
     /// Whether a body closes on a surface that is no further off than places are rounded: no path can tell the instant, so it is this one.

@@ -43,10 +43,16 @@ internal sealed class CheckCase
     private const double LowestRate = 12e3;
     private const double HighestRate = 10e6;
     private const double StopPercent = 15;
+
+    /// <summary>Half of the peers use the index, most from the first body on, the others from a number on that spawns reach in play.</summary>
+    private const double IndexPercent = 50;
+    private const double EarlyIndexPercent = 70;
+    private const int MostIndexedLate = 24;
     private const double LongestEntry = 30; // seconds, from the first question to the world: six round trips of 4 s, and what is lost
 
     private const ulong SortStream = 3;
     private const ulong TroubleStream = 4;
+    private const ulong IndexStream = 5;
     private const ulong FirstRoom = 100;
     private const ulong FirstHands = 1000;
     private const ulong MostAttempts = 20;
@@ -74,6 +80,7 @@ internal sealed class CheckCase
         isHeap = sort < HeapPercent || isPit;
         DrawPlayers(random.Fork(1), options);
         DrawTrouble(random.Fork(TroubleStream), options);
+        DrawIndexes(random.Fork(IndexStream));
         SeededRandom rest = random.Fork(2);
         long budget = rest.IsLucky(HeavyPercent) ? HeavyEvents : UsualEvents;
         for (ulong attempt = 0; ; attempt++)
@@ -220,6 +227,16 @@ internal sealed class CheckCase
                 bool isInVain = players[peer].AsksAtSeconds is double asks && asks > at - LongestEntry && asks < at + seconds;
                 players[peer] = isInVain ? players[peer] with { AsksAtSeconds = at + seconds } : players[peer];
             }
+        }
+    }
+
+    private void DrawIndexes(SeededRandom random)
+    {
+        for (int peer = 0; peer < players.Count; peer++)
+        {
+            bool isUsed = random.IsLucky(IndexPercent), isEarly = random.IsLucky(EarlyIndexPercent);
+            int above = random.NextInt(MostIndexedLate);
+            players[peer] = players[peer] with { IndexAbove = isUsed ? isEarly ? 0 : above : null };
         }
     }
 

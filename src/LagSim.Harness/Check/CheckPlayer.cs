@@ -14,4 +14,10 @@ internal sealed record CheckPlayer(
 {
     /// <summary>When its process stands still, from the session's start on, and for how long; null: never.</summary>
     public (double AtSeconds, double Seconds)? Stop { get; init; }
+
+    /// <summary>
+    /// Above how many bodies its world looks for contacts by the index; null: as everywhere, above 64. The world that never had a delay uses none, so that
+    /// what the index overlooks is seen.
+    /// </summary>
+    public int? IndexAbove { get; init; }
 }

@@ -186,6 +186,11 @@ internal sealed class CheckSession
         {
             Simulation simulation = session.World!.Simulation;
             options.Prepare?.Invoke(address, simulation);
+            if (player.IndexAbove is int bodies)
+            {
+                simulation.UseIndexAbove(bodies);
+            }
+
             member.Heals.Add(new HealImpacts(simulation, report => report.From < session.SharedTime.Now));
         }
         session.Begun += Watch;

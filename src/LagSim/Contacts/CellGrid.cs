@@ -1,5 +1,4 @@
 using System;
-using LagSim.Motion;
 using LagSim.Scenes;
 
 namespace LagSim.Contacts;
@@ -53,19 +52,6 @@ internal sealed class CellGrid
         uint y = (uint)((number >> AxisBits) & AxisMask);
         uint z = (uint)(number >> (2 * AxisBits));
         return (int)((x + (y * 0x9E3779B1U) + (z * 0x85EBCA77U)) & (uint)(lists - 1));
-    }
-
-    /// <summary>The largest acceleration that a path has in a span of seconds after its epoch, or more.</summary>
-    internal static double LargestAcceleration(in MotionSegment path, in DenseOutput dense, double from, double until)
-    {
-        double largest = path.Acceleration.Length;
-        if (path.IsDense)
-        {
-            double s = Math.Max(Math.Abs(from), Math.Abs(until));
-            largest += ((6 * dense.Cubic.Length) + (((12 * dense.Quartic.Length) + (20 * s * dense.Quintic.Length)) * s)) * s;
-        }
-
-        return largest;
     }
 
     private static long Wrapped(long at, long cells)

@@ -11,8 +11,8 @@ internal readonly struct Shell
     /// <summary>What rounding may have moved, in parts of a coordinate or of the shell's radius: thousands of times of what it does.</summary>
     private const double Slack = 1e-12;
 
-    /// <summary>So many seconds at least are looked ahead, though the formula was made for less: 1/512 s.</summary>
-    private const double LeastLook = 1.0 / 512;
+    /// <summary>So many seconds are looked ahead at most, for the bound on what bends a path grows with them.</summary>
+    private const double LongestLook = 1;
 
     internal Shell(in Vector3D centre, double stray, double radius)
     {
@@ -38,8 +38,8 @@ internal readonly struct Shell
     }
 
     /// <summary>
-    /// Until when a path surely stays in the shell, seen from a time at which it may be in it; that time itself if it is outside, or so near to the edge that
-    /// it cannot be told.
+    /// Until when a path surely stays in the shell, seen from a time at which it may be in it: <see cref="SimTime.MaxValue"/> if as long as the path goes, the
+    /// time itself if it is outside, or so near to the edge that it cannot be told.
     /// </summary>
     internal SimTime Leaves(in MotionSegment path, in DenseOutput dense, SimTime from, in PeriodicBox box)
     {
@@ -51,13 +51,32 @@ internal readonly struct Shell
         double seconds = from.SecondsSince(path.Epoch);
         Vector3D apart = box.Nearest(path.PositionAt(seconds, dense) - Centre);
         Vector3D velocity = path.VelocityAt(seconds, dense);
-        double last = Math.Min(seconds + 1, Math.Max(seconds + LeastLook, path.End.SecondsSince(path.Epoch)));
-        double acceleration = CellGrid.LargestAcceleration(path, dense, seconds, last);
-        double stay = acceleration == 0
-            ? Straight(apart, velocity, Stray)
-            : Curved(apart, velocity, acceleration, path.IsDense ? last - seconds : double.MaxValue);
-        return Later(from, stay);
+        double left = SecondsLeft(path, seconds);
+        double look = Math.Min(left, LongestLook);
+        double acceleration = LargestAcceleration(path, dense, seconds, look);
+        double stay = acceleration == 0 ? Straight(apart, velocity, Stray) : Curved(apart, velocity, acceleration);
+        return stay > left ? SimTime.MaxValue : Later(from, path.IsDense ? Math.Min(stay, look) : stay);
     }
+
+    /// <summary>
+    /// The largest acceleration, or more, that a path has so many seconds after its epoch and for a span after that, but not after its end: a polynomial says
+    /// nothing there, and where forces are strong it ends soon.
+    /// </summary>
+    internal static double LargestAcceleration(in MotionSegment path, in DenseOutput dense, double seconds, double span)
+    {
+        double largest = path.Acceleration.Length;
+        if (path.IsDense)
+        {
+            double s = Math.Abs(seconds) + Math.Min(span, SecondsLeft(path, seconds));
+            largest += ((6 * dense.Cubic.Length) + (((12 * dense.Quartic.Length) + (20 * s * dense.Quintic.Length)) * s)) * s;
+        }
+
+        return largest;
+    }
+
+    // A tick more, for what happens at the last one may lie half of one after it.
+    private static double SecondsLeft(in MotionSegment path, double seconds) =>
+        path.IsDense ? Math.Max(0, path.End.SecondsSince(path.Epoch) - seconds) + TickConversion.SecondsPerTick : double.PositiveInfinity;
 
     // A tick less, for what happens at a tick may lie half of one after it.
     private static SimTime Later(SimTime from, double seconds)
@@ -69,8 +88,8 @@ internal readonly struct Shell
     }
 
     // Three quarters for what the velocity does, one for what bends the path.
-    private double Curved(in Vector3D apart, in Vector3D velocity, double acceleration, double longest) =>
-        Math.Min(longest, Math.Min(Straight(apart, velocity, 0.75 * Stray), Math.Sqrt(0.5 * Stray / acceleration)));
+    private double Curved(in Vector3D apart, in Vector3D velocity, double acceleration) =>
+        Math.Min(Straight(apart, velocity, 0.75 * Stray), Math.Sqrt(0.5 * Stray / acceleration));
 
     /// <summary>The root of |apart + velocity t| = stray, or zero if it is outside.</summary>
     private static double Straight(in Vector3D apart, in Vector3D velocity, double stray)
@@ -84,6 +103,6 @@ internal readonly struct Shell
 
         double along = Vector3D.Dot(apart, velocity);
         double root = Math.Sqrt((along * along) + (square * room));
-        return along > 0 ? room / (along + root) : square > 0 ? (root - along) / square : double.PositiveInfinity;
+        return along >= 0 ? room / (along + root) : (root - along) / square; // endless where the speed is so low that its square is none
     }
 }

@@ -79,6 +79,9 @@ internal sealed class ShellIndex : IPairIndex
         past = new PastShells(grid, box, 0.5 * cell);
     }
 
+    /// <summary>Whether it forgets who has moved on ahead of a heal: a negative control.</summary>
+    internal bool ForgetsWhoMovedOn { get; set; }
+
     /// <summary>How many bodies are in no cell; if they are many, other cells would serve better.</summary>
     internal int WideCount => present.WideCount;
 
@@ -217,7 +220,7 @@ internal sealed class ShellIndex : IPairIndex
         present.Remove(slot, stays[slot].Cell);
         foreach (int other in lists.Of(slot))
         {
-            int at = heal != 0 && stays[other].Heal == heal ? -1 : lists.Of(other).IndexOf(slot);
+            int at = heal != 0 && stays[other].Heal == heal && !ForgetsWhoMovedOn ? -1 : lists.Of(other).IndexOf(slot);
             if (at >= 0)
             {
                 lists.RemoveAt(other, at);
@@ -232,7 +235,7 @@ internal sealed class ShellIndex : IPairIndex
     {
         double seconds = at.SecondsSince(path.Epoch);
         double speed = path.VelocityAt(seconds, dense).Length;
-        double acceleration = CellGrid.LargestAcceleration(path, dense, seconds, seconds + shortestStay);
+        double acceleration = Shell.LargestAcceleration(path, dense, seconds, shortestStay);
         double least = 2 * ((speed * shortestStay) + (2 * acceleration * shortestStay * shortestStay)); // twice, for three quarters are for the velocity
         double stray = Math.Max(least, Math.Min(wanted, Math.Max(LeastStray * cell, (0.5 * cell * (1 - 1e-9)) - radius)));
         return new Shell(path.PositionAt(seconds, dense), stray < double.MaxValue ? stray : double.PositiveInfinity, radius);

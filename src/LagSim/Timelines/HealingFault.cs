@@ -53,4 +53,10 @@ internal enum HealingFault
     /// touch then does not notice that it has to solve the collapse again.
     /// </summary>
     CollapsesWithWhoTouches = 4096,
+
+    /// <summary>
+    /// Who moves on ahead of the others in a heal is taken out of the index's lists for them, though they still have to meet it where it was.
+    /// Counts for an index that is made after it is set.
+    /// </summary>
+    ForgetsWhoMovedOn = 8192,
 }

@@ -49,6 +49,38 @@ public sealed class ShellIndexTests
         Assert.True(missed > 5, $"{missed} missed");
     }
 
+    /// <summary>
+    /// A step where forces are strong is short, and its polynomial says nothing beyond its end: there it leads out of any shell at once. Who asks again at
+    /// every instant gets nowhere (from <c>check --seed 30010</c>).
+    /// </summary>
+    [Fact]
+    public void Leaves_AShortStepOfStrongForces_NotBeforeItsEnd()
+    {
+        SimTime end = SimTime.FromSeconds(1e-5);
+        DenseOutput dense = new(V(1e3), V(1e9), V(1e15));
+        MotionSegment path = new(MotionLaw.RungeKutta4, At(0), end, V(0), V(1), V(100));
+        Assert.Equal(SimTime.MaxValue, new Shell(V(0), 0.01, 0.1).Leaves(path, dense, At(0), default));
+
+        // The control: what goes on for longer leaves, and not so soon that it is asked for at every instant.
+        MotionSegment longer = new(MotionLaw.RungeKutta4, At(0), At(1), V(0), V(1), V(100));
+        Assert.InRange(new Shell(V(0), 0.01, 0.1).Leaves(longer, default, At(0), default).ToSeconds(), 1e-3, 0.02);
+        Assert.Equal(At(0), new Shell(V(1), 0.01, 0.1).Leaves(path, dense, At(0), default)); // it is outside
+    }
+
+    [Theory]
+    [InlineData(0)]
+    [InlineData(1e-160)] // its square is none, or almost
+    [InlineData(2.6e-162)]
+    [InlineData(5e-324)]
+    public void Leaves_WhatHardlyMoves_Never(double speed)
+    {
+        MotionSegment path = new(MotionLaw.Ballistic, At(0), SimTime.MaxValue, V(0), V(speed, speed), V(0));
+        foreach (Vector3D centre in new[] { V(0), V(0.05), V(-0.05) })
+        {
+            Assert.True(new Shell(centre, 0.1, 0.1).Leaves(path, default, At(0), default) > At(1e6));
+        }
+    }
+
     [Fact]
     public void Candidates_InAHeal_HaveWhoWasThereThen()
     {
