@@ -23,6 +23,7 @@ internal static class Program
         ["bounce"] = BounceTable.Print,
         ["gas"] = WalledGasTable.Print,
         ["heaps"] = HeapTable.Print,
+        ["unequal"] = UnequalHeapTable.Print,
         ["heapheals"] = HeapHealTable.Print,
         ["large"] = LargeTable.Print,
         ["build"] = BuildTable.Print,

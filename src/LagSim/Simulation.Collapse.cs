@@ -26,8 +26,10 @@ public sealed partial class Simulation
     /// </summary>
     private const uint CollapseRound = 2;
 
+    private const int StrikesKnown = 64;
+
     private readonly InelasticCollapse collapse = new();
-    private readonly KnownStrikes[] knownStrikes = new KnownStrikes[64];
+    private KnownStrikes[]? knownStrikes;
 
     /// <summary>Bounces as often as it closes: only a test's negative control sets it.</summary>
     internal bool NeverCollapses { get; set; }
@@ -216,7 +218,11 @@ public sealed partial class Simulation
     }
 
     /// <summary>The place of what was last found out about two.</summary>
-    private ref KnownStrikes Known(int first, int second) => ref knownStrikes[((first * 31) + second) & (knownStrikes.Length - 1)];
+    private ref KnownStrikes Known(int first, int second)
+    {
+        knownStrikes ??= new KnownStrikes[StrikesKnown];
+        return ref knownStrikes[((first * 31) + second) & (StrikesKnown - 1)];
+    }
 
     /// <summary>
     /// What was found out about two pieces of paths: a walk back through an instant ends there. It only saves time, for the same two pieces

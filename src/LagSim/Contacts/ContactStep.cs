@@ -19,14 +19,16 @@ internal sealed class ContactStep
     /// </summary>
     internal const int MostSweeps = 200;
 
+    private const int FewestPairs = 16;
+
     private readonly Scene scene;
     private readonly UnlikeMassSolver unlike = new();
-    private Member[] members = new Member[8];
-    private int[] byPlace = new int[8];
-    private double[] places = new double[8];
-    private long[] pairs = new long[16]; // the lesser body and the greater
+    private Member[] members = Array.Empty<Member>();
+    private int[] byPlace = Array.Empty<int>();
+    private double[] places = Array.Empty<double>();
+    private long[] pairs = Array.Empty<long>(); // the lesser body and the greater
     private int pairCount;
-    private long[] near = new long[16]; // those that are no contacts of the step, and might come to touch if the step makes them faster
+    private long[] near = Array.Empty<long>(); // those that are no contacts of the step, and might come to touch if the step makes them faster
     private int nearCount;
     private double fastest; // that the near ones were found for
 
@@ -65,9 +67,9 @@ internal sealed class ContactStep
         int n = Problem.AddBody(isHeld ? double.PositiveInfinity : spec.Mass, spec.Radius, velocity + gain, spin);
         if (n == members.Length)
         {
-            Array.Resize(ref members, 2 * n);
-            Array.Resize(ref byPlace, 2 * n);
-            Array.Resize(ref places, 2 * n);
+            Array.Resize(ref members, Problem.Bodies.Length);
+            Array.Resize(ref byPlace, Problem.Bodies.Length);
+            Array.Resize(ref places, Problem.Bodies.Length);
         }
 
         members[n] = new Member
@@ -293,7 +295,7 @@ internal sealed class ContactStep
     {
         if (count == to.Length)
         {
-            Array.Resize(ref to, 2 * count);
+            Array.Resize(ref to, Math.Max(FewestPairs, 2 * count));
         }
 
         to[count++] = pair;

@@ -19,7 +19,7 @@ namespace LagSim.Contacts;
 /// </remarks>
 internal sealed class InelasticCollapse
 {
-    private double[] matrix = new double[64];
+    private double[] matrix = Array.Empty<double>();
 
     /// <summary>Whether infinitely many impacts may follow among these contacts, all of which touch.</summary>
     /// <param name="contacts">With their normals.</param>
