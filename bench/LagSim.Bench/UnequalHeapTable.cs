@@ -8,7 +8,9 @@ using LagSim.Time;
 
 namespace LagSim.Bench;
 
-/// <summary>What a heap of 64 unequal balls with friction costs at the default contact tolerance, by restitution and by how unlike their masses are.</summary>
+/// <summary>
+/// What a heap of 64 unequal balls with friction costs at the default contact tolerance, by restitution and by how unlike their masses are.
+/// </summary>
 internal static class UnequalHeapTable
 {
     private const double Seconds = 3;
@@ -16,16 +18,20 @@ internal static class UnequalHeapTable
     private const int Runs = 3;
     private const double Cell = 0.36;
 
+    /// <summary>So unlike are masses where all balls have one density; beyond it they are drawn.</summary>
+    private const double OfOneDensity = 8;
+
     internal static void Print(bool brief)
     {
         Measure(0.2, 1, 1, 0.3);
         Console.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
-            $"64 balls of radii 0.08 to 0.16 m, friction 0.4, dropped into a pit {Side * Cell:0.##} m wide; the first {Seconds} s, three drawn heaps each; share of real time on one core"));
+            $"64 balls of radii 0.08 to 0.16 m, friction 0.4, dropped into a pit {Side * Cell:0.##} m wide; the first {Seconds} s, "
+            + $"{Runs} drawn heaps each; share of real time on one core"));
         Console.WriteLine("| restitution | masses, kg | least | middle | most | its dearest quarter of a second |");
         Console.WriteLine("|---|---|---|---|---|---|");
         double[] restitutions = brief ? [0.2] : [0.2, 0.9, 0.99, 1];
-        double[] unlike = brief ? [8] : [8, 100];
+        double[] unlike = brief ? [OfOneDensity] : [OfOneDensity, 100];
         foreach (double ratio in unlike)
         {
             foreach (double e in restitutions)
@@ -64,7 +70,7 @@ internal static class UnequalHeapTable
         for (int n = 0; n < Side * Side * Side; n++)
         {
             double radius = 0.08 + (0.08 * random.NextDouble());
-            double mass = ratio <= 8 ? Math.Pow(radius / 0.08, 3) : Math.Pow(ratio, random.NextDouble()); // of one density up to eight to one
+            double mass = ratio <= OfOneDensity ? Math.Pow(radius / 0.08, 3) : Math.Pow(ratio, random.NextDouble());
             Vector3D place = new(Place(n % Side) - half, Place(n / (Side * Side)) + 0.2, Place(n / Side % Side) - half);
             builder.AddBody($"ball {n}", new BodySpec(radius, mass, restitution, friction: 0.4), place);
         }

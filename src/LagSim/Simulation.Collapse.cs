@@ -21,12 +21,12 @@ public sealed partial class Simulation
     private const double CollapseSpeed = 1e-6;
 
     /// <summary>
-    /// A contact is struck, then something else strikes one of the two, a round later, and only then can they close again: that is the third round,
-    /// numbered 2. Before it there is nothing that could collapse.
+    /// The first round of an instant in which there can be a collapse: a contact is struck, then something else strikes one of the two, a round
+    /// later, and only then can they close again. Rounds are numbered from 0.
     /// </summary>
     private const uint CollapseRound = 2;
 
-    private const int StrikesKnown = 64;
+    private const int StrikesKnown = 64; // a power of two
 
     private readonly InelasticCollapse collapse = new();
     private KnownStrikes[]? knownStrikes;

@@ -43,12 +43,15 @@ internal sealed class CheckCase
     private const double LowestRate = 12e3;
     private const double HighestRate = 10e6;
     private const double StopPercent = 15;
-
-    /// <summary>Half of the peers use the index, most from the first body on, the others from a number on that spawns reach in play.</summary>
-    private const double IndexPercent = 50;
-    private const double EarlyIndexPercent = 70;
-    private const int MostIndexedLate = 24;
     private const double LongestEntry = 30; // seconds, from the first question to the world: six round trips of 4 s, and what is lost
+
+    /// <summary>
+    /// Half of the peers look for contacts by the index; most of these from the first body on, the others from fewer than so many on, which
+    /// spawns reach in play.
+    /// </summary>
+    private const double IndexPercent = 50;
+    private const double FromTheFirstPercent = 70;
+    private const int LatestIndex = 24;
 
     private const ulong SortStream = 3;
     private const ulong TroubleStream = 4;
@@ -234,9 +237,9 @@ internal sealed class CheckCase
     {
         for (int peer = 0; peer < players.Count; peer++)
         {
-            bool isUsed = random.IsLucky(IndexPercent), isEarly = random.IsLucky(EarlyIndexPercent);
-            int above = random.NextInt(MostIndexedLate);
-            players[peer] = players[peer] with { IndexAbove = isUsed ? isEarly ? 0 : above : null };
+            bool isUsed = random.IsLucky(IndexPercent), fromTheFirst = random.IsLucky(FromTheFirstPercent);
+            int above = random.NextInt(LatestIndex);
+            players[peer] = players[peer] with { IndexAbove = isUsed ? fromTheFirst ? 0 : above : null };
         }
     }
 

@@ -402,9 +402,7 @@ public sealed partial class HostSession : Session
 
     private protected override SimTime NextDue(SimTime now)
     {
-        // A world that stands, or is behind, holds the watermark back: then its own steps are what is waited for, and not the clock.
         SimTime due = NextCommit(Options.Window.History);
-        due = due <= SharedTime.Now && World is not null && World.Simulation.SimulatedTo < due ? SimTime.MaxValue : due;
         foreach (Joiner joiner in joiners)
         {
             due = SimTime.Min(due, joiner.HasWritten ? joiner.Link.Due : joiner.Link.Heard + PatienceWith(joiner) + SimDuration.OneTick);

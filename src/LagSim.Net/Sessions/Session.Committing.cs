@@ -20,9 +20,20 @@ public abstract partial class Session
     /// <summary>The newest committed state; null before there is one. From any thread.</summary>
     public CommittedState? Committed => (CommittedState?)committed;
 
-    /// <summary>When the next state can be committed, if the watermark follows the clock by that much.</summary>
-    private protected SimTime NextCommit(SimDuration behind) =>
-        schedule is null ? SimTime.MaxValue : schedule.Next + behind + SimDuration.OneTick;
+    /// <summary>
+    /// When the next state can be committed, if the watermark follows the clock by that much, and the world by as much where it is behind. A
+    /// commit that is due before the world is there is not waited for: the world's own steps are.
+    /// </summary>
+    private protected SimTime NextCommit(SimDuration behind)
+    {
+        if (schedule is null)
+        {
+            return SimTime.MaxValue;
+        }
+
+        SimTime due = schedule.Next + behind + SimDuration.OneTick;
+        return due <= SharedTime.Now && World is not null && World.Simulation.SimulatedTo < due ? SimTime.MaxValue : due;
+    }
 
     /// <summary>Puts the hashes of the newest committed states into an update, back to one that the other is known to have, as many as may travel.</summary>
     /// <returns>The newest instant; <paramref name="after"/> if there is none after it.</returns>

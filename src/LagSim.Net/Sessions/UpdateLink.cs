@@ -168,8 +168,9 @@ internal sealed class UpdateLink
             echoReceived = now;
             SimDuration held = update.EchoNumber == 0 ? SimDuration.Zero : update.Sent - update.EchoReceived; // both by its own clock
             unheard = held;
-            bool isNewTrip = update.EchoNumber > echoed || (fault & SessionFault.CountsTripsAgain) != 0; // else only half of it is
-            if (isNewTrip && sent.TryGetTime(update.EchoNumber, out SimTime at) && held >= SimDuration.Zero && held <= now - at) // else it is made up
+            bool isNewTrip = update.EchoNumber > echoed || (fault & SessionFault.CountsTripsAgain) != 0; // else its way there has counted
+            if (isNewTrip && sent.TryGetTime(update.EchoNumber, out SimTime at)
+                && held >= SimDuration.Zero && held <= now - at) // else it is made up
             {
                 trips.Add(now - at - held, now);
                 echoed = update.EchoNumber;

@@ -7,9 +7,6 @@ namespace LagSim.Contacts;
 /// <remarks>Allocates only when there are more bodies or contacts than ever before. Not thread-safe.</remarks>
 internal sealed class ContactProblem
 {
-    private const int FewestBodies = 8;
-    private const int FewestContacts = 16;
-
     internal SolverBody[] Bodies = Array.Empty<SolverBody>();
     internal SolverContact[] Contacts = Array.Empty<SolverContact>();
 
@@ -30,7 +27,7 @@ internal sealed class ContactProblem
     {
         if (BodyCount == Bodies.Length)
         {
-            Array.Resize(ref Bodies, Math.Max(FewestBodies, 2 * BodyCount));
+            Array.Resize(ref Bodies, Math.Max(1, 2 * BodyCount));
         }
 
         Bodies[BodyCount] = new SolverBody { Velocity = velocity, Spin = spin, InverseMass = ImpactSolver.Inverse(mass), Radius = radius };
@@ -50,7 +47,7 @@ internal sealed class ContactProblem
     {
         if (ContactCount == Contacts.Length)
         {
-            Array.Resize(ref Contacts, Math.Max(FewestContacts, 2 * ContactCount));
+            Array.Resize(ref Contacts, Math.Max(1, 2 * ContactCount));
         }
 
         ref readonly SolverBody a = ref Bodies[first];

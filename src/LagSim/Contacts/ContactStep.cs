@@ -19,8 +19,6 @@ internal sealed class ContactStep
     /// </summary>
     internal const int MostSweeps = 200;
 
-    private const int FewestPairs = 16;
-
     private readonly Scene scene;
     private readonly UnlikeMassSolver unlike = new();
     private Member[] members = Array.Empty<Member>();
@@ -28,7 +26,7 @@ internal sealed class ContactStep
     private double[] places = Array.Empty<double>();
     private long[] pairs = Array.Empty<long>(); // the lesser body and the greater
     private int pairCount;
-    private long[] near = Array.Empty<long>(); // those that are no contacts of the step, and might come to touch if the step makes them faster
+    private long[] near = Array.Empty<long>(); // no contacts of the step, but they might come to touch if it makes them faster
     private int nearCount;
     private double fastest; // that the near ones were found for
 
@@ -295,7 +293,7 @@ internal sealed class ContactStep
     {
         if (count == to.Length)
         {
-            Array.Resize(ref to, Math.Max(FewestPairs, 2 * count));
+            Array.Resize(ref to, Math.Max(1, 2 * count));
         }
 
         to[count++] = pair;

@@ -11,9 +11,6 @@ internal readonly struct Shell
     /// <summary>What rounding may have moved, in parts of a coordinate or of the shell's radius: thousands of times of what it does.</summary>
     private const double Slack = 1e-12;
 
-    /// <summary>So many seconds are looked ahead at most, for the bound on what bends a path grows with them.</summary>
-    private const double LongestLook = 1;
-
     internal Shell(in Vector3D centre, double stray, double radius)
     {
         Centre = centre;
@@ -38,8 +35,8 @@ internal readonly struct Shell
     }
 
     /// <summary>
-    /// Until when a path surely stays in the shell, seen from a time at which it may be in it: <see cref="SimTime.MaxValue"/> if as long as the path goes, the
-    /// time itself if it is outside, or so near to the edge that it cannot be told.
+    /// Until when a path surely stays in the shell, seen from a time at which it may be in it: <see cref="SimTime.MaxValue"/> if as long as
+    /// the path goes, the time itself if it is outside, or so near to the edge that it cannot be told.
     /// </summary>
     internal SimTime Leaves(in MotionSegment path, in DenseOutput dense, SimTime from, in PeriodicBox box)
     {
@@ -52,15 +49,14 @@ internal readonly struct Shell
         Vector3D apart = box.Nearest(path.PositionAt(seconds, dense) - Centre);
         Vector3D velocity = path.VelocityAt(seconds, dense);
         double left = SecondsLeft(path, seconds);
-        double look = Math.Min(left, LongestLook);
-        double acceleration = LargestAcceleration(path, dense, seconds, look);
+        double acceleration = LargestAcceleration(path, dense, seconds, left);
         double stay = acceleration == 0 ? Straight(apart, velocity, Stray) : Curved(apart, velocity, acceleration);
-        return stay > left ? SimTime.MaxValue : Later(from, path.IsDense ? Math.Min(stay, look) : stay);
+        return stay > left ? SimTime.MaxValue : Later(from, stay);
     }
 
     /// <summary>
-    /// The largest acceleration, or more, that a path has so many seconds after its epoch and for a span after that, but not after its end: a polynomial says
-    /// nothing there, and where forces are strong it ends soon.
+    /// The largest acceleration, or more, that a path has so many seconds after its epoch and for a span after that, but not after its end: a
+    /// polynomial says nothing there, and where forces are strong it ends soon.
     /// </summary>
     internal static double LargestAcceleration(in MotionSegment path, in DenseOutput dense, double seconds, double span)
     {
@@ -103,6 +99,6 @@ internal readonly struct Shell
 
         double along = Vector3D.Dot(apart, velocity);
         double root = Math.Sqrt((along * along) + (square * room));
-        return along >= 0 ? room / (along + root) : (root - along) / square; // endless where the speed is so low that its square is none
+        return along >= 0 ? room / (along + root) : (root - along) / square; // endless where the square of the speed is too small for a double
     }
 }

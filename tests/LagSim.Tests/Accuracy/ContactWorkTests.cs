@@ -67,7 +67,8 @@ public sealed class ContactWorkTests
 
         // It is the tolerance that holds it: what a coarse one leaves is more than a fine one allows.
         WorkPoint[] overlaps = [.. points.Where(point => point.ErrorKind == Overlap)];
-        Assert.True(overlaps.Max(point => point.Error) > overlaps.Min(ToleranceOf), string.Join("; ", overlaps.Select(point => (point.Setting, point.Error))));
+        string all = string.Join("; ", overlaps.Select(point => (point.Setting, point.Error)));
+        Assert.True(overlaps.MaxBy(ToleranceOf)!.Error > overlaps.Min(ToleranceOf), all);
     }
 
     /// <summary>Places in a row are exact, so that it stands from the first instant on.</summary>

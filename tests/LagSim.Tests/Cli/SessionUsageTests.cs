@@ -180,16 +180,20 @@ public sealed class SessionUsageTests
     {
         using TemporaryFolder folder = new();
         File.WriteAllBytes(folder["ours"], Recorded.Small());
-        File.WriteAllBytes(folder["theirs"], Recorded.OfFold(Recorded.Small(), 999));
-        Tool.Refuses(Input, ["replay", folder["theirs"]], folder["theirs"], "of fold version 999, ", $"this library computes fold version {Simulation.FoldVersion}, which gives other hashes.");
-        Tool.Refuses(Input, ["replay", folder["theirs"], "--json"], "of fold version 999, ");
+        File.WriteAllBytes(folder["theirs"], Recorded.OfFold(Recorded.Small(), Recorded.OtherFold));
+        string theirs = $"of fold version {Recorded.OtherFold}, ";
+        Tool.Refuses(
+            Input, ["replay", folder["theirs"]], folder["theirs"], theirs,
+            $"this library computes fold version {Simulation.FoldVersion}, which gives other hashes.");
+        Tool.Refuses(Input, ["replay", folder["theirs"], "--json"], theirs);
         Tool diff = Tool.Run("diff", folder["ours"], folder["theirs"]);
         Assert.Equal(1, diff.ExitCode);
         Assert.StartsWith($"The fold versions differ: {Simulation.FoldVersion} in the first, by the library ", diff.Output, StringComparison.Ordinal);
         using JsonDocument document = JsonDocument.Parse(Tool.Run("diff", folder["ours"], folder["theirs"], "--json").Output);
         Assert.Equal("fold-version-differs", document.RootElement.GetProperty("outcome").GetString());
         Assert.Equal(
-            [Simulation.FoldVersion, 999], document.RootElement.GetProperty("recordings").EnumerateArray().Select(recording => recording.GetProperty("fold_version").GetInt32()));
+            [Simulation.FoldVersion, Recorded.OtherFold],
+            document.RootElement.GetProperty("recordings").EnumerateArray().Select(recording => recording.GetProperty("fold_version").GetInt32()));
 
         // A file of the version before this one's is refused by its number, as any other.
         byte[] old = Recorded.Small();

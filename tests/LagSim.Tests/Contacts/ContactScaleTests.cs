@@ -40,6 +40,7 @@ public sealed class ContactScaleTests
         Random random = new(7);
         SimTime start = SimTime.FromSeconds(12.3456789);
         ContactScale scale = new(1e-3, new Vector3D(0, -Gravity, 0), start);
+        int passed = 0;
         for (int n = 0; n < 1000; n++)
         {
             SimTime time = start + SimDuration.FromSeconds(random.NextDouble());
@@ -51,8 +52,15 @@ public sealed class ContactScaleTests
             Assert.Equal(0, (tick - start).Ticks % length.Ticks);
             Assert.Equal(0, (coarse - start).Ticks % scale.Step.Ticks);
 
-            // It never steps over a tick of the longer clock, at which others may be.
-            Assert.True((tick - start).Ticks / scale.Step.Ticks == ((tick + length - SimDuration.OneTick) - start).Ticks / scale.Step.Ticks);
+            // It never steps over a tick of the longer clock, at which others may be, however long a step is wanted; the longest would, taken at once.
+            Assert.False(Passes(tick, length));
+            Assert.False(Passes(tick, scale.StepFrom(tick, double.PositiveInfinity)));
+            passed += Passes(tick, scale.Step) ? 1 : 0;
         }
+
+        Assert.InRange(passed, 500, 1000); // the control
+
+        bool Passes(SimTime tick, SimDuration length) =>
+            (tick - start).Ticks / scale.Step.Ticks != (tick + length - SimDuration.OneTick - start).Ticks / scale.Step.Ticks;
     }
 }

@@ -50,8 +50,8 @@ public sealed class ShellIndexTests
     }
 
     /// <summary>
-    /// A step where forces are strong is short, and its polynomial says nothing beyond its end: there it leads out of any shell at once. Who asks again at
-    /// every instant gets nowhere (from <c>check --seed 30010</c>).
+    /// A step where forces are strong is short, and its polynomial says nothing beyond its end: there it leads out of any shell at once. A body
+    /// that is asked for again at every instant gets nowhere (from <c>check --seed 30010</c>).
     /// </summary>
     [Fact]
     public void Leaves_AShortStepOfStrongForces_NotBeforeItsEnd()
@@ -65,6 +65,33 @@ public sealed class ShellIndexTests
         MotionSegment longer = new(MotionLaw.RungeKutta4, At(0), At(1), V(0), V(1), V(100));
         Assert.InRange(new Shell(V(0), 0.01, 0.1).Leaves(longer, default, At(0), default).ToSeconds(), 1e-3, 0.02);
         Assert.Equal(At(0), new Shell(V(1), 0.01, 0.1).Leaves(path, dense, At(0), default)); // it is outside
+    }
+
+    /// <summary>However long a piece is: what bends it late counts from the first.</summary>
+    [Fact]
+    public void Leaves_LongPiecesAtRandom_NotBeforeItIsSaid()
+    {
+        Random random = new(11);
+        int left = 0, stayed = 0;
+        for (int n = 0; n < 4000; n++)
+        {
+            double seconds = 0.1 + (5 * random.NextDouble());
+            DenseOutput dense = new(Draw(), Draw(), Draw());
+            MotionSegment path = new(MotionLaw.RungeKutta4, At(0), At(seconds), V(0), Draw(), Draw());
+            Shell shell = new(V(0), 0.01, 0.1);
+            SimTime leaves = shell.Leaves(path, dense, At(0), default);
+            stayed += leaves == SimTime.MaxValue ? 1 : 0;
+            left += leaves < At(seconds) ? 1 : 0;
+            for (int k = 0; k <= 50; k++)
+            {
+                double t = Math.Min(seconds, leaves.ToSeconds()) * k / 50;
+                Assert.InRange(path.PositionAt(t, dense).Length, 0, 0.01 * (1 + 1e-9));
+            }
+        }
+
+        Assert.True(left > 100 && stayed > 100, $"{left} leave, {stayed} stay");
+
+        Vector3D Draw() => new Vector3D(random.NextDouble() - 0.5, random.NextDouble() - 0.5, 0) * Math.Pow(10, -7 * random.NextDouble());
     }
 
     [Theory]

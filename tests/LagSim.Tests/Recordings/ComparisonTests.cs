@@ -213,19 +213,21 @@ public sealed class ComparisonTests
     public void Of_OtherFoldVersions_IsSaidBeforeAnythingThatWasComputed()
     {
         // Of one session, as builds of two versions would record it: the states differ, and that is no news.
-        RecordingComparison compared = Compare(Small(), OfFold(Small(truth: Log[1..]), 999));
+        RecordingComparison compared = Compare(Small(), OfFold(Small(truth: Log[1..]), OtherFold));
         Assert.Equal((ComparisonOutcome.FoldVersionDiffers, 0, 0), (compared.Outcome, compared.EntriesCompared, compared.StatesCompared));
         string library = Read(Small()).Header!.LibraryVersion;
         Assert.Equal(
-            $"The fold versions differ: {Simulation.FoldVersion} in the first, by the library {library}; 999 in the second, by the library {library}."
+            $"The fold versions differ: {Simulation.FoldVersion} in the first, by the library {library};"
+            + $" {OtherFold} in the second, by the library {library}."
             + $" They make different states of the same scene and events, so the hashes of one say nothing of the other's.{Both}",
             compared.Message);
 
         // Two of a version that is not this library's are compared as any; only their replays are missing.
-        Assert.Equal(ComparisonOutcome.Agrees, Compare(OfFold(Small(), 999), OfFold(Small(peer: 1), 999)).Outcome);
-        RecordingComparison differs = Compare(OfFold(Small(), 999), OfFold(Small(truth: Log[1..]), 999));
+        Assert.Equal(ComparisonOutcome.Agrees, Compare(OfFold(Small(), OtherFold), OfFold(Small(peer: 1), OtherFold)).Outcome);
+        RecordingComparison differs = Compare(OfFold(Small(), OtherFold), OfFold(Small(truth: Log[1..]), OtherFold));
         Assert.Equal((ComparisonOutcome.StateDiffers, ReplayOutcome.CannotRun), (differs.Outcome, differs.FirstReplay!.Outcome));
-        Assert.Contains(" The second has no replay to tell: The recording cannot be run again. Its states are of fold version 999, ", differs.Message, StringComparison.Ordinal);
+        string says = $" The second has no replay to tell: The recording cannot be run again. Its states are of fold version {OtherFold}, ";
+        Assert.Contains(says, differs.Message, StringComparison.Ordinal);
     }
 
     [Fact]

@@ -171,6 +171,9 @@ internal static class Recorded
         return [.. record];
     }
 
+    /// <summary>A fold version that no library has.</summary>
+    internal const ushort OtherFold = 999;
+
     /// <summary>The recording as a library of another fold version would have written it.</summary>
     internal static byte[] OfFold(byte[] bytes, ushort version)
     {

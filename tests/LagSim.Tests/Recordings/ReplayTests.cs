@@ -119,10 +119,10 @@ public sealed class ReplayTests
     [Fact]
     public void Run_OfAnotherFoldVersion_IsRefusedWithBoth()
     {
-        Recording other = Read(OfFold(Small(), 999));
+        Recording other = Read(OfFold(Small(), OtherFold));
         Cannot(
-            $"The recording cannot be run again. Its states are of fold version 999, by the library {other.Header!.LibraryVersion}; this library computes fold version"
-            + $" {Simulation.FoldVersion}, which gives other hashes.", OfFold(Small(), 999));
+            $"The recording cannot be run again. Its states are of fold version {OtherFold}, by the library {other.Header!.LibraryVersion};"
+            + $" this library computes fold version {Simulation.FoldVersion}, which gives other hashes.", OfFold(Small(), OtherFold));
         Assert.Equal((Log.Length, 5, true), (other.Entries.Count, other.Committed.Count, other.IsWhole)); // all of it can be read
         Assert.Equal(ReplayOutcome.Agrees, Replayed(Read(OfFold(Small(), (ushort)Simulation.FoldVersion))).Outcome); // the control
     }
