@@ -21,8 +21,8 @@ public sealed partial class Simulation
     private const double CollapseSpeed = 1e-6;
 
     /// <summary>
-    /// The first round of an instant in which there can be a collapse: a contact is struck, then something else strikes one of the two, a round
-    /// later, and only then can they close again. Rounds are numbered from 0.
+    /// The first round of an instant in which there can be a collapse: a contact is struck, then something else strikes one of the
+    /// two, a round later, and only then can they close again. Rounds are numbered from 0.
     /// </summary>
     private const uint CollapseRound = 2;
 

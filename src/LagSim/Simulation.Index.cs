@@ -22,8 +22,8 @@ public sealed partial class Simulation
     private int outgrownAt; // number of bodies too wide or fast for the cells at which other cells are tried
 
     /// <summary>
-    /// Uses the index from now on above so many bodies, 0 for always; a world that has it keeps it. No bit depends on it. It is for tests: worlds
-    /// small enough to be played by the thousand would never use it.
+    /// Uses the index from now on above so many bodies, 0 for always; a world that has it keeps it. No bit depends on it. It is for
+    /// tests: worlds small enough to be played by the thousand would never use it.
     /// </summary>
     internal void UseIndexAbove(int bodies)
     {

@@ -321,8 +321,9 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// Whether what closes in the instant in which it was struck may wait: rounding after one impact, and what a collapse has left, or would have
-    /// ended if one were possible. In the round of the first collapse it may not, however slow it is: that is what ends it.
+    /// Whether what closes in the instant in which it was struck may wait: rounding after one impact, and what a collapse has left,
+    /// or would have ended if one were possible. In the round of the first collapse it may not, however slow it is: that is what ends
+    /// it.
     /// </summary>
     private static bool MayWait(in Closing closing, int strikes, uint round) =>
         closing.IsRounding ? strikes > 0 : strikes > 1 && round > CollapseRound;

@@ -16,8 +16,8 @@ internal sealed record CheckPlayer(
     public (double AtSeconds, double Seconds)? Stop { get; init; }
 
     /// <summary>
-    /// Above how many bodies its world looks for contacts by the index; null: as everywhere, above 64. The world that never had a delay uses
-    /// none, so that what the index overlooks is seen.
+    /// Above how many bodies its world looks for contacts by the index; null: as everywhere, above 64. The world that never had a
+    /// delay uses none, so that what the index overlooks is seen.
     /// </summary>
     public int? IndexAbove { get; init; }
 }

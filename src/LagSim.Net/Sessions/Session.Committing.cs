@@ -21,8 +21,8 @@ public abstract partial class Session
     public CommittedState? Committed => (CommittedState?)committed;
 
     /// <summary>
-    /// When the next state can be committed, if the watermark follows the clock by that much, and the world by as much where it is behind. A
-    /// commit that is due before the world is there is not waited for: the world's own steps are.
+    /// When the next state can be committed, if the watermark follows the clock by that much, and the world by as much where it is
+    /// behind. A commit that is due before the world is there is not waited for: the world's own steps are.
     /// </summary>
     private protected SimTime NextCommit(SimDuration behind)
     {

@@ -55,8 +55,8 @@ internal readonly struct Shell
     }
 
     /// <summary>
-    /// The largest acceleration, or more, that a path has so many seconds after its epoch and for a span after that, but not after its end: a
-    /// polynomial says nothing there, and where forces are strong it ends soon.
+    /// The largest acceleration, or more, that a path has so many seconds after its epoch and for a span after that, but not after
+    /// its end: a polynomial says nothing there, and where forces are strong it ends soon.
     /// </summary>
     internal static double LargestAcceleration(in MotionSegment path, in DenseOutput dense, double seconds, double span)
     {
@@ -99,6 +99,6 @@ internal readonly struct Shell
 
         double along = Vector3D.Dot(apart, velocity);
         double root = Math.Sqrt((along * along) + (square * room));
-        return along >= 0 ? room / (along + root) : (root - along) / square; // endless where the square of the speed is too small for a double
+        return along >= 0 ? room / (along + root) : (root - along) / square; // endless where the square is too small for a double
     }
 }

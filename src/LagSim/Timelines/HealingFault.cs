@@ -55,8 +55,8 @@ internal enum HealingFault
     CollapsesWithWhoTouches = 4096,
 
     /// <summary>
-    /// A body that moves on ahead of the others in a heal is taken out of the index's lists for them, though they still have to meet it where
-    /// it was. Counts for an index that is made after this is set.
+    /// A body that moves on ahead of the others in a heal is taken out of the index's lists for them, though they still have to meet
+    /// it where it was. Counts for an index that is made after this is set.
     /// </summary>
     ForgetsWhoMovedOn = 8192,
 }

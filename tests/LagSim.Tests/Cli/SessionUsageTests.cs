@@ -193,7 +193,7 @@ public sealed class SessionUsageTests
         Assert.Equal("fold-version-differs", document.RootElement.GetProperty("outcome").GetString());
         Assert.Equal(
             [Simulation.FoldVersion, Recorded.OtherFold],
-            document.RootElement.GetProperty("recordings").EnumerateArray().Select(recording => recording.GetProperty("fold_version").GetInt32()));
+            document.RootElement.GetProperty("recordings").EnumerateArray().Select(each => each.GetProperty("fold_version").GetInt32()));
 
         // A file of the version before this one's is refused by its number, as any other.
         byte[] old = Recorded.Small();

@@ -52,7 +52,7 @@ public sealed class ContactScaleTests
             Assert.Equal(0, (tick - start).Ticks % length.Ticks);
             Assert.Equal(0, (coarse - start).Ticks % scale.Step.Ticks);
 
-            // It never steps over a tick of the longer clock, at which others may be, however long a step is wanted; the longest would, taken at once.
+            // It never steps over a tick of the longer clock, at which others may be, however long a step is wanted.
             Assert.False(Passes(tick, length));
             Assert.False(Passes(tick, scale.StepFrom(tick, double.PositiveInfinity)));
             passed += Passes(tick, scale.Step) ? 1 : 0;

@@ -143,8 +143,9 @@ public sealed class InelasticCollapseTests
     }
 
     /// <summary>
-    /// A ball of 10^9 kg closes slowly on one of 10 g that touches a wall, as in <c>check --seed 40405</c>. Both impacts are slower than what a
-    /// collapse may leave; yet there was none before the third round, and if that waits, the light ball goes to and fro every microsecond.
+    /// A ball of 10^9 kg closes slowly on one of 10 g that touches a wall, as in <c>check --seed 40405</c>. Both impacts are slower
+    /// than what a collapse may leave; yet there was none before the third round, and if that waits, the light ball goes to and fro
+    /// every microsecond.
     /// </summary>
     [Theory]
     [InlineData(1e9, 0.01, 3.8e-9)]

@@ -113,7 +113,8 @@ public sealed partial class CorpusTests
         (exit, lines) = Check(copy.Folder);
         Assert.Equal((1, $"{Names().Length - 1} agree, 1 differ"), (exit, lines[^1]));
         Assert.Matches(
-            $"^CANNOT drop-rk4 .* are of fold version {Recorded.OtherFold}, ", Assert.Single(lines, line => line.StartsWith("CANNOT", StringComparison.Ordinal)));
+            $"^CANNOT drop-rk4 .* are of fold version {Recorded.OtherFold}, ",
+            Assert.Single(lines, line => line.StartsWith("CANNOT", StringComparison.Ordinal)));
 
         foreach (string file in Directory.GetFiles(copy.Folder))
         {

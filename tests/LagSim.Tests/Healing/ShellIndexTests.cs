@@ -50,8 +50,8 @@ public sealed class ShellIndexTests
     }
 
     /// <summary>
-    /// A step where forces are strong is short, and its polynomial says nothing beyond its end: there it leads out of any shell at once. A body
-    /// that is asked for again at every instant gets nowhere (from <c>check --seed 30010</c>).
+    /// A step where forces are strong is short, and its polynomial says nothing beyond its end: there it leads out of any shell at
+    /// once. A body that is asked for again at every instant gets nowhere (from <c>check --seed 30010</c>).
     /// </summary>
     [Fact]
     public void Leaves_AShortStepOfStrongForces_NotBeforeItsEnd()

@@ -12,7 +12,9 @@ using Xunit;
 
 namespace LagSim.Tests.Sweep;
 
-/// <summary>How late events are where datagrams are lost in bursts and jitter is large, but nothing is full: no queue may be seen there.</summary>
+/// <summary>
+/// How late events are where datagrams are lost in bursts and jitter is large, but nothing is full: no queue may be seen there.
+/// </summary>
 public sealed class LossyLinkTests(ITestOutputHelper output)
 {
     private const int Joiners = 3;
@@ -20,8 +22,9 @@ public sealed class LossyLinkTests(ITestOutputHelper output)
     private const ulong Seeds = 16;
 
     /// <summary>
-    /// The link takes 0.2 s, 0.4 s with its jitter. Where what is lost is repeated every 30 ms, a burst of five datagrams costs 0.15 s, and one of
-    /// thirty, which one in a thousand is, 0.9 s. Where a queue is seen, repetitions come a round trip apart, and a burst of five costs two seconds.
+    /// The link takes 0.2 s, 0.4 s with its jitter. Where what is lost is repeated every 30 ms, a burst of five datagrams costs 0.15
+    /// s, and one of thirty, which one in a thousand is, 0.9 s. Where a queue is seen, repetitions come a round trip apart, and a
+    /// burst of five costs two seconds.
     /// </summary>
     [Fact]
     public void Events_OnTheAwfulLink_AreHeardOfWithinBursts()
@@ -40,7 +43,8 @@ public sealed class LossyLinkTests(ITestOutputHelper output)
         {
             SessionGroup group = new(BuiltInScenes.Billiards(), Joiners + 1, LinkProfiles.Awful, seed, _ => new SessionOptions
             {
-                Window = new(SimDuration.FromSeconds(5), SimDuration.FromMilliseconds(250)), // so that whatever comes late is accepted, and seen
+                // Whatever comes late is to be accepted, and seen.
+                Window = new(SimDuration.FromSeconds(5), SimDuration.FromMilliseconds(250)),
                 Cancellation = TestContext.Current.CancellationToken,
             });
             foreach (Session session in group.Sessions)
