@@ -274,6 +274,7 @@ public sealed partial class Simulation
     private void Append(int slot, in EventKey key, in MotionSegment segment, in DenseOutput dense, in Hold hold = default, in Spin spin = default)
     {
         timelines.ForgetBefore(HistoryEdge);
+        hasLosses |= segment.Law == MotionLaw.Held;
         if (key.Time <= front)
         {
             CountHealed(slot); // also who had nothing to be cut, because what struck him now comes after all he did

@@ -31,6 +31,12 @@ public sealed partial class Simulation
     private readonly InelasticCollapse collapse = new();
     private KnownStrikes[]? knownStrikes;
 
+    /// <summary>
+    /// Whether something there can take energy, or could once: an inelastic body or surface, or a hand. Where nothing can there is no collapse to look for, which costs more than the
+    /// impacts do.
+    /// </summary>
+    private bool hasLosses;
+
     /// <summary>Bounces as often as it closes: only a test's negative control sets it.</summary>
     internal bool NeverCollapses { get; set; }
 
@@ -68,6 +74,22 @@ public sealed partial class Simulation
         }
 
         return collapse.IsPossible(contacts.AsSpan(0, contactCount), restitutions, frictions, partyMasses.AsSpan(0, partyCount));
+    }
+
+    private static bool HasLossySurface(Scene scene)
+    {
+        bool has = false;
+        for (int i = 0; i < scene.PlaneArray.Length && !has; i++)
+        {
+            has = scene.PlaneArray[i].Restitution < 1;
+        }
+
+        for (int i = 0; i < scene.SphereArray.Length && !has; i++)
+        {
+            has = scene.SphereArray[i].Restitution < 1;
+        }
+
+        return has;
     }
 
     private bool WasStruck(in ContactPoint c, SimTime time)

@@ -410,14 +410,12 @@ public sealed partial class Simulation
     /// <summary>All of the island rest from here on, and forget the impulses, so that those that come to rest in other ways meet.</summary>
     private void OpenRest(in EventKey key)
     {
+        step.Problem.List();
         for (int i = 0; i < partyCount; i++)
         {
             int slot = parties[i];
             int before = timelines.Last(slot);
-            bool turns = partySpins[i].Length * partyRadii[i] > step.Scale.StillSpeed; // on the spot, where nothing resists that
-            Append(
-                slot, key, MotionSegment.AtRest(key.Time, partyPositions[i].WithoutNegativeZero()), default,
-                spin: turns ? new Spin(partySpins[i]) : default);
+            Append(slot, key, MotionSegment.AtRest(key.Time, partyPositions[i].WithoutNegativeZero()), default, spin: new Spin(SpinAtRest(i)));
             int piece = timelines.Last(slot);
             timelines.BeginMember(piece, key.Time, timelines.StillSince(before));
             for (int at = timelines.FirstContact(before); at != TimelineStore.None; at = timelines.NextContact(at))
@@ -431,6 +429,24 @@ public sealed partial class Simulation
 
             timelines.EndMember(piece, bodies[slot].Id);
         }
+    }
+
+    /// <summary>
+    /// How a party turns once its centre rests: as it did, but for what moves its surface slower than rest allows. What turns about the normal of a contact and what
+    /// rolls there are told apart, so that what goes on turning on the spot does not go on rolling.
+    /// </summary>
+    private Vector3D SpinAtRest(int party)
+    {
+        Vector3D spin = partySpins[party];
+        double least = step.Scale.StillSpeed / partyRadii[party];
+        foreach (int i in step.Problem.ListOf(party))
+        {
+            ref readonly SolverContact c = ref step.Problem.Contacts[i];
+            Vector3D onTheSpot = c.Normal * Vector3D.Dot(c.Normal, spin);
+            spin = c.Held && c.Friction > 0 && (spin - onTheSpot).Length <= least ? onTheSpot : spin;
+        }
+
+        return spin.Length > least ? spin : Vector3D.Zero;
     }
 
     /// <summary>Opens the pieces of the step that was solved: chords of those that something holds, else whatever law they follow alone.</summary>

@@ -148,6 +148,7 @@ public sealed partial class Simulation
             if (!isThere)
             {
                 bodies[slot].Spec = Chosen(external.Spec);
+                hasLosses |= external.Spec.Restitution < 1;
                 flights.SetRadius(slot, external.Spec.Radius);
                 if (log.IsForwarded(entry))
                 {

@@ -16,7 +16,7 @@ public sealed partial class Simulation
     /// </summary>
     private double Gather(int slot, in EventKey key, out bool collapses)
     {
-        bool mayCollapse = MayBeStruckAgain(key) && !NeverCollapses;
+        bool mayCollapse = hasLosses && MayBeStruckAgain(key) && !NeverCollapses;
         Follow(slot, key, mayCollapse);
         collapses = mayCollapse && ahead.Count == 0 && Collapses(key.Time);
         if (mayCollapse && ahead.Count == 0 && !collapses)

@@ -131,12 +131,16 @@ public sealed partial class Simulation
             Closing closing = new(
                 -Vector3D.Dot(normal, velocity), pressing, velocity.Length,
                 SurfaceGap(surface, position, radius), RoundingOf(position, radius));
-            int strikes = closing.Speed <= CollapseSpeed ? StrikesOn(last, surface, opened) : 0;
-            bool mayWait = MayWait(closing, strikes, round);
-            from = LookAgain(opened, segment.End, closing, mayWait, segment.IsOfIsland && Holds(last, surface));
-            if (from == opened || from == SimTime.MaxValue)
+            SimDuration wait = WaitFor(closing, segment.IsOfIsland && Holds(last, surface));
+            if (wait < ContactTime.Soon && !MayWait(closing, closing.Speed <= CollapseSpeed ? StrikesOn(last, surface, opened) : 0, round))
             {
-                return from == opened;
+                return true;
+            }
+
+            from = LookAgain(opened, segment.End, wait);
+            if (from == SimTime.MaxValue)
+            {
+                return false;
             }
         }
 
@@ -273,12 +277,16 @@ public sealed partial class Simulation
             Closing closing = new(
                 -Vector3D.Dot(normal, velocity), pressing, velocityA.Length + velocityB.Length,
                 apart.Length - reach, RoundingOf(position, reach));
-            int strikes = closing.Speed <= CollapseSpeed ? StrikesBetween(lastA, lastB, opened) : 0;
-            bool mayWait = MayWait(closing, strikes, round);
-            from = LookAgain(opened, until, closing, mayWait, HoldTogether(a, lastA, b, lastB));
-            if (from == opened || from == SimTime.MaxValue)
+            SimDuration wait = WaitFor(closing, HoldTogether(a, lastA, b, lastB));
+            if (wait < ContactTime.Soon && !MayWait(closing, closing.Speed <= CollapseSpeed ? StrikesBetween(lastA, lastB, opened) : 0, round))
             {
-                return from == opened;
+                return true;
+            }
+
+            from = LookAgain(opened, until, wait);
+            if (from == SimTime.MaxValue)
+            {
+                return false;
             }
         }
 
@@ -290,11 +298,10 @@ public sealed partial class Simulation
         path.At(path.Position + (Scene.Box.Nearest(at - point) - (at - point)));
 
     /// <summary>
-    /// From when on a contact that closes from the opening of its segments on is to be looked for again: so slow, as rounding leaves it, or a step's sweeps where
-    /// it holds, that it uses up its room only after <see cref="ContactTime.Soon"/>. <paramref name="opened"/> if it cannot wait,
-    /// <see cref="SimTime.MaxValue"/> if the segments end before.
+    /// How long a contact that closes from the opening of its segments on needs not be looked for: so slow, as rounding leaves it, or a step's sweeps where
+    /// it holds, that it uses up its room only then. If that is sooner than <see cref="ContactTime.Soon"/> it may have to be struck at once.
     /// </summary>
-    private SimTime LookAgain(SimTime opened, SimTime end, in Closing closing, bool mayWait, bool holds)
+    private SimDuration WaitFor(in Closing closing, bool holds)
     {
         double seconds = UntilDeep(holds ? step.Scale.LookDepth : 2 * closing.Room(Scene.Resolution), closing.Speed, closing.Pressing);
         SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
@@ -307,16 +314,13 @@ public sealed partial class Simulation
             wait = parts < wait ? parts : wait;
         }
 
-        if (wait < ContactTime.Soon)
-        {
-            if (!mayWait)
-            {
-                return opened;
-            }
+        return wait;
+    }
 
-            wait = ContactTime.Soon;
-        }
-
+    /// <summary>From when on it is looked for again, after such a wait; <see cref="SimTime.MaxValue"/> if the segments end before.</summary>
+    private static SimTime LookAgain(SimTime opened, SimTime end, SimDuration wait)
+    {
+        wait = wait < ContactTime.Soon ? ContactTime.Soon : wait;
         return end.SecondsSince(opened) < wait.ToSeconds() ? SimTime.MaxValue : opened + wait;
     }
 

@@ -45,7 +45,7 @@ public sealed partial class Simulation
     /// <para>Peers of other versions would each compute a world of its own, and a recording of another version gives other hashes than stand in it.</para>
     /// <para>Not a <see langword="const"/>: that would be copied into whatever is built against the library, and tell of another build than the one that runs.</para>
     /// </remarks>
-    public static int FoldVersion => 7;
+    public static int FoldVersion => 8;
 
     /// <summary>A world at the start of its scene, with all that happens at that instant. Cost: the bodies, and which of them can meet.</summary>
     /// <param name="scene">What is simulated.</param>
@@ -114,6 +114,7 @@ public sealed partial class Simulation
         timelines = new TimelineStore(start, options.MaxSegments, flights, expected, history);
         Observer = options.Observer;
         forces = new Forces(scene, start);
+        hasLosses = HasLossySurface(scene);
         step = new ContactStep(scene, options.Scale ?? new ContactScale(scene.ContactTolerance, scene.Gravity, start));
     }
 
@@ -159,6 +160,7 @@ public sealed partial class Simulation
     {
         ref readonly SceneBody body = ref Scene.BodyArray[n];
         int slot = AddBody(BodyId.OfScene(n), body.Spec);
+        hasLosses |= body.Spec.Restitution < 1;
         EventKey key = new(Start, 0, EventKind.Start, bodies[slot].Id, bodies[slot].Id, 0, 0);
         OpenFlight(slot, key, body.Position, body.Velocity, spin: body.Spin);
     }

@@ -51,6 +51,11 @@ internal sealed class HostAdmin
                 : $"'{address}' is not banned; banned are: {(banned.Count == 0 ? "none" : string.Join(", ", banned.Keys.Order()))}.";
         }
 
+        if (words is ["kick" or "ban" or "remove-bodies"])
+        {
+            return $"'{words[0]}' lacks the player's number; 'players' tells who is there.";
+        }
+
         if (words is not ["kick" or "ban" or "remove-bodies", string number])
         {
             return $"'{line}' is no command; there are: {Syntax}.";

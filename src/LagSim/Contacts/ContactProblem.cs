@@ -142,6 +142,33 @@ internal sealed class ContactProblem
     private int[] listFrom = Array.Empty<int>();
     private int[] listed = Array.Empty<int>();
 
+    /// <summary>Whether a body of it is in a hand, which gives and takes energy.</summary>
+    internal bool HasHand()
+    {
+        bool has = false;
+        for (int b = 0; b < BodyCount && !has; b++)
+        {
+            has = Bodies[b].InverseMass == 0;
+        }
+
+        return has;
+    }
+
+    /// <summary>The kinetic energy of all, but of those in hands, if each were so fast and turned not; in J.</summary>
+    internal double EnergyAt(double speed)
+    {
+        double sum = 0;
+        for (int b = 0; b < BodyCount; b++)
+        {
+            sum += Bodies[b].InverseMass > 0 ? 0.5 * speed * speed / Bodies[b].InverseMass : 0;
+        }
+
+        return sum;
+    }
+
+    /// <summary>Whether its energy is above that by more than rounding, of a sum over thousands of bodies.</summary>
+    internal bool ExceedsEnergy(double most) => KineticEnergy() > most * (1 + 1e-9);
+
     /// <summary>The kinetic energy of all, spin included, but of those in hands; in J.</summary>
     internal double KineticEnergy()
     {

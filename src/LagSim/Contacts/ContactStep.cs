@@ -44,6 +44,9 @@ internal sealed class ContactStep
     /// <summary>Lets hands push with any force: only a test's negative control sets it.</summary>
     internal bool HandsHaveNoLimit { get; set; }
 
+    /// <summary>Pushes overlap out whatever energy that makes: only a test's negative control sets it.</summary>
+    internal bool MayGainEnergy { get; set; }
+
     /// <summary>How many sweeps the last took.</summary>
     internal int Sweeps { get; private set; }
 
@@ -107,12 +110,9 @@ internal sealed class ContactStep
     /// </summary>
     internal void DropElastic()
     {
-        for (int b = 0; b < Problem.BodyCount; b++)
+        if (Problem.HasHand())
         {
-            if (Problem.Bodies[b].InverseMass == 0)
-            {
-                return;
-            }
+            return;
         }
 
         int kept = 0;
@@ -148,7 +148,37 @@ internal sealed class ContactStep
 
         Sweeps = 0;
         UnlikeSolves = 0;
+        double most = Math.Max(Problem.KineticEnergy(), Problem.EnergyAt(Scale.Pull * seconds));
         Sweep(tolerance);
+        if (!Problem.HasHand() && !MayGainEnergy)
+        {
+            KeepEnergy(most, tolerance);
+        }
+    }
+
+    /// <summary>
+    /// No step leaves more energy than its bodies came with, what forces give in it included, or than the pull gives them from rest. Each contact pushes its overlap out no faster than a
+    /// fall of a step, but in a stack these speeds add up and would throw its top into the air; so all push slower, by as much as the energy asks for. What the sweeps leave after the
+    /// last step's impulses may be too much, too: then the step begins without impulses, and pushes nothing out.
+    /// </summary>
+    private void KeepEnergy(double most, double tolerance)
+    {
+        for (int attempt = 0; attempt < 2 && Problem.ExceedsEnergy(most); attempt++)
+        {
+            bool isLast = attempt == 1;
+            double share = isLast ? 0 : Math.Sqrt(most / Problem.KineticEnergy());
+            for (int i = 0; i < Problem.ContactCount; i++)
+            {
+                ref SolverContact c = ref Problem.Contacts[i];
+                c.Target = c.Target > 0 ? c.Target * share : c.Target;
+                if (isLast)
+                {
+                    (c.Impulse, c.Rub, c.Turn) = (0, Vector3D.Zero, Vector3D.Zero);
+                }
+            }
+
+            SolveAgain(tolerance);
+        }
     }
 
     /// <summary>

@@ -37,6 +37,24 @@ public sealed class HeapRestTests
         Assert.Contains(Bodies(world), body => Read(world, body, Seconds).Spin.Length > 1);
     }
 
+    /// <summary>
+    /// A ball on a dome that turns on the spot, and rolls slower than rest allows: rest ends the rolling alone. The control rolls faster, and rolls off.
+    /// </summary>
+    [Theory]
+    [InlineData(1e-6, true)]
+    [InlineData(0.5, false)]
+    public void BallThatTurnsOnTheSpot_RestsWithoutRolling(double rolls, bool rests)
+    {
+        Scene scene = new SceneBuilder("dome").WithContactTolerance(1e-3).AddStaticSphere("dome", V(0, -5), 5, 0.2)
+            .AddBody("ball", new BodySpec(0.5, 1, 0.2, friction: 0.5), V(0, 0.5), spin: V(0, 10, rolls)).Build();
+        Simulation world = Run(scene, 2);
+        BodyState state = Read(world, First, 2);
+        Assert.Equal(rests, state.Motion == MotionLaw.Resting);
+        Vector3D normal = (state.Position - V(0, -5)) / 5.5;
+        Assert.Equal(rests, Vector3D.Cross(state.Spin, normal).Length < 1e-12);
+        Assert.Equal(10, state.Spin.Y, 0.05);
+    }
+
     /// <summary>Twelve balls that fell into a bin.</summary>
     private static Simulation Fallen(int seed, double resistance)
     {

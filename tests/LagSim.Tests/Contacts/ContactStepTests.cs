@@ -30,6 +30,33 @@ public sealed class ContactStepTests
         Assert.Equal(9.81 * seconds, step.Problem.Bodies[0].Velocity.Y, 1e-9);
     }
 
+    /// <summary>Rule 6: bodies that nothing drives are pushed apart as fast as the pull would, though they bring no energy.</summary>
+    [Fact]
+    public void Overlap_WhereNothingFalls_IsPushedOutToo()
+    {
+        ContactStep step = new(Floor(0.2), new ContactScale(Tolerance, Down, default));
+        step.AddBody(new BodySpec(0.1, 1, 0.2), new Vector3D(0, 5, 0), Vector3D.Zero, Vector3D.Zero, Vector3D.Zero, isHeld: false);
+        step.AddBody(new BodySpec(0.1, 1, 0.2), new Vector3D(0.15, 5, 0), Vector3D.Zero, Vector3D.Zero, Vector3D.Zero, isHeld: false);
+        double seconds = Solve(step);
+        Assert.Equal(9.81 * seconds, step.Problem.Bodies[1].Velocity.X - step.Problem.Bodies[0].Velocity.X, 1e-9);
+    }
+
+    /// <summary>Rule 9: what held before holds on while it opens by less than a quarter of the tolerance; what did not hold does not.</summary>
+    [Theory]
+    [InlineData(true, 0.24, true)]
+    [InlineData(true, 0.26, false)]
+    [InlineData(false, 0.24, false)]
+    public void WhatOpensByLessThanAQuarterOfTheTolerance_HoldsOnIfItHeld(bool held, double part, bool holds)
+    {
+        double seconds = new ContactScale(Tolerance, Down, default).Step.ToSeconds();
+        ContactStep step = On(new BodySpec(0.1, 1, 0.2), 0, new Vector3D(0, part * Tolerance / seconds, 0));
+        step.FindContacts(seconds);
+        step.Problem.Contacts[0].Held = held;
+        step.Solve(seconds, 1e-12);
+        step.FindHolding(seconds);
+        Assert.Equal(holds, step.Problem.Contacts[0].Holds);
+    }
+
     [Fact]
     public void WhatClosesFast_IsLeftToImpacts()
     {

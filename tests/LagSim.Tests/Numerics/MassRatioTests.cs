@@ -118,6 +118,26 @@ public sealed class MassRatioTests
         Assert.Contains("a restitution below 1", message, StringComparison.Ordinal);
     }
 
+    /// <summary>
+    /// Eight balls packed in a box of their size, thrown to one side, come to the sentence, which takes as many rounds as an instant may have; those that lose a
+    /// little end.
+    /// </summary>
+    [Theory]
+    [InlineData(1)]
+    [InlineData(0.9)]
+    public void BallsPackedInABox_WithoutALoss_StopWithASentence(double restitution)
+    {
+        SceneBuilder builder = new SceneBuilder("box").WithGravity(Floating).AddPlane("floor", V(0, 1), -0.2).AddPlane("lid", V(0, -1), -0.2)
+            .AddPlane("west", V(1), -0.2).AddPlane("east", V(-1), -0.2).AddPlane("back", V(0, 0, 1), -0.2).AddPlane("front", V(0, 0, -1), -0.2);
+        for (int n = 0; n < 8; n++)
+        {
+            builder.AddBody($"ball {n}", new BodySpec(0.1, 1, restitution), V(0.1 - (n % 2 * 0.2), 0.1 - (n / 2 % 2 * 0.2), 0.1 - (n / 4 * 0.2)), V(3, -2, 1));
+        }
+
+        Exception? failure = Record.Exception(() => Run(builder.Build(), 0.1));
+        Assert.Equal(restitution == 1, failure is SimulationException && failure.Message.Contains("no end", StringComparison.Ordinal));
+    }
+
     /// <summary>A world that waits stands before that instant, and goes on once news takes the light ball away; to the bits of one that knew it before.</summary>
     [Fact]
     public void LightBallSqueezedAgainstAWall_RemovedLate_LetsAWorldThatWaitsGoOn()

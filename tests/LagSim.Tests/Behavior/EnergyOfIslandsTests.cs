@@ -1,0 +1,89 @@
+using System;
+using LagSim.Scenes;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Behavior;
+
+/// <summary>
+/// Neither a step of an island nor an impact on one makes energy (docs/CONTACT.md, rules 6 and 8). The control of each is a world that lets them.
+/// </summary>
+public sealed class EnergyOfIslandsTests
+{
+    /// <summary>Rule 6: what pushes overlap out adds up along a stack, and would throw its top into the air.</summary>
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void TallColumn_ThatIsPutDownAtRest_Stands(bool gains)
+    {
+        const int Balls = 64;
+        SceneBuilder builder = new SceneBuilder("column").WithContactTolerance(1e-3).AddPlane("floor", Vector3D.Up, 0.0);
+        for (int n = 0; n < Balls; n++)
+        {
+            builder.AddBody($"ball {n}", new BodySpec(0.1, 1, 0, friction: 0.5), V(0, 0.1 + (0.2 * n)));
+        }
+
+        Simulation world = new(builder.Build()) { GainsEnergy = gains };
+        double start = Energy(world, At(0));
+        double energy = start;
+        double top = 0;
+        for (double t = 0.02; t <= 3; t += 0.02)
+        {
+            world.AdvanceTo(At(t));
+            energy = Math.Max(energy, Energy(world, At(t)));
+            top = Math.Max(top, Read(world, world.BodyAt(Balls - 1), t).Position.Y);
+        }
+
+        Assert.Equal(gains, energy > start);
+        Assert.Equal(gains, top > 0.1 + (0.2 * (Balls - 1)) + world.Scene.ContactTolerance);
+    }
+
+    /// <summary>
+    /// Rule 8: a ball that spins fast and strikes a heap and its walls without a loss; rebound and friction of several contacts at once make energy if they
+    /// may. What is read within a step is off by some thousandths, since velocities are those of its middle.
+    /// </summary>
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Impact_OfASpinningBallOnAHeap_GainsNone(bool gains)
+    {
+        Random random = new(45);
+        SceneBuilder builder = new SceneBuilder("pit").WithContactTolerance(1e-3).AddPlane("floor", Vector3D.Up, 0.0)
+            .AddPlane("west", V(1), -0.3).AddPlane("east", V(-1), -0.3).AddPlane("back", V(0, 0, 1), -0.3).AddPlane("front", V(0, 0, -1), -0.3);
+        for (int n = 0; n < 12; n++)
+        {
+            double x = (((n % 2) - 0.5) * 0.22) + (0.01 * random.NextDouble());
+            double z = (((n / 2 % 2) - 0.5) * 0.22) + (0.01 * random.NextDouble());
+            builder.AddBody($"ball {n}", new BodySpec(0.1, 1, 0.2, friction: 0.3), V(x, 0.12 + (0.22 * (n / 4)), z));
+        }
+
+        Vector3D place = V(0.1 * random.NextDouble(), 3 + random.NextDouble(), 0.1 * random.NextDouble());
+        Vector3D spin = V(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5) * 200;
+        builder.AddBody("fast", new BodySpec(0.1, 1, 1, friction: 0.3), place, V(0, -8), spin: spin);
+        Simulation world = new(builder.Build()) { GainsEnergy = gains };
+        double start = EnergyWithSpin(world, 0);
+        double least = start;
+        double gain = 0;
+        for (double t = 0.005; t <= 1.5; t += 0.005)
+        {
+            world.AdvanceTo(At(t));
+            double energy = EnergyWithSpin(world, t);
+            least = Math.Min(least, energy);
+            gain = Math.Max(gain, (energy - least) / start);
+        }
+
+        Assert.Equal(gains, gain > 0.004);
+    }
+
+    private static double EnergyWithSpin(Simulation world, double time)
+    {
+        double sum = Energy(world, At(time));
+        foreach (BodyId body in Bodies(world))
+        {
+            BodySpec spec = world.SpecOf(body);
+            sum += 0.2 * spec.Mass * spec.Radius * spec.Radius * Read(world, body, time).Spin.LengthSquared;
+        }
+
+        return sum;
+    }
+}
