@@ -11,7 +11,7 @@ namespace LagSim.Tests.Cli;
 public sealed class HostAdminTests
 {
     [Theory]
-    [InlineData("kick", "'kick' is no command; there are: " + HostAdmin.Syntax + ".")]
+    [InlineData("kick", "'kick' lacks the player's number; 'players' tells who is there.")]
     [InlineData("Kick 1", "'Kick 1' is no command; there are: " + HostAdmin.Syntax + ".")]
     [InlineData("kick 0", "'0' is no player's number; it must be 1 to 8.")]
     [InlineData("ban -1", "'-1' is no player's number; it must be 1 to 8.")]
