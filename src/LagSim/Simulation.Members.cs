@@ -31,7 +31,10 @@ public sealed partial class Simulation
     private bool IsSolved(int slot, int piece, int contact) =>
         timelines.Key(piece).Kind == EventKind.Impact && timelines.Contact(contact).Holds && !IsElastic(slot, timelines.Contact(contact));
 
-    /// <summary>Whether the impact that opened a member's piece was one with a hand that the member touches.</summary>
+    /// <summary>
+    /// Whether the impact that opened a member's piece was one with a hand that the member touches. A world that began from a snapshot may know the hand's path only from a later
+    /// piece on; then that one tells.
+    /// </summary>
     private bool IsOpenedWithHand(int piece)
     {
         bool isByHand = false;
@@ -39,12 +42,22 @@ public sealed partial class Simulation
         {
             ref readonly LastingContact contact = ref timelines.Contact(at);
             int partner = contact.Surface == LastingContact.NoSurface ? SlotOf(contact.Partner) : NoPartner;
-            int before = partner < 0 ? TimelineStore.None : PieceBefore(partner, timelines.Key(piece));
-            int opened = before == TimelineStore.None ? TimelineStore.None : timelines.Next(before);
-            isByHand = opened != TimelineStore.None && timelines.Key(opened) == timelines.Key(piece) && IsHeld(opened);
+            isByHand = partner >= 0 && IsOpenedWith(partner, timelines.Key(piece));
         }
 
         return isByHand;
+    }
+
+    private bool IsOpenedWith(int hand, in EventKey key)
+    {
+        int piece = timelines.Last(hand);
+        while (piece != TimelineStore.None && timelines.Previous(piece) != TimelineStore.None && EventKey.Compare(timelines.Key(timelines.Previous(piece)), key) >= 0)
+        {
+            piece = timelines.Previous(piece);
+        }
+
+        int order = piece == TimelineStore.None ? -1 : EventKey.Compare(timelines.Key(piece), key);
+        return order >= 0 && IsHeld(piece) && (order == 0 || timelines.Previous(piece) == TimelineStore.None);
     }
 
     /// <summary>Whether a member is surely further from a surface than it gets on its chord.</summary>
