@@ -15,7 +15,7 @@ namespace LagSim;
 public sealed partial class Simulation
 {
     /// <summary>
-    /// What was struck three times in an instant and closes again, slower than this, in m/s, waits for <see cref="ContactTime.Soon"/>. What parts slower
+    /// What was struck twice in an instant and closes again, slower than this, in m/s, waits for <see cref="ContactTime.Soon"/>. What parts slower
     /// than this may as well be said to close: rounding decides.
     /// </summary>
     private const double CollapseSpeed = 1e-6;
@@ -25,12 +25,6 @@ public sealed partial class Simulation
     /// two, a round later, and only then can they close again. Rounds are numbered from 0.
     /// </summary>
     private const uint CollapseRound = 2;
-
-    /// <summary>
-    /// So many strikes of a contact are counted in an instant: with the first it may be struck again, with the second there may be a collapse, and what closes slowly after
-    /// the third may wait.
-    /// </summary>
-    private const int MostStrikes = 3;
 
     private const int StrikesKnown = 64; // a power of two
 
@@ -171,7 +165,7 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// How many impacts of this instant were on a body while it did not part from a surface that it touches; <see cref="MostStrikes"/> where it is more.
+    /// How many impacts of this instant were on a body while it did not part from a surface that it touches; two where it is more.
     /// </summary>
     private int StrikesOn(int piece, int surface, SimTime time)
     {
@@ -184,7 +178,7 @@ public sealed partial class Simulation
         ContactTime tick = ContactTime.At(time);
         int at = piece;
         int strikes = 0;
-        while (strikes < MostStrikes && timelines.Key(at).Time == time && timelines.Previous(at) != TimelineStore.None)
+        while (strikes < 2 && timelines.Key(at).Time == time && timelines.Previous(at) != TimelineStore.None)
         {
             if (known.First == timelines.Serial(at) && known.Second == ~surface)
             {
@@ -198,13 +192,13 @@ public sealed partial class Simulation
             strikes += isImpact && Vector3D.Dot(normal, VelocityAt(at, tick)) <= CollapseSpeed ? 1 : 0;
         }
 
-        strikes = Math.Min(strikes, MostStrikes);
+        strikes = Math.Min(strikes, 2);
         known = new KnownStrikes(timelines.Serial(piece), ~surface, strikes);
         return strikes;
     }
 
     /// <summary>
-    /// How many impacts of this instant were on two bodies that touch, while they did not part from each other; <see cref="MostStrikes"/> where it is more.
+    /// How many impacts of this instant were on two bodies that touch, while they did not part from each other; two where it is more.
     /// </summary>
     private int StrikesBetween(int first, int second, SimTime time)
     {
@@ -223,7 +217,7 @@ public sealed partial class Simulation
         int a = first;
         int b = second;
         int strikes = 0;
-        while (strikes < MostStrikes && timelines.Key(a).Time == time && timelines.Key(b).Time == time
+        while (strikes < 2 && timelines.Key(a).Time == time && timelines.Key(b).Time == time
             && timelines.Previous(a) != TimelineStore.None && timelines.Previous(b) != TimelineStore.None)
         {
             if (known.First == timelines.Serial(a) && known.Second == timelines.Serial(b))
@@ -240,7 +234,7 @@ public sealed partial class Simulation
             strikes += isImpact && Vector3D.Dot(normal, VelocityAt(a, tick) - VelocityAt(b, tick)) <= CollapseSpeed ? 1 : 0;
         }
 
-        strikes = Math.Min(strikes, MostStrikes);
+        strikes = Math.Min(strikes, 2);
         known = new KnownStrikes(timelines.Serial(first), timelines.Serial(second), strikes);
         return strikes;
     }

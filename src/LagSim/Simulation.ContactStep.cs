@@ -432,8 +432,8 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// How a party turns once its centre rests: as it did, but for what moves its surface slower than rest allows. What turns about the normal of a contact and what
-    /// rolls there are told apart, so that what goes on turning on the spot does not go on rolling.
+    /// How a party turns once its centre rests: as it did, but for what moves its surface slower than rest allows. What turns about the
+    /// normal of a contact and what rolls there are told apart, so that what goes on turning on the spot does not go on rolling.
     /// </summary>
     private Vector3D SpinAtRest(int party)
     {

@@ -32,8 +32,8 @@ public sealed partial class Simulation
         timelines.Key(piece).Kind == EventKind.Impact && timelines.Contact(contact).Holds && !IsElastic(slot, timelines.Contact(contact));
 
     /// <summary>
-    /// Whether the impact that opened a member's piece was one with a hand that the member touches. A world that began from a snapshot may know the hand's path only from a later
-    /// piece on; then that one tells.
+    /// Whether the impact that opened a member's piece was one with a hand that the member touches. A world that began from a snapshot may
+    /// know the hand's path only from a later piece on; then that one tells.
     /// </summary>
     private bool IsOpenedWithHand(int piece)
     {
@@ -51,7 +51,8 @@ public sealed partial class Simulation
     private bool IsOpenedWith(int hand, in EventKey key)
     {
         int piece = timelines.Last(hand);
-        while (piece != TimelineStore.None && timelines.Previous(piece) != TimelineStore.None && EventKey.Compare(timelines.Key(timelines.Previous(piece)), key) >= 0)
+        while (piece != TimelineStore.None && timelines.Previous(piece) != TimelineStore.None
+            && EventKey.Compare(timelines.Key(timelines.Previous(piece)), key) >= 0)
         {
             piece = timelines.Previous(piece);
         }

@@ -132,7 +132,7 @@ public sealed partial class Simulation
                 -Vector3D.Dot(normal, velocity), pressing, velocity.Length,
                 SurfaceGap(surface, position, radius), RoundingOf(position, radius));
             SimDuration wait = WaitFor(closing, segment.IsOfIsland && Holds(last, surface));
-            if (wait < ContactTime.Soon && !MayWait(closing, closing.Speed <= CollapseSpeed ? StrikesOn(last, surface, opened) : 0))
+            if (wait < ContactTime.Soon && !MayWait(closing, closing.Speed <= CollapseSpeed ? StrikesOn(last, surface, opened) : 0, round))
             {
                 return true;
             }
@@ -278,7 +278,7 @@ public sealed partial class Simulation
                 -Vector3D.Dot(normal, velocity), pressing, velocityA.Length + velocityB.Length,
                 apart.Length - reach, RoundingOf(position, reach));
             SimDuration wait = WaitFor(closing, HoldTogether(a, lastA, b, lastB));
-            if (wait < ContactTime.Soon && !MayWait(closing, closing.Speed <= CollapseSpeed ? StrikesBetween(lastA, lastB, opened) : 0))
+            if (wait < ContactTime.Soon && !MayWait(closing, closing.Speed <= CollapseSpeed ? StrikesBetween(lastA, lastB, opened) : 0, round))
             {
                 return true;
             }
@@ -326,9 +326,11 @@ public sealed partial class Simulation
 
     /// <summary>
     /// Whether what closes in the instant in which it was struck may wait: rounding after one impact, and what a collapse has left,
-    /// or would have ended if one were possible. Before that it may not, however slow it is: a collapse is what ends it.
+    /// or would have ended if one were possible. In the round of the first collapse it may not, however slow it is: that is what ends
+    /// it.
     /// </summary>
-    private static bool MayWait(in Closing closing, int strikes) => closing.IsRounding ? strikes > 0 : strikes >= MostStrikes;
+    private static bool MayWait(in Closing closing, int strikes, uint round) =>
+        closing.IsRounding ? strikes > 0 : strikes > 1 && round > CollapseRound;
 
     /// <summary>
     /// Whether a body closes on a surface that is no further off than places are rounded: no path can tell the instant, so it is this one.

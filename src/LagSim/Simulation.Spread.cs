@@ -461,7 +461,9 @@ public sealed partial class Simulation
         ? SurfaceGap(c.Surface, partyPositions[c.First], partyRadii[c.First])
         : Scene.Box.Nearest(partyPositions[c.First] - partyPositions[c.Second]).Length - ReachOf(c);
 
-    /// <summary>Lets steps of islands (rule 6 of docs/CONTACT.md) and impacts on them (rule 8) make energy: only a test's negative control sets it.</summary>
+    /// <summary>
+    /// Lets steps of islands (rule 6 of docs/CONTACT.md) and impacts on them (rule 8) make energy: only a test's negative control sets it.
+    /// </summary>
     internal bool GainsEnergy
     {
         get => step.MayGainEnergy;

@@ -157,9 +157,10 @@ internal sealed class ContactStep
     }
 
     /// <summary>
-    /// No step leaves more energy than its bodies came with, what forces give in it included, or than the pull gives them from rest. Each contact pushes its overlap out no faster than a
-    /// fall of a step, but in a stack these speeds add up and would throw its top into the air; so all push slower, by as much as the energy asks for. What the sweeps leave after the
-    /// last step's impulses may be too much, too: then the step begins without impulses, and pushes nothing out.
+    /// No step leaves more energy than its bodies came with, what forces give in it included, or than the pull gives them from rest. Each
+    /// contact pushes its overlap out no faster than a fall of a step, but in a stack these speeds add up and would throw its top into the
+    /// air; so all push slower, by as much as the energy asks for. What the sweeps leave after the last step's impulses may be too much,
+    /// too: then the step begins without impulses, and pushes nothing out.
     /// </summary>
     private void KeepEnergy(double most, double tolerance)
     {

@@ -6,8 +6,8 @@ using static LagSim.Tests.TestWorlds;
 namespace LagSim.Tests.Behavior;
 
 /// <summary>
-/// The third case of rule 7 (docs/CONTACT.md): a ball that strikes a static sphere stays where its rebound would rise by at most the tolerance and all bounces to
-/// come would be over within a step. A rebound a little faster is a bounce.
+/// The third case of rule 7 (docs/CONTACT.md): a ball that strikes a static sphere stays where its rebound would rise by at most the
+/// tolerance and all bounces to come would be over within a step. A rebound a little faster is a bounce.
 /// </summary>
 public sealed class CaptureTests
 {
@@ -26,7 +26,9 @@ public sealed class CaptureTests
         Assert.Equal(MotionLaw.Ballistic, LawAfterRebound(1.001 * bound, restitution, tolerance));
     }
 
-    /// <summary>The step of rule 1: the largest power of two of ticks within the time of a fall by the tolerance, where that is below 1/64 s.</summary>
+    /// <summary>
+    /// The step of rule 1: the largest power of two of ticks within the time of a fall by the tolerance, where that is below 1/64 s.
+    /// </summary>
     private static double StepOf(double tolerance)
     {
         double tick = Time.SimDuration.OneTick.ToSeconds();

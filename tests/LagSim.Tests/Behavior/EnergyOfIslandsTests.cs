@@ -6,7 +6,8 @@ using static LagSim.Tests.TestWorlds;
 namespace LagSim.Tests.Behavior;
 
 /// <summary>
-/// Neither a step of an island nor an impact on one makes energy (docs/CONTACT.md, rules 6 and 8). The control of each is a world that lets them.
+/// Neither a step of an island nor an impact on one makes energy (docs/CONTACT.md, rules 6 and 8). The control of each is a world that lets
+/// them.
 /// </summary>
 public sealed class EnergyOfIslandsTests
 {
@@ -39,8 +40,8 @@ public sealed class EnergyOfIslandsTests
     }
 
     /// <summary>
-    /// Rule 8: a ball that spins fast and strikes a heap and its walls without a loss; rebound and friction of several contacts at once make energy if they
-    /// may. What is read within a step is off by some thousandths, since velocities are those of its middle.
+    /// Rule 8: a ball that spins fast and strikes a heap and its walls without a loss; rebound and friction of several contacts at once
+    /// make energy if they may. What is read within a step is off by some thousandths, since velocities are those of its middle.
     /// </summary>
     [Theory]
     [InlineData(false)]

@@ -38,7 +38,8 @@ public sealed class HeapRestTests
     }
 
     /// <summary>
-    /// A ball on a dome that turns on the spot, and rolls slower than rest allows: rest ends the rolling alone. The control rolls faster, and rolls off.
+    /// A ball on a dome that turns on the spot, and rolls slower than rest allows: rest ends the rolling alone. The control rolls faster,
+    /// and rolls off.
     /// </summary>
     [Theory]
     [InlineData(1e-6, true)]

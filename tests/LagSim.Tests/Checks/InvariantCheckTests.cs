@@ -51,8 +51,8 @@ public sealed class InvariantCheckTests
     public void Run_CollapseInAHeap_IsHealed(ulong seed) => Assert.Empty(Run(new CheckOptions { Sessions = 1, Seed = seed, ShrinkingPlays = 0 }).Failures);
 
     /// <summary>
-    /// A joiner whose copy begins within a step in which a hand pressed a ball against a wall: it knows the hand's path from a later piece on, and
-    /// struck the ball against the wall once more.
+    /// A joiner whose copy begins within a step in which a hand pressed a ball against a wall: it knows the hand's path from a later piece
+    /// on, and struck the ball against the wall once more.
     /// </summary>
     [Fact]
     public void Run_JoinerWhoseCopyBeginsWhileAHandPresses_HasTheSameBits() =>

@@ -41,7 +41,9 @@ public sealed class ContactStepTests
         Assert.Equal(9.81 * seconds, step.Problem.Bodies[1].Velocity.X - step.Problem.Bodies[0].Velocity.X, 1e-9);
     }
 
-    /// <summary>Rule 9: what held before holds on while it opens by less than a quarter of the tolerance; what did not hold does not.</summary>
+    /// <summary>
+    /// Rule 9: what held before holds on while it opens by less than a quarter of the tolerance; what did not hold does not.
+    /// </summary>
     [Theory]
     [InlineData(true, 0.24, true)]
     [InlineData(true, 0.26, false)]

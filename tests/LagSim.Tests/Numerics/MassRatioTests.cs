@@ -119,8 +119,8 @@ public sealed class MassRatioTests
     }
 
     /// <summary>
-    /// Eight balls packed in a box of their size, thrown to one side, come to the sentence, which takes as many rounds as an instant may have; those that lose a
-    /// little end.
+    /// Eight balls packed in a box of their size, thrown to one side, come to the sentence, which takes as many rounds as an instant may
+    /// have; those that lose a little end.
     /// </summary>
     [Theory]
     [InlineData(1)]
