@@ -32,8 +32,8 @@ public sealed partial class Simulation
     private KnownStrikes[]? knownStrikes;
 
     /// <summary>
-    /// Whether something there can take energy, or could once: an inelastic body or surface, or a hand. Where nothing can there is no collapse to look for, which costs more than the
-    /// impacts do.
+    /// Whether something there can take energy, or could once: an inelastic body or surface, or a hand. Where nothing can there is no
+    /// collapse to look for, which costs more than the impacts do.
     /// </summary>
     private bool hasLosses;
 

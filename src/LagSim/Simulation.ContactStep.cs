@@ -415,7 +415,8 @@ public sealed partial class Simulation
         {
             int slot = parties[i];
             int before = timelines.Last(slot);
-            Append(slot, key, MotionSegment.AtRest(key.Time, partyPositions[i].WithoutNegativeZero()), default, spin: new Spin(SpinAtRest(i)));
+            MotionSegment rest = MotionSegment.AtRest(key.Time, partyPositions[i].WithoutNegativeZero());
+            Append(slot, key, rest, default, spin: new Spin(SpinAtRest(i)));
             int piece = timelines.Last(slot);
             timelines.BeginMember(piece, key.Time, timelines.StillSince(before));
             for (int at = timelines.FirstContact(before); at != TimelineStore.None; at = timelines.NextContact(at))

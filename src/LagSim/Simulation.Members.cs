@@ -50,15 +50,9 @@ public sealed partial class Simulation
 
     private bool IsOpenedWith(int hand, in EventKey key)
     {
-        int piece = timelines.Last(hand);
-        while (piece != TimelineStore.None && timelines.Previous(piece) != TimelineStore.None
-            && EventKey.Compare(timelines.Key(timelines.Previous(piece)), key) >= 0)
-        {
-            piece = timelines.Previous(piece);
-        }
-
-        int order = piece == TimelineStore.None ? -1 : EventKey.Compare(timelines.Key(piece), key);
-        return order >= 0 && IsHeld(piece) && (order == 0 || timelines.Previous(piece) == TimelineStore.None);
+        int before = PieceBefore(hand, key);
+        int opened = before == TimelineStore.None ? timelines.First(hand) : timelines.Next(before);
+        return opened != TimelineStore.None && IsHeld(opened) && (before == TimelineStore.None || timelines.Key(opened) == key);
     }
 
     /// <summary>Whether a member is surely further from a surface than it gets on its chord.</summary>

@@ -132,7 +132,8 @@ public sealed partial class Simulation
                 -Vector3D.Dot(normal, velocity), pressing, velocity.Length,
                 SurfaceGap(surface, position, radius), RoundingOf(position, radius));
             SimDuration wait = WaitFor(closing, segment.IsOfIsland && Holds(last, surface));
-            if (wait < ContactTime.Soon && !MayWait(closing, closing.Speed <= CollapseSpeed ? StrikesOn(last, surface, opened) : 0, round))
+            if (wait < ContactTime.Soon
+                && !MayWait(closing, closing.Speed <= CollapseSpeed ? StrikesOn(last, surface, opened) : 0, round))
             {
                 return true;
             }
@@ -278,7 +279,8 @@ public sealed partial class Simulation
                 -Vector3D.Dot(normal, velocity), pressing, velocityA.Length + velocityB.Length,
                 apart.Length - reach, RoundingOf(position, reach));
             SimDuration wait = WaitFor(closing, HoldTogether(a, lastA, b, lastB));
-            if (wait < ContactTime.Soon && !MayWait(closing, closing.Speed <= CollapseSpeed ? StrikesBetween(lastA, lastB, opened) : 0, round))
+            if (wait < ContactTime.Soon
+                && !MayWait(closing, closing.Speed <= CollapseSpeed ? StrikesBetween(lastA, lastB, opened) : 0, round))
             {
                 return true;
             }
@@ -298,8 +300,9 @@ public sealed partial class Simulation
         path.At(path.Position + (Scene.Box.Nearest(at - point) - (at - point)));
 
     /// <summary>
-    /// How long a contact that closes from the opening of its segments on needs not be looked for: so slow, as rounding leaves it, or a step's sweeps where
-    /// it holds, that it uses up its room only then. If that is sooner than <see cref="ContactTime.Soon"/> it may have to be struck at once.
+    /// How long a contact that closes from the opening of its segments on needs not be looked for: so slow, as rounding leaves it, or a
+    /// step's sweeps where it holds, that it uses up its room only then. If that is sooner than <see cref="ContactTime.Soon"/> it may have
+    /// to be struck at once.
     /// </summary>
     private SimDuration WaitFor(in Closing closing, bool holds)
     {
@@ -317,7 +320,9 @@ public sealed partial class Simulation
         return wait;
     }
 
-    /// <summary>From when on it is looked for again, after such a wait; <see cref="SimTime.MaxValue"/> if the segments end before.</summary>
+    /// <summary>
+    /// From when on it is looked for again, after such a wait; <see cref="SimTime.MaxValue"/> if the segments end before.
+    /// </summary>
     private static SimTime LookAgain(SimTime opened, SimTime end, SimDuration wait)
     {
         wait = wait < ContactTime.Soon ? ContactTime.Soon : wait;

@@ -225,7 +225,7 @@ public sealed partial class Simulation
         }
 
         TellContacts(key);
-        KeepEnergy(tolerance);
+        DropReboundsThatGain(tolerance);
         KeepPressed(isNear);
         OpenReached(key, residual);
         JoinLookedAt(key);
@@ -471,17 +471,16 @@ public sealed partial class Simulation
     }
 
     /// <summary>Rebound and friction together may make energy where several contacts share bodies; then there is no rebound.</summary>
-    private void KeepEnergy(double tolerance)
+    private void DropReboundsThatGain(double tolerance)
     {
+        double after = reached.KineticEnergy();
         SwapVelocities();
-        double before = reached.KineticEnergy();
-        SwapVelocities();
-        if (GainsEnergy || reached.HasHand() || !reached.ExceedsEnergy(before))
+        if (GainsEnergy || reached.HasHand() || !ContactProblem.IsGain(reached.KineticEnergy(), after))
         {
+            SwapVelocities();
             return;
         }
 
-        SwapVelocities();
         for (int i = 0; i < partyCount; i++)
         {
             velocitiesBefore[i] = reached.Bodies[i].Velocity;

@@ -425,7 +425,8 @@ internal sealed class SessionRunner : IDisposable
     {
         Verdict.TooLate => "it came too late, when nothing could change any more what was to happen then (the host's --history-s)",
         Verdict.TooEarly => "it is stamped too far in the future",
-        Verdict.NoRight => "this peer may not do that: it has no right to, or what it did costs more than the host allows (docs/BUDGETS.md)",
+        Verdict.NoRight =>
+            "this peer may not do that: it has no right to, or what it did costs more than the host allows (docs/BUDGETS.md)",
         _ => "it makes no sense in this scene",
     };
 

@@ -166,8 +166,8 @@ internal sealed class ContactProblem
         return sum;
     }
 
-    /// <summary>Whether its energy is above that by more than rounding, of a sum over thousands of bodies.</summary>
-    internal bool ExceedsEnergy(double most) => KineticEnergy() > most * (1 + 1e-9);
+    /// <summary>Whether energy has grown by more than rounding, of a sum over thousands of bodies.</summary>
+    internal static bool IsGain(double before, double after) => after > before * (1 + 1e-9);
 
     /// <summary>The kinetic energy of all, spin included, but of those in hands; in J.</summary>
     internal double KineticEnergy()

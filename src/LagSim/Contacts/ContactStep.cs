@@ -152,7 +152,7 @@ internal sealed class ContactStep
         Sweep(tolerance);
         if (!Problem.HasHand() && !MayGainEnergy)
         {
-            KeepEnergy(most, tolerance);
+            LimitEnergy(most, tolerance);
         }
     }
 
@@ -162,12 +162,13 @@ internal sealed class ContactStep
     /// air; so all push slower, by as much as the energy asks for. What the sweeps leave after the last step's impulses may be too much,
     /// too: then the step begins without impulses, and pushes nothing out.
     /// </summary>
-    private void KeepEnergy(double most, double tolerance)
+    private void LimitEnergy(double most, double tolerance)
     {
-        for (int attempt = 0; attempt < 2 && Problem.ExceedsEnergy(most); attempt++)
+        double energy = Problem.KineticEnergy();
+        for (int attempt = 0; attempt < 2 && ContactProblem.IsGain(most, energy); attempt++)
         {
             bool isLast = attempt == 1;
-            double share = isLast ? 0 : Math.Sqrt(most / Problem.KineticEnergy());
+            double share = isLast ? 0 : Math.Sqrt(most / energy);
             for (int i = 0; i < Problem.ContactCount; i++)
             {
                 ref SolverContact c = ref Problem.Contacts[i];
@@ -179,6 +180,7 @@ internal sealed class ContactStep
             }
 
             SolveAgain(tolerance);
+            energy = Problem.KineticEnergy();
         }
     }
 

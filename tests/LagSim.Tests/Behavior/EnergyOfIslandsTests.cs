@@ -50,7 +50,8 @@ public sealed class EnergyOfIslandsTests
     {
         Random random = new(45);
         SceneBuilder builder = new SceneBuilder("pit").WithContactTolerance(1e-3).AddPlane("floor", Vector3D.Up, 0.0)
-            .AddPlane("west", V(1), -0.3).AddPlane("east", V(-1), -0.3).AddPlane("back", V(0, 0, 1), -0.3).AddPlane("front", V(0, 0, -1), -0.3);
+            .AddPlane("west", V(1), -0.3).AddPlane("east", V(-1), -0.3)
+            .AddPlane("back", V(0, 0, 1), -0.3).AddPlane("front", V(0, 0, -1), -0.3);
         for (int n = 0; n < 12; n++)
         {
             double x = (((n % 2) - 0.5) * 0.22) + (0.01 * random.NextDouble());

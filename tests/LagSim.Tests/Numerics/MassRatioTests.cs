@@ -127,11 +127,14 @@ public sealed class MassRatioTests
     [InlineData(0.9)]
     public void BallsPackedInABox_WithoutALoss_StopWithASentence(double restitution)
     {
-        SceneBuilder builder = new SceneBuilder("box").WithGravity(Floating).AddPlane("floor", V(0, 1), -0.2).AddPlane("lid", V(0, -1), -0.2)
-            .AddPlane("west", V(1), -0.2).AddPlane("east", V(-1), -0.2).AddPlane("back", V(0, 0, 1), -0.2).AddPlane("front", V(0, 0, -1), -0.2);
+        SceneBuilder builder = new SceneBuilder("box").WithGravity(Floating)
+            .AddPlane("floor", V(0, 1), -0.2).AddPlane("lid", V(0, -1), -0.2)
+            .AddPlane("west", V(1), -0.2).AddPlane("east", V(-1), -0.2)
+            .AddPlane("back", V(0, 0, 1), -0.2).AddPlane("front", V(0, 0, -1), -0.2);
         for (int n = 0; n < 8; n++)
         {
-            builder.AddBody($"ball {n}", new BodySpec(0.1, 1, restitution), V(0.1 - (n % 2 * 0.2), 0.1 - (n / 2 % 2 * 0.2), 0.1 - (n / 4 * 0.2)), V(3, -2, 1));
+            Vector3D place = V(0.1 - (n % 2 * 0.2), 0.1 - (n / 2 % 2 * 0.2), 0.1 - (n / 4 * 0.2));
+            builder.AddBody($"ball {n}", new BodySpec(0.1, 1, restitution), place, V(3, -2, 1));
         }
 
         Exception? failure = Record.Exception(() => Run(builder.Build(), 0.1));
