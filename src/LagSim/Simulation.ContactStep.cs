@@ -282,8 +282,8 @@ public sealed partial class Simulation
     {
         step.Solve(length.ToSeconds(), tolerance);
         SettleForces(tick, length, tolerance);
+        step.LimitEnergy(length.ToSeconds(), tolerance);
         CountSweeps(step.Sweeps, step.Problem.ContactCount);
-        CountUnlike(partyCount, step.UnlikeSolves);
     }
 
     /// <summary>So far, in parts of a force's own time, a step may go.</summary>

@@ -18,7 +18,7 @@ public sealed partial class Simulation
     private const int GrowingSweeps = 2;
 
     private readonly ContactProblem reached = new();
-    private readonly UnlikeMassSolver unlike = new();
+    private readonly NormalsSolver normals = new();
     private Vector3D[] velocitiesBefore = Array.Empty<Vector3D>();
     private Vector3D[] spinsBefore = Array.Empty<Vector3D>();
 
@@ -174,9 +174,9 @@ public sealed partial class Simulation
         ahead.Clear();
         bool isNear = false;
         bool isSolved = false;
-        for (bool grows = true; (grows || !isSolved) && ahead.Count == 0;)
+        for (bool goesOn = true; goesOn && ahead.Count == 0;)
         {
-            grows = false;
+            bool grows = false;
             bool hasHand = HasHand();
             int known = partyCount;
             int knownContacts = reached.ContactCount;
@@ -198,7 +198,8 @@ public sealed partial class Simulation
                 }
             }
 
-            if (ahead.Count == 0 && (grows || !isSolved))
+            goesOn = grows || !isSolved; // what it was solved to may reach others yet
+            if (goesOn && ahead.Count == 0)
             {
                 LimitAgain(more);
                 SolveReached(tolerance, grows ? GrowingSweeps : ContactStep.MostSweeps, known, knownContacts);
@@ -302,23 +303,23 @@ public sealed partial class Simulation
         return isReached;
     }
 
-    /// <summary>Goes on from the impulses so far; where masses are unlike, begins again from the velocities before.</summary>
+    /// <summary>Goes on from the impulses so far.</summary>
     private void SolveReached(double tolerance, int sweeps, int knownBodies, int knownContacts)
     {
-        if (sweeps == GrowingSweeps || !UnlikeMassSolver.Suits(reached))
+        int taken = ContactSolver.Solve(reached, tolerance, sweeps, knownBodies, knownContacts);
+        bool isSettled = taken < sweeps && ContactSolver.CanAddUp(reached, tolerance);
+        if (sweeps == ContactStep.MostSweeps && !isSettled && !reached.HasHand())
         {
-            CountSweeps(ContactSolver.Solve(reached, tolerance, sweeps, knownBodies, knownContacts), reached.ContactCount);
-            return;
+            for (int i = 0; i < partyCount; i++)
+            {
+                reached.Bodies[i].Velocity = velocitiesBefore[i];
+                reached.Bodies[i].Spin = spinsBefore[i];
+            }
+
+            taken += normals.Solve(reached, tolerance);
         }
 
-        for (int i = 0; i < partyCount; i++)
-        {
-            reached.Bodies[i].Velocity = velocitiesBefore[i];
-            reached.Bodies[i].Spin = spinsBefore[i];
-        }
-
-        unlike.Solve(reached);
-        CountUnlike(partyCount, 1);
+        CountSweeps(taken, reached.ContactCount);
     }
 
     /// <summary>The more bodies are reached, the more a hand may give; by the velocities before.</summary>
@@ -468,6 +469,13 @@ public sealed partial class Simulation
     {
         get => step.MayGainEnergy;
         set => step.MayGainEnergy = value;
+    }
+
+    /// <summary>Has the normals of steps solved by sweeps alone (rule 4): only a test's negative control sets it.</summary>
+    internal bool SweepsAlone
+    {
+        get => step.SweepsAlone;
+        set => step.SweepsAlone = value;
     }
 
     /// <summary>Rebound and friction together may make energy where several contacts share bodies; then there is no rebound.</summary>

@@ -45,9 +45,6 @@ public sealed partial class Simulation
     /// <summary>Counts sweeps over contacts.</summary>
     private void CountSweeps(int sweeps, int contacts) => solverWork += WorkPerVisit * sweeps * contacts;
 
-    /// <summary>Counts so many problems of so many bodies with unlike masses: each as the square of the bodies.</summary>
-    private void CountUnlike(int bodies, int problems) => solverWork += (double)problems * bodies * bodies;
-
     /// <summary>Processes an event and tells the observer which bodies took part.</summary>
     /// <returns>What the observer says of it.</returns>
     private WorkVerdict ProcessTold(int slot, in EventKey key, IWorkObserver observer)

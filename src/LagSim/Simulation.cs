@@ -45,7 +45,7 @@ public sealed partial class Simulation
     /// <para>Peers of other versions would each compute a world of its own, and a recording of another version gives other hashes than stand in it.</para>
     /// <para>Not a <see langword="const"/>: that would be copied into whatever is built against the library, and tell of another build than the one that runs.</para>
     /// </remarks>
-    public static int FoldVersion => 8;
+    public static int FoldVersion => 9;
 
     /// <summary>A world at the start of its scene, with all that happens at that instant. Cost: the bodies, and which of them can meet.</summary>
     /// <param name="scene">What is simulated.</param>

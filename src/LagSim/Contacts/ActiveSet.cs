@@ -18,7 +18,6 @@ internal sealed class ActiveSet
     private bool[] isActive = Array.Empty<bool>();
     private bool[] dependent = Array.Empty<bool>();
     private double[] trial = Array.Empty<double>();
-    private int kept; // how many contacts are in the set that the last solution ended with
 
     /// <summary>Solves; false if some demand cannot be met. Leaves the impulses, and the change of every velocity.</summary>
     /// <param name="contacts">With their normals.</param>
@@ -26,28 +25,23 @@ internal sealed class ActiveSet
     /// <param name="demand">By contact: by how much faster it is to open, at least.</param>
     /// <param name="impulse">By contact: is set.</param>
     /// <param name="change">By body: is set.</param>
-    /// <param name="again">Whether the bodies and normals are those that were solved last: it begins with the contacts that pushed then.</param>
-    internal bool TrySolve(Span<ContactPoint> contacts, Span<double> masses, Span<double> demand, Span<double> impulse, Span<Vector3D> change, bool again)
+    internal bool TrySolve(
+        Span<ContactPoint> contacts, Span<double> masses, Span<double> demand, Span<double> impulse, Span<Vector3D> change)
     {
         int n = contacts.Length;
-        if (!again)
-        {
-            Grow(n);
-            basis.Clear(n, change.Length);
-        }
-
-        int count = again ? kept : 0;
+        Grow(n);
+        basis.Clear(n, change.Length);
+        int count = 0;
         double scale = 0;
         for (int i = 0; i < n; i++)
         {
             impulse[i] = 0;
-            isActive[i] &= again;
+            isActive[i] = false;
             dependent[i] = false;
             scale = Math.Max(scale, Math.Abs(demand[i]));
         }
 
         change.Clear();
-        count = count > 0 ? Retreat(contacts, masses, demand, impulse, change, count) : 0;
         double least = Tolerance * scale;
         for (int pass = 0; pass < 10 * n; pass++)
         {
@@ -80,7 +74,6 @@ internal sealed class ActiveSet
             Array.Clear(dependent, 0, n);
         }
 
-        kept = count;
         for (int i = 0; i < n; i++)
         {
             if (!isActive[i] && Missing(contacts[i], demand[i], change) > 1e3 * least)

@@ -7,6 +7,9 @@ namespace LagSim.Contacts;
 /// <remarks>Allocates only when there are more bodies or contacts than ever before. Not thread-safe.</remarks>
 internal sealed class ContactProblem
 {
+    /// <summary>The moment of inertia of a solid sphere, in m r².</summary>
+    internal const double SphereInertia = 0.4;
+
     internal SolverBody[] Bodies = Array.Empty<SolverBody>();
     internal SolverContact[] Contacts = Array.Empty<SolverContact>();
 
@@ -93,6 +96,16 @@ internal sealed class ContactProblem
         }
     }
 
+    /// <summary>No contact has friction or resistance any more.</summary>
+    internal void DropFriction()
+    {
+        for (int i = 0; i < ContactCount; i++)
+        {
+            ref SolverContact c = ref Contacts[i];
+            (c.Rub, c.Turn, c.HasRub, c.Bound) = (Vector3D.Zero, Vector3D.Zero, false, 0);
+        }
+    }
+
     /// <summary>Keeps the first contacts alone.</summary>
     internal void Keep(int count) => ContactCount = count;
 
@@ -169,6 +182,10 @@ internal sealed class ContactProblem
     /// <summary>Whether energy has grown by more than rounding, of a sum over thousands of bodies.</summary>
     internal static bool IsGain(double before, double after) => after > before * (1 + 1e-9);
 
+    /// <summary>The kinetic energy of a body that is not in a hand, at such a velocity and spin; in J.</summary>
+    internal static double EnergyOf(in SolverBody body, in Vector3D velocity, in Vector3D spin) =>
+        0.5 * (velocity.LengthSquared + (SphereInertia * body.Radius * body.Radius * spin.LengthSquared)) / body.InverseMass;
+
     /// <summary>The kinetic energy of all, spin included, but of those in hands; in J.</summary>
     internal double KineticEnergy()
     {
@@ -178,7 +195,7 @@ internal sealed class ContactProblem
             ref readonly SolverBody body = ref Bodies[b];
             if (body.InverseMass > 0)
             {
-                sum += 0.5 * (body.Velocity.LengthSquared + (0.4 * body.Radius * body.Radius * body.Spin.LengthSquared)) / body.InverseMass;
+                sum += EnergyOf(body, body.Velocity, body.Spin);
             }
         }
 

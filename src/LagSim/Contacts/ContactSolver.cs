@@ -14,6 +14,25 @@ namespace LagSim.Contacts;
 /// </remarks>
 internal static class ContactSolver
 {
+    /// <summary>From 1 to the next number of 64 bits.</summary>
+    private const double Epsilon = 1.0 / (1L << 52);
+
+    /// <summary>
+    /// Whether the impulses of the contacts can be added up: a light body between heavy ones gets two that cancel, and what is left of them
+    /// is rounding, which may be no more than a tolerance, in m/s. Where it is more, sweeps change nothing and look settled.
+    /// </summary>
+    internal static bool CanAddUp(ContactProblem problem, double tolerance)
+    {
+        bool can = true;
+        for (int i = 0; i < problem.ContactCount && can; i++)
+        {
+            ref readonly SolverContact c = ref problem.Contacts[i];
+            can = c.Impulse * c.NormalInverse * Epsilon <= tolerance;
+        }
+
+        return can;
+    }
+
     /// <summary>Adds what the impulses that the contacts begin with do to the bodies.</summary>
     internal static void ApplyGiven(ContactProblem problem)
     {
@@ -25,6 +44,19 @@ internal static class ContactSolver
             if (c.Impulse != 0 || c.HasRub || c.Turn != Vector3D.Zero)
             {
                 Apply(problem, c, (c.Normal * c.Impulse) + c.Rub, c.Rub, c.Turn);
+            }
+        }
+    }
+
+    /// <summary>Adds what the friction and the resistance alone do that the contacts have.</summary>
+    internal static void ApplyFriction(ContactProblem problem)
+    {
+        for (int i = 0; i < problem.ContactCount; i++)
+        {
+            ref readonly SolverContact c = ref problem.Contacts[i];
+            if (c.Rub != Vector3D.Zero || c.Turn != Vector3D.Zero)
+            {
+                Apply(problem, c, c.Rub, c.Rub, c.Turn);
             }
         }
     }

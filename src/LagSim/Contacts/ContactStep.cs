@@ -15,12 +15,14 @@ namespace LagSim.Contacts;
 internal sealed class ContactStep
 {
     /// <summary>
-    /// So many sweeps at most. What they leave is an error and no fault: the next step goes on from the impulses that they got to.
+    /// So many sweeps at most. Then <see cref="NormalsSolver"/> settles what keeps bodies out of each other; what is left of friction is an
+    /// error and no fault, for the next step goes on from the impulses that they got to.
     /// </summary>
     internal const int MostSweeps = 200;
 
     private readonly Scene scene;
-    private readonly UnlikeMassSolver unlike = new();
+    private readonly NormalsSolver normals = new();
+    private readonly EnergyLimit limit = new();
     private Member[] members = Array.Empty<Member>();
     private int[] byPlace = Array.Empty<int>();
     private double[] places = Array.Empty<double>();
@@ -47,11 +49,11 @@ internal sealed class ContactStep
     /// <summary>Pushes overlap out whatever energy that makes: only a test's negative control sets it.</summary>
     internal bool MayGainEnergy { get; set; }
 
-    /// <summary>How many sweeps the last took.</summary>
-    internal int Sweeps { get; private set; }
+    /// <summary>Leaves normals as the sweeps leave them: only a test's negative control sets it.</summary>
+    internal bool SweepsAlone { get; set; }
 
-    /// <summary>How often the last was solved by the solver of unlike masses, which counts no sweeps.</summary>
-    internal int UnlikeSolves { get; private set; }
+    /// <summary>How many sweeps the last took, and steps of <see cref="NormalsSolver"/>, which cost as much.</summary>
+    internal int Sweeps { get; private set; }
 
     /// <summary>Begins again, with nobody.</summary>
     internal void Clear() => Problem.Clear();
@@ -147,41 +149,34 @@ internal sealed class ContactStep
         }
 
         Sweeps = 0;
-        UnlikeSolves = 0;
-        double most = Math.Max(Problem.KineticEnergy(), Problem.EnergyAt(Scale.Pull * seconds));
         Sweep(tolerance);
-        if (!Problem.HasHand() && !MayGainEnergy)
-        {
-            LimitEnergy(most, tolerance);
-        }
     }
 
     /// <summary>
     /// No step leaves more energy than its bodies came with, what forces give in it included, or than the pull gives them from rest. Each
     /// contact pushes its overlap out no faster than a fall of a step, but in a stack these speeds add up and would throw its top into the
-    /// air; so all push slower, by as much as the energy asks for. What the sweeps leave after the last step's impulses may be too much,
-    /// too: then the step begins without impulses, and pushes nothing out.
+    /// air; so it goes from a solution that pushes nothing out only as far towards the one that does as there is energy for.
     /// </summary>
-    private void LimitEnergy(double most, double tolerance)
+    internal void LimitEnergy(double seconds, double tolerance)
     {
-        double energy = Problem.KineticEnergy();
-        for (int attempt = 0; attempt < 2 && ContactProblem.IsGain(most, energy); attempt++)
+        double most = Problem.EnergyAt(Scale.Pull * seconds);
+        double free = 0;
+        for (int b = 0; b < Problem.BodyCount; b++)
         {
-            bool isLast = attempt == 1;
-            double share = isLast ? 0 : Math.Sqrt(most / energy);
-            for (int i = 0; i < Problem.ContactCount; i++)
-            {
-                ref SolverContact c = ref Problem.Contacts[i];
-                c.Target = c.Target > 0 ? c.Target * share : c.Target;
-                if (isLast)
-                {
-                    (c.Impulse, c.Rub, c.Turn) = (0, Vector3D.Zero, Vector3D.Zero);
-                }
-            }
-
-            SolveAgain(tolerance);
-            energy = Problem.KineticEnergy();
+            ref readonly SolverBody body = ref Problem.Bodies[b];
+            free += body.InverseMass > 0 ? ContactProblem.EnergyOf(body, members[b].Free, members[b].FreeSpin) : 0;
         }
+
+        most = Math.Max(most, free);
+        if (Problem.HasHand() || MayGainEnergy || !ContactProblem.IsGain(most, Problem.KineticEnergy()))
+        {
+            return;
+        }
+
+        limit.Remember(Problem);
+        Problem.DropRebounds();
+        SolveAgain(tolerance);
+        limit.GoTowards(Problem, most);
     }
 
     /// <summary>
@@ -208,26 +203,43 @@ internal sealed class ContactStep
     /// <summary>Solves the step again from the impulses that it has.</summary>
     internal void SolveAgain(double tolerance)
     {
+        BeginAnew();
+        Sweep(tolerance);
+    }
+
+    private void BeginAnew()
+    {
         for (int b = 0; b < Problem.BodyCount; b++)
         {
             Problem.Bodies[b].Velocity = members[b].Free;
             Problem.Bodies[b].Spin = members[b].FreeSpin;
         }
-
-        Sweep(tolerance);
     }
 
+    /// <summary>
+    /// Sweeps; where they do not settle the normals, and where the impulses of the last step are too large to begin with, another solver does.
+    /// </summary>
     private void Sweep(double tolerance)
     {
-        if (UnlikeMassSolver.Suits(Problem))
+        bool hasHand = Problem.HasHand();
+        if (hasHand || ContactSolver.CanAddUp(Problem, tolerance))
         {
-            unlike.Solve(Problem);
-            UnlikeSolves++;
-            return;
+            ContactSolver.ApplyGiven(Problem);
+        }
+        else
+        {
+            Problem.DropFriction();
+            Sweeps += normals.Solve(Problem, tolerance);
         }
 
-        ContactSolver.ApplyGiven(Problem);
-        Sweeps += ContactSolver.Solve(Problem, tolerance, MostSweeps);
+        int sweeps = ContactSolver.Solve(Problem, tolerance, MostSweeps);
+        Sweeps += sweeps;
+        bool isSettled = sweeps < MostSweeps && ContactSolver.CanAddUp(Problem, tolerance);
+        if (!isSettled && !hasHand && !SweepsAlone)
+        {
+            BeginAnew();
+            Sweeps += normals.Solve(Problem, tolerance);
+        }
     }
 
     private void FindSurfaces(int i, double seconds)

@@ -49,26 +49,11 @@ internal sealed class ImpactSolver
 
         bodies = velocities.Length;
         Grow(contacts.Length);
-        SolveSeveral(contacts, masses, velocities, again: false);
+        SolveSeveral(contacts, masses, velocities);
     }
 
-    /// <summary>
-    /// The same with other targets and velocities: for the very bodies and normals that were solved last, which saves most of the work. It begins with the
-    /// contacts that pushed then, or, of many, with their impulses.
-    /// </summary>
-    internal void SolveAgain(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities)
-    {
-        if (contacts.Length == 1)
-        {
-            Single(ref contacts[0], masses, velocities);
-        }
-        else
-        {
-            SolveSeveral(contacts, masses, velocities, again: true);
-        }
-    }
-
-    private static bool AreMany(int count, Span<double> masses)
+    /// <summary>Whether so many contacts, between such masses, are left to <see cref="ProjectedGradients"/>.</summary>
+    internal static bool AreMany(int count, Span<double> masses)
     {
         if (count <= FewAtOnce || count > MostAtOnce)
         {
@@ -86,12 +71,12 @@ internal sealed class ImpactSolver
         return most <= LikeMasses * least;
     }
 
-    private void SolveSeveral(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, bool again)
+    private void SolveSeveral(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities)
     {
-        if (!TryMeet(contacts, masses, velocities, again) && !(again && TryMeet(contacts, masses, velocities, again: false)))
+        if (!TryMeet(contacts, masses, velocities))
         {
             Demand(contacts, velocities, part: 0);
-            TrySolve(contacts, masses, again: false);
+            TrySolve(contacts, masses);
         }
 
         for (int b = 0; b < bodies; b++)
@@ -146,10 +131,10 @@ internal sealed class ImpactSolver
     }
 
     /// <summary>Solves for these speeds after the impact; false if they cannot be had, or only at an expense of energy.</summary>
-    private bool TryMeet(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, bool again)
+    private bool TryMeet(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities)
     {
         Demand(contacts, velocities, part: 1);
-        return TrySolve(contacts, masses, again) && !IsCostly(contacts, masses, velocities);
+        return TrySolve(contacts, masses) && !IsCostly(contacts, masses, velocities);
     }
 
     /// <summary>Asks for a part, all or nothing, of the targets.</summary>
@@ -198,13 +183,13 @@ internal sealed class ImpactSolver
     private static bool IsHand(double mass) => double.IsPositiveInfinity(mass);
 
     /// <summary>Meets what is demanded, as far as it can be met: false if it cannot.</summary>
-    private bool TrySolve(Span<ContactPoint> contacts, Span<double> masses, bool again)
+    private bool TrySolve(Span<ContactPoint> contacts, Span<double> masses)
     {
         Span<double> impulses = impulse.AsSpan(0, contacts.Length);
         Span<Vector3D> changes = change.AsSpan(0, bodies);
         return AreMany(contacts.Length, masses)
-            ? many.TrySolve(contacts, masses, demand.AsSpan(0, contacts.Length), impulses, changes, again)
-            : few.TrySolve(contacts, masses, demand.AsSpan(0, contacts.Length), impulses, changes, again);
+            ? many.TrySolve(contacts, masses, demand.AsSpan(0, contacts.Length), impulses, changes, again: false)
+            : few.TrySolve(contacts, masses, demand.AsSpan(0, contacts.Length), impulses, changes);
     }
 
     private void Grow(int contacts)

@@ -30,6 +30,9 @@ internal sealed class ProjectedGradients
     private double[] direction = Array.Empty<double>();
     private double[] response = Array.Empty<double>(); // of the gradient to a step along the direction
 
+    /// <summary>How many steps the last took.</summary>
+    internal int Steps { get; private set; }
+
     /// <summary>Solves; false if some demand cannot be met, or was not in so many steps. Leaves the impulses, and the change of every velocity.</summary>
     /// <param name="contacts">With their normals.</param>
     /// <param name="masses">By number of body, in kg; one in a hand has an infinite mass.</param>
@@ -37,15 +40,17 @@ internal sealed class ProjectedGradients
     /// <param name="impulse">By contact: is set.</param>
     /// <param name="change">By body: is set.</param>
     /// <param name="again">Whether to begin with the contacts' impulses as they are, not with none.</param>
+    /// <param name="enough">What lacks no more than this, in m/s, is met as well.</param>
     /// <param name="steps">So many at most.</param>
     internal bool TrySolve(
-        Span<ContactPoint> contacts, Span<double> masses, Span<double> demand, Span<double> impulse, Span<Vector3D> change, bool again, int steps = MostSteps)
+        Span<ContactPoint> contacts, Span<double> masses, Span<double> demand, Span<double> impulse, Span<Vector3D> change, bool again,
+        double enough = 0, int steps = MostSteps)
     {
         Grow(contacts.Length);
         double stride = Prepare(contacts, masses, demand, change, again, out double lacking);
         double most = 0;
         Begin(contacts);
-        for (int step = 0; step < steps; step++)
+        for (Steps = 0; Steps < steps; Steps++)
         {
             double free = 0; // how far from met those are that push, each no further than until it pulls no more
             double bound = 0; // and those that do not, and close
@@ -65,7 +70,7 @@ internal sealed class ProjectedGradients
                 }
             }
 
-            if (!(most > Met * lacking))
+            if (!(most > Math.Max(enough, Met * lacking)))
             {
                 break;
             }
@@ -83,7 +88,7 @@ internal sealed class ProjectedGradients
         }
 
         Respond(contacts, masses, impulses, change);
-        return most <= NotMet * lacking;
+        return most <= Math.Max(enough, NotMet * lacking);
     }
 
     /// <summary>Scales, first impulses and the gradient there. Returns a step along the gradient that is sure to lead down.</summary>

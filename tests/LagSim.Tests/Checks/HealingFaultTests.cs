@@ -95,7 +95,7 @@ public sealed class HealingFaultTests
         CheckOptions options = new()
         {
             Sessions = 1,
-            Seed = 20_004,
+            Seed = 20_872,
             ShrinkingPlays = 0,
             Prepare = (_, simulation) => simulation.Fault = fault,
             PrepareAlone = alone => alone.Fault = fault,

@@ -21,15 +21,28 @@ public sealed class ContactRuleTests
     {
         Scene scene = Heap();
         Simulation simulation = new(scene, Options(Scale(scene, reachPart: isCutShort ? 1e9 : null)));
+        Assert.Equal(isCutShort, Deepest(simulation, 2) > Tolerance);
+        Assert.Equal(isCutShort, simulation.ImpactsProcessed > 1_000);
+    }
+
+    /// <summary>
+    /// Rule 8: also from what its last solution has changed. Here that is most of it, for sweeps pass on little of what is a hundred
+    /// thousand times as heavy as the heap's balls. Seen to fail without: 2.9 mm.
+    /// </summary>
+    [Fact]
+    public void Impact_OfWhatIsVeryHeavy_GoesOnThroughTheHeap() =>
+        Assert.InRange(Deepest(new Simulation(Heap(heavy: 1e5)), 2), 0, 0.05 * Tolerance);
+
+    private static double Deepest(Simulation simulation, double until)
+    {
         double deepest = 0;
-        for (double t = 0.002; t <= 2; t += 0.002)
+        for (double t = 0.002; t <= until; t += 0.002)
         {
             simulation.AdvanceTo(At(t));
             deepest = Math.Max(deepest, -LeastGap(simulation, At(t)));
         }
 
-        Assert.Equal(isCutShort, deepest > Tolerance);
-        Assert.Equal(isCutShort, simulation.ImpactsProcessed > 1_000);
+        return deepest;
     }
 
     /// <summary>Rule 8: friction and rebound may make energy where contacts share bodies; without the rebound they do not. The control is with it.</summary>
@@ -116,7 +129,7 @@ public sealed class ContactRuleTests
     }
 
     /// <summary>27 balls in a pit, and a heavy one that falls on them.</summary>
-    private static Scene Heap()
+    private static Scene Heap(double heavy = 10)
     {
         Random random = new(3);
         const double half = 0.35;
@@ -128,6 +141,6 @@ public sealed class ContactRuleTests
             builder.AddBody($"ball {n}", new BodySpec(0.1, 1, 0.2, friction: 0.3), V(x, 0.15 + (0.25 * (n / 9)), z));
         }
 
-        return builder.AddBody("heavy", new BodySpec(0.15, 10, 0.2, friction: 0.3), V(0.01, 3, 0.02)).Build();
+        return builder.AddBody("heavy", new BodySpec(0.15, heavy, 0.2, friction: 0.3), V(0.01, 3, 0.02)).Build();
     }
 }

@@ -42,6 +42,62 @@ public sealed class ContactStepTests
     }
 
     /// <summary>
+    /// Rule 6: what pushes overlap out adds up along a stack, and would throw its top into the air. It gets all the energy that it may
+    /// have, and no more, whether the stack rests or slides along. The control: without a bound it would have more.
+    /// </summary>
+    [Theory]
+    [InlineData(0)]
+    [InlineData(5)]
+    public void OverlapOfAStack_IsPushedOutAsFastAsEnergyAllows(double slides)
+    {
+        ContactStep step = Stack(slides, heldAt: -1);
+        double seconds = step.Scale.Step.ToSeconds();
+        double fall = Balls * 0.5 * 9.81 * seconds * 9.81 * seconds;
+        double most = (Balls * 0.5 * slides * slides) + fall;
+        Assert.True(step.Problem.KineticEnergy() > most + fall);
+        step.LimitEnergy(seconds, 1e-12);
+        Assert.InRange(step.Problem.KineticEnergy(), most * (1 - 1e-9), most * (1 + 1e-9));
+        for (int i = 0; i < step.Problem.ContactCount; i++)
+        {
+            double opening = ContactSolver.Opening(step.Problem, step.Problem.Contacts[i]);
+            Assert.InRange(opening, 0.1 * 9.81 * seconds, 9.81 * seconds);
+        }
+    }
+
+    /// <summary>Rule 6: a hand gives energy, so there is no bound where one takes part; nor where a control takes it away.</summary>
+    [Theory]
+    [InlineData(Balls - 1, false)]
+    [InlineData(-1, true)]
+    public void OverlapOfAStack_InAHandOrWithoutTheBound_IsPushedOutAtOnce(int heldAt, bool gains)
+    {
+        ContactStep step = Stack(0, heldAt);
+        double before = step.Problem.KineticEnergy();
+        step.MayGainEnergy = gains;
+        step.LimitEnergy(step.Scale.Step.ToSeconds(), 1e-12);
+        Assert.Equal(before, step.Problem.KineticEnergy());
+    }
+
+    private const int Balls = 10;
+
+    /// <summary>A step, solved, of balls on each other and on a floor; each is in the next by half the tolerance.</summary>
+    private static ContactStep Stack(double slides, int heldAt)
+    {
+        ContactStep step = new(Floor(0.2), new ContactScale(Tolerance, Down, default));
+        double seconds = step.Scale.Step.ToSeconds();
+        for (int n = 0; n < Balls; n++)
+        {
+            bool isHeld = n == heldAt;
+            Vector3D place = new(0, 0.1 + (n * 0.2) - ((n + 1) * 0.5 * Tolerance), 0);
+            Vector3D gain = isHeld ? Vector3D.Zero : Down * seconds;
+            step.AddBody(new BodySpec(0.1, 1, 0.2), place, new Vector3D(slides, 0, 0), gain, Vector3D.Zero, isHeld);
+        }
+
+        step.FindContacts(seconds);
+        step.Solve(seconds, 1e-12);
+        return step;
+    }
+
+    /// <summary>
     /// Rule 9: what held before holds on while it opens by less than a quarter of the tolerance; what did not hold does not.
     /// </summary>
     [Theory]
