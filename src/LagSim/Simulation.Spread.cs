@@ -308,7 +308,7 @@ public sealed partial class Simulation
     {
         int taken = ContactSolver.Solve(reached, tolerance, sweeps, knownBodies, knownContacts);
         bool isSettled = taken < sweeps && ContactSolver.CanAddUp(reached, tolerance);
-        if (sweeps == ContactStep.MostSweeps && !isSettled && !reached.HasHand())
+        if (sweeps == ContactStep.MostSweeps && !isSettled && !reached.HasHand() && !SweepsAlone)
         {
             for (int i = 0; i < partyCount; i++)
             {
@@ -471,7 +471,9 @@ public sealed partial class Simulation
         set => step.MayGainEnergy = value;
     }
 
-    /// <summary>Has the normals of steps solved by sweeps alone (rule 4): only a test's negative control sets it.</summary>
+    /// <summary>
+    /// Has the normals of steps and of impacts on islands solved by sweeps alone (rule 4): only a test's negative control sets it.
+    /// </summary>
     internal bool SweepsAlone
     {
         get => step.SweepsAlone;

@@ -86,23 +86,20 @@ internal sealed class ContactProblem
     /// <summary>No contact has impulses any more, nor need it open.</summary>
     internal void DropRebounds()
     {
+        DropImpulses();
         for (int i = 0; i < ContactCount; i++)
         {
-            ref SolverContact c = ref Contacts[i];
-            c.Impulse = 0;
-            c.Rub = Vector3D.Zero;
-            c.Turn = Vector3D.Zero;
-            c.Target = Math.Min(0, c.Target);
+            Contacts[i].Target = Math.Min(0, Contacts[i].Target);
         }
     }
 
-    /// <summary>No contact has friction or resistance any more.</summary>
-    internal void DropFriction()
+    /// <summary>No contact has impulses any more.</summary>
+    internal void DropImpulses()
     {
         for (int i = 0; i < ContactCount; i++)
         {
             ref SolverContact c = ref Contacts[i];
-            (c.Rub, c.Turn, c.HasRub, c.Bound) = (Vector3D.Zero, Vector3D.Zero, false, 0);
+            (c.Impulse, c.Rub, c.Turn, c.HasRub, c.Bound) = (0, Vector3D.Zero, Vector3D.Zero, false, 0);
         }
     }
 

@@ -49,7 +49,7 @@ internal sealed class ContactStep
     /// <summary>Pushes overlap out whatever energy that makes: only a test's negative control sets it.</summary>
     internal bool MayGainEnergy { get; set; }
 
-    /// <summary>Leaves normals as the sweeps leave them: only a test's negative control sets it.</summary>
+    /// <summary>Solves by sweeps alone where nothing but their number speaks against it: only a test's negative control sets it.</summary>
     internal bool SweepsAlone { get; set; }
 
     /// <summary>How many sweeps the last took, and steps of <see cref="NormalsSolver"/>, which cost as much.</summary>
@@ -217,7 +217,8 @@ internal sealed class ContactStep
     }
 
     /// <summary>
-    /// Sweeps; where they do not settle the normals, and where the impulses of the last step are too large to begin with, another solver does.
+    /// Sweeps from the impulses of the last step. If they are too large to add up, the normals are solved first, from none. If sweeps do
+    /// not settle, they are solved last.
     /// </summary>
     private void Sweep(double tolerance)
     {
@@ -228,7 +229,7 @@ internal sealed class ContactStep
         }
         else
         {
-            Problem.DropFriction();
+            Problem.DropImpulses();
             Sweeps += normals.Solve(Problem, tolerance);
         }
 

@@ -54,7 +54,7 @@ internal sealed class EnergyLimit
         }
     }
 
-    /// <summary>How far it may go, from 0 to 1: the root of e + 2 s along + s² square = most.</summary>
+    /// <summary>How far it may go, from 0 to 1: the root of energy + 2 s along + s² square = most.</summary>
     private double Part(ContactProblem problem, double most)
     {
         double energy = 0;
@@ -75,7 +75,12 @@ internal sealed class EnergyLimit
             }
         }
 
-        double room = Math.Max(0, most - energy);
+        double room = most - energy;
+        if (!(room > 0))
+        {
+            return along < 0 ? Math.Min(1, -along / square) : 0; // as little as there is on the way
+        }
+
         double root = Math.Sqrt((along * along) + (square * room));
         double part = along > 0 ? room / (along + root) : (root - along) / square;
         return part <= 1 ? part : 1; // no number where there is no way

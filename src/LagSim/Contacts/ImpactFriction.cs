@@ -68,7 +68,7 @@ internal sealed class ImpactFriction
     }
 
     /// <summary>How the surface of the first slips over that of the second where they touch, in m/s.</summary>
-    internal static Vector3D Slip(in ContactPoint c, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins)
+    private static Vector3D Slip(in ContactPoint c, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins)
     {
         Vector3D slip = velocities[c.First] - (Vector3D.Cross(spins[c.First], c.Normal) * radii[c.First]);
         if (c.Second != ContactPoint.Static)

@@ -14,6 +14,12 @@ namespace LagSim.Contacts;
 /// </remarks>
 internal sealed class NormalsSolver
 {
+    /// <summary>
+    /// So many bodies make a contact that is solved exactly cost as much as a sweep. Measured: 66 contacts of 36 bodies take 740 µs, and
+    /// count as 650.
+    /// </summary>
+    private const int BodiesAStep = 8;
+
     private readonly ProjectedGradients gradients = new();
     private readonly ActiveSet few = new();
     private ContactPoint[] points = Array.Empty<ContactPoint>();
@@ -24,44 +30,70 @@ internal sealed class NormalsSolver
 
     /// <summary>Sets velocities, and the impulses along normals: each contact opens at least at its target, or pushes.</summary>
     /// <param name="problem">With the velocities before it, and the impulses that sweeps got to; nobody is in a hand.</param>
-    /// <param name="tolerance">What may be left to close, in m/s.</param>
+    /// <param name="tolerance">What many contacts may be left to close at, in m/s; few are solved exactly.</param>
     /// <returns>How many steps that took: each costs about as much as a sweep.</returns>
     internal int Solve(ContactProblem problem, double tolerance)
     {
-        int count = problem.ContactCount;
-        int bodies = problem.BodyCount;
-        Fill(problem);
-        Span<ContactPoint> contacts = points.AsSpan(0, count);
-        Span<double> inertias = masses.AsSpan(0, bodies);
-        Span<double> demand = demands.AsSpan(0, count);
-        Span<double> impulse = impulses.AsSpan(0, count);
-        Span<Vector3D> change = changes.AsSpan(0, bodies);
-        int steps = count;
-        if (ImpactSolver.AreMany(count, inertias))
+        Grow(problem);
+        ContactSolver.ApplyFriction(problem);
+        int steps = 0;
+        bool isPushed = Ask(problem, pushes: true);
+        if (!TrySolve(problem, tolerance, ref steps) && isPushed)
         {
-            gradients.TrySolve(contacts, inertias, demand, impulse, change, again: true, tolerance);
-            steps = gradients.Steps;
-        }
-        else
-        {
-            few.TrySolve(contacts, inertias, demand, impulse, change);
+            // Not all overlap can be pushed out, as of what is squeezed between two walls: that nothing closes can always be had.
+            Ask(problem, pushes: false);
+            TrySolve(problem, tolerance, ref steps);
         }
 
-        for (int b = 0; b < bodies; b++)
+        for (int b = 0; b < problem.BodyCount; b++)
         {
             problem.Bodies[b].Velocity += changes[b];
         }
 
-        for (int i = 0; i < count; i++)
+        for (int i = 0; i < problem.ContactCount; i++)
         {
-            problem.Contacts[i].Impulse = Math.Max(0, impulses[i]);
+            ref SolverContact c = ref problem.Contacts[i];
+            c.Impulse = Math.Max(0, impulses[i]);
         }
 
         return steps;
     }
 
-    /// <summary>Adds friction, and asks for what lacks after it.</summary>
-    private void Fill(ContactProblem problem)
+    private bool TrySolve(ContactProblem problem, double tolerance, ref int steps)
+    {
+        int count = problem.ContactCount;
+        Span<ContactPoint> contacts = points.AsSpan(0, count);
+        Span<double> inertias = masses.AsSpan(0, problem.BodyCount);
+        Span<double> demand = demands.AsSpan(0, count);
+        Span<double> impulse = impulses.AsSpan(0, count);
+        Span<Vector3D> change = changes.AsSpan(0, problem.BodyCount);
+        if (!ImpactSolver.AreMany(count, inertias))
+        {
+            steps += count * (1 + (problem.BodyCount / BodiesAStep));
+            return few.TrySolve(contacts, inertias, demand, impulse, change);
+        }
+
+        bool isMet = gradients.TrySolve(contacts, inertias, demand, impulse, change, again: true, tolerance);
+        steps += gradients.Steps;
+        return isMet;
+    }
+
+    /// <summary>Asks for what lacks of the targets, or of those alone that push nothing out; whether any pushes.</summary>
+    private bool Ask(ContactProblem problem, bool pushes)
+    {
+        bool isPushed = false;
+        for (int i = 0; i < problem.ContactCount; i++)
+        {
+            ref readonly SolverContact c = ref problem.Contacts[i];
+            points[i] = new ContactPoint(c.First, c.Second, c.Surface, default) { Normal = c.Normal, Impulse = c.Impulse };
+            demands[i] = (pushes ? c.Target : Math.Min(0, c.Target)) - ContactSolver.Opening(problem, c);
+            isPushed |= c.Target > 0;
+        }
+
+        return isPushed;
+    }
+
+    private void Grow(ContactProblem problem)
     {
         if (points.Length < problem.ContactCount)
         {
@@ -78,19 +110,6 @@ internal sealed class NormalsSolver
         for (int b = 0; b < problem.BodyCount; b++)
         {
             masses[b] = 1 / problem.Bodies[b].InverseMass;
-        }
-
-        for (int i = 0; i < problem.ContactCount; i++)
-        {
-            ref readonly SolverContact c = ref problem.Contacts[i];
-            points[i] = new ContactPoint(c.First, c.Second, c.Surface, default) { Normal = c.Normal, Impulse = c.Impulse };
-        }
-
-        ContactSolver.ApplyFriction(problem);
-        for (int i = 0; i < problem.ContactCount; i++)
-        {
-            ref readonly SolverContact c = ref problem.Contacts[i];
-            demands[i] = c.Target - ContactSolver.Opening(problem, c);
         }
     }
 }

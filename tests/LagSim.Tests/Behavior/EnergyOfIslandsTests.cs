@@ -10,7 +10,8 @@ public sealed class EnergyOfIslandsTests
 {
     /// <summary>
     /// A ball that spins fast and strikes a heap and its walls without a loss; rebound and friction of several contacts at once
-    /// make energy if they may. What is read within a step is off by some thousandths, since velocities are those of its middle.
+    /// make energy if they may: by more than 0.006 of it in 2 of 1,500 drawn worlds, of which this is the one with most, 0.28; with the
+    /// rule it is 0.0014. What is read within a step is off by some thousandths, since velocities are those of its middle.
     /// </summary>
     [Theory]
     [InlineData(false)]

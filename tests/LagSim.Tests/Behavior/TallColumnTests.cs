@@ -15,7 +15,7 @@ public sealed class TallColumnTests
     [Theory]
     [InlineData(64, 0, 0)]
     [InlineData(64, 1, 0)]
-    [InlineData(120, 0.5, 0)]
+    [InlineData(200, 0.5, 0)]
     [InlineData(64, 0, 1e-4)]
     public void Column_PutDownAtRest_Stands(int balls, double restitution, double gap)
     {

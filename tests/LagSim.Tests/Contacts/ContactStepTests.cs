@@ -71,10 +71,54 @@ public sealed class ContactStepTests
     public void OverlapOfAStack_InAHandOrWithoutTheBound_IsPushedOutAtOnce(int heldAt, bool gains)
     {
         ContactStep step = Stack(0, heldAt);
+        double seconds = step.Scale.Step.ToSeconds();
         double before = step.Problem.KineticEnergy();
+        Assert.True(before > Balls * 0.5 * 9.81 * seconds * 9.81 * seconds);
         step.MayGainEnergy = gains;
-        step.LimitEnergy(step.Scale.Step.ToSeconds(), 1e-12);
+        step.LimitEnergy(seconds, 1e-12);
         Assert.Equal(before, step.Problem.KineticEnergy());
+    }
+
+    /// <summary>
+    /// Rule 6: what overlaps two walls at once cannot be pushed out of both, and then nothing of its row is; many or few. The control is
+    /// one that overlaps only one of them.
+    /// </summary>
+    [Theory]
+    [InlineData(20, true)]
+    [InlineData(20, false)]
+    [InlineData(150, true)]
+    [InlineData(150, false)]
+    public void Row_SqueezedBetweenTwoWalls_StaysWhereItIs(int balls, bool isSqueezed)
+    {
+        double east = (0.2 * balls) - (0.5 * Tolerance * (balls + 1));
+        Scene walls = new SceneBuilder("walls").WithSmallestRadius(0.1).WithContactTolerance(Tolerance)
+            .AddPlane("west", new Vector3D(1, 0, 0), Vector3D.Zero, 0)
+            .AddPlane("east", new Vector3D(-1, 0, 0), new Vector3D(isSqueezed ? east : east + 1, 0, 0), 0).Build();
+        ContactStep step = new(walls, new ContactScale(Tolerance, Down, default));
+        for (int n = 0; n < balls; n++)
+        {
+            Vector3D place = new(0.1 - (0.5 * Tolerance) + (n * (0.2 - (0.5 * Tolerance))), 0, 0);
+            step.AddBody(new BodySpec(0.1, 1, 0), place, Vector3D.Zero, Vector3D.Zero, Vector3D.Zero, isHeld: false);
+        }
+
+        double seconds = step.Scale.Step.ToSeconds();
+        step.FindContacts(seconds);
+        step.Solve(seconds, 1e-9);
+        step.LimitEnergy(seconds, 1e-9);
+        double fastest = 0;
+        for (int b = 0; b < balls; b++)
+        {
+            fastest = Math.Max(fastest, Math.Abs(step.Problem.Bodies[b].Velocity.X));
+        }
+
+        double largest = 0;
+        for (int i = 0; i < step.Problem.ContactCount; i++)
+        {
+            largest = Math.Max(largest, step.Problem.Contacts[i].Impulse);
+        }
+
+        Assert.Equal(isSqueezed, fastest < 1e-6);
+        Assert.InRange(largest, 0, 2 * balls * 9.81 * seconds); // and no impulse without end
     }
 
     private const int Balls = 10;
