@@ -15,8 +15,8 @@ namespace LagSim;
 public sealed partial class Simulation
 {
     /// <summary>
-    /// What was struck twice in an instant and closes again, slower than this, in m/s, waits for <see cref="ContactTime.Soon"/>. What parts slower
-    /// than this may as well be said to close: rounding decides.
+    /// What was struck twice in an instant and closes again, slower than this, in m/s, waits for <see cref="ContactTime.Soon"/>. What parts
+    /// slower than this may as well be said to close: rounding decides.
     /// </summary>
     private const double CollapseSpeed = 1e-6;
 

@@ -18,7 +18,7 @@ public sealed partial class Simulation
     private const int GrowingSweeps = 2;
 
     private readonly ContactProblem reached = new();
-    private readonly NormalsSolver normals = new();
+    private readonly NormalsAfterSweeps normals = new();
     private Vector3D[] velocitiesBefore = Array.Empty<Vector3D>();
     private Vector3D[] spinsBefore = Array.Empty<Vector3D>();
 
@@ -307,8 +307,7 @@ public sealed partial class Simulation
     private void SolveReached(double tolerance, int sweeps, int knownBodies, int knownContacts)
     {
         int taken = ContactSolver.Solve(reached, tolerance, sweeps, knownBodies, knownContacts);
-        bool isSettled = taken < sweeps && ContactSolver.CanAddUp(reached, tolerance);
-        if (sweeps == ContactStep.MostSweeps && !isSettled && !reached.HasHand() && !SweepsAlone)
+        if (sweeps == ContactStep.MostSweeps && !SweepsAlone && NormalsAfterSweeps.IsNeeded(reached, taken, tolerance))
         {
             for (int i = 0; i < partyCount; i++)
             {

@@ -8,7 +8,7 @@ namespace LagSim.Contacts;
 internal sealed class ContactProblem
 {
     /// <summary>The moment of inertia of a solid sphere, in m r².</summary>
-    internal const double SphereInertia = 0.4;
+    internal const double SphereInertia = 1 / ImpactFriction.TurnPerImpulse;
 
     internal SolverBody[] Bodies = Array.Empty<SolverBody>();
     internal SolverContact[] Contacts = Array.Empty<SolverContact>();

@@ -15,13 +15,13 @@ namespace LagSim.Contacts;
 internal sealed class ContactStep
 {
     /// <summary>
-    /// So many sweeps at most. Then <see cref="NormalsSolver"/> settles what keeps bodies out of each other; what is left of friction is an
+    /// So many sweeps at most. Then <see cref="NormalsAfterSweeps"/> settles what keeps bodies out of each other; what is left of friction is an
     /// error and no fault, for the next step goes on from the impulses that they got to.
     /// </summary>
     internal const int MostSweeps = 200;
 
     private readonly Scene scene;
-    private readonly NormalsSolver normals = new();
+    private readonly NormalsAfterSweeps normals = new();
     private readonly EnergyLimit limit = new();
     private Member[] members = Array.Empty<Member>();
     private int[] byPlace = Array.Empty<int>();
@@ -52,7 +52,7 @@ internal sealed class ContactStep
     /// <summary>Solves by sweeps alone where nothing but their number speaks against it: only a test's negative control sets it.</summary>
     internal bool SweepsAlone { get; set; }
 
-    /// <summary>How many sweeps the last took, and steps of <see cref="NormalsSolver"/>, which cost as much.</summary>
+    /// <summary>How many sweeps the last took, and steps of <see cref="NormalsAfterSweeps"/>, which cost as much.</summary>
     internal int Sweeps { get; private set; }
 
     /// <summary>Begins again, with nobody.</summary>
@@ -222,8 +222,7 @@ internal sealed class ContactStep
     /// </summary>
     private void Sweep(double tolerance)
     {
-        bool hasHand = Problem.HasHand();
-        if (hasHand || ContactSolver.CanAddUp(Problem, tolerance))
+        if (Problem.HasHand() || ContactSolver.CanAddUp(Problem, tolerance))
         {
             ContactSolver.ApplyGiven(Problem);
         }
@@ -235,8 +234,7 @@ internal sealed class ContactStep
 
         int sweeps = ContactSolver.Solve(Problem, tolerance, MostSweeps);
         Sweeps += sweeps;
-        bool isSettled = sweeps < MostSweeps && ContactSolver.CanAddUp(Problem, tolerance);
-        if (!isSettled && !hasHand && !SweepsAlone)
+        if (!SweepsAlone && NormalsAfterSweeps.IsNeeded(Problem, sweeps, tolerance))
         {
             BeginAnew();
             Sweeps += normals.Solve(Problem, tolerance);

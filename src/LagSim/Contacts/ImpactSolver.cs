@@ -10,27 +10,14 @@ namespace LagSim.Contacts;
 /// pull. Energy changes by -1/2 sum (1 - e_i) p_i |u_i|, so it never grows for e_i at most 1 (Moreau 1988 treats this family).</para>
 /// <para>If no velocities satisfy all targets (a body squeezed between surfaces that cannot give way), or only at an expense of energy, every target
 /// becomes 0, which can always be had.</para>
-/// <para>Few contacts are solved exactly (<see cref="ActiveSet"/>), many, as in a heap, by <see cref="ProjectedGradients"/>. Allocates only when an impact has
-/// more contacts or bodies than any before.</para>
+/// <para>Solved by <see cref="NormalImpulses"/>. Allocates only when an impact has more contacts or bodies than any before.</para>
 /// </remarks>
 internal sealed class ImpactSolver
 {
-    /// <summary>So many contacts at most are solved exactly: beyond, what that costs grows too fast for one event.</summary>
-    internal const int MostAtOnce = 96;
-
-    /// <summary>
-    /// So many are always solved exactly; more than these only if masses differ by more than <see cref="LikeMasses"/>, else gradients get as near in less time.
-    /// </summary>
-    internal const int FewAtOnce = 32;
-
-    /// <summary>By what factor masses may differ for <see cref="ProjectedGradients"/> to get to the rounding in its steps.</summary>
-    internal const double LikeMasses = 1000;
-
     /// <summary>By what share of what is exchanged the energy may be off by rounding.</summary>
     private const double Rounding = 1e-9;
 
-    private readonly ActiveSet few = new();
-    private readonly ProjectedGradients many = new();
+    private readonly NormalImpulses normals = new();
     private double[] demand = Array.Empty<double>(); // by contact: target - u before
     private double[] impulse = Array.Empty<double>(); // by contact
     private Vector3D[] change = Array.Empty<Vector3D>(); // by body: of its velocity
@@ -50,25 +37,6 @@ internal sealed class ImpactSolver
         bodies = velocities.Length;
         Grow(contacts.Length);
         SolveSeveral(contacts, masses, velocities);
-    }
-
-    /// <summary>Whether so many contacts, between such masses, are left to <see cref="ProjectedGradients"/>.</summary>
-    internal static bool AreMany(int count, Span<double> masses)
-    {
-        if (count <= FewAtOnce || count > MostAtOnce)
-        {
-            return count > MostAtOnce;
-        }
-
-        double least = double.PositiveInfinity;
-        double most = 0;
-        for (int b = 0; b < masses.Length; b++)
-        {
-            least = Math.Min(least, masses[b]);
-            most = Math.Max(most, masses[b]); // infinite with a hand, which may ask for what cannot be met
-        }
-
-        return most <= LikeMasses * least;
     }
 
     private void SolveSeveral(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities)
@@ -187,9 +155,7 @@ internal sealed class ImpactSolver
     {
         Span<double> impulses = impulse.AsSpan(0, contacts.Length);
         Span<Vector3D> changes = change.AsSpan(0, bodies);
-        return AreMany(contacts.Length, masses)
-            ? many.TrySolve(contacts, masses, demand.AsSpan(0, contacts.Length), impulses, changes, again: false)
-            : few.TrySolve(contacts, masses, demand.AsSpan(0, contacts.Length), impulses, changes);
+        return normals.TrySolve(contacts, masses, demand.AsSpan(0, contacts.Length), impulses, changes);
     }
 
     private void Grow(int contacts)

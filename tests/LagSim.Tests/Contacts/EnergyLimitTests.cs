@@ -7,35 +7,33 @@ namespace LagSim.Tests.Contacts;
 /// <summary>How far a problem goes from one solution towards another: spin counts, and impulses go along.</summary>
 public sealed class EnergyLimitTests
 {
-    private static readonly Vector3D Fast = new(4, 0, 0), Spin = new(0, 30, 0);
+    private static readonly Vector3D Slow = new(2, 0, 0), Fast = new(4, 0, 0), Spin = new(0, 30, 0);
 
-    /// <summary>As far as there is energy for; all the way if there is enough, and back to where it costs least if there is none.</summary>
+    /// <summary>With 4 J on its way to 19.6 J it goes to what it may have, or all the way if it may have more.</summary>
     [Theory]
-    [InlineData(2, 8, 8)]
-    [InlineData(2, 1000, 0)]
-    [InlineData(-1, 0.1, 0)]
-    public void GoTowards_AnotherSolution_StopsAtTheBound(double from, double most, double expected)
+    [InlineData(8, 8)]
+    [InlineData(1000, 19.6)]
+    public void GoTowards_AnotherSolution_StopsAtTheBound(double most, double expected)
     {
-        ContactProblem problem = Solution(new Vector3D(from, 0, 0), Vector3D.Zero, 1);
-        ContactProblem other = Solution(Fast, Spin, 3);
-        EnergyLimit limit = new();
-        limit.Remember(other);
-        double before = problem.KineticEnergy();
-        limit.GoTowards(problem, most);
-        double part = (problem.Contacts[0].Impulse - 1) / 2;
-        Assert.Equal(from + ((4 - from) * part), problem.Bodies[0].Velocity.X, 1e-12);
+        ContactProblem problem = Solution(Slow, Vector3D.Zero, 1);
+        double part = Go(problem, most);
+        Assert.Equal(expected, problem.KineticEnergy(), 1e-9);
+        Assert.Equal(2 + (2 * part), problem.Bodies[0].Velocity.X, 1e-12);
         Assert.Equal(30 * part, problem.Bodies[0].Spin.Y, 1e-12);
-        if (most > 100)
+    }
+
+    /// <summary>A solution that has more than it may goes to where there is least on the way.</summary>
+    [Fact]
+    public void GoTowards_FromMoreThanItMayHave_GetsTheLeastOfTheWay()
+    {
+        ContactProblem problem = Solution(-Slow, Vector3D.Zero, 1);
+        double part = Go(problem, 0.1);
+        double least = problem.KineticEnergy();
+        Assert.InRange(part, 0.01, 0.99);
+        foreach (double other in new[] { part - 0.01, part + 0.01 })
         {
-            Assert.Equal(other.KineticEnergy(), problem.KineticEnergy(), 1e-9);
-        }
-        else if (expected > 0)
-        {
-            Assert.Equal(expected, problem.KineticEnergy(), 1e-9);
-        }
-        else
-        {
-            Assert.True(problem.KineticEnergy() < before && part < 1); // it has too much, and gets as little as there is on the way
+            ContactProblem near = Solution((-Slow) + ((Fast + Slow) * other), Spin * other, 1);
+            Assert.True(near.KineticEnergy() > least);
         }
     }
 
@@ -43,11 +41,18 @@ public sealed class EnergyLimitTests
     [Fact]
     public void GoTowards_WhereNothingIsLeft_StaysWhereItIs()
     {
-        ContactProblem problem = Solution(new Vector3D(2, 0, 0), Vector3D.Zero, 1);
+        ContactProblem problem = Solution(Slow, Vector3D.Zero, 1);
+        Assert.Equal(0, Go(problem, 1));
+        Assert.Equal(2, problem.Bodies[0].Velocity.X);
+    }
+
+    /// <summary>Which part of the way it went, by the impulse, which goes from 1 to 3.</summary>
+    private static double Go(ContactProblem problem, double most)
+    {
         EnergyLimit limit = new();
         limit.Remember(Solution(Fast, Spin, 3));
-        limit.GoTowards(problem, 1);
-        Assert.Equal((2, 1), (problem.Bodies[0].Velocity.X, problem.Contacts[0].Impulse));
+        limit.GoTowards(problem, most);
+        return (problem.Contacts[0].Impulse - 1) / 2;
     }
 
     private static ContactProblem Solution(Vector3D velocity, Vector3D spin, double impulse)

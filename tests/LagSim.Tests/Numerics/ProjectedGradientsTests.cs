@@ -12,7 +12,7 @@ public sealed class ProjectedGradientsTests
 {
     [Theory]
     [InlineData(3)]
-    [InlineData(ImpactSolver.LikeMasses)]
+    [InlineData(NormalImpulses.LikeMasses)]
     public void Solve_LayersOfBalls_NoneClosesAndNoEnergyIsGained(double ratio)
     {
         for (int seed = 0; seed < 20; seed++)
@@ -38,7 +38,7 @@ public sealed class ProjectedGradientsTests
         }
 
         ContactPoint[] all = [.. contacts];
-        Assert.True(all.Length > ImpactSolver.FewAtOnce);
+        Assert.True(all.Length > NormalImpulses.FewAtOnce);
         Assert.False(ByGradients(all, masses, [.. velocities]));
         new ImpactSolver().Solve(all, masses, velocities);
         Assert.All(velocities, v => Near(V(0, 0.5), v, 1e-12));
@@ -70,7 +70,7 @@ public sealed class ProjectedGradientsTests
         {
             (ContactPoint[] contacts, double[] masses, Vector3D[] exact) = Layers(seed, side);
             Vector3D[] velocities = [.. exact];
-            Assert.True(contacts.Length <= ImpactSolver.FewAtOnce);
+            Assert.True(contacts.Length <= NormalImpulses.FewAtOnce);
             new ImpactSolver().Solve(contacts, masses, exact);
             Assert.True(ByGradients(contacts, masses, velocities));
             for (int b = 0; b < exact.Length; b++)
@@ -105,7 +105,7 @@ public sealed class ProjectedGradientsTests
     private static (double Closing, double Gain) Settle(int seed, Solver solve, double ratio = 3)
     {
         (ContactPoint[] contacts, double[] masses, Vector3D[] velocities) = Layers(seed, 8, ratio);
-        Assert.True(contacts.Length > ImpactSolver.MostAtOnce);
+        Assert.True(contacts.Length > NormalImpulses.MostAtOnce);
         double before = Energy(masses, velocities), closing = 0;
         solve(contacts, masses, velocities);
         foreach (ContactPoint c in contacts)

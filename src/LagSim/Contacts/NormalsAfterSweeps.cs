@@ -6,27 +6,26 @@ namespace LagSim.Contacts;
 /// <summary>Settles the normals of a <see cref="ContactProblem"/> that sweeps have not settled, with friction as they left it.</summary>
 /// <remarks>
 /// <para>A sweep hands an impulse on from one body to the next, so a column of n bodies takes in the order of n² of them, and more where a
-/// light body carries a heavy one. Few contacts are solved exactly instead (<see cref="ActiveSet"/>). Many are by
-/// <see cref="ProjectedGradients"/>, which begin with the impulses that the sweeps got to and take a few times n steps, each of which
-/// costs what a sweep does.</para>
+/// light body carries a heavy one. <see cref="NormalImpulses"/> solves few contacts exactly, and many from the impulses that the sweeps got
+/// to, in a few times n steps, each of which costs what a sweep does.</para>
 /// <para>Not with a body in a hand, whose push is limited. Cost: that of the solver. Allocates only when there are more bodies or contacts
 /// than ever before. Not thread-safe.</para>
 /// </remarks>
-internal sealed class NormalsSolver
+internal sealed class NormalsAfterSweeps
 {
-    /// <summary>
-    /// So many bodies make a contact that is solved exactly cost as much as a sweep. Measured: 66 contacts of 36 bodies take 740 µs, and
-    /// count as 650.
-    /// </summary>
-    private const int BodiesAStep = 8;
-
-    private readonly ProjectedGradients gradients = new();
-    private readonly ActiveSet few = new();
+    private readonly NormalImpulses normals = new();
     private ContactPoint[] points = Array.Empty<ContactPoint>();
     private double[] demands = Array.Empty<double>(); // by contact, as the next
     private double[] impulses = Array.Empty<double>();
     private double[] masses = Array.Empty<double>(); // by body, as the next
     private Vector3D[] changes = Array.Empty<Vector3D>();
+
+    /// <summary>
+    /// Whether so many sweeps, of <see cref="ContactStep.MostSweeps"/> at most, have left a problem's normals to it: they have not settled,
+    /// or look settled because impulses are too large to add up.
+    /// </summary>
+    internal static bool IsNeeded(ContactProblem problem, int sweeps, double tolerance) =>
+        !problem.HasHand() && (sweeps == ContactStep.MostSweeps || !ContactSolver.CanAddUp(problem, tolerance));
 
     /// <summary>Sets velocities, and the impulses along normals: each contact opens at least at its target, or pushes.</summary>
     /// <param name="problem">With the velocities before it, and the impulses that sweeps got to; nobody is in a hand.</param>
@@ -67,14 +66,8 @@ internal sealed class NormalsSolver
         Span<double> demand = demands.AsSpan(0, count);
         Span<double> impulse = impulses.AsSpan(0, count);
         Span<Vector3D> change = changes.AsSpan(0, problem.BodyCount);
-        if (!ImpactSolver.AreMany(count, inertias))
-        {
-            steps += count * (1 + (problem.BodyCount / BodiesAStep));
-            return few.TrySolve(contacts, inertias, demand, impulse, change);
-        }
-
-        bool isMet = gradients.TrySolve(contacts, inertias, demand, impulse, change, again: true, tolerance);
-        steps += gradients.Steps;
+        bool isMet = normals.TrySolve(contacts, inertias, demand, impulse, change, again: true, tolerance);
+        steps += normals.Steps;
         return isMet;
     }
 

@@ -6,21 +6,24 @@ using Xunit;
 namespace LagSim.Tests.Contacts;
 
 /// <summary>What few sweeps leave of drawn problems is settled along the normals, and friction is left as it was.</summary>
-public sealed class NormalsSolverTests
+public sealed class NormalsAfterSweepsTests
 {
     private const double Tolerance = 1e-6;
 
     /// <summary>The control in each: after the sweeps alone it is not settled.</summary>
     [Theory]
-    [InlineData(0, 1)]
-    [InlineData(0.4, 1)]
-    [InlineData(0.4, 1e6)]
-    public void Solve_AfterTwoSweeps_SettlesTheNormals(double friction, double ratio)
+    [InlineData(0, 1, 1)]
+    [InlineData(0.4, 1, 1)]
+    [InlineData(0.4, 1e6, 1)]
+    [InlineData(0.4, 1, 12)]
+    [InlineData(0.4, 100, 12)]
+    public void Solve_AfterTwoSweeps_SettlesTheNormals(double friction, double ratio, int piles)
     {
         for (int seed = 0; seed < 40; seed++)
         {
-            ContactProblem problem = Drawn(seed, friction, ratio);
-            ContactProblem before = Drawn(seed, friction, ratio);
+            ContactProblem problem = Drawn(seed, friction, ratio, piles);
+            ContactProblem before = Drawn(seed, friction, ratio, piles);
+            Assert.Equal(piles > 1, problem.ContactCount > NormalImpulses.MostAtOnce);
             ContactSolver.Solve(problem, Tolerance, 2);
             Assert.True(Worst(problem) > 1000 * Tolerance);
             Settle(problem, before);
@@ -79,7 +82,7 @@ public sealed class NormalsSolverTests
             (problem.Bodies[b].Velocity, problem.Bodies[b].Spin) = (before.Bodies[b].Velocity, before.Bodies[b].Spin);
         }
 
-        return new NormalsSolver().Solve(problem, Tolerance);
+        return new NormalsAfterSweeps().Solve(problem, Tolerance);
     }
 
     private static ContactProblem Column(int balls)
@@ -94,22 +97,32 @@ public sealed class NormalsSolverTests
         return problem;
     }
 
-    /// <summary>The problem of another test, with masses that differ by as much as that factor.</summary>
-    private static ContactProblem Drawn(int seed, double friction, double ratio)
+    /// <summary>Some piles of another test, with masses that differ by as much as that factor; each leans on the one before.</summary>
+    private static ContactProblem Drawn(int seed, double friction, double ratio, int piles)
     {
-        ContactProblem like = ContactSolverTests.Draw(seed, friction, 0);
         ContactProblem problem = new();
         Random random = new(seed);
-        for (int b = 0; b < like.BodyCount; b++)
+        for (int pile = 0; pile < piles; pile++)
         {
-            ref readonly SolverBody body = ref like.Bodies[b];
-            problem.AddBody(Math.Pow(ratio, random.NextDouble()) / body.InverseMass, body.Radius, body.Velocity, body.Spin);
-        }
+            ContactProblem like = ContactSolverTests.Draw((40 * pile) + seed, friction, 0);
+            int first = problem.BodyCount;
+            for (int b = 0; b < like.BodyCount; b++)
+            {
+                ref readonly SolverBody body = ref like.Bodies[b];
+                problem.AddBody(Math.Pow(ratio, random.NextDouble()) / body.InverseMass, body.Radius, body.Velocity, body.Spin);
+            }
 
-        for (int i = 0; i < like.ContactCount; i++)
-        {
-            ref readonly SolverContact c = ref like.Contacts[i];
-            problem.AddContact(c.First, c.Second, c.Surface, c.Normal, c.Gap, c.Friction, c.Lever).Target = c.Target;
+            for (int i = 0; i < like.ContactCount; i++)
+            {
+                SolverContact c = like.Contacts[i];
+                int second = c.Second == ContactPoint.Static ? c.Second : first + c.Second;
+                problem.AddContact(first + c.First, second, c.Surface, c.Normal, c.Gap, c.Friction, c.Lever).Target = c.Target;
+            }
+
+            if (pile > 0)
+            {
+                problem.AddContact(first - 1, first, -1, new Vector3D(-1, 0, 0), 0, friction, 0);
+            }
         }
 
         return problem;
