@@ -15,8 +15,8 @@ namespace LagSim.Contacts;
 internal sealed class ContactStep
 {
     /// <summary>
-    /// So many sweeps at most. Then <see cref="NormalsAfterSweeps"/> settles what keeps bodies out of each other; what is left of friction is an
-    /// error and no fault, for the next step goes on from the impulses that they got to.
+    /// So many sweeps at most. Then <see cref="NormalsAfterSweeps"/> settles what keeps bodies out of each other; what is left of friction is
+    /// an error and no fault, for the next step goes on from the impulses that they got to.
     /// </summary>
     internal const int MostSweeps = 200;
 
