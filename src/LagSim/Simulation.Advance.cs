@@ -243,7 +243,7 @@ public sealed partial class Simulation
         }
         else if (segment.Law == MotionLaw.Ballistic && Scene.Box.Exists)
         {
-            OpenFlight(slot, key, PositionAt(last, key.Time), segment.Velocity, spin: timelines.SpinOf(last).AtEpoch);
+            OpenFlight(slot, key, paths.PositionAt(last, key.Time), segment.Velocity, spin: timelines.SpinOf(last).AtEpoch);
         }
         else if (segment.Supports.Count == 1 && FrictionOn(slot, segment.Supports[0]) > 0 && !IsAtEndOfRange(segment))
         {
@@ -281,16 +281,5 @@ public sealed partial class Simulation
         }
 
         timelines.Append(slot, bodies[slot].Id, key, segment, dense, hold, spin);
-    }
-
-    /// <summary>
-    /// The round of something at <paramref name="time"/> on the body's newest segment: what a tick's own event causes at it comes a round later.
-    /// </summary>
-    private uint RoundAt(SimTime time, int slot) => RoundAfter(timelines.Last(slot), time);
-
-    private uint RoundAfter(int segment, SimTime time)
-    {
-        ref readonly EventKey opened = ref timelines.Key(segment);
-        return opened.Time == time ? opened.Round + 1 : 0;
     }
 }

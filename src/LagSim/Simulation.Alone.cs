@@ -45,7 +45,7 @@ public sealed partial class Simulation
         bool misses = Scene.SphereArray.Length == 0;
         for (int plane = 0; plane < Scene.PlaneArray.Length && misses; plane++)
         {
-            misses = flights.Misses(slot, Scene.PlaneArray[plane], time, time);
+            misses = flights.Misses(slot, surfaces.Plane(plane), time, time);
         }
 
         return misses;

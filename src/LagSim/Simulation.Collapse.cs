@@ -76,22 +76,6 @@ public sealed partial class Simulation
         return collapse.IsPossible(contacts.AsSpan(0, contactCount), restitutions, frictions, partyMasses.AsSpan(0, partyCount));
     }
 
-    private static bool HasLossySurface(Scene scene)
-    {
-        bool has = false;
-        for (int i = 0; i < scene.PlaneArray.Length && !has; i++)
-        {
-            has = scene.PlaneArray[i].Restitution < 1;
-        }
-
-        for (int i = 0; i < scene.SphereArray.Length && !has; i++)
-        {
-            has = scene.SphereArray[i].Restitution < 1;
-        }
-
-        return has;
-    }
-
     private bool WasStruck(in ContactPoint c, SimTime time)
     {
         int first = timelines.Last(parties[c.First]);
@@ -101,8 +85,8 @@ public sealed partial class Simulation
     }
 
     /// <summary>Whether a contact may lose energy: it does not bounce back in full, or there is a hand, which gives and takes.</summary>
-    private bool MayLose(in ContactPoint c) => Restitution(c) < 1 || IsHeld(timelines.Last(parties[c.First]))
-        || (c.Second != ContactPoint.Static && IsHeld(timelines.Last(parties[c.Second])));
+    private bool MayLose(in ContactPoint c) => Restitution(c) < 1 || paths.IsHeld(timelines.Last(parties[c.First]))
+        || (c.Second != ContactPoint.Static && paths.IsHeld(timelines.Last(parties[c.Second])));
 
     /// <summary>Whether a contact closes after all that the solver could do.</summary>
     private bool StillCloses()
@@ -143,14 +127,14 @@ public sealed partial class Simulation
     }
 
     private bool HasMember(in ContactPoint c) =>
-        IsMember(timelines.Last(parties[c.First])) || (c.Second != ContactPoint.Static && IsMember(timelines.Last(parties[c.Second])));
+        paths.IsMember(timelines.Last(parties[c.First])) || (c.Second != ContactPoint.Static && paths.IsMember(timelines.Last(parties[c.Second])));
 
     /// <summary>Whether a body touches a surface that it struck in this instant.</summary>
     private bool IsStillTouching(int slot, int surface, SimTime time, out ContactTime contact)
     {
         contact = ContactTime.At(time);
         int last = timelines.Last(slot);
-        return !IsHeld(last) && SurfaceGap(surface, PositionAt(last, time), bodies[slot].Spec.Radius) <= Scene.Resolution
+        return !paths.IsHeld(last) && surfaces.Gap(surface, paths.PositionAt(last, time), bodies[slot].Spec.Radius) <= Scene.Resolution
             && (Has(HealingFault.CollapsesWithWhoTouches) || StrikesOn(last, surface, time) > 0);
     }
 
@@ -159,7 +143,7 @@ public sealed partial class Simulation
     {
         contact = ContactTime.At(time);
         int last = timelines.Last(slot);
-        return timelines.Segment(piece).IsPresent && !(IsHeld(last) && IsHeld(piece))
+        return timelines.Segment(piece).IsPresent && !(paths.IsHeld(last) && paths.IsHeld(piece))
             && Gap(slot, last, other, piece, time) <= Scene.Resolution
             && (Has(HealingFault.CollapsesWithWhoTouches) || StrikesBetween(last, piece, time) > 0);
     }
@@ -188,8 +172,8 @@ public sealed partial class Simulation
 
             bool isImpact = timelines.Key(at).Kind == EventKind.Impact;
             at = timelines.Previous(at);
-            Vector3D normal = SurfaceNormal(surface, PositionAt(at, tick));
-            strikes += isImpact && Vector3D.Dot(normal, VelocityAt(at, tick)) <= CollapseSpeed ? 1 : 0;
+            Vector3D normal = surfaces.Normal(surface, paths.PositionAt(at, tick));
+            strikes += isImpact && Vector3D.Dot(normal, paths.VelocityAt(at, tick)) <= CollapseSpeed ? 1 : 0;
         }
 
         strikes = Math.Min(strikes, 2);
@@ -230,8 +214,8 @@ public sealed partial class Simulation
             bool isImpact = order == 0 && timelines.Key(a).Kind == EventKind.Impact;
             a = order >= 0 ? timelines.Previous(a) : a;
             b = order <= 0 ? timelines.Previous(b) : b;
-            Vector3D normal = Direction(Scene.Box.Nearest(PositionAt(a, tick) - PositionAt(b, tick)));
-            strikes += isImpact && Vector3D.Dot(normal, VelocityAt(a, tick) - VelocityAt(b, tick)) <= CollapseSpeed ? 1 : 0;
+            Vector3D normal = Scene.Box.Nearest(paths.PositionAt(a, tick) - paths.PositionAt(b, tick)).Direction;
+            strikes += isImpact && Vector3D.Dot(normal, paths.VelocityAt(a, tick) - paths.VelocityAt(b, tick)) <= CollapseSpeed ? 1 : 0;
         }
 
         strikes = Math.Min(strikes, 2);

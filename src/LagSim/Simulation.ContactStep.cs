@@ -28,8 +28,6 @@ public sealed partial class Simulation
     /// <summary>Takes no contact for one that lasts: only a test's negative control sets it.</summary>
     internal bool IgnoresIslands { get; set; }
 
-    private bool IsMember(int segment) => timelines.Segment(segment).IsOfIsland;
-
     /// <summary>A tick of an island has come; false if somebody who takes part was ahead of it and has been taken back.</summary>
     private bool TryHandleContactStep(int slot, in EventKey key)
     {
@@ -101,9 +99,9 @@ public sealed partial class Simulation
             }
 
             int last = timelines.Last(slot);
-            if (IsMember(last))
+            if (paths.IsMember(last))
             {
-                GoOnAsMember(slot, key, PositionAt(last, key.Time), timelines.Segment(last).Velocity, timelines.SpinOf(last).AtEpoch, hasChanged: false);
+                GoOnAsMember(slot, key, paths.PositionAt(last, key.Time), timelines.Segment(last).Velocity, timelines.SpinOf(last).AtEpoch, hasChanged: false);
                 timelines.EndMember(timelines.Last(slot), bodies[slot].Id);
             }
             else
@@ -134,7 +132,7 @@ public sealed partial class Simulation
         for (int i = 0; i < partyCount; i++)
         {
             int piece = timelines.Last(parties[i]);
-            if (!IsMember(piece))
+            if (!paths.IsMember(piece))
             {
                 continue; // in a hand
             }
@@ -168,7 +166,7 @@ public sealed partial class Simulation
             ahead.Add(partner);
         }
 
-        bool holds = IsHeld(piece) || (IsMember(piece) && timelines.ContactWith(piece, body) != TimelineStore.None);
+        bool holds = paths.IsHeld(piece) || (paths.IsMember(piece) && timelines.ContactWith(piece, body) != TimelineStore.None);
         if (!holds && !lookedAt.Contains(partner))
         {
             lookedAt.Add(partner);
@@ -206,7 +204,7 @@ public sealed partial class Simulation
             {
                 SimTime end = timelines.Segment(piece).End;
                 BodyId id = bodies[parties[i]].Id;
-                EventKey own = new(end, RoundAfter(piece, end), EventKind.StepEnd, id, id, 0, 0);
+                EventKey own = new(end, paths.RoundAfter(piece, end), EventKind.StepEnd, id, id, 0, 0);
                 least = any && EventKey.Compare(least, own) <= 0 ? least : own;
                 any = true;
             }
@@ -255,12 +253,12 @@ public sealed partial class Simulation
             int slot = parties[i];
             int piece = timelines.Last(slot);
             ref readonly BodySpec spec = ref bodies[slot].Spec;
-            bool isHeld = IsHeld(piece);
+            bool isHeld = paths.IsHeld(piece);
             Vector3D velocity = partyVelocities[i];
             Vector3D gain = Vector3D.Zero;
             if (isHeld)
             {
-                velocity = (PositionAt(piece, tick + length) - partyPositions[i]) / seconds;
+                velocity = (paths.PositionAt(piece, tick + length) - partyPositions[i]) / seconds;
             }
             else
             {
@@ -363,7 +361,7 @@ public sealed partial class Simulation
         {
             ref SolverContact c = ref step.Problem.Contacts[i];
             int piece = timelines.Last(parties[c.First]);
-            if (!IsMember(piece))
+            if (!paths.IsMember(piece))
             {
                 continue;
             }
@@ -461,7 +459,7 @@ public sealed partial class Simulation
         {
             int slot = parties[i];
             int before = timelines.Last(slot);
-            if (IsHeld(before))
+            if (paths.IsHeld(before))
             {
                 GoOnHeld(slot, key);
                 continue;
@@ -553,7 +551,7 @@ public sealed partial class Simulation
             if (c.Second == ContactPoint.Static && c.Holds)
             {
                 isHeld = true;
-                needsSteps |= c.Surface >= Scene.PlaneArray.Length || c.Impulse == 0;
+                needsSteps |= !surfaces.IsPlane(c.Surface) || c.Impulse == 0;
                 rubs |= c.Friction > 0;
                 planes++;
             }

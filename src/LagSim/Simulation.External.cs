@@ -176,7 +176,7 @@ public sealed partial class Simulation
         {
             HandleHand(slot, key, external);
         }
-        else if (IsHeld(timelines.Last(slot)))
+        else if (paths.IsHeld(timelines.Last(slot)))
         {
             return; // what is in a hand goes where the hand goes
         }
@@ -187,7 +187,7 @@ public sealed partial class Simulation
         else
         {
             int last = timelines.Last(slot);
-            double seconds = SecondsInto(last, key.Time);
+            double seconds = paths.SecondsInto(last, key.Time);
             SupportSet supports = timelines.Segment(last).Supports;
             bool isPermitted = TryAfter(external, slot, last, seconds, out Vector3D position, out Vector3D velocity);
             Span<int> carriers = stackalloc int[SupportSet.Most];
@@ -197,7 +197,7 @@ public sealed partial class Simulation
                 carriers[k] = supports[k];
             }
 
-            if (isPermitted && IsMember(last) && external.Kind != EventKind.Teleport)
+            if (isPermitted && paths.IsMember(last) && external.Kind != EventKind.Teleport)
             {
                 GoOnAsMember(slot, key, position, velocity, timelines.SpinOf(last).At(seconds), hasChanged: true);
                 timelines.EndMember(timelines.Last(slot), bodies[slot].Id);

@@ -39,9 +39,9 @@ public sealed partial class Simulation
             }
         }
 
-        for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
+        for (int surface = 0; surface < surfaces.Count; surface++)
         {
-            if (surface >= Scene.PlaneArray.Length || !flights.Misses(slot, Scene.PlaneArray[surface], from, next.Horizon(from, until)))
+            if (!surfaces.IsPlane(surface) || !flights.Misses(slot, surfaces.Plane(surface), from, next.Horizon(from, until)))
             {
                 ConsiderSurface(slot, surface, ref next);
             }
@@ -51,7 +51,7 @@ public sealed partial class Simulation
     /// <summary>The next contact of a body on any path, and with anybody who may be ahead of what is being healed.</summary>
     private void FindAlong(int slot, Span<int> candidates, SimTime from, SimTime until, int except, ref Pending next)
     {
-        for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
+        for (int surface = 0; surface < surfaces.Count; surface++)
         {
             ConsiderSurface(slot, surface, ref next);
         }

@@ -26,7 +26,7 @@ public sealed partial class Simulation
             // Should its stamp have left the history, when a later rollback comes here again, the oldest state that is kept has to do.
             int then = timelines.At(slot, external.Time);
             then = then == TimelineStore.None ? timelines.First(slot) : then;
-            double seconds = Math.Max(0, SecondsInto(then, external.Time));
+            double seconds = Math.Max(0, paths.SecondsInto(then, external.Time));
             if (!TryAfter(external, slot, then, seconds, out position, out velocity))
             {
                 return;

@@ -24,7 +24,7 @@ public sealed partial class Simulation
     /// <summary>What slips, or moves or turns on a surface slower than this, in m/s, is what rounding leaves of nothing.</summary>
     private const double RoundingSlip = 1e-10;
 
-    private double FrictionOn(int slot, int plane) => Math.Min(bodies[slot].Spec.Friction, Scene.PlaneArray[plane].Friction);
+    private double FrictionOn(int slot, int plane) => Math.Min(bodies[slot].Spec.Friction, surfaces.Plane(plane).Friction);
 
     /// <summary>Opens slipping, rolling or rest on the one plane that carries a body.</summary>
     private void OpenRubbing(
@@ -32,7 +32,7 @@ public sealed partial class Simulation
         SimDuration left)
     {
         ref readonly BodySpec spec = ref bodies[slot].Spec;
-        Vector3D n = Scene.PlaneArray[supports[0]].Normal;
+        Vector3D n = surfaces.Plane(supports[0]).Normal;
         double pressing = -Vector3D.Dot(n, Scene.Gravity), mu = FrictionOn(slot, supports[0]);
         Rubbing at = new()
         {

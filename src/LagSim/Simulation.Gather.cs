@@ -54,7 +54,7 @@ public sealed partial class Simulation
         for (int i = 0; i < partyCount && ahead.Count == 0; i++)
         {
             int party = parties[i];
-            for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
+            for (int surface = 0; surface < surfaces.Count; surface++)
             {
                 bool isStruck = TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
                 if (isStruck || (withStruckBefore && IsStillTouching(party, surface, key.Time, out contact)))
@@ -77,7 +77,7 @@ public sealed partial class Simulation
                 }
 
                 bool isStruck = TryTouchBody(party, other, then, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
-                if (isStruck || (withStruckBefore && RoundAfter(then, key.Time) <= key.Round
+                if (isStruck || (withStruckBefore && paths.RoundAfter(then, key.Time) <= key.Round
                     && AreStillTouching(party, other, then, key.Time, out contact)))
                 {
                     if (then != timelines.Last(other))
@@ -103,7 +103,7 @@ public sealed partial class Simulation
 
     /// <summary>The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits whoever asks.</summary>
     private double Gap(int slot, int piece, int other, int otherPiece, SimTime time) =>
-        Scene.Box.Nearest(PositionAt(piece, time) - PositionAt(otherPiece, time)).Length - (bodies[slot].Spec.Radius + bodies[other].Spec.Radius);
+        Scene.Box.Nearest(paths.PositionAt(piece, time) - paths.PositionAt(otherPiece, time)).Length - (bodies[slot].Spec.Radius + bodies[other].Spec.Radius);
 
     private int PartyOf(int slot) => Array.IndexOf(parties, slot, 0, partyCount);
 

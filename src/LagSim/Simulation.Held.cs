@@ -32,17 +32,15 @@ public sealed partial class Simulation
         CheckReadable(time);
         int slot = SlotOf(body);
         int at = slot < 0 ? TimelineStore.None : timelines.At(slot, time);
-        bool isHeld = at != TimelineStore.None && IsHeld(at);
+        bool isHeld = at != TimelineStore.None && paths.IsHeld(at);
         hold = isHeld ? timelines.HoldOf(at) : default;
         return isHeld;
     }
 
-    private bool IsHeld(int segment) => timelines.Segment(segment).Law == MotionLaw.Held;
-
     private bool IsHolding(int slot, byte peer)
     {
         int last = timelines.Last(slot);
-        return IsHeld(last) && timelines.HoldOf(last).Peer == peer;
+        return paths.IsHeld(last) && timelines.HoldOf(last).Peer == peer;
     }
 
     /// <summary>
@@ -52,11 +50,11 @@ public sealed partial class Simulation
     private void HandleHand(int slot, in EventKey key, in ExternalEvent external)
     {
         int last = timelines.Last(slot);
-        double seconds = SecondsInto(last, key.Time);
+        double seconds = paths.SecondsInto(last, key.Time);
         DenseOutput dense = timelines.Dense(last);
         Vector3D position = timelines.Segment(last).PositionAt(seconds, dense);
         Vector3D velocity = timelines.Segment(last).VelocityAt(seconds, dense);
-        if (external.Kind == EventKind.Grab && !IsHeld(last))
+        if (external.Kind == EventKind.Grab && !paths.IsHeld(last))
         {
             // Until the first knot the hand is taken to be at rest where it took the body.
             Converge(slot, key, position, velocity, position, Vector3D.Zero, new Hold(external.Peer, external.Position, key.Time));
@@ -109,7 +107,7 @@ public sealed partial class Simulation
     {
         int last = timelines.Last(slot);
         Hold hold = timelines.HoldOf(last);
-        double seconds = SecondsInto(last, key.Time);
+        double seconds = paths.SecondsInto(last, key.Time);
         DenseOutput dense = timelines.Dense(last);
         Vector3D position = timelines.Segment(last).PositionAt(seconds, dense);
         if (key.Time >= hold.Knot + HandPath.Lasts)
@@ -158,7 +156,7 @@ public sealed partial class Simulation
                 if (gap < 0)
                 {
                     isInside |= gap < -Scene.Resolution;
-                    at = sphere.Centre + (Direction(at - sphere.Centre) * (sphere.Radius + radius));
+                    at = sphere.Centre + ((at - sphere.Centre).Direction * (sphere.Radius + radius));
                 }
             }
         }

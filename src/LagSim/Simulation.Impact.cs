@@ -125,7 +125,7 @@ public sealed partial class Simulation
         int last = timelines.Last(parties[party]);
         ref readonly MotionSegment segment = ref timelines.Segment(last);
         DenseOutput dense = timelines.Dense(last);
-        double seconds = SecondsInto(last, time) + residual;
+        double seconds = paths.SecondsInto(last, time) + residual;
         partyMasses[party] = segment.Law == MotionLaw.Held ? double.PositiveInfinity : bodies[parties[party]].Spec.Mass;
         partyPositions[party] = segment.PositionAt(seconds, dense);
         partyVelocities[party] = segment.VelocityAt(seconds, dense);
@@ -154,23 +154,20 @@ public sealed partial class Simulation
         double.IsPositiveInfinity(partyMasses[c.First]) || (c.Second != ContactPoint.Static && double.IsPositiveInfinity(partyMasses[c.Second]));
 
     private double ReachOf(in ContactPoint c) =>
-        partyRadii[c.First] + (c.Second == ContactPoint.Static ? Scene.SphereArray[c.Surface - Scene.PlaneArray.Length].Radius : partyRadii[c.Second]);
+        c.Second == ContactPoint.Static ? surfaces.Reach(c.Surface, partyRadii[c.First]) : partyRadii[c.First] + partyRadii[c.Second];
 
     private Vector3D NormalOf(in ContactPoint c) => c.Second == ContactPoint.Static
-        ? SurfaceNormal(c.Surface, partyPositions[c.First])
-        : Direction(Scene.Box.Nearest(partyPositions[c.First] - partyPositions[c.Second]));
+        ? surfaces.Normal(c.Surface, partyPositions[c.First])
+        : Scene.Box.Nearest(partyPositions[c.First] - partyPositions[c.Second]).Direction;
 
     /// <summary>The lesser of the two parties' restitutions: a material behaves as named against anything more elastic.</summary>
     private double Restitution(in ContactPoint c)
     {
         double first = bodies[parties[c.First]].Spec.Restitution;
         double second = c.Second != ContactPoint.Static ? bodies[parties[c.Second]].Spec.Restitution
-            : SurfaceRestitution(c.Surface);
+            : surfaces.Restitution(c.Surface);
         return Math.Min(first, second);
     }
-
-    private double SurfaceRestitution(int surface) => surface < Scene.PlaneArray.Length ? Scene.PlaneArray[surface].Restitution
-        : Scene.SphereArray[surface - Scene.PlaneArray.Length].Restitution;
 
     /// <summary>Friction in the impact at hand, if any of its parties has some.</summary>
     private void Rub()
@@ -206,14 +203,13 @@ public sealed partial class Simulation
     {
         double first = bodies[parties[c.First]].Spec.Friction;
         double second = c.Second != ContactPoint.Static ? bodies[parties[c.Second]].Spec.Friction
-            : c.Surface < Scene.PlaneArray.Length ? Scene.PlaneArray[c.Surface].Friction
-            : Scene.SphereArray[c.Surface - Scene.PlaneArray.Length].Friction;
+            : surfaces.Friction(c.Surface);
         return Math.Min(first, second);
     }
 
     /// <summary>Whether a body may come to rest or slide on what it hit: a plane, under an acceleration that is the same everywhere.</summary>
     private bool IsSupportable(in ContactPoint c) =>
-        c.Second == ContactPoint.Static && c.Surface < Scene.PlaneArray.Length && bodies[parties[c.First]].Spec.Forces.IsEmpty;
+        c.Second == ContactPoint.Static && surfaces.IsPlane(c.Surface) && bodies[parties[c.First]].Spec.Forces.IsEmpty;
 
     /// <summary>A body that is carried stays carried while it is hit: its supports push back as far as they must, and give nothing.</summary>
     private void AddSupports()
@@ -227,7 +223,7 @@ public sealed partial class Simulation
                 {
                     AddContact(new ContactPoint(i, ContactPoint.Static, supports[k], default)
                     {
-                        Normal = Scene.PlaneArray[supports[k]].Normal,
+                        Normal = surfaces.Plane(supports[k]).Normal,
                     });
                 }
             }
@@ -273,7 +269,7 @@ public sealed partial class Simulation
     private void OpenAfterImpact(int party, in EventKey key, double residual)
     {
         int slot = parties[party];
-        if (IsHeld(timelines.Last(slot)))
+        if (paths.IsHeld(timelines.Last(slot)))
         {
             GoOnHeld(slot, key);
             return;

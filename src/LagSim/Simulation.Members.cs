@@ -24,7 +24,7 @@ public sealed partial class Simulation
 
         ref readonly MotionSegment path = ref timelines.Segment(piece);
         return timelines.Key(piece).Kind == EventKind.StepEnd || (IsSolved(slot, piece, at) && IsOpenedWithHand(piece))
-            || (timelines.Contact(at).Holds && Vector3D.Dot(SurfaceNormal(surface, path.Position), path.Velocity) >= -step.Scale.ImpactSpeed);
+            || (timelines.Contact(at).Holds && Vector3D.Dot(surfaces.Normal(surface, path.Position), path.Velocity) >= -step.Scale.ImpactSpeed);
     }
 
     /// <summary>Whether the impact that opened a piece solved a contact that it carries: one that holds, but for an elastic one, which impacts do not go on over.</summary>
@@ -52,13 +52,13 @@ public sealed partial class Simulation
     {
         int before = PieceBefore(hand, key);
         int opened = before == TimelineStore.None ? timelines.First(hand) : timelines.Next(before);
-        return opened != TimelineStore.None && IsHeld(opened) && (before == TimelineStore.None || timelines.Key(opened) == key);
+        return opened != TimelineStore.None && paths.IsHeld(opened) && (before == TimelineStore.None || timelines.Key(opened) == key);
     }
 
     /// <summary>Whether a member is surely further from a surface than it gets on its chord.</summary>
     private bool IsOutOfReach(int slot, in MotionSegment chord, int surface)
     {
-        double gap = SurfaceGap(surface, chord.Position, bodies[slot].Spec.Radius);
+        double gap = surfaces.Gap(surface, chord.Position, bodies[slot].Spec.Radius);
         double way = chord.End.SecondsSince(chord.Epoch) * 1.001;
         return gap > 0 && gap * gap > chord.Velocity.LengthSquared * way * way + (step.Scale.Length * step.Scale.Length * 1e-6);
     }
@@ -66,17 +66,17 @@ public sealed partial class Simulation
     /// <summary>The same of two bodies: pieces of one step or impact, or such that do not close where the later one begins.</summary>
     private bool IsCovered(int slot, int piece, int other, int otherPiece)
     {
-        if (IsHeld(otherPiece))
+        if (paths.IsHeld(otherPiece))
         {
             (slot, piece, other, otherPiece) = (other, otherPiece, slot, piece);
         }
 
-        if (IsHeld(piece) && IsMember(otherPiece))
+        if (paths.IsHeld(piece) && paths.IsMember(otherPiece))
         {
             return IsCoveredFromHand(slot, piece, otherPiece);
         }
 
-        if (!IsMember(piece) || !IsMember(otherPiece))
+        if (!paths.IsMember(piece) || !paths.IsMember(otherPiece))
         {
             return false;
         }
@@ -93,7 +93,7 @@ public sealed partial class Simulation
         }
 
         SimTime opened = SimTime.Max(timelines.Key(piece).Time, timelines.Key(otherPiece).Time);
-        Vector3D normal = Direction(PositionAt(piece, opened) - PositionAt(otherPiece, opened));
+        Vector3D normal = (paths.PositionAt(piece, opened) - paths.PositionAt(otherPiece, opened)).Direction;
         double opening = Vector3D.Dot(normal, timelines.Segment(piece).Velocity - timelines.Segment(otherPiece).Velocity);
         return timelines.Contact(at).Holds && opening >= -step.Scale.ImpactSpeed;
     }
@@ -126,8 +126,8 @@ public sealed partial class Simulation
     /// <summary>Whether two bodies, of which one may be a hand's, carry a contact that holds them together.</summary>
     private bool HoldTogether(int slot, int piece, int other, int otherPiece)
     {
-        bool isMember = IsMember(piece);
-        if (!isMember && !IsMember(otherPiece))
+        bool isMember = paths.IsMember(piece);
+        if (!isMember && !paths.IsMember(otherPiece))
         {
             return false;
         }
@@ -138,9 +138,9 @@ public sealed partial class Simulation
 
     private double OpeningAt(int piece, int otherPiece, SimTime time)
     {
-        Vector3D velocity = timelines.Segment(piece).VelocityAt(SecondsInto(piece, time), timelines.Dense(piece))
-            - timelines.Segment(otherPiece).VelocityAt(SecondsInto(otherPiece, time), timelines.Dense(otherPiece));
-        return Vector3D.Dot(Direction(PositionAt(piece, time) - PositionAt(otherPiece, time)), velocity);
+        Vector3D velocity = timelines.Segment(piece).VelocityAt(paths.SecondsInto(piece, time), timelines.Dense(piece))
+            - timelines.Segment(otherPiece).VelocityAt(paths.SecondsInto(otherPiece, time), timelines.Dense(otherPiece));
+        return Vector3D.Dot((paths.PositionAt(piece, time) - paths.PositionAt(otherPiece, time)).Direction, velocity);
     }
 
     /// <summary>Opens the next piece of a member from a state: a chord to the end of the step under way, or of one that begins if it slept.</summary>
@@ -185,7 +185,7 @@ public sealed partial class Simulation
         partyCount = 0;
         contactCount = 0;
         int last = timelines.Last(slot);
-        if (last == TimelineStore.None || !IsMember(last))
+        if (last == TimelineStore.None || !paths.IsMember(last))
         {
             return true;
         }
@@ -196,7 +196,7 @@ public sealed partial class Simulation
             ref readonly LastingContact contact = ref timelines.Contact(at);
             int partner = contact.Surface == LastingContact.NoSurface ? SlotOf(contact.Partner) : NoPartner;
             int piece = partner < 0 ? TimelineStore.None : PieceBefore(partner, key);
-            if (piece != TimelineStore.None && IsMember(piece) && timelines.Segment(piece).Law == MotionLaw.Resting)
+            if (piece != TimelineStore.None && paths.IsMember(piece) && timelines.Segment(piece).Law == MotionLaw.Resting)
             {
                 if (piece != timelines.Last(partner))
                 {

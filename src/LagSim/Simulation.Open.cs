@@ -109,7 +109,7 @@ public sealed partial class Simulation
         int count = 0;
         foreach (int plane in touchedPlanes)
         {
-            double rebound = Vector3D.Dot(Scene.PlaneArray[plane].Normal, velocity);
+            double rebound = Vector3D.Dot(surfaces.Plane(plane).Normal, velocity);
             if (Math.Abs(rebound) <= UnresolvedSpeed(plane))
             {
                 slow[count++] = plane;
@@ -156,7 +156,7 @@ public sealed partial class Simulation
     /// <summary>The rebound speed below which a bounce on the plane rises less than the scene resolves.</summary>
     private double UnresolvedSpeed(int plane)
     {
-        double pressing = -Vector3D.Dot(Scene.PlaneArray[plane].Normal, Scene.Gravity);
+        double pressing = -Vector3D.Dot(surfaces.Plane(plane).Normal, Scene.Gravity);
         return Math.Sqrt(2 * Scene.Resolution * (pressing > 0 ? pressing : Scene.Gravity.Length));
     }
 
@@ -166,7 +166,7 @@ public sealed partial class Simulation
         double longest = 0;
         for (int k = 0; k < supports.Count; k++)
         {
-            ref readonly StaticPlane plane = ref Scene.PlaneArray[supports[k]];
+            ref readonly StaticPlane plane = ref surfaces.Plane(supports[k]);
             double rebound = Vector3D.Dot(plane.Normal, velocity);
             double pressing = -Vector3D.Dot(plane.Normal, Scene.Gravity);
             double restitution = Math.Min(plane.Restitution, bodies[slot].Spec.Restitution);
@@ -185,7 +185,7 @@ public sealed partial class Simulation
         Vector3D onto = position;
         for (int k = 0; k < supports.Count; k++)
         {
-            ref readonly StaticPlane plane = ref Scene.PlaneArray[supports[k]];
+            ref readonly StaticPlane plane = ref surfaces.Plane(supports[k]);
             double gap = plane.Gap(onto, bodies[slot].Spec.Radius);
             if (Math.Abs(gap) <= Scene.Resolution)
             {

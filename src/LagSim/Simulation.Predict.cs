@@ -30,7 +30,7 @@ public sealed partial class Simulation
             SimTime end = timelines.Segment(last).End;
             if (end != SimTime.MaxValue)
             {
-                next.Consider(new EventKey(end, RoundAt(end, slot), EventKind.StepEnd, id, id, 0, 0));
+                next.Consider(new EventKey(end, paths.RoundAfter(timelines.Last(slot), end), EventKind.StepEnd, id, id, 0, 0));
             }
 
             SimTime from = SimTime.Max(timelines.Key(last).Time, clock.Time);
@@ -90,7 +90,7 @@ public sealed partial class Simulation
         ref readonly MotionSegment segment = ref timelines.Segment(last);
         contact = default;
         round = 0;
-        bool isPlane = surface < Scene.PlaneArray.Length;
+        bool isPlane = surfaces.IsPlane(surface);
         if (segment.Law is MotionLaw.Resting or MotionLaw.Held || (isPlane && segment.Supports.Contains(surface)))
         {
             return false; // what carries a body stays below it until something else happens, and nothing static stops a hand
@@ -116,21 +116,21 @@ public sealed partial class Simulation
                 contact = ContactTime.At(opened);
             }
 
-            round = RoundAt(contact.Tick, slot);
+            round = paths.RoundAfter(timelines.Last(slot), contact.Tick);
             if (contact.Tick != opened)
             {
                 return true;
             }
 
-            Vector3D position = PositionAt(last, contact);
+            Vector3D position = paths.PositionAt(last, contact);
             double radius = bodies[slot].Spec.Radius;
-            Vector3D normal = SurfaceNormal(surface, position);
-            Vector3D velocity = VelocityAt(last, contact);
-            double reach = isPlane ? double.PositiveInfinity : radius + Scene.SphereArray[surface - Scene.PlaneArray.Length].Radius;
-            double pressing = -Vector3D.Dot(normal, AccelerationAt(last, contact)) - FallingAway(normal, velocity, reach);
+            Vector3D normal = surfaces.Normal(surface, position);
+            Vector3D velocity = paths.VelocityAt(last, contact);
+            double reach = surfaces.Reach(surface, radius);
+            double pressing = -Vector3D.Dot(normal, paths.AccelerationAt(last, contact)) - FallingAway(normal, velocity, reach);
             Closing closing = new(
                 -Vector3D.Dot(normal, velocity), pressing, velocity.Length,
-                SurfaceGap(surface, position, radius), RoundingOf(position, radius));
+                surfaces.Gap(surface, position, radius), RoundingOf(position, radius));
             SimDuration wait = WaitFor(closing, segment.IsOfIsland && Holds(last, surface));
             if (wait < ContactTime.Soon
                 && !MayWait(closing, closing.Speed <= CollapseSpeed ? StrikesOn(last, surface, opened) : 0, round))
@@ -154,10 +154,10 @@ public sealed partial class Simulation
         if (isPlane)
         {
             return ContactFinder.WithPlane(
-                segment, timelines.Dense(last), bodies[slot].Spec.Radius, Scene.PlaneArray[surface], from, segment.End, out contact);
+                segment, timelines.Dense(last), bodies[slot].Spec.Radius, surfaces.Plane(surface), from, segment.End, out contact);
         }
 
-        ref readonly StaticSphere sphere = ref Scene.SphereArray[surface - Scene.PlaneArray.Length];
+        ref readonly StaticSphere sphere = ref surfaces.Sphere(surface);
         return ContactFinder.WithSphere(
             segment, timelines.Dense(last), MotionSegment.AtRest(Start, sphere.Centre), default, bodies[slot].Spec.Radius + sphere.Radius,
             from, segment.End, out contact);
@@ -248,7 +248,7 @@ public sealed partial class Simulation
         MotionSegment image;
         if (Scene.Box.Exists)
         {
-            image = NearestImage(segmentB, PositionAt(lastA, opened), PositionAt(lastB, opened));
+            image = NearestImage(segmentB, paths.PositionAt(lastA, opened), paths.PositionAt(lastB, opened));
             segmentB = ref image;
         }
 
@@ -262,19 +262,19 @@ public sealed partial class Simulation
                 contact = ContactTime.At(opened);
             }
 
-            round = Math.Max(RoundAfter(lastA, contact.Tick), RoundAfter(lastB, contact.Tick));
+            round = Math.Max(paths.RoundAfter(lastA, contact.Tick), paths.RoundAfter(lastB, contact.Tick));
             if (contact.Tick != opened)
             {
                 return true;
             }
 
-            Vector3D position = PositionAt(lastA, contact);
-            Vector3D apart = Scene.Box.Nearest(position - PositionAt(lastB, contact));
-            Vector3D normal = Direction(apart);
-            Vector3D velocityA = VelocityAt(lastA, contact);
-            Vector3D velocityB = VelocityAt(lastB, contact);
+            Vector3D position = paths.PositionAt(lastA, contact);
+            Vector3D apart = Scene.Box.Nearest(position - paths.PositionAt(lastB, contact));
+            Vector3D normal = apart.Direction;
+            Vector3D velocityA = paths.VelocityAt(lastA, contact);
+            Vector3D velocityB = paths.VelocityAt(lastB, contact);
             Vector3D velocity = velocityA - velocityB;
-            double pressing = -Vector3D.Dot(normal, AccelerationAt(lastA, contact) - AccelerationAt(lastB, contact)) - FallingAway(normal, velocity, reach);
+            double pressing = -Vector3D.Dot(normal, paths.AccelerationAt(lastA, contact) - paths.AccelerationAt(lastB, contact)) - FallingAway(normal, velocity, reach);
             Closing closing = new(
                 -Vector3D.Dot(normal, velocity), pressing, velocityA.Length + velocityB.Length,
                 apart.Length - reach, RoundingOf(position, reach));
@@ -343,20 +343,20 @@ public sealed partial class Simulation
     private bool ClosesAtOnce(int slot, int piece, int surface, SimTime opened)
     {
         ContactTime now = ContactTime.At(opened);
-        Vector3D position = PositionAt(piece, now);
+        Vector3D position = paths.PositionAt(piece, now);
         double radius = bodies[slot].Spec.Radius;
-        return SurfaceGap(surface, position, radius) <= RoundingOf(position, radius)
-            && Vector3D.Dot(SurfaceNormal(surface, position), VelocityAt(piece, now)) < 0;
+        return surfaces.Gap(surface, position, radius) <= RoundingOf(position, radius)
+            && Vector3D.Dot(surfaces.Normal(surface, position), paths.VelocityAt(piece, now)) < 0;
     }
 
     /// <summary>The same of two bodies.</summary>
     private bool ClosesAtOnce(int first, int second, double reach, SimTime opened)
     {
         ContactTime now = ContactTime.At(opened);
-        Vector3D position = PositionAt(first, now);
-        Vector3D apart = Scene.Box.Nearest(position - PositionAt(second, now));
+        Vector3D position = paths.PositionAt(first, now);
+        Vector3D apart = Scene.Box.Nearest(position - paths.PositionAt(second, now));
         return apart.Length - reach <= RoundingOf(position, reach)
-            && Vector3D.Dot(apart, VelocityAt(first, now) - VelocityAt(second, now)) < 0;
+            && Vector3D.Dot(apart, paths.VelocityAt(first, now) - paths.VelocityAt(second, now)) < 0;
     }
 
     /// <summary>
@@ -372,46 +372,4 @@ public sealed partial class Simulation
     /// <summary>The root of u t + a t^2 / 2 = depth / 2; if it eases off by itself, as if it did not.</summary>
     private static double UntilDeep(double depth, double closing, double pressing) =>
         depth / (closing + Math.Sqrt((closing * closing) + (Math.Max(0, pressing) * depth)));
-
-    /// <summary>How far a ball is from a static surface, in metres.</summary>
-    private double SurfaceGap(int surface, in Vector3D position, double radius)
-    {
-        if (surface < Scene.PlaneArray.Length)
-        {
-            return Scene.PlaneArray[surface].Gap(position, radius);
-        }
-
-        ref readonly StaticSphere sphere = ref Scene.SphereArray[surface - Scene.PlaneArray.Length];
-        return (position - sphere.Centre).Length - (radius + sphere.Radius);
-    }
-
-    private Vector3D SurfaceNormal(int surface, in Vector3D position)
-    {
-        if (surface < Scene.PlaneArray.Length)
-        {
-            return Scene.PlaneArray[surface].Normal;
-        }
-
-        return Direction(position - Scene.SphereArray[surface - Scene.PlaneArray.Length].Centre);
-    }
-
-    // Centres that coincide have no direction between them; up is as good as any and the same everywhere.
-    private static Vector3D Direction(in Vector3D apart)
-    {
-        double length = apart.Length;
-        return length > 0 ? apart / length : Vector3D.Up;
-    }
-
-    private Vector3D PositionAt(int segment, SimTime time) => timelines.Segment(segment).PositionAt(SecondsInto(segment, time), timelines.Dense(segment));
-
-    private Vector3D PositionAt(int segment, in ContactTime contact) =>
-        timelines.Segment(segment).PositionAt(SecondsInto(segment, contact.Tick) + contact.Residual, timelines.Dense(segment));
-
-    private Vector3D VelocityAt(int segment, in ContactTime contact) =>
-        timelines.Segment(segment).VelocityAt(SecondsInto(segment, contact.Tick) + contact.Residual, timelines.Dense(segment));
-
-    private Vector3D AccelerationAt(int segment, in ContactTime contact) =>
-        timelines.Segment(segment).AccelerationAt(SecondsInto(segment, contact.Tick) + contact.Residual, timelines.Dense(segment));
-
-    private double SecondsInto(int segment, SimTime time) => time.SecondsSince(timelines.Segment(segment).Epoch);
 }

@@ -109,7 +109,7 @@ public sealed partial class Simulation
             }
 
             MotionSegment segment = timelines.Segment(at);
-            double seconds = SecondsInto(at, timelines.Key(at).Time);
+            double seconds = paths.SecondsInto(at, timelines.Key(at).Time);
             entries.Add(new TimelineEntry(timelines.Key(at), StateOf(segment, seconds, timelines.Dense(at), Scene.Box, timelines.SpinOf(at))));
             isBefore = timelines.Key(at).Time <= from;
         }
@@ -179,7 +179,7 @@ public sealed partial class Simulation
     private BodyState StateAt(int slot, SimTime time)
     {
         int at = timelines.At(slot, time);
-        return at == TimelineStore.None ? default : StateOf(timelines.Segment(at), SecondsInto(at, time), timelines.Dense(at), Scene.Box, timelines.SpinOf(at));
+        return at == TimelineStore.None ? default : StateOf(timelines.Segment(at), paths.SecondsInto(at, time), timelines.Dense(at), Scene.Box, timelines.SpinOf(at));
     }
 
     private void CheckReadable(SimTime time)

@@ -71,7 +71,7 @@ public sealed partial class Simulation
             int at = timelines.At(slot, last);
             if (at != TimelineStore.None && timelines.Segment(at).IsPresent)
             {
-                bool isMember = IsMember(at);
+                bool isMember = paths.IsMember(at);
                 there.Add(new BodySnapshot(
                     bodies[slot].Id, bodies[slot].Spec, timelines.Key(at), timelines.Segment(at), timelines.Dense(at), timelines.HoldOf(at), timelines.SpinOf(at),
                     isMember ? timelines.CentreOf(at) : default, isMember ? timelines.StillSince(at) : default, timelines.ContactsOf(at)));

@@ -40,8 +40,8 @@ public sealed partial class Simulation
         for (int n = 0; n < (isPair ? 2 : 1); n++)
         {
             int piece = timelines.Last(parties[n == 0 ? c.First : c.Second]);
-            members += IsMember(piece) ? 1 : 0;
-            hands += IsHeld(piece) ? 1 : 0;
+            members += paths.IsMember(piece) ? 1 : 0;
+            hands += paths.IsHeld(piece) ? 1 : 0;
         }
 
         if (isPair && hands == 1 && (members > 0 || IsBacked(c)))
@@ -61,8 +61,7 @@ public sealed partial class Simulation
 
         Vector3D velocity = partyVelocities[c.First] - (isPair ? partyVelocities[c.Second] : Vector3D.Zero);
         Vector3D acceleration = partyAccelerations[c.First] - (isPair ? partyAccelerations[c.Second] : Vector3D.Zero);
-        bool isPlane = !isPair && c.Surface < Scene.PlaneArray.Length;
-        double pressing = -Vector3D.Dot(c.Normal, acceleration) - (isPlane ? 0 : FallingAway(c.Normal, velocity, ReachOf(c)));
+        double pressing = -Vector3D.Dot(c.Normal, acceleration) - FallingAway(c.Normal, velocity, ReachOf(c));
         double rises = restitution < 1 ? step.Scale.Length : Scene.Resolution;
         return pressing > 0 && rebound * rebound <= 2 * pressing * rises && (restitution >= 1 || 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds());
     }
@@ -71,7 +70,7 @@ public sealed partial class Simulation
     private bool IsElastic(int slot, in LastingContact contact)
     {
         int partner = contact.Surface == LastingContact.NoSurface ? SlotOf(contact.Partner) : NoPartner;
-        double other = contact.Surface != LastingContact.NoSurface ? SurfaceRestitution(contact.Surface)
+        double other = contact.Surface != LastingContact.NoSurface ? surfaces.Restitution(contact.Surface)
             : partner >= 0 ? bodies[partner].Spec.Restitution : 0;
         return Math.Min(bodies[slot].Spec.Restitution, other) >= 1;
     }
@@ -79,7 +78,7 @@ public sealed partial class Simulation
     /// <summary>Whether the bounces of a contact are followed down to the scene's resolution, and a closed form carries its body then: alone on planes, of which one rubs at most if it is the only one.</summary>
     private bool IsCarriedByClosedForm(in ContactPoint c)
     {
-        if (!IsSupportable(c) || IsMember(timelines.Last(parties[c.First])))
+        if (!IsSupportable(c) || paths.IsMember(timelines.Last(parties[c.First])))
         {
             return false;
         }
@@ -96,7 +95,7 @@ public sealed partial class Simulation
         for (int i = 0; i < contactCount; i++)
         {
             ref readonly ContactPoint other = ref contacts[i];
-            if (other.First == c.First && other.Second == ContactPoint.Static && other.Surface < Scene.PlaneArray.Length)
+            if (other.First == c.First && other.Second == ContactPoint.Static && surfaces.IsPlane(other.Surface))
             {
                 planes++;
                 rubs |= Friction(other) > 0;
@@ -111,7 +110,7 @@ public sealed partial class Simulation
         bool reaches = false;
         for (int i = 0; i < partyCount && !reaches; i++)
         {
-            reaches = IsMember(timelines.Last(parties[i]));
+            reaches = paths.IsMember(timelines.Last(parties[i]));
         }
 
         for (int i = 0; i < contactCount && !reaches; i++)
@@ -125,7 +124,7 @@ public sealed partial class Simulation
     /// <summary>Whether a body that a hand strikes touches something else as well, against which it may be pressed.</summary>
     private bool IsBacked(in ContactPoint c)
     {
-        int struck = IsHeld(timelines.Last(parties[c.First])) ? c.Second : c.First;
+        int struck = paths.IsHeld(timelines.Last(parties[c.First])) ? c.Second : c.First;
         return contactCount > 1 || timelines.Segment(timelines.Last(parties[struck])).Supports.Count > 0;
     }
 
@@ -135,7 +134,7 @@ public sealed partial class Simulation
         bool has = false;
         for (int i = 0; i < partyCount && !has; i++)
         {
-            has = IsHeld(timelines.Last(parties[i]));
+            has = paths.IsHeld(timelines.Last(parties[i]));
         }
 
         return has;
@@ -278,7 +277,7 @@ public sealed partial class Simulation
 
         double left = step.Scale.TickFrom(time, double.PositiveInfinity).SecondsSince(time);
         bool any = false;
-        for (int surface = 0; surface < Scene.PlaneArray.Length + Scene.SphereArray.Length; surface++)
+        for (int surface = 0; surface < surfaces.Count; surface++)
         {
             ContactPoint c = new(party, ContactPoint.Static, surface, default);
             if (!IsReached(c) && Vector3D.Dot(NormalOf(c), push) < -tolerance && GapOf(c) <= step.Scale.Length)
@@ -368,7 +367,7 @@ public sealed partial class Simulation
                 {
                     double friction = FrictionOn(parties[i], supports[k]);
                     double lever = Math.Min(bodies[parties[i]].Spec.RollingResistance, friction) * partyRadii[i];
-                    reached.AddContact(i, ContactPoint.Static, supports[k], Scene.PlaneArray[supports[k]].Normal, 0, friction, lever);
+                    reached.AddContact(i, ContactPoint.Static, supports[k], surfaces.Plane(supports[k]).Normal, 0, friction, lever);
                 }
             }
         }
@@ -379,7 +378,7 @@ public sealed partial class Simulation
     {
         int slot = parties[party];
         int piece = timelines.Last(slot);
-        if (!IsMember(piece))
+        if (!paths.IsMember(piece))
         {
             return false;
         }
@@ -458,7 +457,7 @@ public sealed partial class Simulation
     }
 
     private double GapOf(in ContactPoint c) => c.Second == ContactPoint.Static
-        ? SurfaceGap(c.Surface, partyPositions[c.First], partyRadii[c.First])
+        ? surfaces.Gap(c.Surface, partyPositions[c.First], partyRadii[c.First])
         : Scene.Box.Nearest(partyPositions[c.First] - partyPositions[c.Second]).Length - ReachOf(c);
 
     /// <summary>
@@ -516,9 +515,9 @@ public sealed partial class Simulation
         {
             int slot = parties[i];
             int before = timelines.Last(slot);
-            bool isMember = IsMember(before);
+            bool isMember = paths.IsMember(before);
             bool lasts = HasLasting(i);
-            if (IsHeld(before))
+            if (paths.IsHeld(before))
             {
                 GoOnHeld(slot, key);
             }

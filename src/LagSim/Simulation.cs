@@ -25,10 +25,12 @@ public sealed partial class Simulation
     private const int FewestSlots = 4;
 
     private readonly TimelineStore timelines;
+    private readonly Paths paths;
     private readonly EventLog log;
     private readonly EventQueue queue;
     private readonly Forces forces;
     private readonly FreeFlights flights;
+    private readonly StaticSurfaces surfaces;
     private readonly SimDuration history;
     private readonly CancellationToken cancellation;
     private readonly HealingMode healing;
@@ -112,9 +114,11 @@ public sealed partial class Simulation
         log = new EventLog(expected);
         flights = new FreeFlights(scene.Gravity, scene.Resolution, scene.Box, expected);
         timelines = new TimelineStore(start, options.MaxSegments, flights, expected, history);
+        paths = new Paths(timelines);
         Observer = options.Observer;
         forces = new Forces(scene, start);
-        hasLosses = HasLossySurface(scene);
+        surfaces = scene.Surfaces;
+        hasLosses = surfaces.TakesEnergy();
         step = new ContactStep(scene, options.Scale ?? new ContactScale(scene.ContactTolerance, scene.Gravity, start));
     }
 

@@ -20,7 +20,7 @@ internal sealed class ContactStep
     /// </summary>
     internal const int MostSweeps = 200;
 
-    private readonly Scene scene;
+    private readonly StaticSurfaces surfaces;
     private readonly NormalsAfterSweeps normals = new();
     private readonly EnergyLimit limit = new();
     private Member[] members = Array.Empty<Member>();
@@ -34,7 +34,7 @@ internal sealed class ContactStep
 
     internal ContactStep(Scene scene, in ContactScale scale)
     {
-        this.scene = scene;
+        surfaces = scene.Surfaces;
         Scale = scale;
     }
 
@@ -250,33 +250,15 @@ internal sealed class ContactStep
             return; // nothing static stops a hand
         }
 
-        for (int surface = 0; surface < scene.PlaneArray.Length + scene.SphereArray.Length; surface++)
+        for (int surface = 0; surface < surfaces.Count; surface++)
         {
-            bool isPlane = surface < scene.PlaneArray.Length;
-            double gap, friction, restitution;
-            Vector3D normal;
-            if (isPlane)
-            {
-                ref readonly StaticPlane plane = ref scene.PlaneArray[surface];
-                gap = plane.Gap(m.Position, body.Radius);
-                normal = plane.Normal;
-                (friction, restitution) = (plane.Friction, plane.Restitution);
-            }
-            else
-            {
-                ref readonly StaticSphere sphere = ref scene.SphereArray[surface - scene.PlaneArray.Length];
-                Vector3D apart = m.Position - sphere.Centre;
-                double length = apart.Length;
-                gap = length - (sphere.Radius + body.Radius);
-                normal = length > 0 ? apart / length : Vector3D.Up;
-                (friction, restitution) = (sphere.Friction, sphere.Restitution);
-            }
-
+            double gap = surfaces.Gap(surface, m.Position, body.Radius);
+            Vector3D normal = surfaces.Normal(surface, m.Position);
             double opening = Vector3D.Dot(normal, body.Velocity);
-            restitution = Math.Min(restitution, m.Restitution);
+            double restitution = Math.Min(surfaces.Restitution(surface), m.Restitution);
             if (MayTouch(gap, opening, seconds, restitution))
             {
-                friction = Math.Min(friction, m.Friction);
+                double friction = Math.Min(surfaces.Friction(surface), m.Friction);
                 ref SolverContact c = ref Problem.AddContact(i, ContactPoint.Static, surface, normal, gap, friction, Math.Min(m.Lever, friction * body.Radius));
                 c.IsElastic = restitution >= 1;
             }

@@ -84,6 +84,9 @@ public sealed class Scene
 
     internal StaticSphere[] SphereArray { get; }
 
+    /// <summary>The planes and the static spheres together.</summary>
+    internal StaticSurfaces Surfaces => new(PlaneArray, SphereArray);
+
     internal SceneBody[] BodyArray { get; }
 
     internal Force[] ForceArray { get; }

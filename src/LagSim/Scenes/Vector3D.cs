@@ -46,6 +46,16 @@ public readonly struct Vector3D : IEquatable<Vector3D>
     /// <summary>The length.</summary>
     public double Length => Math.Sqrt(Dot(this, this));
 
+    /// <summary>The unit vector along this one. Of the zero vector it is up: any direction would do, and it is the same everywhere.</summary>
+    internal Vector3D Direction
+    {
+        get
+        {
+            double length = Length;
+            return length > 0 ? this / length : Up;
+        }
+    }
+
     /// <summary>The sum.</summary>
     public static Vector3D operator +(in Vector3D a, in Vector3D b) => new(a.X + b.X, a.Y + b.Y, a.Z + b.Z);
 
