@@ -10,7 +10,7 @@ namespace LagSim;
 /// <content>The event loop.</content>
 public sealed partial class Simulation
 {
-    private const int NoPartner = -1;
+    private const int NoPartner = PendingContact.NoPartner;
 
     /// <summary>Lets everything happen up to and including <paramref name="time"/>.</summary>
     /// <remarks>Reading, and advancing in smaller or larger steps, changes no bit of what happens. Cost: per event, not per time.</remarks>
@@ -60,7 +60,7 @@ public sealed partial class Simulation
         SimTime until = SimTime.Min(time, BlockedAt - SimDuration.OneTick);
         try
         {
-            while (queue.TryGetLeast(out int slot, out EventKey least) && least.Time <= until)
+            while (scheduler.TryGetLeast(out int slot, out EventKey least) && least.Time <= until)
             {
                 if (least.Time > reached)
                 {
@@ -169,7 +169,7 @@ public sealed partial class Simulation
             case EventKind.Impact:
                 if (IsStale(slot, key))
                 {
-                    Predict(slot, Has(HealingFault.GivesUpByBody) ? bodies[slot].Partner : NoPartner);
+                    Predict(slot, Has(HealingFault.GivesUpByBody) ? scheduler.Contact(slot).Partner : NoPartner);
                     return;
                 }
 
@@ -217,14 +217,14 @@ public sealed partial class Simulation
     /// <summary>Whether the piece of the partner's path that the pending impact was found with is no longer what the partner is on then.</summary>
     private bool IsStale(int slot, in EventKey key)
     {
-        int partner = bodies[slot].Partner;
+        int partner = scheduler.Contact(slot).Partner;
         if (partner == NoPartner)
         {
             return false;
         }
 
         int piece = Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : PieceAt(partner, key);
-        return piece == TimelineStore.None || timelines.Serial(piece) != bodies[slot].PartnerSerial; // or forgotten meanwhile
+        return piece == TimelineStore.None || timelines.Serial(piece) != scheduler.Contact(slot).PartnerSerial; // or forgotten meanwhile
     }
 
     private void HandleStepEnd(int slot, in EventKey key)
@@ -280,6 +280,6 @@ public sealed partial class Simulation
             CountHealed(slot); // also who had nothing to be cut, because what struck him now comes after all he did
         }
 
-        timelines.Append(slot, bodies[slot].Id, key, segment, dense, hold, spin);
+        timelines.Append(slot, bodies.Id(slot), key, segment, dense, hold, spin);
     }
 }

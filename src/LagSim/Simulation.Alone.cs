@@ -32,11 +32,11 @@ public sealed partial class Simulation
     private bool IsAlone(int slot, in EventKey key)
     {
         bool isPlain = front == SimTime.MinValue && !MayBeStruckAgain(key)
-            && (!bodies[slot].IsTied || IgnoresTies) && flights.IsFree(slot) && !TakesNoShortcut && !SwapsOperands;
-        int other = bodies[slot].Partner;
+            && (!scheduler.Contact(slot).IsTied || IgnoresTies) && flights.IsFree(slot) && !TakesNoShortcut && !SwapsOperands;
+        int other = scheduler.Contact(slot).Partner;
         return isPlain && (other == NoPartner
-            ? queue.IsLeastAloneWith(slot, key)
-            : bodies[other].Partner == slot && (!bodies[other].IsTied || IgnoresTies) && flights.IsFree(other) && queue.IsLeastAloneWith(other, key)
+            ? scheduler.IsLeastAloneWith(slot, key)
+            : scheduler.Contact(other).Partner == slot && (!scheduler.Contact(other).IsTied || IgnoresTies) && flights.IsFree(other) && scheduler.IsLeastAloneWith(other, key)
                 && TouchesNoSurface(slot, key.Time) && TouchesNoSurface(other, key.Time));
     }
 
@@ -57,18 +57,18 @@ public sealed partial class Simulation
     /// </summary>
     private bool TryHandleAlone(int slot, in EventKey key)
     {
-        int other = bodies[slot].Partner;
-        double residual = bodies[slot].Residual;
+        int other = scheduler.Contact(slot).Partner;
+        double residual = scheduler.Contact(slot).Residual;
         partyCount = 0;
         contactCount = 0;
         if (other == NoPartner)
         {
             AddParty(slot);
-            AddContact(new ContactPoint(0, ContactPoint.Static, bodies[slot].Surface, default));
+            AddContact(new ContactPoint(0, ContactPoint.Static, scheduler.Contact(slot).Surface, default));
         }
         else
         {
-            bool ordered = bodies[slot].Id < bodies[other].Id;
+            bool ordered = bodies.Id(slot) < bodies.Id(other);
             AddParty(ordered ? slot : other);
             AddParty(ordered ? other : slot);
             AddContact(new ContactPoint(0, 1, -1, default));
@@ -76,9 +76,9 @@ public sealed partial class Simulation
 
         for (int i = 0; i < partyCount; i++)
         {
-            partyMasses[i] = bodies[parties[i]].Spec.Mass;
+            partyMasses[i] = bodies.Spec(parties[i]).Mass;
             partyAccelerations[i] = Scene.Gravity;
-            partyRadii[i] = bodies[parties[i]].Spec.Radius;
+            partyRadii[i] = bodies.Spec(parties[i]).Radius;
             partySpins[i] = timelines.SpinOf(timelines.Last(parties[i])).AtEpoch; // in flight it stays
             flights.StateAt(parties[i], key.Time, residual, out partyPositions[i], out partyVelocities[i]);
         }

@@ -134,7 +134,7 @@ public sealed partial class Simulation
     {
         contact = ContactTime.At(time);
         int last = timelines.Last(slot);
-        return !paths.IsHeld(last) && surfaces.Gap(surface, paths.PositionAt(last, time), bodies[slot].Spec.Radius) <= Scene.Resolution
+        return !paths.IsHeld(last) && surfaces.Gap(surface, paths.PositionAt(last, time), bodies.Spec(slot).Radius) <= Scene.Resolution
             && (Has(HealingFault.CollapsesWithWhoTouches) || StrikesOn(last, surface, time) > 0);
     }
 
@@ -191,7 +191,7 @@ public sealed partial class Simulation
             return 0;
         }
 
-        if (bodies[timelines.Owner(first)].Id > bodies[timelines.Owner(second)].Id)
+        if (bodies.Id(timelines.Owner(first)) > bodies.Id(timelines.Owner(second)))
         {
             (first, second) = (second, first);
         }

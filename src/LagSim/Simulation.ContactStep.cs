@@ -71,9 +71,9 @@ public sealed partial class Simulation
     /// <summary>Marks those of the step who strike nobody of it, so that in the predictions that follow nobody looks.</summary>
     private void MarkStep()
     {
-        if (stepOf.Length < slotCount)
+        if (stepOf.Length < bodies.SlotCount)
         {
-            Array.Resize(ref stepOf, bodies.Length);
+            Array.Resize(ref stepOf, bodies.Room);
         }
 
         for (int i = 0; i < partyCount; i++)
@@ -102,7 +102,7 @@ public sealed partial class Simulation
             if (paths.IsMember(last))
             {
                 GoOnAsMember(slot, key, paths.PositionAt(last, key.Time), timelines.Segment(last).Velocity, timelines.SpinOf(last).AtEpoch, hasChanged: false);
-                timelines.EndMember(timelines.Last(slot), bodies[slot].Id);
+                timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
             }
             else
             {
@@ -140,7 +140,7 @@ public sealed partial class Simulation
             for (int at = timelines.FirstContact(piece); at != TimelineStore.None; at = timelines.NextContact(at))
             {
                 ref readonly LastingContact contact = ref timelines.Contact(at);
-                if (contact.Holds && contact.Surface == LastingContact.NoSurface && TryPartner(bodies[parties[i]].Id, contact.Partner, key, out int partner)
+                if (contact.Holds && contact.Surface == LastingContact.NoSurface && TryPartner(bodies.Id(parties[i]), contact.Partner, key, out int partner)
                     && PartyOf(partner) < 0)
                 {
                     AddParty(partner);
@@ -154,7 +154,7 @@ public sealed partial class Simulation
     /// <summary>The other body of a contact that is carried, if it carries it too, or is in a hand; who is ahead of the key is noted.</summary>
     private bool TryPartner(BodyId body, BodyId partnerId, in EventKey key, out int partner)
     {
-        partner = SlotOf(partnerId);
+        partner = bodies.SlotOf(partnerId);
         int piece = partner < 0 ? TimelineStore.None : PieceBefore(partner, key);
         if (piece == TimelineStore.None)
         {
@@ -203,7 +203,7 @@ public sealed partial class Simulation
             if (timelines.Segment(piece).Law == MotionLaw.Constrained)
             {
                 SimTime end = timelines.Segment(piece).End;
-                BodyId id = bodies[parties[i]].Id;
+                BodyId id = bodies.Id(parties[i]);
                 EventKey own = new(end, paths.RoundAfter(piece, end), EventKind.StepEnd, id, id, 0, 0);
                 least = any && EventKey.Compare(least, own) <= 0 ? least : own;
                 any = true;
@@ -252,7 +252,7 @@ public sealed partial class Simulation
         {
             int slot = parties[i];
             int piece = timelines.Last(slot);
-            ref readonly BodySpec spec = ref bodies[slot].Spec;
+            ref readonly BodySpec spec = ref bodies.Spec(slot);
             bool isHeld = paths.IsHeld(piece);
             Vector3D velocity = partyVelocities[i];
             Vector3D gain = Vector3D.Zero;
@@ -263,7 +263,7 @@ public sealed partial class Simulation
             else
             {
                 double since = middle.SecondsSince(timelines.Segment(piece).Law == MotionLaw.Resting ? tick : timelines.CentreOf(piece));
-                partyAccelerations[i] = forces.On(bodies[slot].Id).At(spec, tick, 0, partyPositions[i], velocity, partySpins[i]);
+                partyAccelerations[i] = forces.On(bodies.Id(slot)).At(spec, tick, 0, partyPositions[i], velocity, partySpins[i]);
                 gain = partyAccelerations[i] * since;
             }
 
@@ -290,7 +290,7 @@ public sealed partial class Simulation
     /// <summary>How long a step may be at most, in seconds, for the forces on a body to be followed; infinite where there are none.</summary>
     private double StepWanted(int slot, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
-        ref readonly BodySpec spec = ref bodies[slot].Spec;
+        ref readonly BodySpec spec = ref bodies.Spec(slot);
         double rate = spec.Forces.IsEmpty ? 0 : forces.FixedStepRateAt(spec, position, velocity, spin);
         if (!(rate * SimDuration.FromTicks(ContactScale.ShortestTicks).ToSeconds() <= 1)) // what is not a number is too stiff
         {
@@ -315,7 +315,7 @@ public sealed partial class Simulation
             change = 0;
             for (int i = 0; i < partyCount; i++)
             {
-                ref readonly BodySpec spec = ref bodies[parties[i]].Spec;
+                ref readonly BodySpec spec = ref bodies.Spec(parties[i]);
                 if (spec.Forces.IsEmpty || double.IsPositiveInfinity(partyMasses[i]))
                 {
                     continue;
@@ -325,7 +325,7 @@ public sealed partial class Simulation
                 double since = middle.SecondsSince(timelines.Segment(piece).Law == MotionLaw.Resting ? tick : timelines.CentreOf(piece));
                 Vector3D mean = (partyVelocities[i] + step.Problem.Bodies[i].Velocity) * 0.5;
                 Vector3D spin = (partySpins[i] + step.Problem.Bodies[i].Spin) * 0.5;
-                Vector3D acceleration = forces.On(bodies[parties[i]].Id).At(spec, tick, 0, partyPositions[i], mean, spin);
+                Vector3D acceleration = forces.On(bodies.Id(parties[i])).At(spec, tick, 0, partyPositions[i], mean, spin);
                 change = Math.Max(change, (acceleration - partyAccelerations[i]).Length * since);
                 partyAccelerations[i] = acceleration;
                 step.Regain(i, partyVelocities[i] + (acceleration * since), partySpins[i]);
@@ -348,7 +348,7 @@ public sealed partial class Simulation
         bool has = false;
         for (int i = 0; i < partyCount && !has; i++)
         {
-            has = !bodies[parties[i]].Spec.Forces.IsEmpty;
+            has = !bodies.Spec(parties[i]).Forces.IsEmpty;
         }
 
         return has;
@@ -366,7 +366,7 @@ public sealed partial class Simulation
                 continue;
             }
 
-            int at = c.Second == ContactPoint.Static ? timelines.ContactWith(piece, c.Surface) : timelines.ContactWith(piece, bodies[parties[c.Second]].Id);
+            int at = c.Second == ContactPoint.Static ? timelines.ContactWith(piece, c.Surface) : timelines.ContactWith(piece, bodies.Id(parties[c.Second]));
             if (at != TimelineStore.None)
             {
                 ref readonly LastingContact known = ref timelines.Contact(at);
@@ -387,7 +387,7 @@ public sealed partial class Simulation
         {
             bool isHeld = double.IsPositiveInfinity(partyMasses[i]);
             fastest = Math.Max(fastest, partyVelocities[i].Length);
-            mayRest &= !isHeld && !forces.HasSupplied(bodies[parties[i]].Spec);
+            mayRest &= !isHeld && !forces.HasSupplied(bodies.Spec(parties[i]));
         }
 
         return Math.Min(step.Scale.SweepSpeed, Math.Max(0.05 * fastest, 0.05 * step.Scale.StillSpeed));
@@ -426,7 +426,7 @@ public sealed partial class Simulation
                 }
             }
 
-            timelines.EndMember(piece, bodies[slot].Id);
+            timelines.EndMember(piece, bodies.Id(slot));
         }
     }
 
@@ -482,7 +482,7 @@ public sealed partial class Simulation
                 int piece = timelines.Last(slot);
                 timelines.BeginMember(piece, centre, still);
                 CarryContacts(i, piece);
-                timelines.EndMember(piece, bodies[slot].Id);
+                timelines.EndMember(piece, bodies.Id(slot));
             }
         }
     }
@@ -543,7 +543,7 @@ public sealed partial class Simulation
     {
         planes = 0;
         bool isHeld = holdsPair[party];
-        bool needsSteps = isHeld || !bodies[parties[party]].Spec.Forces.IsEmpty;
+        bool needsSteps = isHeld || !bodies.Spec(parties[party]).Forces.IsEmpty;
         bool rubs = false;
         foreach (int i in step.Problem.ListOf(party))
         {
@@ -600,7 +600,7 @@ public sealed partial class Simulation
 
     private void CarryContacts(int party, int piece)
     {
-        BodyId self = bodies[parties[party]].Id;
+        BodyId self = bodies.Id(parties[party]);
         foreach (int i in step.Problem.ListOf(party))
         {
             ref readonly SolverContact c = ref step.Problem.Contacts[i];
@@ -608,7 +608,7 @@ public sealed partial class Simulation
             bool isPair = c.Second != ContactPoint.Static;
             Vector3D push = (c.Normal * c.Impulse) + c.Rub;
             timelines.AddContact(piece, new LastingContact(
-                !isPair ? self : bodies[parties[isFirst ? c.Second : c.First]].Id,
+                !isPair ? self : bodies.Id(parties[isFirst ? c.Second : c.First]),
                 isPair ? LastingContact.NoSurface : c.Surface,
                 c.Holds,
                 (isFirst ? push : -push).WithoutNegativeZero(),

@@ -58,7 +58,7 @@ public sealed partial class Simulation
     public bool Retract(in ExternalEvent external)
     {
         ThrowIfFaulted();
-        int slot = SlotOf(external.Body);
+        int slot = bodies.SlotOf(external.Body);
         if (slot < 0)
         {
             return false;
@@ -66,7 +66,7 @@ public sealed partial class Simulation
 
         twin?.Retract(external);
         log.DropBefore(slot, HistoryEdge); // what is older can no longer be changed
-        int next = bodies[slot].NextExternal;
+        int next = log.Due(slot);
         EventKey due = next == EventLog.None ? EventKey.Before(Start) : log.Key(next);
         if (!log.TryRemove(slot, external.Peer, external.Sequence, out EventKey key))
         {
@@ -74,9 +74,9 @@ public sealed partial class Simulation
         }
 
         Reconsider(key.Time);
-        if (key == due && bodies[slot].NextExternal == next) // else an earlier one is due again
+        if (key == due && log.Due(slot) == next) // else an earlier one is due again
         {
-            bodies[slot].NextExternal = log.FirstFrom(slot, key);
+            log.SetDueFrom(slot, key);
         }
 
         if (key.Time <= KnownTo)
@@ -104,7 +104,7 @@ public sealed partial class Simulation
             return SubmitResult.TooOld;
         }
 
-        int slot = SlotOf(external.Body);
+        int slot = bodies.SlotOf(external.Body);
         if (slot < 0)
         {
             slot = AddBody(external.Body);
@@ -114,7 +114,7 @@ public sealed partial class Simulation
         }
 
         log.DropBefore(slot, HistoryEdge);
-        if (!log.TryAdd(slot, external, key, forwarded, out int entry))
+        if (!log.TryAdd(slot, external, key, forwarded))
         {
             return SubmitResult.Duplicate;
         }
@@ -127,10 +127,10 @@ public sealed partial class Simulation
             return SubmitResult.RolledBack;
         }
 
-        int next = bodies[slot].NextExternal;
+        int next = log.Due(slot);
         if (next == EventLog.None || EventKey.Compare(key, log.Key(next)) < 0)
         {
-            bodies[slot].NextExternal = entry;
+            log.SetDueFrom(slot, key);
             Predict(slot);
         }
 
@@ -139,15 +139,14 @@ public sealed partial class Simulation
 
     private void HandleExternal(int slot, in EventKey key)
     {
-        int entry = bodies[slot].NextExternal;
-        bodies[slot].NextExternal = log.Next(entry);
+        int entry = log.TakeDue(slot);
         ref readonly ExternalEvent external = ref log.Event(entry);
         bool isThere = timelines.Segment(timelines.Last(slot)).IsPresent;
         if (external.Kind == EventKind.Spawn)
         {
             if (!isThere)
             {
-                bodies[slot].Spec = Chosen(external.Spec);
+                bodies.SetSpec(slot, Chosen(external.Spec));
                 hasLosses |= external.Spec.Restitution < 1;
                 flights.SetRadius(slot, external.Spec.Radius);
                 if (log.IsForwarded(entry))
@@ -200,7 +199,7 @@ public sealed partial class Simulation
             if (isPermitted && paths.IsMember(last) && external.Kind != EventKind.Teleport)
             {
                 GoOnAsMember(slot, key, position, velocity, timelines.SpinOf(last).At(seconds), hasChanged: true);
-                timelines.EndMember(timelines.Last(slot), bodies[slot].Id);
+                timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
             }
             else if (isPermitted)
             {
@@ -221,7 +220,7 @@ public sealed partial class Simulation
         velocity = external.Kind switch
         {
             EventKind.Teleport or EventKind.SetVelocity => external.Velocity,
-            EventKind.Impulse => before.VelocityAt(seconds, dense) + (external.Velocity / bodies[slot].Spec.Mass),
+            EventKind.Impulse => before.VelocityAt(seconds, dense) + (external.Velocity / bodies.Spec(slot).Mass),
             _ => throw new InvalidOperationException($"{external.Kind} has no effect of its own on a state."),
         };
         return velocity.Length <= Limits.MaxGivenSpeed(Scene.SmallestRadius);

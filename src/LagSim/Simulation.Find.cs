@@ -72,7 +72,7 @@ public sealed partial class Simulation
     {
         if (TryTouchSurface(slot, surface, out ContactTime contact, out uint round))
         {
-            BodyId id = bodies[slot].Id;
+            BodyId id = bodies.Id(slot);
             if (next.Consider(new EventKey(contact.Tick, round, EventKind.Impact, id, id, 0, 0)))
             {
                 next.Surface = surface;
@@ -92,7 +92,7 @@ public sealed partial class Simulation
     /// <summary>The same of one in free flight, without a look at the segments unless the two touch as soon as both paths are open.</summary>
     private void ConsiderFlights(int slot, int other, SimTime until, ref Pending next)
     {
-        bool ordered = bodies[slot].Id < bodies[other].Id;
+        bool ordered = bodies.Id(slot) < bodies.Id(other);
         if (!flights.IsFree(other) || !flights.TryTouch(ordered ? slot : other, ordered ? other : slot, out bool touches, out ContactTime contact))
         {
             ConsiderMeeting(slot, other, until, ref next);
@@ -105,8 +105,8 @@ public sealed partial class Simulation
 
     private void ConsiderContact(int slot, int other, int piece, in ContactTime contact, uint round, ref Pending next)
     {
-        BodyId id = bodies[slot].Id;
-        BodyId otherId = bodies[other].Id;
+        BodyId id = bodies.Id(slot);
+        BodyId otherId = bodies.Id(other);
         bool ordered = id < otherId;
         if (next.Consider(new EventKey(contact.Tick, round, EventKind.Impact, ordered ? id : otherId, ordered ? otherId : id, 0, 0)))
         {

@@ -39,10 +39,10 @@ public sealed partial class Simulation
         // cancelled, for the instant at hand is half done; and it takes any state, also one that may not come in by the door.
         Simulation alone = new(Scene.WithoutBodies(), new SimulationOptions(Start, SimDuration.MaxValue, maxSegments: timelines.Most));
         alone.AdvanceTo(SimTime.Max(alone.SimulatedTo, external.Time - SimDuration.OneTick));
-        ExternalEvent spawn = ExternalEvent.Spawn(external.Time, 1, 1, bodies[slot].Spec, position, velocity, spin);
+        ExternalEvent spawn = ExternalEvent.Spawn(external.Time, 1, 1, bodies.Spec(slot), position, velocity, spin);
         alone.Insert(spawn, spawn.Key, forwarded: false);
         alone.AdvanceTo(SimTime.Max(alone.SimulatedTo, key.Time));
-        int end = alone.timelines.Last(alone.SlotOf(new BodyId(1, 1, 0)));
+        int end = alone.timelines.Last(alone.bodies.SlotOf(new BodyId(1, 1, 0)));
         MotionSegment path = alone.timelines.Segment(end);
         Append(slot, key, path, alone.timelines.Dense(end), spin: alone.timelines.SpinOf(end));
     }

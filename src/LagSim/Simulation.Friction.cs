@@ -24,14 +24,14 @@ public sealed partial class Simulation
     /// <summary>What slips, or moves or turns on a surface slower than this, in m/s, is what rounding leaves of nothing.</summary>
     private const double RoundingSlip = 1e-10;
 
-    private double FrictionOn(int slot, int plane) => Math.Min(bodies[slot].Spec.Friction, surfaces.Plane(plane).Friction);
+    private double FrictionOn(int slot, int plane) => Math.Min(bodies.Spec(slot).Friction, surfaces.Plane(plane).Friction);
 
     /// <summary>Opens slipping, rolling or rest on the one plane that carries a body.</summary>
     private void OpenRubbing(
         int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D spin, SupportSet supports, in Vector3D pull,
         SimDuration left)
     {
-        ref readonly BodySpec spec = ref bodies[slot].Spec;
+        ref readonly BodySpec spec = ref bodies.Spec(slot);
         Vector3D n = surfaces.Plane(supports[0]).Normal;
         double pressing = -Vector3D.Dot(n, Scene.Gravity), mu = FrictionOn(slot, supports[0]);
         Rubbing at = new()

@@ -63,7 +63,7 @@ public sealed partial class Simulation
                 }
             }
 
-            foreach (int other in index.CandidatesAt(party, bodies[party].Spec.Radius, key.Time, HealAtHand != 0))
+            foreach (int other in index.CandidatesAt(party, bodies.Spec(party).Radius, key.Time, HealAtHand != 0))
             {
                 if (other == party || !timelines.IsKnown(other) || flights.AreApart(party, other, key.Time, key.Time))
                 {
@@ -90,7 +90,7 @@ public sealed partial class Simulation
                     if (j < 0 || j > i)
                     {
                         j = j < 0 ? AddParty(other) : j;
-                        bool ordered = bodies[party].Id < bodies[other].Id != SwapsOperands;
+                        bool ordered = bodies.Id(party) < bodies.Id(other) != SwapsOperands;
                         AddContact(new ContactPoint(ordered ? i : j, ordered ? j : i, -1, contact) { IsFromBefore = !isStruck });
                     }
                 }
@@ -103,7 +103,7 @@ public sealed partial class Simulation
 
     /// <summary>The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits whoever asks.</summary>
     private double Gap(int slot, int piece, int other, int otherPiece, SimTime time) =>
-        Scene.Box.Nearest(paths.PositionAt(piece, time) - paths.PositionAt(otherPiece, time)).Length - (bodies[slot].Spec.Radius + bodies[other].Spec.Radius);
+        Scene.Box.Nearest(paths.PositionAt(piece, time) - paths.PositionAt(otherPiece, time)).Length - (bodies.Spec(slot).Radius + bodies.Spec(other).Radius);
 
     private int PartyOf(int slot) => Array.IndexOf(parties, slot, 0, partyCount);
 
@@ -151,7 +151,7 @@ public sealed partial class Simulation
         {
             int moving = parties[i];
             int at = i;
-            while (at > 0 && bodies[moving].Id < bodies[parties[at - 1]].Id)
+            while (at > 0 && bodies.Id(moving) < bodies.Id(parties[at - 1]))
             {
                 parties[at] = parties[at - 1];
                 at--;
@@ -187,9 +187,9 @@ public sealed partial class Simulation
 
     private int Compare(in ContactPoint a, in ContactPoint b)
     {
-        int byFirst = bodies[parties[a.First]].Id.CompareTo(bodies[parties[b.First]].Id);
+        int byFirst = bodies.Id(parties[a.First]).CompareTo(bodies.Id(parties[b.First]));
         return byFirst != 0 ? byFirst
-            : a.Second >= 0 && b.Second >= 0 ? bodies[parties[a.Second]].Id.CompareTo(bodies[parties[b.Second]].Id)
+            : a.Second >= 0 && b.Second >= 0 ? bodies.Id(parties[a.Second]).CompareTo(bodies.Id(parties[b.Second]))
             : a.Second != b.Second ? a.Second.CompareTo(b.Second)
             : a.Surface.CompareTo(b.Surface);
     }

@@ -23,6 +23,7 @@ public sealed partial class Simulation
     private uint healNumber;
 
     private int healedBodies;
+    private uint[] healedIn = Array.Empty<uint>(); // by slot: the number of the last heal that predicted the body anew
 
     /// <summary>Who was cut since anything was predicted anew.</summary>
     private readonly List<int> taken = new();
@@ -102,9 +103,14 @@ public sealed partial class Simulation
 
     private void CountHealed(int slot)
     {
-        if (bodies[slot].HealedIn != healNumber)
+        if (slot >= healedIn.Length)
         {
-            bodies[slot].HealedIn = healNumber;
+            Array.Resize(ref healedIn, bodies.Room);
+        }
+
+        if (healedIn[slot] != healNumber)
+        {
+            healedIn[slot] = healNumber;
             healedBodies++;
             cutPaths.Touch(slot);
         }
@@ -159,7 +165,7 @@ public sealed partial class Simulation
         return timelines.Before(slot, RoundOfImpacts(key.Time, key.Round));
     }
 
-    private bool IsOverlooked(int slot) => Has(HealingFault.OverlooksWhoIsAhead) && bodies[slot].HealedIn == healNumber;
+    private bool IsOverlooked(int slot) => Has(HealingFault.OverlooksWhoIsAhead) && slot < healedIn.Length && healedIn[slot] == healNumber;
 
     /// <summary>Cuts a body at the key; whoever shared an impact that is gone is cut there too. All of them are predicted anew.</summary>
     private void TakeBack(int slot, in EventKey key)
@@ -167,7 +173,7 @@ public sealed partial class Simulation
         taken.Clear();
         bool cutsByTime = Has(HealingFault.CutsByTime) && key == clock && key.Time > HistoryEdge;
         cuts.Push((slot, cutsByTime ? EventKey.Before(key.Time) : key));
-        HasDueFrom(slot, key);
+        log.AddDueFrom(slot, key);
         taken.Add(slot);
         CountHealed(slot);
         while (cuts.Count > 0)
@@ -183,7 +189,7 @@ public sealed partial class Simulation
 
                 CountHealed(body);
                 cutPaths.Keep(timelines, body, at);
-                timelines.CutLast(body, bodies[body].Id);
+                timelines.CutLast(body, bodies.Id(body));
                 SegmentsCut++;
                 any = true;
             }
@@ -192,7 +198,7 @@ public sealed partial class Simulation
             {
                 if (!Has(HealingFault.DropsEvents) && !cutsByTime)
                 {
-                    HasDueFrom(body, from);
+                    log.AddDueFrom(body, from);
                 }
 
                 taken.Add(body);
@@ -216,7 +222,7 @@ public sealed partial class Simulation
     /// </summary>
     private bool HasTakenBackAll()
     {
-        if (oldSerial < 0 || healedBodies <= Math.Max(FewHealed, order.Count / 8 * Math.Min(healed.News, MostNewsApart)))
+        if (oldSerial < 0 || healedBodies <= Math.Max(FewHealed, bodies.Count / 8 * Math.Min(healed.News, MostNewsApart)))
         {
             return false;
         }
@@ -224,17 +230,6 @@ public sealed partial class Simulation
         GoOnToTheEnd();
         TakeBackAll(clock.Kind == EventKind.Impact ? RoundOfImpacts(clock.Time, clock.Round) : clock);
         return true;
-    }
-
-    /// <summary>The body's external events from the key on are still to be applied, or again; those before it that are still due stay so.</summary>
-    private void HasDueFrom(int slot, in EventKey key)
-    {
-        int first = log.FirstFrom(slot, key);
-        int due = bodies[slot].NextExternal;
-        if (first != EventLog.None && (due == EventLog.None || EventKey.Compare(log.Key(first), log.Key(due)) < 0))
-        {
-            bodies[slot].NextExternal = first;
-        }
     }
 
     /// <summary>Takes back, to the round at hand, whom <see cref="Gather"/> found ahead of it; false if nobody was.</summary>

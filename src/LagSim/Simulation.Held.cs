@@ -30,7 +30,7 @@ public sealed partial class Simulation
     public bool TryReadHold(BodyId body, SimTime time, out Hold hold)
     {
         CheckReadable(time);
-        int slot = SlotOf(body);
+        int slot = bodies.SlotOf(body);
         int at = slot < 0 ? TimelineStore.None : timelines.At(slot, time);
         bool isHeld = at != TimelineStore.None && paths.IsHeld(at);
         hold = isHeld ? timelines.HoldOf(at) : default;
@@ -134,7 +134,7 @@ public sealed partial class Simulation
     /// </summary>
     private Vector3D PutOut(int slot, in Vector3D position)
     {
-        double radius = bodies[slot].Spec.Radius;
+        double radius = bodies.Spec(slot).Radius;
         Vector3D at = position;
         bool isInside = true;
         for (int n = 0; n < MostPuttingOut && isInside; n++)

@@ -126,12 +126,12 @@ public sealed partial class Simulation
         ref readonly MotionSegment segment = ref timelines.Segment(last);
         DenseOutput dense = timelines.Dense(last);
         double seconds = paths.SecondsInto(last, time) + residual;
-        partyMasses[party] = segment.Law == MotionLaw.Held ? double.PositiveInfinity : bodies[parties[party]].Spec.Mass;
+        partyMasses[party] = segment.Law == MotionLaw.Held ? double.PositiveInfinity : bodies.Spec(parties[party]).Mass;
         partyPositions[party] = segment.PositionAt(seconds, dense);
         partyVelocities[party] = segment.VelocityAt(seconds, dense);
         partyAccelerations[party] = segment.AccelerationAt(seconds, dense);
         partySpins[party] = timelines.SpinOf(last).At(seconds);
-        partyRadii[party] = bodies[parties[party]].Spec.Radius;
+        partyRadii[party] = bodies.Spec(parties[party]).Radius;
     }
 
     private void SetTargets(bool collapses, SimTime time)
@@ -163,8 +163,8 @@ public sealed partial class Simulation
     /// <summary>The lesser of the two parties' restitutions: a material behaves as named against anything more elastic.</summary>
     private double Restitution(in ContactPoint c)
     {
-        double first = bodies[parties[c.First]].Spec.Restitution;
-        double second = c.Second != ContactPoint.Static ? bodies[parties[c.Second]].Spec.Restitution
+        double first = bodies.Spec(parties[c.First]).Restitution;
+        double second = c.Second != ContactPoint.Static ? bodies.Spec(parties[c.Second]).Restitution
             : surfaces.Restitution(c.Surface);
         return Math.Min(first, second);
     }
@@ -175,7 +175,7 @@ public sealed partial class Simulation
         bool rubs = false;
         for (int i = 0; i < partyCount; i++)
         {
-            rubs |= bodies[parties[i]].Spec.Friction > 0;
+            rubs |= bodies.Spec(parties[i]).Friction > 0;
         }
 
         if (!rubs)
@@ -201,15 +201,15 @@ public sealed partial class Simulation
     /// <summary>The lesser of the two parties' coefficients of friction.</summary>
     private double Friction(in ContactPoint c)
     {
-        double first = bodies[parties[c.First]].Spec.Friction;
-        double second = c.Second != ContactPoint.Static ? bodies[parties[c.Second]].Spec.Friction
+        double first = bodies.Spec(parties[c.First]).Friction;
+        double second = c.Second != ContactPoint.Static ? bodies.Spec(parties[c.Second]).Friction
             : surfaces.Friction(c.Surface);
         return Math.Min(first, second);
     }
 
     /// <summary>Whether a body may come to rest or slide on what it hit: a plane, under an acceleration that is the same everywhere.</summary>
     private bool IsSupportable(in ContactPoint c) =>
-        c.Second == ContactPoint.Static && surfaces.IsPlane(c.Surface) && bodies[parties[c.First]].Spec.Forces.IsEmpty;
+        c.Second == ContactPoint.Static && surfaces.IsPlane(c.Surface) && bodies.Spec(parties[c.First]).Forces.IsEmpty;
 
     /// <summary>A body that is carried stays carried while it is hit: its supports push back as far as they must, and give nothing.</summary>
     private void AddSupports()
@@ -256,11 +256,11 @@ public sealed partial class Simulation
         }
 
         int least = contacts[at].First;
-        BodyId first = bodies[parties[least]].Id;
+        BodyId first = bodies.Id(parties[least]);
         BodyId second = first;
         for (int i = at; i < contactCount && contacts[i].First == least && second == first; i++)
         {
-            second = contacts[i].Second == ContactPoint.Static || !IsOfThisRound(contacts[i]) ? first : bodies[parties[contacts[i].Second]].Id;
+            second = contacts[i].Second == ContactPoint.Static || !IsOfThisRound(contacts[i]) ? first : bodies.Id(parties[contacts[i].Second]);
         }
 
         return new EventKey(popped.Time, popped.Round, EventKind.Impact, first, second, 0, 0);

@@ -34,8 +34,8 @@ public sealed partial class Simulation
     /// <summary>Looks whether the bodies have become so many, or so much larger, that another index serves them better.</summary>
     private void FitIndex()
     {
-        bool outgrown = index is ShellIndex shells && shells.WideCount > Math.Max(outgrownAt, order.Count / 8);
-        if (!outgrown && (index is ShellIndex || order.Count <= mostPairs))
+        bool outgrown = index is ShellIndex shells && shells.WideCount > Math.Max(outgrownAt, bodies.Count / 8);
+        if (!outgrown && (index is ShellIndex || bodies.Count <= mostPairs))
         {
             return;
         }
@@ -47,9 +47,9 @@ public sealed partial class Simulation
         }
 
         index = NewIndex();
-        for (int n = 0; n < order.Count; n++)
+        for (int n = 0; n < bodies.Count; n++)
         {
-            int slot = order[n];
+            int slot = bodies.SlotAt(n);
             for (int at = timelines.First(slot); at != TimelineStore.None; at = timelines.Next(at))
             {
                 int next = timelines.Next(at);
@@ -57,14 +57,14 @@ public sealed partial class Simulation
                 SimTime until = next == TimelineStore.None ? SimTime.Max(from, clock.Time) : timelines.Key(next).Time;
                 if (timelines.Segment(at).IsPresent && until >= from)
                 {
-                    index.Add(slot, bodies[slot].Spec.Radius, at, from, until);
+                    index.Add(slot, bodies.Spec(slot).Radius, at, from, until);
                 }
             }
         }
 
-        for (int n = 0; n < order.Count; n++)
+        for (int n = 0; n < bodies.Count; n++)
         {
-            Predict(order[n]);
+            Predict(bodies.SlotAt(n));
         }
 
         outgrownAt = 2 * Math.Max(32, ((ShellIndex)index).WideCount);
@@ -72,13 +72,13 @@ public sealed partial class Simulation
 
     private ShellIndex NewIndex()
     {
-        double[] radii = new double[order.Count];
-        double[] speeds = new double[order.Count];
+        double[] radii = new double[bodies.Count];
+        double[] speeds = new double[bodies.Count];
         int count = 0;
         int present = 0;
-        foreach (int slot in order)
+        foreach (int slot in bodies)
         {
-            double radius = bodies[slot].Spec.Radius;
+            double radius = bodies.Spec(slot).Radius;
             radii[count] = radius;
             count += radius > 0 ? 1 : 0; // none yet: a body of which nothing but its name was heard
             ref readonly MotionSegment path = ref timelines.Segment(timelines.Last(slot));
@@ -91,7 +91,7 @@ public sealed partial class Simulation
         double usual = count == 0 ? Scene.SmallestRadius : radii[count * 9 / 10];
         double usualSpeed = present == 0 ? 0 : speeds[present * 9 / 10];
         double tick = Limits.MaxSpeed(Scene.SmallestRadius) * TickConversion.SecondsPerTick;
-        return new ShellIndex(timelines, CellInRadii * usual, usualSpeed, Scene.Resolution, tick, Scene.Box, slotCount)
+        return new ShellIndex(timelines, CellInRadii * usual, usualSpeed, Scene.Resolution, tick, Scene.Box, bodies.SlotCount)
         {
             ForgetsWhoMovedOn = Has(HealingFault.ForgetsWhoMovedOn),
         };

@@ -41,7 +41,7 @@ public sealed partial class Simulation
         for (int at = timelines.FirstContact(piece); at != TimelineStore.None && !isByHand; at = timelines.NextContact(at))
         {
             ref readonly LastingContact contact = ref timelines.Contact(at);
-            int partner = contact.Surface == LastingContact.NoSurface ? SlotOf(contact.Partner) : NoPartner;
+            int partner = contact.Surface == LastingContact.NoSurface ? bodies.SlotOf(contact.Partner) : NoPartner;
             isByHand = partner >= 0 && IsOpenedWith(partner, timelines.Key(piece));
         }
 
@@ -58,7 +58,7 @@ public sealed partial class Simulation
     /// <summary>Whether a member is surely further from a surface than it gets on its chord.</summary>
     private bool IsOutOfReach(int slot, in MotionSegment chord, int surface)
     {
-        double gap = surfaces.Gap(surface, chord.Position, bodies[slot].Spec.Radius);
+        double gap = surfaces.Gap(surface, chord.Position, bodies.Spec(slot).Radius);
         double way = chord.End.SecondsSince(chord.Epoch) * 1.001;
         return gap > 0 && gap * gap > chord.Velocity.LengthSquared * way * way + (step.Scale.Length * step.Scale.Length * 1e-6);
     }
@@ -81,8 +81,8 @@ public sealed partial class Simulation
             return false;
         }
 
-        int at = timelines.ContactWith(piece, bodies[other].Id);
-        if (at == TimelineStore.None || timelines.ContactWith(otherPiece, bodies[slot].Id) == TimelineStore.None)
+        int at = timelines.ContactWith(piece, bodies.Id(other));
+        if (at == TimelineStore.None || timelines.ContactWith(otherPiece, bodies.Id(slot)) == TimelineStore.None)
         {
             return false;
         }
@@ -101,7 +101,7 @@ public sealed partial class Simulation
     /// <summary>The same of a hand, which may speed up, and a member: neither where the later piece begins nor where the step ends do they close.</summary>
     private bool IsCoveredFromHand(int hand, int handPiece, int piece)
     {
-        int at = timelines.ContactWith(piece, bodies[hand].Id);
+        int at = timelines.ContactWith(piece, bodies.Id(hand));
         if (at == TimelineStore.None || !timelines.Contact(at).Holds)
         {
             return false;
@@ -132,7 +132,7 @@ public sealed partial class Simulation
             return false;
         }
 
-        int at = isMember ? timelines.ContactWith(piece, bodies[other].Id) : timelines.ContactWith(otherPiece, bodies[slot].Id);
+        int at = isMember ? timelines.ContactWith(piece, bodies.Id(other)) : timelines.ContactWith(otherPiece, bodies.Id(slot));
         return at != TimelineStore.None && timelines.Contact(at).Holds;
     }
 
@@ -194,7 +194,7 @@ public sealed partial class Simulation
         for (int at = timelines.FirstContact(last); at != TimelineStore.None; at = timelines.NextContact(at))
         {
             ref readonly LastingContact contact = ref timelines.Contact(at);
-            int partner = contact.Surface == LastingContact.NoSurface ? SlotOf(contact.Partner) : NoPartner;
+            int partner = contact.Surface == LastingContact.NoSurface ? bodies.SlotOf(contact.Partner) : NoPartner;
             int piece = partner < 0 ? TimelineStore.None : PieceBefore(partner, key);
             if (piece != TimelineStore.None && paths.IsMember(piece) && timelines.Segment(piece).Law == MotionLaw.Resting)
             {
@@ -224,7 +224,7 @@ public sealed partial class Simulation
         {
             int before = timelines.Last(parties[i]);
             GoOnAsMember(parties[i], key, timelines.Segment(before).Position, Vector3D.Zero, timelines.SpinOf(before).AtEpoch, hasChanged: true);
-            timelines.EndMember(timelines.Last(parties[i]), bodies[parties[i]].Id);
+            timelines.EndMember(timelines.Last(parties[i]), bodies.Id(parties[i]));
         }
 
         AddParty(slot);

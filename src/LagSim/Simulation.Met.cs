@@ -48,10 +48,10 @@ public sealed partial class Simulation
         for (int n = 0; n < cutPaths.BodyCount; n++)
         {
             int slot = cutPaths.SlotAt(n);
-            bodies[slot].NextExternal = log.FirstFrom(slot, EventKey.Before(next));
+            log.SetDueFrom(slot, EventKey.Before(next));
         }
 
-        cutPaths.PutBack(timelines, at, slot => bodies[slot].Id);
+        cutPaths.PutBack(timelines, at, slot => bodies.Id(slot));
         for (int n = 0; n < cutPaths.BodyCount; n++)
         {
             ListAgain(cutPaths.SlotAt(n), at, next);
@@ -65,9 +65,9 @@ public sealed partial class Simulation
             Predict(cutPaths.SlotAt(n));
         }
 
-        while (queue.Count > 0 && queue.LeastKey.Time <= to)
+        while (scheduler.Count > 0 && scheduler.LeastKey.Time <= to)
         {
-            Predict(queue.LeastSlot); // its next was to be with a path that did not last
+            Predict(scheduler.LeastSlot); // its next was to be with a path that did not last
         }
 
         heldBack.Release(at);
@@ -89,7 +89,7 @@ public sealed partial class Simulation
             if (timelines.Segment(piece).IsPresent)
             {
                 index.Add(
-                    slot, bodies[slot].Spec.Radius, piece, SimTime.Max(from, timelines.Key(piece).Time),
+                    slot, bodies.Spec(slot).Radius, piece, SimTime.Max(from, timelines.Key(piece).Time),
                     next == TimelineStore.None ? until : timelines.Key(next).Time);
             }
         }

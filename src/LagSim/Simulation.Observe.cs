@@ -41,9 +41,9 @@ public sealed partial class Simulation
             double closing = -ImpactSolver.Opening(c, partyVelocities);
             if (c.IsStruck && closing > 0)
             {
-                BodyId first = bodies[parties[c.First]].Id;
-                BodyId second = c.Second == ContactPoint.Static ? first : bodies[parties[c.Second]].Id;
-                Vector3D position = partyPositions[c.First] - (c.Normal * bodies[parties[c.First]].Spec.Radius);
+                BodyId first = bodies.Id(parties[c.First]);
+                BodyId second = c.Second == ContactPoint.Static ? first : bodies.Id(parties[c.Second]);
+                Vector3D position = partyPositions[c.First] - (c.Normal * bodies.Spec(parties[c.First]).Radius);
                 int surface = c.Second == ContactPoint.Static ? c.Surface : ImpactContact.NoSurface;
                 observer.OnContact(canonical, new ImpactContact(first, second, surface, position, closing));
             }

@@ -30,7 +30,7 @@ public sealed partial class Simulation
         Vector3D v = velocity;
         if (carry != 0)
         {
-            Vector3D a = forces.On(bodies[slot].Id).At(bodies[slot].Spec, key.Time, -carry, position, velocity, spin);
+            Vector3D a = forces.On(bodies.Id(slot)).At(bodies.Spec(slot), key.Time, -carry, position, velocity, spin);
             x += (v + (a * (0.5 * carry))) * carry;
             v += a * carry;
         }
@@ -42,7 +42,7 @@ public sealed partial class Simulation
     {
         Vector3D x = Scene.Box.Wrap(position.WithoutNegativeZero());
         Vector3D v = velocity.WithoutNegativeZero();
-        ref readonly BodySpec spec = ref bodies[slot].Spec;
+        ref readonly BodySpec spec = ref bodies.Spec(slot);
         CheckState(slot, key, x, v);
         if (spec.Flight == MotionLaw.Ballistic)
         {
@@ -59,10 +59,10 @@ public sealed partial class Simulation
     /// <summary>The first piece of a flight that is no parabola: a step of an integrator, or as much of a closed form as a polynomial follows.</summary>
     private MotionSegment PieceOfFlight(int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, out DenseOutput dense)
     {
-        ref readonly BodySpec spec = ref bodies[slot].Spec;
+        ref readonly BodySpec spec = ref bodies.Spec(slot);
         double tooStiff = 0;
         double tooLarge = 0;
-        Forces on = forces.On(bodies[slot].Id);
+        Forces on = forces.On(bodies.Id(slot));
         MotionSegment piece = spec.Flight switch
         {
             MotionLaw.RungeKutta4 => RungeKutta4.Step(on, spec, from, x, v, spin, out dense, out tooStiff),
@@ -100,7 +100,7 @@ public sealed partial class Simulation
     private bool TryOpenSupported(
         int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, in Vector3D spin)
     {
-        if (!bodies[slot].Spec.Forces.IsEmpty)
+        if (!bodies.Spec(slot).Forces.IsEmpty)
         {
             return false;
         }
@@ -169,7 +169,7 @@ public sealed partial class Simulation
             ref readonly StaticPlane plane = ref surfaces.Plane(supports[k]);
             double rebound = Vector3D.Dot(plane.Normal, velocity);
             double pressing = -Vector3D.Dot(plane.Normal, Scene.Gravity);
-            double restitution = Math.Min(plane.Restitution, bodies[slot].Spec.Restitution);
+            double restitution = Math.Min(plane.Restitution, bodies.Spec(slot).Restitution);
             if (rebound > 0 && pressing > 0 && restitution < 1)
             {
                 longest = Math.Max(longest, 2 * rebound / (pressing * (1 - restitution)));
@@ -186,7 +186,7 @@ public sealed partial class Simulation
         for (int k = 0; k < supports.Count; k++)
         {
             ref readonly StaticPlane plane = ref surfaces.Plane(supports[k]);
-            double gap = plane.Gap(onto, bodies[slot].Spec.Radius);
+            double gap = plane.Gap(onto, bodies.Spec(slot).Radius);
             if (Math.Abs(gap) <= Scene.Resolution)
             {
                 onto -= plane.Normal * gap;

@@ -17,7 +17,7 @@ public sealed partial class Simulation
     private void Predict(int slot, int except = NoPartner)
     {
         Pending next = new() { Partner = NoPartner };
-        int external = bodies[slot].NextExternal;
+        int external = log.Due(slot);
         if (external != EventLog.None)
         {
             next.Consider(log.Key(external));
@@ -26,7 +26,7 @@ public sealed partial class Simulation
         int last = timelines.Last(slot);
         if (last != TimelineStore.None && timelines.Segment(last).IsPresent)
         {
-            BodyId id = bodies[slot].Id;
+            BodyId id = bodies.Id(slot);
             SimTime end = timelines.Segment(last).End;
             if (end != SimTime.MaxValue)
             {
@@ -34,7 +34,7 @@ public sealed partial class Simulation
             }
 
             SimTime from = SimTime.Max(timelines.Key(last).Time, clock.Time);
-            Span<int> candidates = index.Candidates(slot, bodies[slot].Spec.Radius, from, HealAtHand, out SimTime until);
+            Span<int> candidates = index.Candidates(slot, bodies.Spec(slot).Radius, from, HealAtHand, out SimTime until);
             if (until < end)
             {
                 next.Consider(new EventKey(until, 0, EventKind.None, id, id, 0, 0));
@@ -52,8 +52,7 @@ public sealed partial class Simulation
 
         if (!next.Any)
         {
-            bodies[slot].Partner = NoPartner;
-            queue.Remove(slot);
+            scheduler.Remove(slot);
             return;
         }
 
@@ -64,7 +63,7 @@ public sealed partial class Simulation
             return;
         }
 
-        bool isPending = queue.TryGet(partner, out EventKey theirs);
+        bool isPending = scheduler.TryGet(partner, out EventKey theirs);
         if (!isPending || EventKey.Compare(next.Key, theirs) < 0)
         {
             next.IsTied |= isPending && theirs.Time == next.Key.Time;
@@ -74,13 +73,14 @@ public sealed partial class Simulation
 
     private void Pend(int slot, in Pending next, int partner, int piece)
     {
-        ref Body body = ref bodies[slot];
-        body.Partner = partner;
-        body.Surface = next.Surface;
-        body.PartnerSerial = partner == NoPartner ? 0 : timelines.Serial(Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : piece);
-        body.Residual = next.Residual;
-        body.IsTied = next.IsTied;
-        queue.Set(slot, next.Key);
+        scheduler.Set(slot, next.Key, new PendingContact
+        {
+            Partner = partner,
+            Surface = next.Surface,
+            PartnerSerial = partner == NoPartner ? 0 : timelines.Serial(Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : piece),
+            Residual = next.Residual,
+            IsTied = next.IsTied,
+        });
     }
 
     /// <summary>The next contact of a body's newest segment with a static surface: planes by index, static spheres after them.</summary>
@@ -123,7 +123,7 @@ public sealed partial class Simulation
             }
 
             Vector3D position = paths.PositionAt(last, contact);
-            double radius = bodies[slot].Spec.Radius;
+            double radius = bodies.Spec(slot).Radius;
             Vector3D normal = surfaces.Normal(surface, position);
             Vector3D velocity = paths.VelocityAt(last, contact);
             double reach = surfaces.Reach(surface, radius);
@@ -154,12 +154,12 @@ public sealed partial class Simulation
         if (isPlane)
         {
             return ContactFinder.WithPlane(
-                segment, timelines.Dense(last), bodies[slot].Spec.Radius, surfaces.Plane(surface), from, segment.End, out contact);
+                segment, timelines.Dense(last), bodies.Spec(slot).Radius, surfaces.Plane(surface), from, segment.End, out contact);
         }
 
         ref readonly StaticSphere sphere = ref surfaces.Sphere(surface);
         return ContactFinder.WithSphere(
-            segment, timelines.Dense(last), MotionSegment.AtRest(Start, sphere.Centre), default, bodies[slot].Spec.Radius + sphere.Radius,
+            segment, timelines.Dense(last), MotionSegment.AtRest(Start, sphere.Centre), default, bodies.Spec(slot).Radius + sphere.Radius,
             from, segment.End, out contact);
     }
 
@@ -226,7 +226,7 @@ public sealed partial class Simulation
             return false;
         }
 
-        bool ordered = bodies[slot].Id < bodies[other].Id;
+        bool ordered = bodies.Id(slot) < bodies.Id(other);
         int a = ordered ? slot : other;
         int b = ordered ? other : slot;
         int lastA = ordered ? mine : piece;
@@ -252,7 +252,7 @@ public sealed partial class Simulation
             segmentB = ref image;
         }
 
-        double reach = bodies[a].Spec.Radius + bodies[b].Spec.Radius;
+        double reach = bodies.Spec(a).Radius + bodies.Spec(b).Radius;
         SimTime from = opened;
         while (from <= until && ContactFinder.WithSphere(
             segmentA, timelines.Dense(lastA), segmentB, timelines.Dense(lastB), reach, from, until, out contact))
@@ -344,7 +344,7 @@ public sealed partial class Simulation
     {
         ContactTime now = ContactTime.At(opened);
         Vector3D position = paths.PositionAt(piece, now);
-        double radius = bodies[slot].Spec.Radius;
+        double radius = bodies.Spec(slot).Radius;
         return surfaces.Gap(surface, position, radius) <= RoundingOf(position, radius)
             && Vector3D.Dot(surfaces.Normal(surface, position), paths.VelocityAt(piece, now)) < 0;
     }

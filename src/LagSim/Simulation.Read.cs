@@ -22,7 +22,7 @@ public sealed partial class Simulation
     public bool TryRead(BodyId body, SimTime time, out BodyState state)
     {
         CheckReadable(time);
-        int slot = SlotOf(body);
+        int slot = bodies.SlotOf(body);
         if (slot < 0)
         {
             state = default;
@@ -41,12 +41,12 @@ public sealed partial class Simulation
         CheckReadable(time);
         StableHash hash = default;
         hash.Add(time - Start);
-        foreach (int slot in order)
+        foreach (int slot in bodies)
         {
             BodyState state = StateAt(slot, time);
             if (state.Motion != MotionLaw.Absent)
             {
-                hash.Add(bodies[slot].Id.Packed);
+                hash.Add(bodies.Id(slot).Packed);
                 hash.Add((ulong)state.Motion);
                 hash.Add(state.Position);
                 hash.Add(state.Velocity);
@@ -76,11 +76,11 @@ public sealed partial class Simulation
     private ulong EventHashUpTo(SimTime time)
     {
         ulong sum = timelines.EventHash;
-        foreach (int slot in order)
+        foreach (int slot in bodies)
         {
             for (int at = timelines.Last(slot); at != TimelineStore.None && timelines.Key(at).Time > time; at = timelines.Previous(at))
             {
-                sum -= timelines.HashOf(at, bodies[slot].Id);
+                sum -= timelines.HashOf(at, bodies.Id(slot));
             }
         }
 
@@ -99,7 +99,7 @@ public sealed partial class Simulation
     public IReadOnlyList<TimelineEntry> Timeline(BodyId body, SimTime from)
     {
         List<TimelineEntry> entries = new();
-        int slot = SlotOf(body);
+        int slot = bodies.SlotOf(body);
         int at = slot < 0 ? TimelineStore.None : timelines.Last(slot);
         for (bool isBefore = false; at != TimelineStore.None && !isBefore; at = timelines.Previous(at))
         {
@@ -126,7 +126,7 @@ public sealed partial class Simulation
     /// <remarks>Pure, the same on every peer. Cost: the number of the body's segments. What lies before <see cref="HistoryEdge"/> is no longer known: false.</remarks>
     public bool TookEffect(in ExternalEvent external)
     {
-        int slot = SlotOf(external.Body);
+        int slot = bodies.SlotOf(external.Body);
         for (int at = slot < 0 ? TimelineStore.None : timelines.Last(slot); at != TimelineStore.None; at = timelines.Previous(at))
         {
             ref readonly EventKey key = ref timelines.Key(at);
@@ -142,8 +142,8 @@ public sealed partial class Simulation
     /// <summary>The properties of a body that has been there; the default for an unknown one.</summary>
     public BodySpec SpecOf(BodyId body)
     {
-        int slot = SlotOf(body);
-        return slot < 0 ? default : bodies[slot].Spec;
+        int slot = bodies.SlotOf(body);
+        return slot < 0 ? default : bodies.Spec(slot);
     }
 
     /// <summary>
@@ -158,18 +158,18 @@ public sealed partial class Simulation
 
     internal TimelineStore Timelines => timelines;
 
-    internal int SlotCount => slotCount;
+    internal int SlotCount => bodies.SlotCount;
 
     /// <summary>Changes whenever a body is heard of or forgotten, so that a reader knows when to look at all of them anew.</summary>
-    internal long OrderVersion { get; private set; }
+    internal long OrderVersion => bodies.Version;
 
-    internal int SlotAt(int n) => order[n];
+    internal int SlotAt(int n) => bodies.SlotAt(n);
 
-    internal int SlotNamed(BodyId id) => SlotOf(id);
+    internal int SlotNamed(BodyId id) => bodies.SlotOf(id);
 
-    internal BodyId IdOfSlot(int slot) => bodies[slot].Id;
+    internal BodyId IdOfSlot(int slot) => bodies.Id(slot);
 
-    internal double RadiusOfSlot(int slot) => bodies[slot].Spec.Radius;
+    internal double RadiusOfSlot(int slot) => bodies.Spec(slot).Radius;
 
     internal static BodyState StateOf(in MotionSegment segment, double seconds, in DenseOutput dense, in PeriodicBox box, in Spin spin) =>
         segment.IsPresent

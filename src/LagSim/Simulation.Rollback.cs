@@ -30,14 +30,14 @@ public sealed partial class Simulation
         clock = key;
         oldSerial = -1; // nobody is ahead of anybody
         EventKey cut = CutsByTime ? new EventKey(key.Time, 0, EventKind.Spawn, default, default, 0, 0) : key;
-        for (int slot = 0; slot < slotCount; slot++)
+        for (int slot = 0; slot < bodies.SlotCount; slot++)
         {
-            SegmentsCut += timelines.CutFrom(slot, bodies[slot].Id, cut);
-            bodies[slot].NextExternal = log.FirstFrom(slot, key);
-            queue.Remove(slot);
+            SegmentsCut += timelines.CutFrom(slot, bodies.Id(slot), cut);
+            log.SetDueFrom(slot, key);
+            scheduler.Remove(slot);
         }
 
-        for (int slot = 0; slot < slotCount; slot++)
+        for (int slot = 0; slot < bodies.SlotCount; slot++)
         {
             CountHealed(slot);
             Predict(slot);

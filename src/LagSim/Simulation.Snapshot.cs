@@ -66,14 +66,14 @@ public sealed partial class Simulation
 
         SimTime last = time - SimDuration.OneTick;
         List<BodySnapshot> there = new();
-        foreach (int slot in order)
+        foreach (int slot in bodies)
         {
             int at = timelines.At(slot, last);
             if (at != TimelineStore.None && timelines.Segment(at).IsPresent)
             {
                 bool isMember = paths.IsMember(at);
                 there.Add(new BodySnapshot(
-                    bodies[slot].Id, bodies[slot].Spec, timelines.Key(at), timelines.Segment(at), timelines.Dense(at), timelines.HoldOf(at), timelines.SpinOf(at),
+                    bodies.Id(slot), bodies.Spec(slot), timelines.Key(at), timelines.Segment(at), timelines.Dense(at), timelines.HoldOf(at), timelines.SpinOf(at),
                     isMember ? timelines.CentreOf(at) : default, isMember ? timelines.StillSince(at) : default, timelines.ContactsOf(at)));
             }
         }

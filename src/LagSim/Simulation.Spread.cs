@@ -69,10 +69,10 @@ public sealed partial class Simulation
     /// <summary>Whether a contact that a body carries is elastic.</summary>
     private bool IsElastic(int slot, in LastingContact contact)
     {
-        int partner = contact.Surface == LastingContact.NoSurface ? SlotOf(contact.Partner) : NoPartner;
+        int partner = contact.Surface == LastingContact.NoSurface ? bodies.SlotOf(contact.Partner) : NoPartner;
         double other = contact.Surface != LastingContact.NoSurface ? surfaces.Restitution(contact.Surface)
-            : partner >= 0 ? bodies[partner].Spec.Restitution : 0;
-        return Math.Min(bodies[slot].Spec.Restitution, other) >= 1;
+            : partner >= 0 ? bodies.Spec(partner).Restitution : 0;
+        return Math.Min(bodies.Spec(slot).Restitution, other) >= 1;
     }
 
     /// <summary>Whether the bounces of a contact are followed down to the scene's resolution, and a closed form carries its body then: alone on planes, of which one rubs at most if it is the only one.</summary>
@@ -366,7 +366,7 @@ public sealed partial class Simulation
                 if (!HasContact(i, supports[k]))
                 {
                     double friction = FrictionOn(parties[i], supports[k]);
-                    double lever = Math.Min(bodies[parties[i]].Spec.RollingResistance, friction) * partyRadii[i];
+                    double lever = Math.Min(bodies.Spec(parties[i]).RollingResistance, friction) * partyRadii[i];
                     reached.AddContact(i, ContactPoint.Static, supports[k], surfaces.Plane(supports[k]).Normal, 0, friction, lever);
                 }
             }
@@ -405,7 +405,7 @@ public sealed partial class Simulation
                 continue;
             }
 
-            if (!TryPartner(bodies[slot].Id, contact.Partner, key, out int partner))
+            if (!TryPartner(bodies.Id(slot), contact.Partner, key, out int partner))
             {
                 continue;
             }
@@ -428,7 +428,7 @@ public sealed partial class Simulation
                 AddReached(other);
             }
 
-            bool ordered = bodies[slot].Id < bodies[partner].Id;
+            bool ordered = bodies.Id(slot) < bodies.Id(partner);
             AddReachedContact(new ContactPoint(ordered ? party : other, ordered ? other : party, -1, default), left);
             any = true;
         }
@@ -541,12 +541,12 @@ public sealed partial class Simulation
                     timelines.BeginMember(timelines.Last(slot), key.Time, key.Time);
                     for (int k = 0; k < supports.Count; k++)
                     {
-                        timelines.AddContact(timelines.Last(slot), new LastingContact(bodies[slot].Id, supports[k], holds: true));
+                        timelines.AddContact(timelines.Last(slot), new LastingContact(bodies.Id(slot), supports[k], holds: true));
                     }
                 }
 
                 AddLasting(i, timelines.Last(slot));
-                timelines.EndMember(timelines.Last(slot), bodies[slot].Id);
+                timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
             }
         }
     }
@@ -574,7 +574,7 @@ public sealed partial class Simulation
                 continue;
             }
 
-            BodyId partner = bodies[parties[isPair && c.First == party ? c.Second : c.First]].Id;
+            BodyId partner = bodies.Id(parties[isPair && c.First == party ? c.Second : c.First]);
             int known = isPair ? timelines.ContactWith(piece, partner) : timelines.ContactWith(piece, c.Surface);
             if (known != TimelineStore.None)
             {
@@ -593,8 +593,8 @@ public sealed partial class Simulation
     private double RollingLever(in ContactPoint c)
     {
         double friction = Friction(c);
-        double first = Math.Min(bodies[parties[c.First]].Spec.RollingResistance, friction) * partyRadii[c.First];
-        double second = c.Second == ContactPoint.Static ? 0 : Math.Min(bodies[parties[c.Second]].Spec.RollingResistance, friction) * partyRadii[c.Second];
+        double first = Math.Min(bodies.Spec(parties[c.First]).RollingResistance, friction) * partyRadii[c.First];
+        double second = c.Second == ContactPoint.Static ? 0 : Math.Min(bodies.Spec(parties[c.Second]).RollingResistance, friction) * partyRadii[c.Second];
         return Math.Max(first, second);
     }
 }

@@ -47,9 +47,9 @@ public sealed partial class Simulation
         SimTime edge = SimTime.Max(expected.HistoryEdge, actual.HistoryEdge);
         EventKey least = default;
         string? difference = null;
-        for (int n = 0; n < Math.Max(expected.order.Count, actual.order.Count); n++)
+        for (int n = 0; n < Math.Max(expected.bodies.Count, actual.bodies.Count); n++)
         {
-            Scenes.BodyId body = n < expected.order.Count ? expected.bodies[expected.order[n]].Id : actual.bodies[actual.order[n]].Id;
+            Scenes.BodyId body = n < expected.bodies.Count ? expected.BodyAt(n) : actual.BodyAt(n);
             int a = FirstSince(expected, body, edge);
             int b = FirstSince(actual, body, edge);
             while ((a != TimelineStore.None || b != TimelineStore.None) && IsSame(expected, a, actual, b))
@@ -78,7 +78,7 @@ public sealed partial class Simulation
 
     private static int FirstSince(Simulation simulation, Scenes.BodyId body, SimTime edge)
     {
-        int slot = simulation.SlotOf(body);
+        int slot = simulation.bodies.SlotOf(body);
         int at = slot < 0 ? TimelineStore.None : simulation.timelines.Last(slot);
         int since = TimelineStore.None;
         while (at != TimelineStore.None && simulation.timelines.Key(at).Time >= edge && simulation.timelines.Key(at).Kind != EventKind.None)

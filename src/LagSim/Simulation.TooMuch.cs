@@ -21,7 +21,7 @@ public sealed partial class Simulation
     private SimulationException TooMuch(
         int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, double tooStiff, double tooLarge, bool isFinite)
     {
-        ref readonly BodySpec spec = ref bodies[slot].Spec;
+        ref readonly BodySpec spec = ref bodies.Spec(slot);
         string where = $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {Whose(slot)}";
         foreach (Force force in spec.Forces.Among(Scene.ForceArray))
         {
@@ -88,12 +88,12 @@ public sealed partial class Simulation
         return "";
     }
 
-    private string Whose(int slot) => Scene.Whose(bodies[slot].Id);
+    private string Whose(int slot) => Scene.Whose(bodies.Id(slot));
 
     /// <summary>What forces act on a body at a state, and at which rates.</summary>
     private string RatesOn(int slot, in Vector3D x, in Vector3D v, in Vector3D spin)
     {
-        ref readonly BodySpec spec = ref bodies[slot].Spec;
+        ref readonly BodySpec spec = ref bodies.Spec(slot);
         StringBuilder text = new();
         foreach (Force force in spec.Forces.Among(Scene.ForceArray))
         {
@@ -111,7 +111,7 @@ public sealed partial class Simulation
     {
         int most = 0;
         int whose = 0;
-        foreach (int slot in order)
+        foreach (int slot in bodies)
         {
             int count = 0;
             for (int at = timelines.First(slot); at != TimelineStore.None; at = timelines.Next(at))
@@ -134,6 +134,6 @@ public sealed partial class Simulation
         string rates = RatesOn(whose, path.Position, path.Velocity, timelines.SpinOf(last).AtEpoch);
         return $" Most are of {Whose(whose)}: {most}, of {Limits.Short(mean)} s in the mean; the history that is kept, {history.ToShortString()}, has room for"
             + $" pieces of {Limits.Short(least)} s."
-            + (rates.Length > 0 ? $" On it {rates}." : "") + Jumps(bodies[whose].Spec);
+            + (rates.Length > 0 ? $" On it {rates}." : "") + Jumps(bodies.Spec(whose));
     }
 }

@@ -14,7 +14,7 @@ public sealed partial class Simulation
     internal IWorkObserver? Work { get; set; }
 
     /// <summary>The identity of the body in a place that a <see cref="IWorkObserver"/> was told.</summary>
-    internal BodyId BodyIn(int slot) => bodies[slot].Id;
+    internal BodyId BodyIn(int slot) => bodies.Id(slot);
 
     /// <summary>
     /// What a body costs in an event that a contact solver solves, besides the sweeps. Measured with the next, by <c>LagSim.Bench --

@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 using System.Threading;
 using LagSim.Contacts;
 using LagSim.Events;
@@ -21,23 +20,17 @@ namespace LagSim;
 /// </remarks>
 public sealed partial class Simulation
 {
-    /// <summary>A world has room for so many bodies at least: whether a quarter is free tells whether it grows.</summary>
-    private const int FewestSlots = 4;
-
     private readonly TimelineStore timelines;
     private readonly Paths paths;
     private readonly EventLog log;
-    private readonly EventQueue queue;
+    private readonly EventScheduler scheduler;
     private readonly Forces forces;
     private readonly FreeFlights flights;
     private readonly StaticSurfaces surfaces;
     private readonly SimDuration history;
     private readonly CancellationToken cancellation;
     private readonly HealingMode healing;
-    private readonly List<int> order; // slots by ascending identity
-    private Body[] bodies;
-    private readonly Stack<int> freeSlots = new();
-    private int slotCount;
+    private readonly BodyTable bodies;
     private Exception? fault;
 
     /// <summary>Which fold this library computes, from 1 on: builds of one version give one scene and events the same states and hashes, to the bit.</summary>
@@ -108,9 +101,8 @@ public sealed partial class Simulation
         clock = EventKey.Before(from);
         SimulatedTo = from - SimDuration.OneTick;
         HistoryEdge = from;
-        bodies = new Body[Math.Max(FewestSlots, expected)];
-        order = new List<int>(expected);
-        queue = new EventQueue(expected);
+        bodies = new BodyTable(expected);
+        scheduler = new EventScheduler(expected);
         log = new EventLog(expected);
         flights = new FreeFlights(scene.Gravity, scene.Resolution, scene.Box, expected);
         timelines = new TimelineStore(start, options.MaxSegments, flights, expected, history);
@@ -138,10 +130,10 @@ public sealed partial class Simulation
     public SimTime HistoryEdge { get; private set; }
 
     /// <summary>The last instant that can be read: nothing happens between <see cref="SimulatedTo"/> and here.</summary>
-    public SimTime Horizon => queue.Count == 0 ? SimTime.MaxValue : SimTime.Max(SimulatedTo, queue.LeastKey.Time - SimDuration.OneTick);
+    public SimTime Horizon => scheduler.Count == 0 ? SimTime.MaxValue : SimTime.Max(SimulatedTo, scheduler.LeastKey.Time - SimDuration.OneTick);
 
     /// <summary>How many bodies are known, absent ones included. One that is gone for good is forgotten when room is needed.</summary>
-    public int BodyCount => order.Count;
+    public int BodyCount => bodies.Count;
 
     /// <summary>How many events were processed, those that were simulated again included.</summary>
     public long EventsProcessed { get; private set; }
@@ -157,7 +149,7 @@ public sealed partial class Simulation
 
     /// <summary>The identity of the n-th body in canonical order, 0 &lt;= n &lt; <see cref="BodyCount"/>. Later spawns may shift n.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no n-th.</exception>
-    public BodyId BodyAt(int n) => bodies[order[n]].Id;
+    public BodyId BodyAt(int n) => bodies.Id(bodies.SlotAt(n));
 
     /// <summary>Adds a body of the scene, on the first piece of its flight.</summary>
     private void Begin(int n)
@@ -165,14 +157,14 @@ public sealed partial class Simulation
         ref readonly SceneBody body = ref Scene.BodyArray[n];
         int slot = AddBody(BodyId.OfScene(n), body.Spec);
         hasLosses |= body.Spec.Restitution < 1;
-        EventKey key = new(Start, 0, EventKind.Start, bodies[slot].Id, bodies[slot].Id, 0, 0);
+        EventKey key = new(Start, 0, EventKind.Start, bodies.Id(slot), bodies.Id(slot), 0, 0);
         OpenFlight(slot, key, body.Position, body.Velocity, spin: body.Spin);
     }
 
     private void PredictAll()
     {
-        index = order.Count > mostPairs ? NewIndex() : index;
-        for (int slot = 0; slot < slotCount; slot++)
+        index = bodies.Count > mostPairs ? NewIndex() : index;
+        for (int slot = 0; slot < bodies.SlotCount; slot++)
         {
             cancellation.ThrowIfCancellationRequested();
             Predict(slot);
@@ -181,78 +173,33 @@ public sealed partial class Simulation
 
     private int AddBody(BodyId id, BodySpec spec = default)
     {
-        if (freeSlots.Count == 0 && slotCount == bodies.Length)
+        if (bodies.IsFull)
         {
-            ForgetAbsent();
-            if (freeSlots.Count < bodies.Length / 4)
-            {
-                Array.Resize(ref bodies, bodies.Length * 2); // else every other body would have all of them looked through
-            }
+            bodies.Forget(ForgetIfAbsent);
         }
 
-        int slot = freeSlots.Count > 0 ? freeSlots.Pop() : slotCount++;
-
-        bodies[slot] = new Body { Id = id, Spec = spec, NextExternal = EventLog.None, Partner = NoPartner };
+        int slot = bodies.Add(id, spec);
+        scheduler.AddSlot(slot);
         timelines.AddSlot(slot);
         flights.AddSlot(slot, spec.Radius);
         log.AddSlot(slot);
-        order.Insert(~FindInOrder(id), slot);
-        OrderVersion++;
         return slot;
     }
 
-    /// <summary>Takes back the slots of bodies that are not there and that nothing inside the window says anything of.</summary>
-    private void ForgetAbsent()
+    /// <summary>Forgets the timeline of a body that is not there and that nothing inside the window says anything of; false for any other.</summary>
+    private bool ForgetIfAbsent(int slot)
     {
-        order.RemoveAll(slot =>
+        log.DropBefore(slot, HistoryEdge);
+        timelines.DropBefore(slot, HistoryEdge);
+        int last = timelines.Last(slot);
+        bool isGone = log.IsEmpty(slot) && !timelines.Segment(last).IsPresent && timelines.Key(last).Time < HistoryEdge;
+        if (isGone)
         {
-            log.DropBefore(slot, HistoryEdge);
-            timelines.DropBefore(slot, HistoryEdge);
-            int last = timelines.Last(slot);
-            bool isGone = log.IsEmpty(slot) && !timelines.Segment(last).IsPresent && timelines.Key(last).Time < HistoryEdge;
-            if (isGone)
-            {
-                timelines.Forget(slot);
-                index.Forget(slot);
-                freeSlots.Push(slot);
-                OrderVersion++;
-            }
-
-            return isGone;
-        });
-    }
-
-    /// <summary>The place of an identity in <see cref="order"/>, or the complement of where it belongs.</summary>
-    private int FindInOrder(BodyId id)
-    {
-        int low = 0;
-        int high = order.Count - 1;
-        while (low <= high)
-        {
-            int middle = (low + high) >> 1;
-            int compared = bodies[order[middle]].Id.CompareTo(id);
-            if (compared == 0)
-            {
-                return middle;
-            }
-
-            if (compared < 0)
-            {
-                low = middle + 1;
-            }
-            else
-            {
-                high = middle - 1;
-            }
+            timelines.Forget(slot);
+            index.Forget(slot);
         }
 
-        return ~low;
-    }
-
-    private int SlotOf(BodyId id)
-    {
-        int at = FindInOrder(id);
-        return at < 0 ? -1 : order[at];
+        return isGone;
     }
 
     private void ThrowIfFaulted()
@@ -261,33 +208,5 @@ public sealed partial class Simulation
         {
             throw new InvalidOperationException("The simulation has faulted and cannot go on; see the inner exception.", fault);
         }
-    }
-
-    /// <summary>What the simulation knows of a body besides its timeline.</summary>
-    private struct Body
-    {
-        internal BodyId Id;
-        internal BodySpec Spec;
-
-        /// <summary>The first external event not yet applied.</summary>
-        internal int NextExternal;
-
-        /// <summary>Of a pending impact the other body's slot, or <see cref="NoPartner"/>.</summary>
-        internal int Partner;
-
-        /// <summary>Of a pending impact with a static surface which: planes by index, static spheres after them.</summary>
-        internal int Surface;
-
-        /// <summary>The partner's segment that the pending impact was found with.</summary>
-        internal long PartnerSerial;
-
-        /// <summary>Of a pending impact how far the unrounded root lies from its tick, in seconds.</summary>
-        internal double Residual;
-
-        /// <summary>Whether the body may have another event at the tick of its pending one, that nobody waits for.</summary>
-        internal bool IsTied;
-
-        /// <summary>The number of the last heal that predicted it anew.</summary>
-        internal uint HealedIn;
     }
 }

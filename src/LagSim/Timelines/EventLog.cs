@@ -17,12 +17,14 @@ internal sealed class EventLog
     private int free = None;
     private int[] first;
     private int[] last;
+    private int[] due;
 
     /// <summary>No events yet; with room for as many bodies as are expected at first.</summary>
     internal EventLog(int expected = 0)
     {
         first = new int[expected];
         last = new int[expected];
+        due = new int[expected];
     }
 
     /// <summary>Makes room for a body's events.</summary>
@@ -33,10 +35,36 @@ internal sealed class EventLog
             int size = Math.Max(slot + 1, Math.Max(16, first.Length * 2));
             Array.Resize(ref first, size);
             Array.Resize(ref last, size);
+            Array.Resize(ref due, size);
         }
 
         first[slot] = None;
         last[slot] = None;
+        due[slot] = None;
+    }
+
+    /// <summary>The body's first event that is not applied yet, or is to be applied again; <see cref="None"/> if there is none.</summary>
+    internal int Due(int slot) => due[slot];
+
+    /// <summary>Takes the event that is due: the one after it is due now.</summary>
+    internal int TakeDue(int slot)
+    {
+        int taken = due[slot];
+        due[slot] = entries[taken].Next;
+        return taken;
+    }
+
+    /// <summary>The body's events from the key on are due, and none before it.</summary>
+    internal void SetDueFrom(int slot, in EventKey key) => due[slot] = FirstFrom(slot, key);
+
+    /// <summary>The body's events from the key on are due, also again; those before it that are still due stay so.</summary>
+    internal void AddDueFrom(int slot, in EventKey key)
+    {
+        int from = FirstFrom(slot, key);
+        if (from != None && (due[slot] == None || EventKey.Compare(entries[from].Key, entries[due[slot]].Key) < 0))
+        {
+            due[slot] = from;
+        }
     }
 
     internal ref readonly ExternalEvent Event(int entry) => ref entries[entry].Event;
@@ -49,12 +77,11 @@ internal sealed class EventLog
 
     internal int Next(int entry) => entries[entry].Next;
 
-    /// <summary>Adds an event and tells its entry; false if the body has one of that key, which is then the same event heard again.</summary>
-    internal bool TryAdd(int slot, in ExternalEvent external, in EventKey key, bool forwarded, out int entry)
+    /// <summary>Adds an event; false if the body has one of that key, which is then the same event heard again.</summary>
+    internal bool TryAdd(int slot, in ExternalEvent external, in EventKey key, bool forwarded)
     {
         int before = LastBefore(slot, key);
         int after = before == None ? first[slot] : entries[before].Next;
-        entry = after;
         if (after != None && entries[after].Key == key)
         {
             return false;
@@ -77,7 +104,6 @@ internal sealed class EventLog
         entries[at] = new Entry { Event = external, Key = key, Forwarded = forwarded };
         Link(slot, before, at);
         Link(slot, at, after);
-        entry = at;
         return true;
     }
 

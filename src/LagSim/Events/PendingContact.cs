@@ -1,0 +1,23 @@
+namespace LagSim.Events;
+
+/// <summary>With whom, or what, a body's pending impact is, and what it was found with.</summary>
+internal struct PendingContact
+{
+    /// <summary>The partner of what is no contact with another body.</summary>
+    internal const int NoPartner = -1;
+
+    /// <summary>The other body's slot, or <see cref="NoPartner"/>.</summary>
+    internal int Partner;
+
+    /// <summary>Where there is no partner, which static surface.</summary>
+    internal int Surface;
+
+    /// <summary>The serial of the partner's segment that the impact was found with.</summary>
+    internal long PartnerSerial;
+
+    /// <summary>How far the unrounded root lies from its tick, in seconds.</summary>
+    internal double Residual;
+
+    /// <summary>Whether the body may have another event at the tick of its pending one, that nobody waits for.</summary>
+    internal bool IsTied;
+}
