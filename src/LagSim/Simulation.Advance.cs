@@ -1,6 +1,5 @@
 using System;
 using LagSim.Events;
-using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -117,7 +116,7 @@ public sealed partial class Simulation
         }
         catch (TimelinesFullException full)
         {
-            fault = new TimelinesFullException($"{full.Message}{WhoseSegments()}", full);
+            fault = new TimelinesFullException($"{full.Message}{trajectories.Failures.OfFullTimelines(history)}", full);
             throw fault;
         }
         catch (SimulationException failure)
@@ -155,6 +154,7 @@ public sealed partial class Simulation
         if ((ulong)now.Ticks - (ulong)Start.Ticks > (ulong)history.Ticks)
         {
             HistoryEdge = SimTime.Max(HistoryEdge, now - history);
+            timelines.ForgetBefore(HistoryEdge);
             index.DropBefore(HistoryEdge);
         }
     }
@@ -191,7 +191,7 @@ public sealed partial class Simulation
                     break;
                 }
 
-                HandleStepEnd(slot, key);
+                trajectories.OpenNext(slot, key);
                 Predict(slot);
                 break;
             default:
@@ -225,61 +225,5 @@ public sealed partial class Simulation
 
         int piece = Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : PieceAt(partner, key);
         return piece == TimelineStore.None || timelines.Serial(piece) != scheduler.Contact(slot).PartnerSerial; // or forgotten meanwhile
-    }
-
-    private void HandleStepEnd(int slot, in EventKey key)
-    {
-        int last = timelines.Last(slot);
-        MotionSegment segment = timelines.Segment(last);
-        if (segment.Law == MotionLaw.Held)
-        {
-            HandleHoldEnd(slot, key);
-        }
-        else if (segment.IsDense)
-        {
-            double h = segment.End.SecondsSince(segment.Epoch);
-            DenseOutput dense = timelines.Dense(last);
-            OpenFlight(slot, key, segment.PositionAt(h, dense), segment.VelocityAt(h, dense), spin: timelines.SpinOf(last).At(h));
-        }
-        else if (segment.Law == MotionLaw.Ballistic && Scene.Box.Exists)
-        {
-            OpenFlight(slot, key, paths.PositionAt(last, key.Time), segment.Velocity, spin: timelines.SpinOf(last).AtEpoch);
-        }
-        else if (segment.Supports.Count == 1 && FrictionOn(slot, segment.Supports[0]) > 0 && !IsAtEndOfRange(segment))
-        {
-            // It has stopped slipping, or rolling, or turned a little.
-            double seconds = segment.End.SecondsSince(segment.Epoch);
-            Span<int> carrier = stackalloc int[] { segment.Supports[0] };
-            Open(
-                slot, key, segment.PositionAt(seconds, default), segment.VelocityAt(seconds, default), 0, carrier,
-                timelines.SpinOf(last).At(seconds));
-        }
-        else if (segment.Acceleration != Vector3D.Zero)
-        {
-            throw new SimulationException(
-                $"At {key.Time.ToShortString()} {Whose(slot)} reaches {Limits.Text(Limits.MaxSpeed(Scene.SmallestRadius))} m/s, a fifth of the smallest radius in a tick;"
-                + " it falls without end, and may not become faster.");
-        }
-        else
-        {
-            // The limit of a bounce sequence: what was carried along on the supports has come to rest on them.
-            Append(slot, key, MotionSegment.AtRest(key.Time, segment.Position, segment.Supports), default, spin: timelines.SpinOf(last));
-        }
-    }
-
-    /// <summary>Whether a piece ended because its body would become too fast.</summary>
-    private bool IsAtEndOfRange(in MotionSegment segment) =>
-        segment.Acceleration != Vector3D.Zero && segment.End == EndOfRange(segment.Epoch, segment.Velocity, segment.Acceleration);
-
-    private void Append(int slot, in EventKey key, in MotionSegment segment, in DenseOutput dense, in Hold hold = default, in Spin spin = default)
-    {
-        timelines.ForgetBefore(HistoryEdge);
-        hasLosses |= segment.Law == MotionLaw.Held;
-        if (key.Time <= front)
-        {
-            CountHealed(slot); // also who had nothing to be cut, because what struck him now comes after all he did
-        }
-
-        timelines.Append(slot, bodies.Id(slot), key, segment, dense, hold, spin);
     }
 }

@@ -97,7 +97,7 @@ public sealed partial class Simulation
         Span<int> planes = touched.AsSpan(0, IsSupportable(contacts[0]) ? 1 : 0);
         for (int i = 0; i < partyCount; i++)
         {
-            Open(parties[i], key, partyPositions[i], partyVelocities[i], -residual, planes, partySpins[i]);
+            trajectories.Open(parties[i], key, partyPositions[i], partyVelocities[i], -residual, planes, partySpins[i]);
         }
 
         timelines.Join(parties.AsSpan(0, partyCount));

@@ -106,7 +106,7 @@ public sealed partial class Simulation
             }
             else
             {
-                Append(slot, key, timelines.Segment(last), timelines.Dense(last), timelines.HoldOf(last), timelines.SpinOf(last));
+                timelines.Append(slot, bodies.Id(slot), key, timelines.Segment(last), timelines.Dense(last), timelines.HoldOf(last), timelines.SpinOf(last));
             }
 
             AddParty(slot);
@@ -294,7 +294,7 @@ public sealed partial class Simulation
         double rate = spec.Forces.IsEmpty ? 0 : forces.FixedStepRateAt(spec, position, velocity, spin);
         if (!(rate * SimDuration.FromTicks(ContactScale.ShortestTicks).ToSeconds() <= 1)) // what is not a number is too stiff
         {
-            throw TooStiff(slot, clock.Time, position, velocity, spin, double.IsNaN(rate) ? double.PositiveInfinity : rate);
+            throw trajectories.Failures.OfContactStep(slot, clock.Time, position, velocity, spin, double.IsNaN(rate) ? double.PositiveInfinity : rate);
         }
 
         return rate > 0 ? MostRateTimesStep / rate : double.PositiveInfinity;
@@ -414,7 +414,7 @@ public sealed partial class Simulation
             int slot = parties[i];
             int before = timelines.Last(slot);
             MotionSegment rest = MotionSegment.AtRest(key.Time, partyPositions[i].WithoutNegativeZero());
-            Append(slot, key, rest, default, spin: new Spin(SpinAtRest(i)));
+            timelines.Append(slot, bodies.Id(slot), key, rest, default, spin: new Spin(SpinAtRest(i)));
             int piece = timelines.Last(slot);
             timelines.BeginMember(piece, key.Time, timelines.StillSince(before));
             for (int at = timelines.FirstContact(before); at != TimelineStore.None; at = timelines.NextContact(at))
@@ -461,14 +461,14 @@ public sealed partial class Simulation
             int before = timelines.Last(slot);
             if (paths.IsHeld(before))
             {
-                GoOnHeld(slot, key);
+                trajectories.Hands.GoOn(slot, key);
                 continue;
             }
 
             ref readonly SolverBody solved = ref step.Problem.Bodies[i];
             if (!IsHeldTogether(i, out int planes))
             {
-                OpenFlight(slot, key, partyPositions[i], LeavingVelocity(i, before, key.Time), spin: partySpins[i]);
+                trajectories.Flights.Open(slot, key, partyPositions[i], LeavingVelocity(i, before, key.Time), spin: partySpins[i]);
             }
             else if (planes > 0)
             {
@@ -508,8 +508,8 @@ public sealed partial class Simulation
     {
         Vector3D x = position.WithoutNegativeZero();
         Vector3D v = velocity.WithoutNegativeZero();
-        CheckState(slot, key, x, v);
-        Append(slot, key, new MotionSegment(MotionLaw.Constrained, key.Time, end, x, v, Vector3D.Zero), default, spin: new Spin(spin));
+        trajectories.Check(slot, key.Time, x, v);
+        timelines.Append(slot, bodies.Id(slot), key, new MotionSegment(MotionLaw.Constrained, key.Time, end, x, v, Vector3D.Zero), default, spin: new Spin(spin));
     }
 
     /// <summary>Who is held by another body in the step.</summary>
@@ -595,7 +595,7 @@ public sealed partial class Simulation
             }
         }
 
-        Open(parties[party], key, partyPositions[party], velocity, 0, touched.AsSpan(0, count), spin);
+        trajectories.Open(parties[party], key, partyPositions[party], velocity, 0, touched.AsSpan(0, count), spin);
     }
 
     private void CarryContacts(int party, int piece)

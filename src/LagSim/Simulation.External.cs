@@ -146,7 +146,7 @@ public sealed partial class Simulation
         {
             if (!isThere)
             {
-                bodies.SetSpec(slot, Chosen(external.Spec));
+                bodies.SetSpec(slot, trajectories.Flights.Chosen(external.Spec));
                 hasLosses |= external.Spec.Restitution < 1;
                 flights.SetRadius(slot, external.Spec.Radius);
                 if (log.IsForwarded(entry))
@@ -155,7 +155,7 @@ public sealed partial class Simulation
                 }
                 else
                 {
-                    OpenFlight(slot, key, external.Position, external.Velocity, spin: external.Spin.WithoutNegativeZero());
+                    trajectories.Flights.Open(slot, key, external.Position, external.Velocity, spin: external.Spin.WithoutNegativeZero());
                 }
             }
 
@@ -169,11 +169,12 @@ public sealed partial class Simulation
 
         if (external.Kind == EventKind.Remove)
         {
-            Append(slot, key, MotionSegment.Nothing(key.Time), default);
+            timelines.Append(slot, bodies.Id(slot), key, MotionSegment.Nothing(key.Time), default);
         }
         else if (external.Kind is EventKind.Grab or EventKind.HoldKnot or EventKind.Release)
         {
-            HandleHand(slot, key, external);
+            hasLosses |= external.Kind == EventKind.Grab; // a hand gives and takes
+            trajectories.Hands.Act(slot, key, external);
         }
         else if (paths.IsHeld(timelines.Last(slot)))
         {
@@ -203,7 +204,7 @@ public sealed partial class Simulation
             }
             else if (isPermitted)
             {
-                Open(slot, key, position, velocity, 0, carriers.Slice(0, count), timelines.SpinOf(last).At(seconds));
+                trajectories.Open(slot, key, position, velocity, 0, carriers.Slice(0, count), timelines.SpinOf(last).At(seconds));
             }
         }
     }

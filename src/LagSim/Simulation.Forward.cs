@@ -44,6 +44,6 @@ public sealed partial class Simulation
         alone.AdvanceTo(SimTime.Max(alone.SimulatedTo, key.Time));
         int end = alone.timelines.Last(alone.bodies.SlotOf(new BodyId(1, 1, 0)));
         MotionSegment path = alone.timelines.Segment(end);
-        Append(slot, key, path, alone.timelines.Dense(end), spin: alone.timelines.SpinOf(end));
+        timelines.Append(slot, bodies.Id(slot), key, path, alone.timelines.Dense(end), spin: alone.timelines.SpinOf(end));
     }
 }

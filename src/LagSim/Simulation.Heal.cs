@@ -70,12 +70,21 @@ public sealed partial class Simulation
     /// <summary>Up to when what bodies do is known of some, and so would have to be rewritten.</summary>
     private SimTime KnownTo => healing == HealingMode.FullRollback ? SimulatedTo : SimTime.Max(SimulatedTo, front);
 
+    void IOpeningObserver.OnOpened(int slot, in EventKey key)
+    {
+        if (key.Time <= front && key.Kind != EventKind.None) // not of whom nobody has heard yet
+        {
+            CountHealed(slot); // also who had nothing to be cut, because what struck him now comes after all he did
+        }
+    }
+
     private void BeginHeal(SimTime time)
     {
         Rollbacks++;
         if (front == SimTime.MinValue)
         {
             front = SimulatedTo;
+            timelines.Openings = this;
             healNumber++;
             healedBodies = 0;
             healed = new HealReport(time, front, 1, 0, SegmentsCut, EventsProcessed);
@@ -97,6 +106,7 @@ public sealed partial class Simulation
         GoOnToTheEnd();
         isTwinDue = true;
         front = SimTime.MinValue;
+        timelines.Openings = null;
         Healed?.Invoke(new HealReport(
             healed.From, healed.To, healed.News, healedBodies, SegmentsCut - healed.SegmentsCut, EventsProcessed - healed.Events, met));
     }

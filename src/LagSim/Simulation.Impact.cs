@@ -112,6 +112,11 @@ public sealed partial class Simulation
         }
     }
 
+    /// <summary>Why an instant does not end.</summary>
+    private EndlessInstantException Endless(int slot, SimTime time) => new(
+        $"At {time.ToShortString()} the impacts of {Scene.Whose(bodies.Id(slot))} have no end: {MostRounds} in one instant. What is squeezed between others and loses no energy is struck for ever:"
+        + " give it, or what squeezes it, a restitution below 1, a mass that is less unlike, or room.", time);
+
     private void EvaluateParties(SimTime time, double residual)
     {
         for (int i = 0; i < partyCount; i++)
@@ -271,7 +276,7 @@ public sealed partial class Simulation
         int slot = parties[party];
         if (paths.IsHeld(timelines.Last(slot)))
         {
-            GoOnHeld(slot, key);
+            trajectories.Hands.GoOn(slot, key);
             return;
         }
 
@@ -291,7 +296,7 @@ public sealed partial class Simulation
             AddTouched(ref count, supports[k]);
         }
 
-        Open(slot, key, partyPositions[party], partyVelocities[party], -residual, touched.AsSpan(0, count), partySpins[party]);
+        trajectories.Open(slot, key, partyPositions[party], partyVelocities[party], -residual, touched.AsSpan(0, count), partySpins[party]);
     }
 
     private void AddTouched(ref int count, int plane)

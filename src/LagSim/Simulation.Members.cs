@@ -155,7 +155,7 @@ public sealed partial class Simulation
         {
             centre = timelines.CentreOf(before);
             still = timelines.StillSince(before);
-            Append(slot, key, MotionSegment.AtRest(key.Time, path.Position), default, spin: timelines.SpinOf(before));
+            timelines.Append(slot, bodies.Id(slot), key, MotionSegment.AtRest(key.Time, path.Position), default, spin: timelines.SpinOf(before));
         }
         else
         {

@@ -51,6 +51,7 @@ public sealed partial class Simulation
             log.SetDueFrom(slot, EventKey.Before(next));
         }
 
+        timelines.Openings = null;
         cutPaths.PutBack(timelines, at, slot => bodies.Id(slot));
         for (int n = 0; n < cutPaths.BodyCount; n++)
         {

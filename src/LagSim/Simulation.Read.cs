@@ -33,6 +33,19 @@ public sealed partial class Simulation
         return state.Motion != MotionLaw.Absent;
     }
 
+    /// <summary>Who holds a body at an instant that can be read, by which point, and when its hand last told where it is.</summary>
+    /// <returns>False, and the default, if nobody does.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
+    public bool TryReadHold(BodyId body, SimTime time, out Hold hold)
+    {
+        CheckReadable(time);
+        int slot = bodies.SlotOf(body);
+        int at = slot < 0 ? TimelineStore.None : timelines.At(slot, time);
+        bool isHeld = at != TimelineStore.None && paths.IsHeld(at);
+        hold = isHeld ? timelines.HoldOf(at) : default;
+        return isHeld;
+    }
+
     /// <summary>A hash of the exact bits and identities of every body that is there at <paramref name="time"/>.</summary>
     /// <remarks>Equal on two peers if and, to 64 bits, only if their worlds are the same then. It does not depend on the time of day.</remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
@@ -152,6 +165,7 @@ public sealed partial class Simulation
     public void DropHistoryBefore(SimTime time)
     {
         HistoryEdge = SimTime.Max(HistoryEdge, SimTime.Min(time, SimulatedTo));
+        timelines.ForgetBefore(HistoryEdge);
         index.DropBefore(HistoryEdge);
         twin?.DropHistoryBefore(time);
     }

@@ -89,7 +89,7 @@ public sealed partial class Simulation
         for (int k = 0; k < supports.Count; k++)
         {
             planes++;
-            rubs |= FrictionOn(parties[c.First], supports[k]) > 0;
+            rubs |= trajectories.Friction.On(parties[c.First], supports[k]) > 0;
         }
 
         for (int i = 0; i < contactCount; i++)
@@ -365,7 +365,7 @@ public sealed partial class Simulation
             {
                 if (!HasContact(i, supports[k]))
                 {
-                    double friction = FrictionOn(parties[i], supports[k]);
+                    double friction = trajectories.Friction.On(parties[i], supports[k]);
                     double lever = Math.Min(bodies.Spec(parties[i]).RollingResistance, friction) * partyRadii[i];
                     reached.AddContact(i, ContactPoint.Static, supports[k], surfaces.Plane(supports[k]).Normal, 0, friction, lever);
                 }
@@ -460,6 +460,13 @@ public sealed partial class Simulation
         ? surfaces.Gap(c.Surface, partyPositions[c.First], partyRadii[c.First])
         : Scene.Box.Nearest(partyPositions[c.First] - partyPositions[c.Second]).Length - ReachOf(c);
 
+    /// <summary>Has a hand press with any force: only a test's negative control sets it.</summary>
+    internal bool PressesOn
+    {
+        get => step.HandsHaveNoLimit;
+        set => step.HandsHaveNoLimit = value;
+    }
+
     /// <summary>
     /// Lets steps of islands (rule 6 of docs/CONTACT.md) and impacts on them (rule 8) make energy: only a test's negative control sets it.
     /// </summary>
@@ -519,7 +526,7 @@ public sealed partial class Simulation
             bool lasts = HasLasting(i);
             if (paths.IsHeld(before))
             {
-                GoOnHeld(slot, key);
+                trajectories.Hands.GoOn(slot, key);
             }
             else if (!isMember && !lasts)
             {

@@ -6,6 +6,7 @@ using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
+using LagSim.Trajectories;
 
 namespace LagSim;
 
@@ -18,7 +19,7 @@ namespace LagSim;
 /// <para>An exception out of <see cref="AdvanceTo"/> or <see cref="Submit"/> other than an argument's leaves it faulted: every later call
 /// throws. One that was cancelled still stands from <see cref="HistoryEdge"/> to <see cref="SimulatedTo"/>, if that is not before it.</para>
 /// </remarks>
-public sealed partial class Simulation
+public sealed partial class Simulation : IOpeningObserver
 {
     private readonly TimelineStore timelines;
     private readonly Paths paths;
@@ -31,6 +32,7 @@ public sealed partial class Simulation
     private readonly CancellationToken cancellation;
     private readonly HealingMode healing;
     private readonly BodyTable bodies;
+    private readonly TrajectoryFactory trajectories;
     private Exception? fault;
 
     /// <summary>Which fold this library computes, from 1 on: builds of one version give one scene and events the same states and hashes, to the bit.</summary>
@@ -108,7 +110,9 @@ public sealed partial class Simulation
         timelines = new TimelineStore(start, options.MaxSegments, flights, expected, history);
         paths = new Paths(timelines);
         Observer = options.Observer;
+        timelines.ForgetBefore(from);
         forces = new Forces(scene, start);
+        trajectories = new TrajectoryFactory(scene, forces, bodies, timelines);
         surfaces = scene.Surfaces;
         hasLosses = surfaces.TakesEnergy();
         step = new ContactStep(scene, options.Scale ?? new ContactScale(scene.ContactTolerance, scene.Gravity, start));
@@ -158,7 +162,7 @@ public sealed partial class Simulation
         int slot = AddBody(BodyId.OfScene(n), body.Spec);
         hasLosses |= body.Spec.Restitution < 1;
         EventKey key = new(Start, 0, EventKind.Start, bodies.Id(slot), bodies.Id(slot), 0, 0);
-        OpenFlight(slot, key, body.Position, body.Velocity, spin: body.Spin);
+        trajectories.Flights.Open(slot, key, body.Position, body.Velocity, spin: body.Spin);
     }
 
     private void PredictAll()

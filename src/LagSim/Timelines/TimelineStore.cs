@@ -68,6 +68,9 @@ internal sealed partial class TimelineStore
     /// <summary>Is told of impacts that are cut; null for nobody.</summary>
     internal IImpactObserver? Observer { get; set; }
 
+    /// <summary>Is told of segments that are opened; null for nobody.</summary>
+    internal IOpeningObserver? Openings { get; set; }
+
     /// <summary>How many segments may be kept.</summary>
     internal int Most { get; }
 
@@ -140,6 +143,7 @@ internal sealed partial class TimelineStore
     internal void Append(int slot, BodyId body, in EventKey key, in MotionSegment segment, in DenseOutput output, in Hold hold = default,
         in Spin spin = default)
     {
+        Openings?.OnOpened(slot, key);
         if (free == None && (used == pieces.Length || used == Most))
         {
             DropAll(key.Time);

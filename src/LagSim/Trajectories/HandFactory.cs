@@ -2,40 +2,21 @@ using System;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
-using LagSim.Time;
 using LagSim.Timelines;
 
-namespace LagSim;
+namespace LagSim.Trajectories;
 
-/// <content>Held bodies: a hand takes one, tells now and then where it is, and lets go.</content>
+/// <summary>Opens the paths of held bodies: a hand takes one, tells now and then where it is, and lets go.</summary>
 /// <remarks>
 /// While it is held a body's path is the hand's: nothing it meets changes it, and it pushes others as if its mass were infinite. Static geometry does not
 /// stop a hand, and two held bodies pass through each other. Where it is at t depends on the grab and the knots up to t alone.
 /// </remarks>
-public sealed partial class Simulation
+internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits, FlightFactory flights)
 {
-    /// <summary>Has a hand press with any force: only a test's negative control sets it.</summary>
-    internal bool PressesOn
-    {
-        get => step.HandsHaveNoLimit;
-        set => step.HandsHaveNoLimit = value;
-    }
-
     /// <summary>So often what is let go inside static geometry is put out of one surface after the other.</summary>
     private const int MostPuttingOut = 16;
 
-    /// <summary>Who holds a body at an instant that can be read, by which point, and when its hand last told where it is.</summary>
-    /// <returns>False, and the default, if nobody does.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
-    public bool TryReadHold(BodyId body, SimTime time, out Hold hold)
-    {
-        CheckReadable(time);
-        int slot = bodies.SlotOf(body);
-        int at = slot < 0 ? TimelineStore.None : timelines.At(slot, time);
-        bool isHeld = at != TimelineStore.None && paths.IsHeld(at);
-        hold = isHeld ? timelines.HoldOf(at) : default;
-        return isHeld;
-    }
+    private readonly Paths paths = new(timelines);
 
     private bool IsHolding(int slot, byte peer)
     {
@@ -47,7 +28,7 @@ public sealed partial class Simulation
     /// What a hand does to a body that is there. A grab of what is held, and a knot or release of whoever does not hold it, has no effect, now: later news may
     /// still change that. So has one that would have it move faster than may be given.
     /// </summary>
-    private void HandleHand(int slot, in EventKey key, in ExternalEvent external)
+    internal void Act(int slot, in EventKey key, in ExternalEvent external)
     {
         int last = timelines.Last(slot);
         double seconds = paths.SecondsInto(last, key.Time);
@@ -66,7 +47,7 @@ public sealed partial class Simulation
         }
         else if (external.Kind == EventKind.Release && IsHolding(slot, external.Peer))
         {
-            OpenFlight(slot, key, PutOut(slot, position), external.Velocity);
+            flights.Open(slot, key, PutOut(slot, position), external.Velocity);
         }
     }
 
@@ -77,16 +58,16 @@ public sealed partial class Simulation
     private void Converge(
         int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D target, in Vector3D targetVelocity, in Hold hold)
     {
-        if ((position - target).Length < Scene.Resolution && (velocity - targetVelocity).Length * HandPath.Stops.ToSeconds() < Scene.Resolution)
+        if ((position - target).Length < scene.Resolution && (velocity - targetVelocity).Length * HandPath.Stops.ToSeconds() < scene.Resolution)
         {
             Follow(slot, key, position, velocity, hold);
             return;
         }
 
         MotionSegment path = HandPath.Converge(key.Time, position, velocity, target, targetVelocity, out DenseOutput dense);
-        if (HandPath.SpeedBound(path, dense) <= Limits.MaxGivenSpeed(Scene.SmallestRadius))
+        if (HandPath.SpeedBound(path, dense) <= Limits.MaxGivenSpeed(scene.SmallestRadius))
         {
-            Append(slot, key, path, dense, hold);
+            timelines.Append(slot, bodies.Id(slot), key, path, dense, hold);
         }
     }
 
@@ -94,16 +75,16 @@ public sealed partial class Simulation
     private void Follow(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Hold hold)
     {
         // Slower than this it would not get as far as the scene resolves: what rounding leaves of a convergence on a hand that keeps still.
-        bool isStill = velocity.Length * HandPath.Stops.ToSeconds() < Scene.Resolution;
+        bool isStill = velocity.Length * HandPath.Stops.ToSeconds() < scene.Resolution;
         MotionSegment path = isStill || key.Time >= hold.Knot + HandPath.Stops
             ? HandPath.Still(key.Time, hold.Knot, position)
             : HandPath.Brake(key.Time, hold.Knot, position, velocity);
-        CheckState(slot, key, position, velocity);
-        Append(slot, key, path, default, hold);
+        limits.Check(bodies.Id(slot), key.Time, position, velocity);
+        timelines.Append(slot, bodies.Id(slot), key, path, default, hold);
     }
 
     /// <summary>A piece of a held path ends: the next begins where it ends, or the hand, of which nothing was heard for so long, has let go.</summary>
-    private void HandleHoldEnd(int slot, in EventKey key)
+    internal void OpenNext(int slot, in EventKey key)
     {
         int last = timelines.Last(slot);
         Hold hold = timelines.HoldOf(last);
@@ -112,7 +93,7 @@ public sealed partial class Simulation
         Vector3D position = timelines.Segment(last).PositionAt(seconds, dense);
         if (key.Time >= hold.Knot + HandPath.Lasts)
         {
-            OpenFlight(slot, key, PutOut(slot, position), Vector3D.Zero);
+            flights.Open(slot, key, PutOut(slot, position), Vector3D.Zero);
         }
         else
         {
@@ -121,11 +102,11 @@ public sealed partial class Simulation
     }
 
     /// <summary>A held body goes on after an impact as before it: the same path, to the bit, in a new piece, so that who cuts it cuts what it struck.</summary>
-    private void GoOnHeld(int slot, in EventKey key)
+    internal void GoOn(int slot, in EventKey key)
     {
         int last = timelines.Last(slot);
         MotionSegment path = timelines.Segment(last);
-        Append(slot, key, path, timelines.Dense(last), timelines.HoldOf(last));
+        timelines.Append(slot, bodies.Id(slot), key, path, timelines.Dense(last), timelines.HoldOf(last));
     }
 
     /// <summary>
@@ -140,22 +121,22 @@ public sealed partial class Simulation
         for (int n = 0; n < MostPuttingOut && isInside; n++)
         {
             isInside = false;
-            foreach (ref readonly StaticPlane plane in Scene.PlaneArray.AsSpan())
+            foreach (ref readonly StaticPlane plane in scene.PlaneArray.AsSpan())
             {
                 double gap = plane.Gap(at, radius);
                 if (gap < 0)
                 {
-                    isInside |= gap < -Scene.Resolution;
+                    isInside |= gap < -scene.Resolution;
                     at -= plane.Normal * gap;
                 }
             }
 
-            foreach (ref readonly StaticSphere sphere in Scene.SphereArray.AsSpan())
+            foreach (ref readonly StaticSphere sphere in scene.SphereArray.AsSpan())
             {
                 double gap = (at - sphere.Centre).Length - sphere.Radius - radius;
                 if (gap < 0)
                 {
-                    isInside |= gap < -Scene.Resolution;
+                    isInside |= gap < -scene.Resolution;
                     at = sphere.Centre + ((at - sphere.Centre).Direction * (sphere.Radius + radius));
                 }
             }

@@ -4,11 +4,13 @@ using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
 
-namespace LagSim;
+namespace LagSim.Trajectories;
 
-/// <content>What is said of forces that are too much for a step, or for the timelines.</content>
-public sealed partial class Simulation
+/// <summary>What is said of forces that are too much for a step, or for the timelines.</summary>
+internal sealed class ForceFailures(Scene scene, in Forces forces, BodyTable bodies, TimelineStore timelines)
 {
+    private readonly Forces forces = forces;
+
     /// <summary>Why no step from a state can be used.</summary>
     /// <param name="slot">The body.</param>
     /// <param name="from">When the step begins.</param>
@@ -18,12 +20,12 @@ public sealed partial class Simulation
     /// <param name="tooStiff">The rate in 1/s that was met by fixed steps; zero if that is not why.</param>
     /// <param name="tooLarge">How many times the tolerance the error of the shortest step is, infinite if it has no number; zero if that is not why.</param>
     /// <param name="isFinite">Whether the acceleration at the state is.</param>
-    private SimulationException TooMuch(
+    internal SimulationException OfStep(
         int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, double tooStiff, double tooLarge, bool isFinite)
     {
         ref readonly BodySpec spec = ref bodies.Spec(slot);
-        string where = $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {Whose(slot)}";
-        foreach (Force force in spec.Forces.Among(Scene.ForceArray))
+        string where = $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {scene.Whose(bodies.Id(slot))}";
+        foreach (Force force in spec.Forces.Among(scene.ForceArray))
         {
             if (force.Kind == ForceKind.Central && force.Power < 0 && x == force.Vector)
             {
@@ -35,8 +37,8 @@ public sealed partial class Simulation
         if (!isFinite || (double.IsPositiveInfinity(tooLarge) && forces.HasSupplied(spec)) || (tooStiff == 0 && tooLarge == 0))
         {
             return new SimulationException(
-                $"In the step from {from.ToShortString()}, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the acceleration of {Whose(slot)} became NaN or "
-                + $"infinite; what the forces {spec.Forces.NamesAmong(Scene.ForceArray)} give must be finite.");
+                $"In the step from {from.ToShortString()}, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the acceleration of {scene.Whose(bodies.Id(slot))} became NaN or "
+                + $"infinite; what the forces {spec.Forces.NamesAmong(scene.ForceArray)} give must be finite.");
         }
 
         string rates = RatesOn(slot, x, v, spin);
@@ -56,19 +58,14 @@ public sealed partial class Simulation
     }
 
     /// <summary>Why no contact step can be taken: forces act too fast on a member even for the shortest there is.</summary>
-    private SimulationException TooStiff(int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, double rate)
+    internal SimulationException OfContactStep(int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, double rate)
     {
         double most = 1 / SimDuration.FromTicks(Contacts.ContactScale.ShortestTicks).ToSeconds();
         return new SimulationException(
-            $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {Whose(slot)}, which touches something, "
+            $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {scene.Whose(bodies.Id(slot))}, which touches something, "
             + $"{ActTooFast(rate, rate, most)}: there {RatesOn(slot, x, v, spin)}. What is in lasting contact moves by steps that follow at most"
             + $" {Limits.Short(most)} 1/s, halved to {Limits.Short(1 / most)} s. Make them weaker, or the body heavier.");
     }
-
-    /// <summary>Why an instant does not end.</summary>
-    private EndlessInstantException Endless(int slot, SimTime time) => new(
-        $"At {time.ToShortString()} the impacts of {Whose(slot)} have no end: {MostRounds} in one instant. What is squeezed between others and loses no energy is struck for ever:"
-        + " give it, or what squeezes it, a restitution below 1, a mass that is less unlike, or room.", time);
 
     private static string ActTooFast(double here, double met, double most) =>
         here > most ? $"act at a rate of {Limits.Short(here)} 1/s" : $"lead in a step to where they act at a rate of {Limits.Short(met)} 1/s";
@@ -76,7 +73,7 @@ public sealed partial class Simulation
     /// <summary>What error control cannot follow and nobody but the program's author can see; a sentence that follows another.</summary>
     private string Jumps(in BodySpec spec)
     {
-        foreach (Force force in spec.Forces.Among(Scene.ForceArray))
+        foreach (Force force in spec.Forces.Among(scene.ForceArray))
         {
             if (force.Kind == ForceKind.Supplied && spec.Flight == MotionLaw.DormandPrince54 && spec.Tolerance > 0)
             {
@@ -88,14 +85,12 @@ public sealed partial class Simulation
         return "";
     }
 
-    private string Whose(int slot) => Scene.Whose(bodies.Id(slot));
-
     /// <summary>What forces act on a body at a state, and at which rates.</summary>
     private string RatesOn(int slot, in Vector3D x, in Vector3D v, in Vector3D spin)
     {
         ref readonly BodySpec spec = ref bodies.Spec(slot);
         StringBuilder text = new();
-        foreach (Force force in spec.Forces.Among(Scene.ForceArray))
+        foreach (Force force in spec.Forces.Among(scene.ForceArray))
         {
             string rate = force.Kind == ForceKind.Supplied ? "at a rate that is the program's" : $"at {Limits.Short(force.RateAt(spec.Mass, x, v, spin))} 1/s";
             text.Append(text.Length > 0 ? ", " : "").Append($"'{force.Name}' ({force.Kind}) acts {rate}");
@@ -107,7 +102,7 @@ public sealed partial class Simulation
     /// <summary>
     /// Whose path most segments of full timelines are, how short they are, and how long they would have to be; a sentence that follows another.
     /// </summary>
-    private string WhoseSegments()
+    internal string OfFullTimelines(SimDuration history)
     {
         int most = 0;
         int whose = 0;
@@ -132,7 +127,7 @@ public sealed partial class Simulation
         double least = history.ToSeconds() / timelines.Most;
         ref readonly MotionSegment path = ref timelines.Segment(last);
         string rates = RatesOn(whose, path.Position, path.Velocity, timelines.SpinOf(last).AtEpoch);
-        return $" Most are of {Whose(whose)}: {most}, of {Limits.Short(mean)} s in the mean; the history that is kept, {history.ToShortString()}, has room for"
+        return $" Most are of {scene.Whose(bodies.Id(whose))}: {most}, of {Limits.Short(mean)} s in the mean; the history that is kept, {history.ToShortString()}, has room for"
             + $" pieces of {Limits.Short(least)} s."
             + (rates.Length > 0 ? $" On it {rates}." : "") + Jumps(bodies.Spec(whose));
     }

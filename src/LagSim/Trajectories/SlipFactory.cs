@@ -3,10 +3,11 @@ using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
-namespace LagSim;
+namespace LagSim.Trajectories;
 
-/// <content>Friction on a plane: slipping, rolling, rest.</content>
+/// <summary>Opens motion on a plane with friction: slipping, rolling, rest.</summary>
 /// <remarks>
 /// <para>A solid sphere that moves with v, turns with q = r w x n, as fast as it would have to move to roll so, and slips with u = v - q is slowed down by mu
 /// g_n against u and turned by 5/2 as much, with g_n and g_t what gravity has across and along the plane. Rolling resistance c takes 5/2 c g_n from q. So v' =
@@ -16,7 +17,7 @@ namespace LagSim;
 /// Resistance holds at rest what gravity pulls by no more than c g_n. From what turns about the normal it takes 5/2 c g_n / r, whether the sphere slips, rolls
 /// or stays where it is.</para>
 /// </remarks>
-public sealed partial class Simulation
+internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits)
 {
     /// <summary>By how much a direction of slip or rolling may turn in one piece of path, in radians, where gravity pulls aslant.</summary>
     private const double MostTurn = 1.0 / 128;
@@ -24,16 +25,19 @@ public sealed partial class Simulation
     /// <summary>What slips, or moves or turns on a surface slower than this, in m/s, is what rounding leaves of nothing.</summary>
     private const double RoundingSlip = 1e-10;
 
-    private double FrictionOn(int slot, int plane) => Math.Min(bodies.Spec(slot).Friction, surfaces.Plane(plane).Friction);
+    private readonly StaticSurfaces surfaces = scene.Surfaces;
+
+    /// <summary>The coefficient of friction of a body on a plane: the lesser of the two.</summary>
+    internal double On(int slot, int plane) => Math.Min(bodies.Spec(slot).Friction, surfaces.Plane(plane).Friction);
 
     /// <summary>Opens slipping, rolling or rest on the one plane that carries a body.</summary>
-    private void OpenRubbing(
+    internal void Open(
         int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D spin, SupportSet supports, in Vector3D pull,
         SimDuration left)
     {
         ref readonly BodySpec spec = ref bodies.Spec(slot);
         Vector3D n = surfaces.Plane(supports[0]).Normal;
-        double pressing = -Vector3D.Dot(n, Scene.Gravity), mu = FrictionOn(slot, supports[0]);
+        double pressing = -Vector3D.Dot(n, scene.Gravity), mu = On(slot, supports[0]);
         Rubbing at = new()
         {
             Position = position,
@@ -90,9 +94,9 @@ public sealed partial class Simulation
         Vector3D held = along * at.Grip;
         Vector3D turning = (Vector3D.Cross(at.Normal, held - (over * at.Resistance)) * (2.5 / at.Radius)) - at.Slowing;
         Vector3D acceleration = (at.Pull - held).WithoutNegativeZero();
-        end = SimTime.Min(end, EndOfRange(key.Time, at.Velocity, acceleration));
+        end = SimTime.Min(end, limits.EndOfRange(key.Time, at.Velocity, acceleration));
         MotionSegment path = new(MotionLaw.Sliding, key.Time, end, at.Position, at.Velocity, acceleration, at.Supports);
-        Append(slot, key, path, default, spin: new Spin(at.Spin, turning));
+        timelines.Append(slot, bodies.Id(slot), key, path, default, spin: new Spin(at.Spin, turning));
     }
 
     /// <summary>Opens a piece of staying where it is, turning on the spot or not, or bouncing by less than counts for so long.</summary>
@@ -114,7 +118,7 @@ public sealed partial class Simulation
                 : MotionSegment.AtRest(key.Time, at.Position, at.Supports);
         }
 
-        Append(slot, key, path, default, spin: new Spin(at.Pivot, -slowing));
+        timelines.Append(slot, bodies.Id(slot), key, path, default, spin: new Spin(at.Pivot, -slowing));
     }
 
     /// <summary>Opens a piece of rolling in one direction.</summary>
@@ -124,10 +128,10 @@ public sealed partial class Simulation
         SimTime stop = SimTime.Min(EndOfTurning(key.Time, start, heading, at.Pull, Vector3D.Dot(heading, change)), EndOfPivoting(key.Time, at.Pivot, at.Slowing));
         heading = Midway(start, heading, change, key.Time, stop);
         change = ((at.Pull - (heading * at.Resistance)) * (5.0 / 7)).WithoutNegativeZero();
-        stop = SimTime.Min(stop, EndOfRange(key.Time, start, change));
+        stop = SimTime.Min(stop, limits.EndOfRange(key.Time, start, change));
         MotionSegment path = new(MotionLaw.Rolling, key.Time, stop, at.Position, start, change, at.Supports);
-        Append(
-            slot, key, path, default,
+        timelines.Append(
+            slot, bodies.Id(slot), key, path, default,
             spin: new Spin((Vector3D.Cross(at.Normal, start) / at.Radius) + at.Pivot, (Vector3D.Cross(at.Normal, change) / at.Radius) - at.Slowing));
     }
 
@@ -196,7 +200,7 @@ public sealed partial class Simulation
     /// </summary>
     private double Turn(double speed, in Vector3D pull)
     {
-        double slow = 100 * Math.Sqrt(2 * Scene.Resolution * pull.Length);
+        double slow = 100 * Math.Sqrt(2 * scene.Resolution * pull.Length);
         return speed < slow ? Math.Min(0.5, MostTurn * Math.Sqrt(Math.Sqrt(slow / speed))) : MostTurn;
     }
 

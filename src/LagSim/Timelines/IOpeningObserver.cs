@@ -1,0 +1,10 @@
+using LagSim.Events;
+
+namespace LagSim.Timelines;
+
+/// <summary>Is told of segments, as they are opened.</summary>
+internal interface IOpeningObserver
+{
+    /// <summary>A body's next segment is about to be opened at a key.</summary>
+    void OnOpened(int slot, in EventKey key);
+}

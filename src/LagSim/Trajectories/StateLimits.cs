@@ -1,0 +1,61 @@
+using System;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Trajectories;
+
+/// <summary>How fast a body may become, and when a closed form would exceed that.</summary>
+internal sealed class StateLimits(Scene scene)
+{
+    /// <summary>All of time, from its least to its largest value, in seconds.</summary>
+    private const double LongestSpan = 1L << 24;
+
+    private readonly Scene scene = scene;
+
+    /// <summary>
+    /// When a closed form would exceed the permitted speed: the root of |v + a t| = limit, which there is one of. Beyond the range of a time
+    /// for anything but the smallest bodies and the strongest gravity.
+    /// </summary>
+    internal SimTime EndOfRange(SimTime from, in Vector3D velocity, in Vector3D acceleration)
+    {
+        double limit = Limits.MaxSpeed(scene.SmallestRadius);
+        double a = acceleration.LengthSquared;
+        if (4 * velocity.LengthSquared <= limit * limit && 4 * a * LongestSpan * LongestSpan <= limit * limit)
+        {
+            return SimTime.MaxValue; // neither half can fill the limit
+        }
+
+        double b = Vector3D.Dot(velocity, acceleration);
+        double c = velocity.LengthSquared - (limit * limit);
+        double root = Math.Sqrt((b * b) - (a * c));
+        double seconds = b > 0 ? -c / (b + root) : (root - b) / a; // 0 / 0 without acceleration
+        return TickConversion.TryFromSeconds(seconds, out long ticks) && ticks <= SimTime.MaxValue.Ticks - Math.Max(0, from.Ticks)
+            ? from + SimDuration.FromTicks(ticks)
+            : SimTime.MaxValue;
+    }
+
+    /// <summary>
+    /// When a flight in a periodic box is opened anew: after an eighth of the least side. Two bodies come nearer by at most a quarter of it then, and touch at
+    /// less than another quarter, so that whichever image is nearest when both paths are open is the one that they can meet.
+    /// </summary>
+    internal SimTime EndOfFlight(SimTime from, in Vector3D velocity)
+    {
+        double seconds = PeriodicBox.FlightPart * scene.Box.LeastSide / velocity.Length;
+        return TickConversion.TryFromSeconds(seconds, out long ticks) && ticks <= SimTime.MaxValue.Ticks - Math.Max(0, from.Ticks)
+            ? from + SimDuration.FromTicks(ticks)
+            : SimTime.MaxValue;
+    }
+
+    /// <summary>Throws if a body may not be in a state.</summary>
+    /// <exception cref="SimulationException">The position is not finite, or the speed exceeds the limit.</exception>
+    internal void Check(BodyId body, SimTime time, in Vector3D position, in Vector3D velocity)
+    {
+        double limit = Limits.MaxSpeed(scene.SmallestRadius);
+        if (!position.IsFinite || !(velocity.Length <= limit))
+        {
+            throw new SimulationException(
+                $"At {time.ToShortString()} {scene.Whose(body)} is at {position} m with {velocity} m/s; a position must stay finite, and a speed at most "
+                + $"{Limits.Text(limit)} m/s, a fifth of the smallest radius in a tick.");
+        }
+    }
+}
