@@ -90,16 +90,16 @@ public sealed partial class Simulation
                 }
 
                 events--;
-                clock = least;
+                rollback.Cursor = least;
                 if (Work is IWorkObserver observer)
                 {
-                    WorkVerdict said = ProcessTold(slot, clock, observer);
+                    WorkVerdict said = ProcessTold(slot, rollback.Cursor, observer);
                     verdict = said > verdict ? said : verdict;
                     events = verdict == WorkVerdict.GoOn ? events : Math.Min(events, 0);
                 }
                 else
                 {
-                    Process(slot, clock);
+                    Process(slot, rollback.Cursor);
                 }
             }
         }
@@ -132,7 +132,7 @@ public sealed partial class Simulation
         }
 
         SimulatedTo = isCancelled || !isThere ? reached : until;
-        if (front != SimTime.MinValue && SimulatedTo >= front)
+        if (rollback.IsActive && SimulatedTo >= rollback.Horizon)
         {
             EndHeal();
         }
@@ -169,7 +169,7 @@ public sealed partial class Simulation
             case EventKind.Impact:
                 if (IsStale(slot, key))
                 {
-                    Predict(slot, Has(HealingFault.GivesUpByBody) ? scheduler.Contact(slot).Partner : NoPartner);
+                    Predict(slot, faults.Has(HealingFault.GivesUpByBody) ? scheduler.Contact(slot).Partner : NoPartner);
                     return;
                 }
 
@@ -202,7 +202,7 @@ public sealed partial class Simulation
 
                 int before = timelines.Last(slot);
                 HandleExternal(slot, key);
-                if (partyCount > 0 && timelines.Last(slot) != before && !(Has(HealingFault.LeavesMates) && MayBeAhead(key)))
+                if (partyCount > 0 && timelines.Last(slot) != before && !(faults.Has(HealingFault.LeavesMates) && rollback.MayBeKnownBeyond(key)))
                 {
                     WakeParties(slot, key);
                 }
@@ -223,7 +223,7 @@ public sealed partial class Simulation
             return false;
         }
 
-        int piece = Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : PieceAt(partner, key);
+        int piece = faults.Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : view.PieceAt(partner, key);
         return piece == TimelineStore.None || timelines.Serial(piece) != scheduler.Contact(slot).PartnerSerial; // or forgotten meanwhile
     }
 }

@@ -13,10 +13,18 @@ namespace LagSim;
 public sealed partial class Simulation
 {
     /// <summary>Takes bodies that meet three at a time for two: only a test's negative control sets it.</summary>
-    internal bool IgnoresTies { get; set; }
+    internal bool IgnoresTies
+    {
+        get => faults.IgnoresTies;
+        set => faults.IgnoresTies = value;
+    }
 
     /// <summary>Gathers every impact, however plain, and looks at every pair: only a test sets it, to compare.</summary>
-    internal bool TakesNoShortcut { get; set; }
+    internal bool TakesNoShortcut
+    {
+        get => faults.TakesNoShortcut;
+        set => faults.TakesNoShortcut = value;
+    }
 
     /// <summary>How many impacts were of two alone, or of one and a surface alone.</summary>
     internal long AloneProcessed { get; private set; }
@@ -31,7 +39,7 @@ public sealed partial class Simulation
     /// </summary>
     private bool IsAlone(int slot, in EventKey key)
     {
-        bool isPlain = front == SimTime.MinValue && !MayBeStruckAgain(key)
+        bool isPlain = !rollback.IsActive && !MayBeStruckAgain(key)
             && (!scheduler.Contact(slot).IsTied || IgnoresTies) && flights.IsFree(slot) && !TakesNoShortcut && !SwapsOperands;
         int other = scheduler.Contact(slot).Partner;
         return isPlain && (other == NoPartner

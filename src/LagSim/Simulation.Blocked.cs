@@ -58,7 +58,7 @@ public sealed partial class Simulation
             Blocked = null;
         }
 
-        if (IsPartDone && changed <= SimTime.Max(partDone, KnownTo) && !Has(HealingFault.LeavesPartOfAnInstant))
+        if (IsPartDone && changed <= SimTime.Max(partDone, KnownTo) && !faults.Has(HealingFault.LeavesPartOfAnInstant))
         {
             TakeBackInstant(partDone);
         }

@@ -9,7 +9,7 @@ using LagSim.Timelines;
 
 namespace LagSim;
 
-/// <content>Contact steps: bodies in lasting contact are islands, which move by steps of a common clock.</content>
+/// <content>Contact steps: bodies in lasting contact are islands, which move by steps of a common rollback.Cursor.</content>
 /// <remarks>
 /// A step opens the pieces of all of an island with one key. Within it an impact or a player opens new pieces for those alone whom it reaches; all others go on along
 /// their chords to the next tick, which gathers the island by the contacts that its pieces carry.
@@ -18,8 +18,6 @@ public sealed partial class Simulation
 {
     private readonly ContactStep step;
     private readonly List<int> lookedAt = new(); // slots of partners that carry no contact any more that another still carries
-    private int[] stepOf = Array.Empty<int>(); // by slot: the last step that it was of and in which it strikes nobody of its island
-    private int stepNumber = 1;
     private bool[] holdsPair = Array.Empty<bool>(); // by party: whether another body holds it
 
     /// <summary>How many contact steps were taken, and of how many bodies.</summary>
@@ -64,26 +62,21 @@ public sealed partial class Simulation
 
         StepsTaken++;
         JoinLookedAt(canonical);
-        stepNumber++;
+        stepMarks.Clear();
         return true;
     }
 
     /// <summary>Marks those of the step who strike nobody of it, so that in the predictions that follow nobody looks.</summary>
     private void MarkStep()
     {
-        if (stepOf.Length < bodies.SlotCount)
-        {
-            Array.Resize(ref stepOf, bodies.Room);
-        }
-
         for (int i = 0; i < partyCount; i++)
         {
-            stepOf[parties[i]] = !step.MayMeet(i) && timelines.Segment(timelines.Last(parties[i])).Law == MotionLaw.Constrained ? stepNumber : -1;
+            if (!step.MayMeet(i) && timelines.Segment(timelines.Last(parties[i])).Law == MotionLaw.Constrained)
+            {
+                stepMarks.Add(parties[i], bodies.Room);
+            }
         }
     }
-
-    /// <summary>Whether a body was opened by the step at hand, and strikes nobody of it.</summary>
-    private bool IsOfStep(int slot) => slot < stepOf.Length && stepOf[slot] == stepNumber;
 
     /// <summary>
     /// The parties, and those that the event at hand has looked at and that are no part of it, are opened by one event, and predicted again: who is cut later cuts
@@ -93,7 +86,7 @@ public sealed partial class Simulation
     {
         foreach (int slot in lookedAt)
         {
-            if (PartyOf(slot) >= 0 || Has(HealingFault.ForgetsWhoWasLookedAt))
+            if (PartyOf(slot) >= 0 || faults.Has(HealingFault.ForgetsWhoWasLookedAt))
             {
                 continue;
             }
@@ -112,7 +105,7 @@ public sealed partial class Simulation
             AddParty(slot);
         }
 
-        if (!Has(HealingFault.CutsMembersAlone))
+        if (!faults.Has(HealingFault.CutsMembersAlone))
         {
             timelines.Join(parties.AsSpan(0, partyCount));
         }
@@ -155,7 +148,7 @@ public sealed partial class Simulation
     private bool TryPartner(BodyId body, BodyId partnerId, in EventKey key, out int partner)
     {
         partner = bodies.SlotOf(partnerId);
-        int piece = partner < 0 ? TimelineStore.None : PieceBefore(partner, key);
+        int piece = partner < 0 ? TimelineStore.None : view.PieceBefore(partner, key);
         if (piece == TimelineStore.None)
         {
             return false;
@@ -173,13 +166,6 @@ public sealed partial class Simulation
         }
 
         return holds;
-    }
-
-    /// <summary>The piece on which a body comes to an event.</summary>
-    private int PieceBefore(int slot, in EventKey key)
-    {
-        int last = timelines.Last(slot);
-        return last != TimelineStore.None && EventKey.Compare(timelines.Key(last), key) < 0 ? last : timelines.Before(slot, key);
     }
 
     private void TakeBackAhead(in EventKey key)
@@ -294,7 +280,7 @@ public sealed partial class Simulation
         double rate = spec.Forces.IsEmpty ? 0 : forces.FixedStepRateAt(spec, position, velocity, spin);
         if (!(rate * SimDuration.FromTicks(ContactScale.ShortestTicks).ToSeconds() <= 1)) // what is not a number is too stiff
         {
-            throw trajectories.Failures.OfContactStep(slot, clock.Time, position, velocity, spin, double.IsNaN(rate) ? double.PositiveInfinity : rate);
+            throw trajectories.Failures.OfContactStep(slot, rollback.Cursor.Time, position, velocity, spin, double.IsNaN(rate) ? double.PositiveInfinity : rate);
         }
 
         return rate > 0 ? MostRateTimesStep / rate : double.PositiveInfinity;

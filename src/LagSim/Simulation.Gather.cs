@@ -56,7 +56,7 @@ public sealed partial class Simulation
             int party = parties[i];
             for (int surface = 0; surface < surfaces.Count; surface++)
             {
-                bool isStruck = TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
+                bool isStruck = predictor.TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
                 if (isStruck || (withStruckBefore && IsStillTouching(party, surface, key.Time, out contact)))
                 {
                     AddContact(new ContactPoint(i, ContactPoint.Static, surface, contact) { IsFromBefore = !isStruck });
@@ -70,13 +70,13 @@ public sealed partial class Simulation
                     continue;
                 }
 
-                int then = PieceAt(other, key);
+                int then = view.PieceAt(other, key);
                 if (then == TimelineStore.None)
                 {
                     continue;
                 }
 
-                bool isStruck = TryTouchBody(party, other, then, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
+                bool isStruck = predictor.TryTouchBody(party, other, then, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
                 if (isStruck || (withStruckBefore && paths.RoundAfter(then, key.Time) <= key.Round
                     && AreStillTouching(party, other, then, key.Time, out contact)))
                 {

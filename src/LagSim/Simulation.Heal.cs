@@ -19,29 +19,15 @@ public sealed partial class Simulation
     /// <summary>Of the heal at hand what it began with, and how many bodies it has predicted anew.</summary>
     private HealReport healed;
 
-    /// <summary>The number of the heal at hand, from one.</summary>
-    private uint healNumber;
-
-    private int healedBodies;
-    private uint[] healedIn = Array.Empty<uint>(); // by slot: the number of the last heal that predicted the body anew
-
     /// <summary>Who was cut since anything was predicted anew.</summary>
     private readonly List<int> taken = new();
 
-    /// <summary>
-    /// How far the world was simulated before the heal at hand, and so how far the paths of bodies that nothing late has touched are known. The least time
-    /// there is where nothing is being healed. A heal may be finished in several advances.
-    /// </summary>
-    private SimTime front = SimTime.MinValue;
-
-    /// <summary>The event at hand, or the key to which was taken back.</summary>
-    private EventKey clock;
-
-    /// <summary>Of the heal at hand: segments up to this one were there before.</summary>
-    private long oldSerial;
-
     /// <summary>What is done wrongly on purpose: only a test's negative control sets it.</summary>
-    internal HealingFault Fault { get; set; }
+    internal HealingFault Fault
+    {
+        get => faults.Healing;
+        set => faults.Healing = value;
+    }
 
     /// <summary>
     /// The cones of so many news at a time, each in a place of its own, may take up an eighth of all bodies each; more share that half, where a cone is about
@@ -54,13 +40,8 @@ public sealed partial class Simulation
     /// </summary>
     internal int FewHealed { get; set; } = 32;
 
-    private bool Has(HealingFault wrong) => (Fault & wrong) != 0;
-
-    /// <summary>Whether bodies' paths may be known beyond this key: a heal is under way.</summary>
-    private bool MayBeAhead(in EventKey key) => key.Time <= front;
-
     /// <summary>The heal at hand, for the index, if anybody may be ahead of the event at hand; else 0.</summary>
-    private long HealAtHand => MayBeAhead(clock) && oldSerial >= 0 ? Rollbacks : 0;
+    private long HealAtHand => rollback.MayBeKnownBeyond(rollback.Cursor) && rollback.LastOld >= 0 ? Rollbacks : 0;
 
     /// <summary>
     /// Raised on the thread that advances, once per heal, when the world is again where it was. Handlers must not throw, and not change the world.
@@ -68,11 +49,11 @@ public sealed partial class Simulation
     public event Action<HealReport>? Healed;
 
     /// <summary>Up to when what bodies do is known of some, and so would have to be rewritten.</summary>
-    private SimTime KnownTo => healing == HealingMode.FullRollback ? SimulatedTo : SimTime.Max(SimulatedTo, front);
+    private SimTime KnownTo => healing == HealingMode.FullRollback ? SimulatedTo : SimTime.Max(SimulatedTo, rollback.Horizon);
 
     void IOpeningObserver.OnOpened(int slot, in EventKey key)
     {
-        if (key.Time <= front && key.Kind != EventKind.None) // not of whom nobody has heard yet
+        if (key.Time <= rollback.Horizon && key.Kind != EventKind.None) // not of whom nobody has heard yet
         {
             CountHealed(slot); // also who had nothing to be cut, because what struck him now comes after all he did
         }
@@ -81,13 +62,11 @@ public sealed partial class Simulation
     private void BeginHeal(SimTime time)
     {
         Rollbacks++;
-        if (front == SimTime.MinValue)
+        if (!rollback.IsActive)
         {
-            front = SimulatedTo;
+            rollback.Begin(SimulatedTo);
             timelines.Openings = this;
-            healNumber++;
-            healedBodies = 0;
-            healed = new HealReport(time, front, 1, 0, SegmentsCut, EventsProcessed);
+            healed = new HealReport(time, rollback.Horizon, 1, 0, SegmentsCut, EventsProcessed);
             if (healing != HealingMode.FullRollback)
             {
                 cutPaths.Begin(timelines.LastSerial);
@@ -105,23 +84,16 @@ public sealed partial class Simulation
     {
         GoOnToTheEnd();
         isTwinDue = true;
-        front = SimTime.MinValue;
+        rollback.Horizon = SimTime.MinValue;
         timelines.Openings = null;
         Healed?.Invoke(new HealReport(
-            healed.From, healed.To, healed.News, healedBodies, SegmentsCut - healed.SegmentsCut, EventsProcessed - healed.Events, met));
+            healed.From, healed.To, healed.News, rollback.BodyCount, SegmentsCut - healed.SegmentsCut, EventsProcessed - healed.Events, met));
     }
 
     private void CountHealed(int slot)
     {
-        if (slot >= healedIn.Length)
+        if (rollback.Touch(slot))
         {
-            Array.Resize(ref healedIn, bodies.Room);
-        }
-
-        if (healedIn[slot] != healNumber)
-        {
-            healedIn[slot] = healNumber;
-            healedBodies++;
             cutPaths.Touch(slot);
         }
     }
@@ -130,11 +102,11 @@ public sealed partial class Simulation
     private void Heal(int slot, in EventKey key)
     {
         SimTime to = SimulatedTo;
-        clock = EventKey.Before(to + SimDuration.OneTick);
+        rollback.Cursor = EventKey.Before(to + SimDuration.OneTick);
         if (key.Time <= to)
         {
-            clock = key;
-            oldSerial = timelines.LastSerial; // what an unfinished heal has made anew may be ahead of this one
+            rollback.Cursor = key;
+            rollback.LastOld = timelines.LastSerial; // what an unfinished heal has made anew may be ahead of this one
             SimulatedTo = key.Time - SimDuration.OneTick;
         }
 
@@ -144,7 +116,7 @@ public sealed partial class Simulation
 
     private void Rewrite(int slot, in EventKey key)
     {
-        if (Has(HealingFault.LeavesWhoRests) && timelines.Segment(timelines.Last(slot)).Law == MotionLaw.Resting)
+        if (faults.Has(HealingFault.LeavesWhoRests) && timelines.Segment(timelines.Last(slot)).Law == MotionLaw.Resting)
         {
             return;
         }
@@ -160,28 +132,11 @@ public sealed partial class Simulation
         }
     }
 
-    /// <summary>
-    /// The piece of its path on which a body meets an impact of this tick and round: its newest, unless it is ahead, with what it did before the heal
-    /// from there on still standing.
-    /// </summary>
-    private int PieceAt(int slot, in EventKey key)
-    {
-        int last = timelines.Last(slot);
-        if (!MayBeAhead(key) || timelines.Serial(last) > oldSerial || IsOverlooked(slot))
-        {
-            return last;
-        }
-
-        return timelines.Before(slot, RoundOfImpacts(key.Time, key.Round));
-    }
-
-    private bool IsOverlooked(int slot) => Has(HealingFault.OverlooksWhoIsAhead) && slot < healedIn.Length && healedIn[slot] == healNumber;
-
     /// <summary>Cuts a body at the key; whoever shared an impact that is gone is cut there too. All of them are predicted anew.</summary>
     private void TakeBack(int slot, in EventKey key)
     {
         taken.Clear();
-        bool cutsByTime = Has(HealingFault.CutsByTime) && key == clock && key.Time > HistoryEdge;
+        bool cutsByTime = faults.Has(HealingFault.CutsByTime) && key == rollback.Cursor && key.Time > HistoryEdge;
         cuts.Push((slot, cutsByTime ? EventKey.Before(key.Time) : key));
         log.AddDueFrom(slot, key);
         taken.Add(slot);
@@ -206,7 +161,7 @@ public sealed partial class Simulation
 
             if (any)
             {
-                if (!Has(HealingFault.DropsEvents) && !cutsByTime)
+                if (!faults.Has(HealingFault.DropsEvents) && !cutsByTime)
                 {
                     log.AddDueFrom(body, from);
                 }
@@ -232,13 +187,13 @@ public sealed partial class Simulation
     /// </summary>
     private bool HasTakenBackAll()
     {
-        if (oldSerial < 0 || healedBodies <= Math.Max(FewHealed, bodies.Count / 8 * Math.Min(healed.News, MostNewsApart)))
+        if (rollback.LastOld < 0 || rollback.BodyCount <= Math.Max(FewHealed, bodies.Count / 8 * Math.Min(healed.News, MostNewsApart)))
         {
             return false;
         }
 
         GoOnToTheEnd();
-        TakeBackAll(clock.Kind == EventKind.Impact ? RoundOfImpacts(clock.Time, clock.Round) : clock);
+        TakeBackAll(rollback.Cursor.Kind == EventKind.Impact ? EventKey.BeforeImpacts(rollback.Cursor.Time, rollback.Cursor.Round) : rollback.Cursor);
         return true;
     }
 
@@ -250,7 +205,7 @@ public sealed partial class Simulation
             return false;
         }
 
-        EventKey round = RoundOfImpacts(key.Time, key.Round);
+        EventKey round = EventKey.BeforeImpacts(key.Time, key.Round);
         while (ahead.Count > 0)
         {
             int slot = ahead[ahead.Count - 1];

@@ -32,7 +32,11 @@ public sealed partial class Simulation
     private int contactCount;
 
     /// <summary>Takes the operands of a contact the wrong way round: only a test's negative control sets it.</summary>
-    internal bool SwapsOperands { get; set; }
+    internal bool SwapsOperands
+    {
+        get => faults.SwapsOperands;
+        set => faults.SwapsOperands = value;
+    }
 
     private bool TryHandleImpact(int slot, in EventKey key)
     {

@@ -40,10 +40,10 @@ public sealed partial class Simulation
             return;
         }
 
-        if (front == SimTime.MinValue && clock.Time <= SimulatedTo)
+        if (!rollback.IsActive && rollback.Cursor.Time <= SimulatedTo)
         {
             // The clock shows the last event, which may be long ago, and the index would list nobody between then and now.
-            clock = EventKey.Before(SimulatedTo + SimDuration.OneTick);
+            rollback.Cursor = EventKey.Before(SimulatedTo + SimDuration.OneTick);
         }
 
         index = NewIndex();
@@ -54,7 +54,7 @@ public sealed partial class Simulation
             {
                 int next = timelines.Next(at);
                 SimTime from = SimTime.Max(HistoryEdge, timelines.Key(at).Time);
-                SimTime until = next == TimelineStore.None ? SimTime.Max(from, clock.Time) : timelines.Key(next).Time;
+                SimTime until = next == TimelineStore.None ? SimTime.Max(from, rollback.Cursor.Time) : timelines.Key(next).Time;
                 if (timelines.Segment(at).IsPresent && until >= from)
                 {
                     index.Add(slot, bodies.Spec(slot).Radius, at, from, until);
@@ -93,7 +93,7 @@ public sealed partial class Simulation
         double tick = Limits.MaxSpeed(Scene.SmallestRadius) * TickConversion.SecondsPerTick;
         return new ShellIndex(timelines, CellInRadii * usual, usualSpeed, Scene.Resolution, tick, Scene.Box, bodies.SlotCount)
         {
-            ForgetsWhoMovedOn = Has(HealingFault.ForgetsWhoMovedOn),
+            ForgetsWhoMovedOn = faults.Has(HealingFault.ForgetsWhoMovedOn),
         };
     }
 }

@@ -20,7 +20,7 @@ public sealed partial class Simulation
     /// <summary>Ends the heal at hand if at an instant, of which it has done all, the new paths have met the old, and if it may get so far at all.</summary>
     private bool HasMet(SimTime at, SimTime until)
     {
-        if (front == SimTime.MinValue || at >= front || at < clock.Time || until < front)
+        if (!rollback.IsActive || at >= rollback.Horizon || at < rollback.Cursor.Time || until < rollback.Horizon)
         {
             return false; // no heal, or none any more; or of the instant of the news nothing is done; or whoever advances does not want that much yet
         }
@@ -42,8 +42,8 @@ public sealed partial class Simulation
 
     private void PutBack(SimTime at)
     {
-        SimTime met = clock.Time;
-        SimTime to = front;
+        SimTime met = rollback.Cursor.Time;
+        SimTime to = rollback.Horizon;
         SimTime next = to + SimDuration.OneTick;
         for (int n = 0; n < cutPaths.BodyCount; n++)
         {
@@ -59,8 +59,8 @@ public sealed partial class Simulation
         }
 
         SimulatedTo = to;
-        front = SimTime.MinValue; // nobody is ahead of anybody
-        clock = EventKey.Before(next);
+        rollback.Horizon = SimTime.MinValue; // nobody is ahead of anybody
+        rollback.Cursor = EventKey.Before(next);
         for (int n = 0; n < cutPaths.BodyCount; n++)
         {
             Predict(cutPaths.SlotAt(n));

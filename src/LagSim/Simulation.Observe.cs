@@ -21,7 +21,7 @@ public sealed partial class Simulation
     }
 
     /// <summary>Whether a heal is under way: what stands ahead of <see cref="SimulatedTo"/> may still be taken back by it.</summary>
-    internal bool IsHealing => front != SimTime.MinValue;
+    internal bool IsHealing => rollback.IsActive;
 
     /// <summary>How far behind the simulated time timelines are kept.</summary>
     internal SimDuration History => history;

@@ -1,7 +1,6 @@
 using System;
-using LagSim.Contacts;
+using LagSim.Collisions;
 using LagSim.Events;
-using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -16,7 +15,7 @@ public sealed partial class Simulation
     /// <param name="except">Another that is not met, whatever the paths say: only a fault put in on purpose names one.</param>
     private void Predict(int slot, int except = NoPartner)
     {
-        Pending next = new() { Partner = NoPartner };
+        NextEvent next = new() { Partner = NoPartner };
         int external = log.Due(slot);
         if (external != EventLog.None)
         {
@@ -33,20 +32,20 @@ public sealed partial class Simulation
                 next.Consider(new EventKey(end, paths.RoundAfter(timelines.Last(slot), end), EventKind.StepEnd, id, id, 0, 0));
             }
 
-            SimTime from = SimTime.Max(timelines.Key(last).Time, clock.Time);
+            SimTime from = SimTime.Max(timelines.Key(last).Time, rollback.Cursor.Time);
             Span<int> candidates = index.Candidates(slot, bodies.Spec(slot).Radius, from, HealAtHand, out SimTime until);
             if (until < end)
             {
                 next.Consider(new EventKey(until, 0, EventKind.None, id, id, 0, 0));
             }
 
-            if (flights.IsFree(slot) && !MayBeAhead(clock) && !TakesNoShortcut && !SwapsOperands)
+            if (flights.IsFree(slot) && !rollback.MayBeKnownBeyond(rollback.Cursor) && !TakesNoShortcut && !SwapsOperands)
             {
-                FindInFlight(slot, candidates, from, until, except, ref next);
+                search.FindInFlight(slot, candidates, from, until, except, ref next);
             }
             else
             {
-                FindAlong(slot, candidates, from, until, except, ref next);
+                search.FindAlong(slot, candidates, from, until, except, ref next);
             }
         }
 
@@ -71,305 +70,16 @@ public sealed partial class Simulation
         }
     }
 
-    private void Pend(int slot, in Pending next, int partner, int piece)
+    private void Pend(int slot, in NextEvent next, int partner, int piece)
     {
         scheduler.Set(slot, next.Key, new PendingContact
         {
             Partner = partner,
             Surface = next.Surface,
-            PartnerSerial = partner == NoPartner ? 0 : timelines.Serial(Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : piece),
+            PartnerSerial = partner == NoPartner ? 0 : timelines.Serial(faults.Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : piece),
             Residual = next.Residual,
             IsTied = next.IsTied,
         });
     }
 
-    /// <summary>The next contact of a body's newest segment with a static surface: planes by index, static spheres after them.</summary>
-    private bool TryTouchSurface(int slot, int surface, out ContactTime contact, out uint round)
-    {
-        int last = timelines.Last(slot);
-        ref readonly MotionSegment segment = ref timelines.Segment(last);
-        contact = default;
-        round = 0;
-        bool isPlane = surfaces.IsPlane(surface);
-        if (segment.Law is MotionLaw.Resting or MotionLaw.Held || (isPlane && segment.Supports.Contains(surface)))
-        {
-            return false; // what carries a body stays below it until something else happens, and nothing static stops a hand
-        }
-
-        if (segment.Law == MotionLaw.Constrained && (IsOutOfReach(slot, segment, surface) || IsCovered(slot, last, surface)))
-        {
-            return false;
-        }
-
-        SimTime opened = timelines.Key(last).Time;
-        SimTime from = opened;
-        if (segment.Epoch < opened && TouchSurface(slot, last, surface, isPlane, segment.Epoch, out contact) && contact.Tick > opened)
-        {
-            // A path taken over from an event that came late: looked at from where it began, the root has the bits that it has on other peers.
-            return true;
-        }
-
-        while (TouchSurface(slot, last, surface, isPlane, from, out contact))
-        {
-            if (contact.Tick != opened && contact.IsSoonAfter(opened) && ClosesAtOnce(slot, last, surface, opened))
-            {
-                contact = ContactTime.At(opened);
-            }
-
-            round = paths.RoundAfter(timelines.Last(slot), contact.Tick);
-            if (contact.Tick != opened)
-            {
-                return true;
-            }
-
-            Vector3D position = paths.PositionAt(last, contact);
-            double radius = bodies.Spec(slot).Radius;
-            Vector3D normal = surfaces.Normal(surface, position);
-            Vector3D velocity = paths.VelocityAt(last, contact);
-            double reach = surfaces.Reach(surface, radius);
-            double pressing = -Vector3D.Dot(normal, paths.AccelerationAt(last, contact)) - FallingAway(normal, velocity, reach);
-            Closing closing = new(
-                -Vector3D.Dot(normal, velocity), pressing, velocity.Length,
-                surfaces.Gap(surface, position, radius), RoundingOf(position, radius));
-            SimDuration wait = WaitFor(closing, segment.IsOfIsland && Holds(last, surface));
-            if (wait < ContactTime.Soon
-                && !MayWait(closing, closing.Speed <= CollapseSpeed ? StrikesOn(last, surface, opened) : 0, round))
-            {
-                return true;
-            }
-
-            from = LookAgain(opened, segment.End, wait);
-            if (from == SimTime.MaxValue)
-            {
-                return false;
-            }
-        }
-
-        return false;
-    }
-
-    private bool TouchSurface(int slot, int last, int surface, bool isPlane, SimTime from, out ContactTime contact)
-    {
-        ref readonly MotionSegment segment = ref timelines.Segment(last);
-        if (isPlane)
-        {
-            return ContactFinder.WithPlane(
-                segment, timelines.Dense(last), bodies.Spec(slot).Radius, surfaces.Plane(surface), from, segment.End, out contact);
-        }
-
-        ref readonly StaticSphere sphere = ref surfaces.Sphere(surface);
-        return ContactFinder.WithSphere(
-            segment, timelines.Dense(last), MotionSegment.AtRest(Start, sphere.Centre), default, bodies.Spec(slot).Radius + sphere.Radius,
-            from, segment.End, out contact);
-    }
-
-    /// <summary>
-    /// The next contact of a body's newest segment with another body's path: with its newest piece, or, where that body is ahead of what is being
-    /// healed, with the first piece until then that is touched before what ended it.
-    /// </summary>
-    private bool TryMeet(int slot, int other, SimTime until, out int piece, out ContactTime contact, out uint round)
-    {
-        piece = timelines.Last(other);
-        if (MayBeAhead(clock) && slot != other)
-        {
-            piece = PieceFrom(slot, other);
-        }
-
-        while (true)
-        {
-            int next = timelines.Next(piece);
-            if (TryTouchBody(slot, other, piece, out contact, out round)
-                && (next == TimelineStore.None || EventKey.Compare(timelines.Key(next), RoundOfImpacts(contact.Tick, round)) >= 0))
-            {
-                return true;
-            }
-
-            if (next == TimelineStore.None || timelines.Key(next).Time > until)
-            {
-                return false;
-            }
-
-            piece = next;
-        }
-    }
-
-    /// <summary>The first piece of another's path that a body's newest segment can still meet: the newest, but for one who is ahead.</summary>
-    private int PieceFrom(int slot, int other)
-    {
-        int piece = timelines.Last(other);
-        if (Has(HealingFault.ForgetsThePast) || IsOverlooked(other))
-        {
-            return piece;
-        }
-
-        ref readonly EventKey opened = ref timelines.Key(timelines.Last(slot));
-        EventKey from = EventKey.Compare(opened, clock) > 0 ? opened : clock;
-        while (timelines.Serial(piece) <= oldSerial && EventKey.Compare(timelines.Key(piece), from) > 0 && timelines.Previous(piece) != TimelineStore.None)
-        {
-            piece = timelines.Previous(piece);
-        }
-
-        return piece;
-    }
-
-    /// <summary>The key before all impacts of a tick and round.</summary>
-    private static EventKey RoundOfImpacts(SimTime time, uint round) => new(time, round, EventKind.Impact, default, default, 0, 0);
-
-    /// <summary>The next contact of a body's newest segment with a piece of another's path; a pure function of the two, ordered by identity.</summary>
-    private bool TryTouchBody(int slot, int other, int piece, out ContactTime contact, out uint round)
-    {
-        contact = default;
-        round = 0;
-        int mine = timelines.Last(slot);
-        if (slot == other || !timelines.Segment(piece).IsPresent || !timelines.Segment(mine).IsPresent)
-        {
-            return false;
-        }
-
-        bool ordered = bodies.Id(slot) < bodies.Id(other);
-        int a = ordered ? slot : other;
-        int b = ordered ? other : slot;
-        int lastA = ordered ? mine : piece;
-        int lastB = ordered ? piece : mine;
-        ref readonly MotionSegment segmentA = ref timelines.Segment(lastA);
-        scoped ref readonly MotionSegment segmentB = ref timelines.Segment(lastB);
-        if (segmentA.Law == segmentB.Law && (segmentA.Law == MotionLaw.Resting || segmentA.Law == MotionLaw.Held))
-        {
-            return false;
-        }
-
-        if (IsCovered(a, lastA, b, lastB))
-        {
-            return false;
-        }
-
-        SimTime opened = SimTime.Max(timelines.Key(lastA).Time, timelines.Key(lastB).Time);
-        SimTime until = SimTime.Min(segmentA.End, segmentB.End);
-        MotionSegment image;
-        if (Scene.Box.Exists)
-        {
-            image = NearestImage(segmentB, paths.PositionAt(lastA, opened), paths.PositionAt(lastB, opened));
-            segmentB = ref image;
-        }
-
-        double reach = bodies.Spec(a).Radius + bodies.Spec(b).Radius;
-        SimTime from = opened;
-        while (from <= until && ContactFinder.WithSphere(
-            segmentA, timelines.Dense(lastA), segmentB, timelines.Dense(lastB), reach, from, until, out contact))
-        {
-            if (contact.Tick != opened && contact.IsSoonAfter(opened) && ClosesAtOnce(lastA, lastB, reach, opened))
-            {
-                contact = ContactTime.At(opened);
-            }
-
-            round = Math.Max(paths.RoundAfter(lastA, contact.Tick), paths.RoundAfter(lastB, contact.Tick));
-            if (contact.Tick != opened)
-            {
-                return true;
-            }
-
-            Vector3D position = paths.PositionAt(lastA, contact);
-            Vector3D apart = Scene.Box.Nearest(position - paths.PositionAt(lastB, contact));
-            Vector3D normal = apart.Direction;
-            Vector3D velocityA = paths.VelocityAt(lastA, contact);
-            Vector3D velocityB = paths.VelocityAt(lastB, contact);
-            Vector3D velocity = velocityA - velocityB;
-            double pressing = -Vector3D.Dot(normal, paths.AccelerationAt(lastA, contact) - paths.AccelerationAt(lastB, contact)) - FallingAway(normal, velocity, reach);
-            Closing closing = new(
-                -Vector3D.Dot(normal, velocity), pressing, velocityA.Length + velocityB.Length,
-                apart.Length - reach, RoundingOf(position, reach));
-            SimDuration wait = WaitFor(closing, HoldTogether(a, lastA, b, lastB));
-            if (wait < ContactTime.Soon
-                && !MayWait(closing, closing.Speed <= CollapseSpeed ? StrikesBetween(lastA, lastB, opened) : 0, round))
-            {
-                return true;
-            }
-
-            from = LookAgain(opened, until, wait);
-            if (from == SimTime.MaxValue)
-            {
-                return false;
-            }
-        }
-
-        return false;
-    }
-
-    /// <summary>The image of a path in a periodic box that is nearest to a point when the path is at <paramref name="at"/>.</summary>
-    private MotionSegment NearestImage(in MotionSegment path, in Vector3D point, in Vector3D at) =>
-        path.At(path.Position + (Scene.Box.Nearest(at - point) - (at - point)));
-
-    /// <summary>
-    /// How long a contact that closes from the opening of its segments on needs not be looked for: so slow, as rounding leaves it, or a
-    /// step's sweeps where it holds, that it uses up its room only then. If that is sooner than <see cref="ContactTime.Soon"/> it may have
-    /// to be struck at once.
-    /// </summary>
-    private SimDuration WaitFor(in Closing closing, bool holds)
-    {
-        double seconds = UntilDeep(holds ? step.Scale.LookDepth : 2 * closing.Room(Scene.Resolution), closing.Speed, closing.Pressing);
-        SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
-        if (closing.Pressing < 0)
-        {
-            // It parts by itself, and from then on may come back as fast as it likes; but not before it has parted by more than rounding.
-            double apart = Math.Max(-2 * closing.Speed / closing.Pressing, Math.Sqrt(-2 * closing.Rounding / closing.Pressing));
-            SimDuration parts = TickConversion.TryFromSeconds(apart, out ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
-            parts = parts < ContactTime.Soon ? ContactTime.Soon : parts;
-            wait = parts < wait ? parts : wait;
-        }
-
-        return wait;
-    }
-
-    /// <summary>
-    /// From when on it is looked for again, after such a wait; <see cref="SimTime.MaxValue"/> if the segments end before.
-    /// </summary>
-    private static SimTime LookAgain(SimTime opened, SimTime end, SimDuration wait)
-    {
-        wait = wait < ContactTime.Soon ? ContactTime.Soon : wait;
-        return end.SecondsSince(opened) < wait.ToSeconds() ? SimTime.MaxValue : opened + wait;
-    }
-
-    /// <summary>
-    /// Whether what closes in the instant in which it was struck may wait: rounding after one impact, and what a collapse has left,
-    /// or would have ended if one were possible. In the round of the first collapse it may not, however slow it is: that is what ends
-    /// it.
-    /// </summary>
-    private static bool MayWait(in Closing closing, int strikes, uint round) =>
-        closing.IsRounding ? strikes > 0 : strikes > 1 && round > CollapseRound;
-
-    /// <summary>
-    /// Whether a body closes on a surface that is no further off than places are rounded: no path can tell the instant, so it is this one.
-    /// </summary>
-    private bool ClosesAtOnce(int slot, int piece, int surface, SimTime opened)
-    {
-        ContactTime now = ContactTime.At(opened);
-        Vector3D position = paths.PositionAt(piece, now);
-        double radius = bodies.Spec(slot).Radius;
-        return surfaces.Gap(surface, position, radius) <= RoundingOf(position, radius)
-            && Vector3D.Dot(surfaces.Normal(surface, position), paths.VelocityAt(piece, now)) < 0;
-    }
-
-    /// <summary>The same of two bodies.</summary>
-    private bool ClosesAtOnce(int first, int second, double reach, SimTime opened)
-    {
-        ContactTime now = ContactTime.At(opened);
-        Vector3D position = paths.PositionAt(first, now);
-        Vector3D apart = Scene.Box.Nearest(position - paths.PositionAt(second, now));
-        return apart.Length - reach <= RoundingOf(position, reach)
-            && Vector3D.Dot(apart, paths.VelocityAt(first, now) - paths.VelocityAt(second, now)) < 0;
-    }
-
-    /// <summary>
-    /// What a gap may be off by because places are rounded, in metres: four roundings of a double, 2^-52 each, of what is summed.
-    /// </summary>
-    private static double RoundingOf(in Vector3D position, double reach) =>
-        4.0 / (1L << 52) * (Math.Abs(position.X) + Math.Abs(position.Y) + Math.Abs(position.Z) + reach);
-
-    /// <summary>How fast, in m/s², the gap to what is round opens because one slides along it.</summary>
-    private static double FallingAway(in Vector3D normal, in Vector3D velocity, double reach) =>
-        (velocity - (normal * Vector3D.Dot(normal, velocity))).LengthSquared / reach;
-
-    /// <summary>The root of u t + a t^2 / 2 = depth / 2; if it eases off by itself, as if it did not.</summary>
-    private static double UntilDeep(double depth, double closing, double pressing) =>
-        depth / (closing + Math.Sqrt((closing * closing) + (Math.Max(0, pressing) * depth)));
 }

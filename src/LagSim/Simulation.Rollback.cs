@@ -27,8 +27,8 @@ public sealed partial class Simulation
     /// <summary>Cuts every timeline at the key, and has everybody predicted again.</summary>
     private void TakeBackAll(in EventKey key)
     {
-        clock = key;
-        oldSerial = -1; // nobody is ahead of anybody
+        rollback.Cursor = key;
+        rollback.LastOld = -1; // nobody is ahead of anybody
         EventKey cut = CutsByTime ? new EventKey(key.Time, 0, EventKind.Spawn, default, default, 0, 0) : key;
         for (int slot = 0; slot < bodies.SlotCount; slot++)
         {

@@ -1,4 +1,5 @@
 using System;
+using LagSim.Collisions;
 using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
@@ -61,18 +62,9 @@ public sealed partial class Simulation
 
         Vector3D velocity = partyVelocities[c.First] - (isPair ? partyVelocities[c.Second] : Vector3D.Zero);
         Vector3D acceleration = partyAccelerations[c.First] - (isPair ? partyAccelerations[c.Second] : Vector3D.Zero);
-        double pressing = -Vector3D.Dot(c.Normal, acceleration) - FallingAway(c.Normal, velocity, ReachOf(c));
+        double pressing = -Vector3D.Dot(c.Normal, acceleration) - CollisionPredictor.FallingAway(c.Normal, velocity, ReachOf(c));
         double rises = restitution < 1 ? step.Scale.Length : Scene.Resolution;
         return pressing > 0 && rebound * rebound <= 2 * pressing * rises && (restitution >= 1 || 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds());
-    }
-
-    /// <summary>Whether a contact that a body carries is elastic.</summary>
-    private bool IsElastic(int slot, in LastingContact contact)
-    {
-        int partner = contact.Surface == LastingContact.NoSurface ? bodies.SlotOf(contact.Partner) : NoPartner;
-        double other = contact.Surface != LastingContact.NoSurface ? surfaces.Restitution(contact.Surface)
-            : partner >= 0 ? bodies.Spec(partner).Restitution : 0;
-        return Math.Min(bodies.Spec(slot).Restitution, other) >= 1;
     }
 
     /// <summary>Whether the bounces of a contact are followed down to the scene's resolution, and a closed form carries its body then: alone on planes, of which one rubs at most if it is the only one.</summary>
@@ -389,7 +381,7 @@ public sealed partial class Simulation
         for (int at = timelines.FirstContact(piece); at != TimelineStore.None; at = timelines.NextContact(at))
         {
             LastingContact contact = timelines.Contact(at);
-            if (!contact.Holds || (!presses && IsElastic(slot, contact)))
+            if (!contact.Holds || (!presses && memberContacts.IsElastic(slot, contact)))
             {
                 continue; // that there is room to close in is not used up yet, or an impact tells when
             }

@@ -27,7 +27,7 @@ public sealed partial class Simulation
             twin.AdvanceTo(SimulatedTo);
         }
 
-        if (isTwinDue && front == SimTime.MinValue && twin.SimulatedTo == SimulatedTo)
+        if (isTwinDue && !rollback.IsActive && twin.SimulatedTo == SimulatedTo)
         {
             isTwinDue = false;
             if (FirstDifference(twin, this) is string difference)

@@ -55,7 +55,7 @@ public sealed partial class Simulation
         bool isOfMany = partyCount > 0 && key.Kind is EventKind.Impact or EventKind.StepEnd;
         aloneAtWork[0] = slot;
         Span<int> who = isOfMany ? parties.AsSpan(0, partyCount) : aloneAtWork;
-        bool isAgain = key.Time <= front;
+        bool isAgain = key.Time <= rollback.Horizon;
         return observer.OnWork(key, who, WorkOf(who.Length, isAgain), isAgain, this);
     }
 }

@@ -1,8 +1,11 @@
 using System;
 using System.Threading;
+using LagSim.Collisions;
 using LagSim.Contacts;
 using LagSim.Events;
+using LagSim.Islands;
 using LagSim.Motion;
+using LagSim.Rollback;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -33,6 +36,14 @@ public sealed partial class Simulation : IOpeningObserver
     private readonly HealingMode healing;
     private readonly BodyTable bodies;
     private readonly TrajectoryFactory trajectories;
+    private readonly RollbackState rollback = new();
+    private readonly PathView view;
+    private readonly TestFaults faults = new();
+    private readonly MemberContacts memberContacts;
+    private readonly StrikeCounts strikes;
+    private readonly CollisionPredictor predictor;
+    private readonly StepMarks stepMarks = new();
+    private readonly CollisionSearch search;
     private Exception? fault;
 
     /// <summary>Which fold this library computes, from 1 on: builds of one version give one scene and events the same states and hashes, to the bit.</summary>
@@ -100,7 +111,7 @@ public sealed partial class Simulation : IOpeningObserver
         Threads = options.Threads;
         healing = options.Healing;
         mostPairs = options.MostPairs;
-        clock = EventKey.Before(from);
+        rollback.Cursor = EventKey.Before(from);
         SimulatedTo = from - SimDuration.OneTick;
         HistoryEdge = from;
         bodies = new BodyTable(expected);
@@ -109,6 +120,7 @@ public sealed partial class Simulation : IOpeningObserver
         flights = new FreeFlights(scene.Gravity, scene.Resolution, scene.Box, expected);
         timelines = new TimelineStore(start, options.MaxSegments, flights, expected, history);
         paths = new Paths(timelines);
+        view = new PathView(timelines, rollback, faults);
         Observer = options.Observer;
         timelines.ForgetBefore(from);
         forces = new Forces(scene, start);
@@ -116,6 +128,10 @@ public sealed partial class Simulation : IOpeningObserver
         surfaces = scene.Surfaces;
         hasLosses = surfaces.TakesEnergy();
         step = new ContactStep(scene, options.Scale ?? new ContactScale(scene.ContactTolerance, scene.Gravity, start));
+        memberContacts = new MemberContacts(timelines, view, bodies, surfaces, step.Scale);
+        strikes = new StrikeCounts(timelines, bodies, surfaces, scene.Box);
+        predictor = new CollisionPredictor(scene, start, bodies, timelines, rollback, view, memberContacts, strikes, step.Scale);
+        search = new CollisionSearch(bodies, timelines, flights, surfaces, predictor, stepMarks, faults);
     }
 
     /// <summary>How many threads at most may be at work for it.</summary>
@@ -184,6 +200,7 @@ public sealed partial class Simulation : IOpeningObserver
 
         int slot = bodies.Add(id, spec);
         scheduler.AddSlot(slot);
+        rollback.AddSlot(slot);
         timelines.AddSlot(slot);
         flights.AddSlot(slot, spec.Radius);
         log.AddSlot(slot);

@@ -54,6 +54,9 @@ public readonly struct EventKey : IEquatable<EventKey>, IComparable<EventKey>
     /// <summary>The key before every event at or after <paramref name="time"/>.</summary>
     public static EventKey Before(SimTime time) => new(time, 0, EventKind.None, default, default, 0, 0);
 
+    /// <summary>The key before all impacts of a tick and round.</summary>
+    internal static EventKey BeforeImpacts(SimTime time, uint round) => new(time, round, EventKind.Impact, default, default, 0, 0);
+
     /// <inheritdoc/>
     public int CompareTo(EventKey other) => Compare(this, other);
 

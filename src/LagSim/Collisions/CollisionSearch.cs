@@ -1,19 +1,24 @@
 using System;
 using LagSim.Contacts;
 using LagSim.Events;
+using LagSim.Islands;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
-namespace LagSim;
+namespace LagSim.Collisions;
 
-/// <content>Finding the next contact among candidates: of a body in free flight from what is side by side, of any other by a look at everybody.</content>
-public sealed partial class Simulation
+/// <summary>
+/// Finds the next contact among candidates: of a body in free flight from what is side by side, of any other by a look at everybody.
+/// </summary>
+internal sealed class CollisionSearch(
+    BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor, StepMarks stepMarks, TestFaults faults)
 {
     /// <summary>
     /// The next contact of a body in free flight. From the flights it is seen which of the others come near at all, and from when on; so only those are looked
     /// at that may be the first, and that is one as a rule. It finds what <see cref="FindAlong"/> finds, to the bit.
     /// </summary>
-    private void FindInFlight(int slot, Span<int> candidates, SimTime from, SimTime until, int except, ref Pending next)
+    internal void FindInFlight(int slot, Span<int> candidates, SimTime from, SimTime until, int except, ref NextEvent next)
     {
         bool isOnly = candidates.Length == 1 && candidates[0] == slot;
         Span<Approach> approaches = isOnly ? default : flights.Approaches(slot, candidates, from, next.Horizon(from, until));
@@ -49,18 +54,18 @@ public sealed partial class Simulation
     }
 
     /// <summary>The next contact of a body on any path, and with anybody who may be ahead of what is being healed.</summary>
-    private void FindAlong(int slot, Span<int> candidates, SimTime from, SimTime until, int except, ref Pending next)
+    internal void FindAlong(int slot, Span<int> candidates, SimTime from, SimTime until, int except, ref NextEvent next)
     {
         for (int surface = 0; surface < surfaces.Count; surface++)
         {
             ConsiderSurface(slot, surface, ref next);
         }
 
-        bool isOfStep = IsOfStep(slot) && !TakesNoShortcut;
+        bool isOfStep = stepMarks.Has(slot) && !faults.TakesNoShortcut;
         SimTime end = SimTime.Min(until, timelines.Segment(timelines.Last(slot)).End);
         foreach (int other in candidates)
         {
-            if (other != except && !(isOfStep && IsOfStep(other))
+            if (other != except && !(isOfStep && stepMarks.Has(other))
                 && !flights.AreApart(slot, other, from, SimTime.Max(from, next.Horizon(from, end))))
             {
                 ConsiderMeeting(slot, other, until, ref next);
@@ -68,9 +73,9 @@ public sealed partial class Simulation
         }
     }
 
-    private void ConsiderSurface(int slot, int surface, ref Pending next)
+    private void ConsiderSurface(int slot, int surface, ref NextEvent next)
     {
-        if (TryTouchSurface(slot, surface, out ContactTime contact, out uint round))
+        if (predictor.TryTouchSurface(slot, surface, out ContactTime contact, out uint round))
         {
             BodyId id = bodies.Id(slot);
             if (next.Consider(new EventKey(contact.Tick, round, EventKind.Impact, id, id, 0, 0)))
@@ -81,16 +86,16 @@ public sealed partial class Simulation
         }
     }
 
-    private void ConsiderMeeting(int slot, int other, SimTime until, ref Pending next)
+    private void ConsiderMeeting(int slot, int other, SimTime until, ref NextEvent next)
     {
-        if (timelines.IsKnown(other) && TryMeet(slot, other, until, out int piece, out ContactTime contact, out uint round))
+        if (timelines.IsKnown(other) && predictor.TryMeet(slot, other, until, out int piece, out ContactTime contact, out uint round))
         {
             ConsiderContact(slot, other, piece, contact, round, ref next);
         }
     }
 
     /// <summary>The same of one in free flight, without a look at the segments unless the two touch as soon as both paths are open.</summary>
-    private void ConsiderFlights(int slot, int other, SimTime until, ref Pending next)
+    private void ConsiderFlights(int slot, int other, SimTime until, ref NextEvent next)
     {
         bool ordered = bodies.Id(slot) < bodies.Id(other);
         if (!flights.IsFree(other) || !flights.TryTouch(ordered ? slot : other, ordered ? other : slot, out bool touches, out ContactTime contact))
@@ -103,7 +108,7 @@ public sealed partial class Simulation
         }
     }
 
-    private void ConsiderContact(int slot, int other, int piece, in ContactTime contact, uint round, ref Pending next)
+    private void ConsiderContact(int slot, int other, int piece, in ContactTime contact, uint round, ref NextEvent next)
     {
         BodyId id = bodies.Id(slot);
         BodyId otherId = bodies.Id(other);
@@ -113,38 +118,6 @@ public sealed partial class Simulation
             next.Partner = other;
             next.Piece = piece;
             next.Residual = contact.Residual;
-        }
-    }
-
-    /// <summary>The least of what has been considered, and whom it is with.</summary>
-    private struct Pending
-    {
-        internal bool Any;
-        internal EventKey Key;
-        internal int Partner;
-        internal int Surface;
-        internal int Piece;
-        internal double Residual;
-        internal bool IsTied; // something else was considered at that tick
-
-        /// <summary>
-        /// Up to when contacts may come before what was considered: those that come soon may be at once (<see cref="ContactTime.IsSoonAfter"/>).
-        /// </summary>
-        internal readonly SimTime Horizon(SimTime from, SimTime until) =>
-            Any ? SimTime.Min(until, SimTime.Max(Key.Time, from + ContactTime.Soon)) : until;
-
-        internal bool Consider(in EventKey key)
-        {
-            IsTied = Any && (key.Time == Key.Time || (key.Time > Key.Time && IsTied));
-            if (Any && EventKey.Compare(key, Key) >= 0)
-            {
-                return false;
-            }
-
-            Any = true;
-            Key = key;
-            Partner = NoPartner;
-            return true;
         }
     }
 }
