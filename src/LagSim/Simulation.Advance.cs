@@ -202,7 +202,7 @@ public sealed partial class Simulation
 
                 int before = timelines.Last(slot);
                 HandleExternal(slot, key);
-                if (partyCount > 0 && timelines.Last(slot) != before && !(faults.Has(HealingFault.LeavesMates) && rollback.MayBeKnownBeyond(key)))
+                if (graph.BodyCount > 0 && timelines.Last(slot) != before && !(faults.Has(HealingFault.LeavesMates) && rollback.MayBeKnownBeyond(key)))
                 {
                     WakeParties(slot, key);
                 }

@@ -67,55 +67,54 @@ public sealed partial class Simulation
     {
         int other = scheduler.Contact(slot).Partner;
         double residual = scheduler.Contact(slot).Residual;
-        partyCount = 0;
-        contactCount = 0;
+        graph.Clear();
         if (other == NoPartner)
         {
-            AddParty(slot);
-            AddContact(new ContactPoint(0, ContactPoint.Static, scheduler.Contact(slot).Surface, default));
+            graph.AddBody(slot);
+            graph.AddContact(new ContactPoint(0, ContactPoint.Static, scheduler.Contact(slot).Surface, default));
         }
         else
         {
             bool ordered = bodies.Id(slot) < bodies.Id(other);
-            AddParty(ordered ? slot : other);
-            AddParty(ordered ? other : slot);
-            AddContact(new ContactPoint(0, 1, -1, default));
+            graph.AddBody(ordered ? slot : other);
+            graph.AddBody(ordered ? other : slot);
+            graph.AddContact(new ContactPoint(0, 1, -1, default));
         }
 
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            partyMasses[i] = bodies.Spec(parties[i]).Mass;
-            partyAccelerations[i] = Scene.Gravity;
-            partyRadii[i] = bodies.Spec(parties[i]).Radius;
-            partySpins[i] = timelines.SpinOf(timelines.Last(parties[i])).AtEpoch; // in flight it stays
-            flights.StateAt(parties[i], key.Time, residual, out partyPositions[i], out partyVelocities[i]);
+            graph.Masses[i] = bodies.Spec(graph.Slots[i]).Mass;
+            graph.Accelerations[i] = Scene.Gravity;
+            graph.Radii[i] = bodies.Spec(graph.Slots[i]).Radius;
+            graph.Spins[i] = timelines.SpinOf(timelines.Last(graph.Slots[i])).AtEpoch; // in flight it stays
+            flights.StateAt(graph.Slots[i], key.Time, residual, out graph.Positions[i], out graph.Velocities[i]);
         }
 
         SetTargets(collapses: false, key.Time);
-        if (contacts[0].Lasts)
+        if (graph.Contacts[0].Lasts)
         {
             return false;
         }
 
         TellContacts(key);
-        solver.Solve(contacts.AsSpan(0, 1), partyMasses.AsSpan(0, partyCount), partyVelocities.AsSpan(0, partyCount));
+        solver.Solve(graph.Contacts, graph.Masses, graph.Velocities);
         Rub();
         LimitSpeeds();
-        touched[0] = contacts[0].Surface;
-        Span<int> planes = touched.AsSpan(0, IsSupportable(contacts[0]) ? 1 : 0);
-        for (int i = 0; i < partyCount; i++)
+        touched[0] = graph.Contacts[0].Surface;
+        Span<int> planes = touched.AsSpan(0, graph.IsSupportable(graph.Contacts[0]) ? 1 : 0);
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            trajectories.Open(parties[i], key, partyPositions[i], partyVelocities[i], -residual, planes, partySpins[i]);
+            trajectories.Open(graph.Slots[i], key, graph.Positions[i], graph.Velocities[i], -residual, planes, graph.Spins[i]);
         }
 
-        timelines.Join(parties.AsSpan(0, partyCount));
-        for (int i = 0; i < partyCount; i++)
+        timelines.Join(graph.Slots);
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            Predict(parties[i]);
+            Predict(graph.Slots[i]);
         }
 
         AloneProcessed++;
-        PairsProcessed += partyCount - 1;
+        PairsProcessed += graph.BodyCount - 1;
         return true;
     }
 }

@@ -37,10 +37,10 @@ public sealed partial class Simulation
     {
         bool isStruckAgain = false;
         bool hasMember = false;
-        for (int i = 0; i < contactCount; i++)
+        for (int i = 0; i < graph.ContactCount; i++)
         {
-            isStruckAgain |= !contacts[i].IsFromBefore && MayLose(contacts[i]) && WasStruck(contacts[i], time);
-            hasMember |= HasMember(contacts[i]);
+            isStruckAgain |= !graph.Contacts[i].IsFromBefore && MayLose(graph.Contacts[i]) && WasStruck(graph.Contacts[i], time);
+            hasMember |= graph.HasMember(graph.Contacts[i]);
         }
 
         if (!isStruckAgain || hasMember)
@@ -48,37 +48,37 @@ public sealed partial class Simulation
             return isStruckAgain;
         }
 
-        EvaluateParties(time, 0);
-        Span<double> restitutions = contactCount <= 64 ? stackalloc double[contactCount] : new double[contactCount];
-        Span<double> frictions = contactCount <= 64 ? stackalloc double[contactCount] : new double[contactCount];
-        for (int i = 0; i < contactCount; i++)
+        graph.Evaluate(time, 0);
+        Span<double> restitutions = graph.ContactCount <= 64 ? stackalloc double[graph.ContactCount] : new double[graph.ContactCount];
+        Span<double> frictions = graph.ContactCount <= 64 ? stackalloc double[graph.ContactCount] : new double[graph.ContactCount];
+        for (int i = 0; i < graph.ContactCount; i++)
         {
-            contacts[i].Normal = NormalOf(contacts[i]);
-            restitutions[i] = Restitution(contacts[i]);
-            frictions[i] = Friction(contacts[i]);
+            graph.Contacts[i].Normal = graph.NormalOf(graph.Contacts[i]);
+            restitutions[i] = graph.RestitutionOf(graph.Contacts[i]);
+            frictions[i] = graph.FrictionOf(graph.Contacts[i]);
         }
 
-        return collapse.IsPossible(contacts.AsSpan(0, contactCount), restitutions, frictions, partyMasses.AsSpan(0, partyCount));
+        return collapse.IsPossible(graph.Contacts, restitutions, frictions, graph.Masses);
     }
 
     private bool WasStruck(in ContactPoint c, SimTime time)
     {
-        int first = timelines.Last(parties[c.First]);
+        int first = timelines.Last(graph.Slots[c.First]);
         return (c.Second == ContactPoint.Static
-            ? strikes.On(first, c.Surface, time) : strikes.Between(first, timelines.Last(parties[c.Second]), time)) > 0;
+            ? strikes.On(first, c.Surface, time) : strikes.Between(first, timelines.Last(graph.Slots[c.Second]), time)) > 0;
     }
 
     /// <summary>Whether a contact may lose energy: it does not bounce back in full, or there is a hand, which gives and takes.</summary>
-    private bool MayLose(in ContactPoint c) => Restitution(c) < 1 || paths.IsHeld(timelines.Last(parties[c.First]))
-        || (c.Second != ContactPoint.Static && paths.IsHeld(timelines.Last(parties[c.Second])));
+    private bool MayLose(in ContactPoint c) => graph.RestitutionOf(c) < 1 || paths.IsHeld(timelines.Last(graph.Slots[c.First]))
+        || (c.Second != ContactPoint.Static && paths.IsHeld(timelines.Last(graph.Slots[c.Second])));
 
     /// <summary>Whether a contact closes after all that the solver could do.</summary>
     private bool StillCloses()
     {
         bool closes = false;
-        for (int i = 0; i < contactCount && !closes; i++)
+        for (int i = 0; i < graph.ContactCount && !closes; i++)
         {
-            closes = ImpactSolver.Opening(contacts[i], partyVelocities) < -StrikeCounts.CollapseSpeed;
+            closes = ImpactSolver.Opening(graph.Contacts[i], graph.Velocities) < -StrikeCounts.CollapseSpeed;
         }
 
         return closes;
@@ -93,25 +93,22 @@ public sealed partial class Simulation
     {
         double mass = 0;
         Vector3D common = Vector3D.Zero;
-        for (int i = 0; i < partyCount && !double.IsPositiveInfinity(mass); i++)
+        for (int i = 0; i < graph.BodyCount && !double.IsPositiveInfinity(mass); i++)
         {
-            mass += partyMasses[i];
-            common = double.IsPositiveInfinity(mass) ? partyVelocities[i] : common + ((partyVelocities[i] - common) * (partyMasses[i] / mass));
+            mass += graph.Masses[i];
+            common = double.IsPositiveInfinity(mass) ? graph.Velocities[i] : common + ((graph.Velocities[i] - common) * (graph.Masses[i] / mass));
         }
 
-        for (int i = 0; i < contactCount; i++)
+        for (int i = 0; i < graph.ContactCount; i++)
         {
-            common = contacts[i].Second == ContactPoint.Static ? Vector3D.Zero : common;
+            common = graph.Contacts[i].Second == ContactPoint.Static ? Vector3D.Zero : common;
         }
 
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            partyVelocities[i] = double.IsPositiveInfinity(partyMasses[i]) ? partyVelocities[i] : common;
+            graph.Velocities[i] = double.IsPositiveInfinity(graph.Masses[i]) ? graph.Velocities[i] : common;
         }
     }
-
-    private bool HasMember(in ContactPoint c) =>
-        paths.IsMember(timelines.Last(parties[c.First])) || (c.Second != ContactPoint.Static && paths.IsMember(timelines.Last(parties[c.Second])));
 
     /// <summary>Whether a body touches a surface that it struck in this instant.</summary>
     private bool IsStillTouching(int slot, int surface, SimTime time, out ContactTime contact)

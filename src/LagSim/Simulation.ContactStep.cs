@@ -39,7 +39,7 @@ public sealed partial class Simulation
         }
 
         EventKey canonical = StepKey();
-        EvaluateParties(canonical.Time, 0);
+        graph.Evaluate(canonical.Time, 0);
         SimDuration length = FillStep(canonical.Time, StepWanted());
         double tolerance = StepTolerance(out bool mayRest);
         if (mayRest && HaveRested(canonical.Time))
@@ -69,11 +69,11 @@ public sealed partial class Simulation
     /// <summary>Marks those of the step who strike nobody of it, so that in the predictions that follow nobody looks.</summary>
     private void MarkStep()
     {
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            if (!step.MayMeet(i) && timelines.Segment(timelines.Last(parties[i])).Law == MotionLaw.Constrained)
+            if (!step.MayMeet(i) && timelines.Segment(timelines.Last(graph.Slots[i])).Law == MotionLaw.Constrained)
             {
-                stepMarks.Add(parties[i], bodies.Room);
+                stepMarks.Add(graph.Slots[i], bodies.Room);
             }
         }
     }
@@ -86,7 +86,7 @@ public sealed partial class Simulation
     {
         foreach (int slot in lookedAt)
         {
-            if (PartyOf(slot) >= 0 || faults.Has(HealingFault.ForgetsWhoWasLookedAt))
+            if (graph.IndexOf(slot) >= 0 || faults.Has(HealingFault.ForgetsWhoWasLookedAt))
             {
                 continue;
             }
@@ -102,29 +102,28 @@ public sealed partial class Simulation
                 timelines.Append(slot, bodies.Id(slot), key, timelines.Segment(last), timelines.Dense(last), timelines.HoldOf(last), timelines.SpinOf(last));
             }
 
-            AddParty(slot);
+            graph.AddBody(slot);
         }
 
         if (!faults.Has(HealingFault.CutsMembersAlone))
         {
-            timelines.Join(parties.AsSpan(0, partyCount));
+            timelines.Join(graph.Slots);
         }
 
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            Predict(parties[i]);
+            Predict(graph.Slots[i]);
         }
     }
 
     /// <summary>The parties: all that hold together with a body, through others as well, and who is held among them, by the pieces of path that they are on at the key.</summary>
     private void GatherIsland(int slot, in EventKey key)
     {
-        partyCount = 0;
-        contactCount = 0;
-        AddParty(slot);
-        for (int i = 0; i < partyCount; i++)
+        graph.Clear();
+        graph.AddBody(slot);
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            int piece = timelines.Last(parties[i]);
+            int piece = timelines.Last(graph.Slots[i]);
             if (!paths.IsMember(piece))
             {
                 continue; // in a hand
@@ -133,15 +132,15 @@ public sealed partial class Simulation
             for (int at = timelines.FirstContact(piece); at != TimelineStore.None; at = timelines.NextContact(at))
             {
                 ref readonly LastingContact contact = ref timelines.Contact(at);
-                if (contact.Holds && contact.Surface == LastingContact.NoSurface && TryPartner(bodies.Id(parties[i]), contact.Partner, key, out int partner)
-                    && PartyOf(partner) < 0)
+                if (contact.Holds && contact.Surface == LastingContact.NoSurface && TryPartner(bodies.Id(graph.Slots[i]), contact.Partner, key, out int partner)
+                    && graph.IndexOf(partner) < 0)
                 {
-                    AddParty(partner);
+                    graph.AddBody(partner);
                 }
             }
         }
 
-        SortParties();
+        graph.Sort();
     }
 
     /// <summary>The other body of a contact that is carried, if it carries it too, or is in a hand; who is ahead of the key is noted.</summary>
@@ -183,13 +182,13 @@ public sealed partial class Simulation
     {
         EventKey least = default;
         bool any = false;
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            int piece = timelines.Last(parties[i]);
+            int piece = timelines.Last(graph.Slots[i]);
             if (timelines.Segment(piece).Law == MotionLaw.Constrained)
             {
                 SimTime end = timelines.Segment(piece).End;
-                BodyId id = bodies.Id(parties[i]);
+                BodyId id = bodies.Id(graph.Slots[i]);
                 EventKey own = new(end, paths.RoundAfter(piece, end), EventKind.StepEnd, id, id, 0, 0);
                 least = any && EventKey.Compare(least, own) <= 0 ? least : own;
                 any = true;
@@ -203,10 +202,10 @@ public sealed partial class Simulation
     private double StepWanted()
     {
         double wanted = double.PositiveInfinity;
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            wanted = double.IsPositiveInfinity(partyMasses[i]) ? wanted
-                : Math.Min(wanted, StepWanted(parties[i], partyPositions[i], partyVelocities[i], partySpins[i]));
+            wanted = double.IsPositiveInfinity(graph.Masses[i]) ? wanted
+                : Math.Min(wanted, StepWanted(graph.Slots[i], graph.Positions[i], graph.Velocities[i], graph.Spins[i]));
         }
 
         return wanted;
@@ -216,11 +215,11 @@ public sealed partial class Simulation
     private double StepWantedAfter()
     {
         double wanted = double.PositiveInfinity;
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
             ref readonly SolverBody solved = ref step.Problem.Bodies[i];
-            wanted = double.IsPositiveInfinity(partyMasses[i]) ? wanted
-                : Math.Min(wanted, StepWanted(parties[i], partyPositions[i], solved.Velocity, solved.Spin));
+            wanted = double.IsPositiveInfinity(graph.Masses[i]) ? wanted
+                : Math.Min(wanted, StepWanted(graph.Slots[i], graph.Positions[i], solved.Velocity, solved.Spin));
         }
 
         return wanted;
@@ -234,26 +233,26 @@ public sealed partial class Simulation
         double seconds = length.ToSeconds();
         SimTime middle = tick + SimDuration.FromTicks(length.Ticks / 2);
         step.Clear();
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            int slot = parties[i];
+            int slot = graph.Slots[i];
             int piece = timelines.Last(slot);
             ref readonly BodySpec spec = ref bodies.Spec(slot);
             bool isHeld = paths.IsHeld(piece);
-            Vector3D velocity = partyVelocities[i];
+            Vector3D velocity = graph.Velocities[i];
             Vector3D gain = Vector3D.Zero;
             if (isHeld)
             {
-                velocity = (paths.PositionAt(piece, tick + length) - partyPositions[i]) / seconds;
+                velocity = (paths.PositionAt(piece, tick + length) - graph.Positions[i]) / seconds;
             }
             else
             {
                 double since = middle.SecondsSince(timelines.Segment(piece).Law == MotionLaw.Resting ? tick : timelines.CentreOf(piece));
-                partyAccelerations[i] = forces.On(bodies.Id(slot)).At(spec, tick, 0, partyPositions[i], velocity, partySpins[i]);
-                gain = partyAccelerations[i] * since;
+                graph.Accelerations[i] = forces.On(bodies.Id(slot)).At(spec, tick, 0, graph.Positions[i], velocity, graph.Spins[i]);
+                gain = graph.Accelerations[i] * since;
             }
 
-            step.AddBody(spec, partyPositions[i], velocity, gain, partySpins[i], isHeld);
+            step.AddBody(spec, graph.Positions[i], velocity, gain, graph.Spins[i], isHeld);
         }
 
         step.FindContacts(seconds);
@@ -299,22 +298,22 @@ public sealed partial class Simulation
         {
             last = n == 0 ? double.PositiveInfinity : change;
             change = 0;
-            for (int i = 0; i < partyCount; i++)
+            for (int i = 0; i < graph.BodyCount; i++)
             {
-                ref readonly BodySpec spec = ref bodies.Spec(parties[i]);
-                if (spec.Forces.IsEmpty || double.IsPositiveInfinity(partyMasses[i]))
+                ref readonly BodySpec spec = ref bodies.Spec(graph.Slots[i]);
+                if (spec.Forces.IsEmpty || double.IsPositiveInfinity(graph.Masses[i]))
                 {
                     continue;
                 }
 
-                int piece = timelines.Last(parties[i]);
+                int piece = timelines.Last(graph.Slots[i]);
                 double since = middle.SecondsSince(timelines.Segment(piece).Law == MotionLaw.Resting ? tick : timelines.CentreOf(piece));
-                Vector3D mean = (partyVelocities[i] + step.Problem.Bodies[i].Velocity) * 0.5;
-                Vector3D spin = (partySpins[i] + step.Problem.Bodies[i].Spin) * 0.5;
-                Vector3D acceleration = forces.On(bodies.Id(parties[i])).At(spec, tick, 0, partyPositions[i], mean, spin);
-                change = Math.Max(change, (acceleration - partyAccelerations[i]).Length * since);
-                partyAccelerations[i] = acceleration;
-                step.Regain(i, partyVelocities[i] + (acceleration * since), partySpins[i]);
+                Vector3D mean = (graph.Velocities[i] + step.Problem.Bodies[i].Velocity) * 0.5;
+                Vector3D spin = (graph.Spins[i] + step.Problem.Bodies[i].Spin) * 0.5;
+                Vector3D acceleration = forces.On(bodies.Id(graph.Slots[i])).At(spec, tick, 0, graph.Positions[i], mean, spin);
+                change = Math.Max(change, (acceleration - graph.Accelerations[i]).Length * since);
+                graph.Accelerations[i] = acceleration;
+                step.Regain(i, graph.Velocities[i] + (acceleration * since), graph.Spins[i]);
             }
 
             if (change == 0)
@@ -332,9 +331,9 @@ public sealed partial class Simulation
     private bool HasForces()
     {
         bool has = false;
-        for (int i = 0; i < partyCount && !has; i++)
+        for (int i = 0; i < graph.BodyCount && !has; i++)
         {
-            has = !bodies.Spec(parties[i]).Forces.IsEmpty;
+            has = !bodies.Spec(graph.Slots[i]).Forces.IsEmpty;
         }
 
         return has;
@@ -346,13 +345,13 @@ public sealed partial class Simulation
         for (int i = 0; i < step.Problem.ContactCount; i++)
         {
             ref SolverContact c = ref step.Problem.Contacts[i];
-            int piece = timelines.Last(parties[c.First]);
+            int piece = timelines.Last(graph.Slots[c.First]);
             if (!paths.IsMember(piece))
             {
                 continue;
             }
 
-            int at = c.Second == ContactPoint.Static ? timelines.ContactWith(piece, c.Surface) : timelines.ContactWith(piece, bodies.Id(parties[c.Second]));
+            int at = c.Second == ContactPoint.Static ? timelines.ContactWith(piece, c.Surface) : timelines.ContactWith(piece, bodies.Id(graph.Slots[c.Second]));
             if (at != TimelineStore.None)
             {
                 ref readonly LastingContact known = ref timelines.Contact(at);
@@ -369,11 +368,11 @@ public sealed partial class Simulation
     {
         double fastest = 0;
         mayRest = true;
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            bool isHeld = double.IsPositiveInfinity(partyMasses[i]);
-            fastest = Math.Max(fastest, partyVelocities[i].Length);
-            mayRest &= !isHeld && !forces.HasSupplied(bodies.Spec(parties[i]));
+            bool isHeld = double.IsPositiveInfinity(graph.Masses[i]);
+            fastest = Math.Max(fastest, graph.Velocities[i].Length);
+            mayRest &= !isHeld && !forces.HasSupplied(bodies.Spec(graph.Slots[i]));
         }
 
         return Math.Min(step.Scale.SweepSpeed, Math.Max(0.05 * fastest, 0.05 * step.Scale.StillSpeed));
@@ -382,9 +381,9 @@ public sealed partial class Simulation
     private bool HaveRested(SimTime tick)
     {
         bool rests = true;
-        for (int i = 0; i < partyCount && rests; i++)
+        for (int i = 0; i < graph.BodyCount && rests; i++)
         {
-            int piece = timelines.Last(parties[i]);
+            int piece = timelines.Last(graph.Slots[i]);
             rests = tick - timelines.StillSince(piece) >= ContactScale.StillFor;
         }
 
@@ -395,11 +394,11 @@ public sealed partial class Simulation
     private void OpenRest(in EventKey key)
     {
         step.Problem.List();
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            int slot = parties[i];
+            int slot = graph.Slots[i];
             int before = timelines.Last(slot);
-            MotionSegment rest = MotionSegment.AtRest(key.Time, partyPositions[i].WithoutNegativeZero());
+            MotionSegment rest = MotionSegment.AtRest(key.Time, graph.Positions[i].WithoutNegativeZero());
             timelines.Append(slot, bodies.Id(slot), key, rest, default, spin: new Spin(SpinAtRest(i)));
             int piece = timelines.Last(slot);
             timelines.BeginMember(piece, key.Time, timelines.StillSince(before));
@@ -422,8 +421,8 @@ public sealed partial class Simulation
     /// </summary>
     private Vector3D SpinAtRest(int party)
     {
-        Vector3D spin = partySpins[party];
-        double least = step.Scale.StillSpeed / partyRadii[party];
+        Vector3D spin = graph.Spins[party];
+        double least = step.Scale.StillSpeed / graph.Radii[party];
         foreach (int i in step.Problem.ListOf(party))
         {
             ref readonly SolverContact c = ref step.Problem.Contacts[i];
@@ -441,9 +440,9 @@ public sealed partial class Simulation
         FindHoldingPairs();
         SimTime end = key.Time + length;
         SimTime centre = key.Time + SimDuration.FromTicks(length.Ticks / 2);
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            int slot = parties[i];
+            int slot = graph.Slots[i];
             int before = timelines.Last(slot);
             if (paths.IsHeld(before))
             {
@@ -454,7 +453,7 @@ public sealed partial class Simulation
             ref readonly SolverBody solved = ref step.Problem.Bodies[i];
             if (!IsHeldTogether(i, out int planes))
             {
-                trajectories.Flights.Open(slot, key, partyPositions[i], LeavingVelocity(i, before, key.Time), spin: partySpins[i]);
+                trajectories.Flights.Open(slot, key, graph.Positions[i], LeavingVelocity(i, before, key.Time), spin: graph.Spins[i]);
             }
             else if (planes > 0)
             {
@@ -464,7 +463,7 @@ public sealed partial class Simulation
             {
                 SimTime still = IsStill(i, solved) && timelines.Segment(before).Law == MotionLaw.Constrained
                     ? timelines.StillSince(before) : key.Time;
-                OpenChord(slot, key, end, partyPositions[i], solved.Velocity, solved.Spin);
+                OpenChord(slot, key, end, graph.Positions[i], solved.Velocity, solved.Spin);
                 int piece = timelines.Last(slot);
                 timelines.BeginMember(piece, centre, still);
                 CarryContacts(i, piece);
@@ -501,12 +500,12 @@ public sealed partial class Simulation
     /// <summary>Who is held by another body in the step.</summary>
     private void FindHoldingPairs()
     {
-        if (holdsPair.Length < partyCount)
+        if (holdsPair.Length < graph.BodyCount)
         {
-            holdsPair = new bool[parties.Length];
+            holdsPair = new bool[graph.BodyCount * 2];
         }
 
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
             holdsPair[i] = false;
         }
@@ -529,7 +528,7 @@ public sealed partial class Simulation
     {
         planes = 0;
         bool isHeld = holdsPair[party];
-        bool needsSteps = isHeld || !bodies.Spec(parties[party]).Forces.IsEmpty;
+        bool needsSteps = isHeld || !bodies.Spec(graph.Slots[party]).Forces.IsEmpty;
         bool rubs = false;
         foreach (int i in step.Problem.ListOf(party))
         {
@@ -552,7 +551,7 @@ public sealed partial class Simulation
     {
         if (timelines.Segment(piece).Law != MotionLaw.Constrained)
         {
-            return partyVelocities[party];
+            return graph.Velocities[party];
         }
 
         double since = tick.SecondsSince(timelines.CentreOf(piece));
@@ -562,14 +561,14 @@ public sealed partial class Simulation
             push += timelines.Contact(at).Push;
         }
 
-        return partyVelocities[party] + (partyAccelerations[party] * since) + (push * (0.5 / partyMasses[party]));
+        return graph.Velocities[party] + (graph.Accelerations[party] * since) + (push * (0.5 / graph.Masses[party]));
     }
 
     /// <summary>Opens the closed form of a body that planes alone hold: with the mean of its velocities before the tick and after.</summary>
     private void OpenAlone(int party, in EventKey key, int planes, in SolverBody solved)
     {
-        Vector3D velocity = (partyVelocities[party] + solved.Velocity) * 0.5;
-        Vector3D spin = (partySpins[party] + solved.Spin) * 0.5;
+        Vector3D velocity = (graph.Velocities[party] + solved.Velocity) * 0.5;
+        Vector3D spin = (graph.Spins[party] + solved.Spin) * 0.5;
         int count = 0;
         foreach (int i in step.Problem.ListOf(party))
         {
@@ -581,12 +580,12 @@ public sealed partial class Simulation
             }
         }
 
-        trajectories.Open(parties[party], key, partyPositions[party], velocity, 0, touched.AsSpan(0, count), spin);
+        trajectories.Open(graph.Slots[party], key, graph.Positions[party], velocity, 0, touched.AsSpan(0, count), spin);
     }
 
     private void CarryContacts(int party, int piece)
     {
-        BodyId self = bodies.Id(parties[party]);
+        BodyId self = bodies.Id(graph.Slots[party]);
         foreach (int i in step.Problem.ListOf(party))
         {
             ref readonly SolverContact c = ref step.Problem.Contacts[i];
@@ -594,7 +593,7 @@ public sealed partial class Simulation
             bool isPair = c.Second != ContactPoint.Static;
             Vector3D push = (c.Normal * c.Impulse) + c.Rub;
             timelines.AddContact(piece, new LastingContact(
-                !isPair ? self : bodies.Id(parties[isFirst ? c.Second : c.First]),
+                !isPair ? self : bodies.Id(graph.Slots[isFirst ? c.Second : c.First]),
                 isPair ? LastingContact.NoSurface : c.Surface,
                 c.Holds,
                 (isFirst ? push : -push).WithoutNegativeZero(),

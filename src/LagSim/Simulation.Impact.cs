@@ -17,20 +17,8 @@ public sealed partial class Simulation
 
     private readonly ImpactSolver solver = new();
     private readonly ImpactFriction friction = new();
-    private int[] parties = new int[4];
-    private double[] partyMasses = new double[4];
-    private Vector3D[] partyPositions = new Vector3D[4];
-    private Vector3D[] partyVelocities = new Vector3D[4];
-    private bool[] isReached = new bool[4]; // whether an impact's impulse has gone on from a party to those that it holds
-    private Vector3D[] partySpins = new Vector3D[4];
-    private double[] partyRadii = new double[4];
     private double[] coefficients = new double[8];
-    private Vector3D[] partyAccelerations = new Vector3D[4];
-    private ContactPoint[] contacts = new ContactPoint[1]; // as many as nearly all impacts have
     private int[] touched = new int[8];
-    private int partyCount;
-    private int contactCount;
-
     /// <summary>Takes the operands of a contact the wrong way round: only a test's negative control sets it.</summary>
     internal bool SwapsOperands
     {
@@ -59,7 +47,7 @@ public sealed partial class Simulation
         SetTargets(collapses, key.Time);
         lookedAt.Clear();
         bool givesWay = true;
-        if (HasHand() && !TrySpread(key, residual, presses: true, out givesWay))
+        if (graph.HasHand() && !TrySpread(key, residual, presses: true, out givesWay))
         {
             return false;
         }
@@ -75,9 +63,9 @@ public sealed partial class Simulation
         }
 
         TellContacts(key);
-        int struck = contactCount;
+        int struck = graph.ContactCount;
         AddSupports();
-        solver.Solve(contacts.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount), partyVelocities.AsSpan(0, partyCount));
+        solver.Solve(graph.Contacts, graph.Masses, graph.Velocities);
         if (!collapses)
         {
             Rub(); // a collapse is only to end
@@ -88,9 +76,9 @@ public sealed partial class Simulation
         }
 
         LimitSpeeds();
-        contactCount = struck;
+        graph.KeepContacts(struck);
         EventKey canonical = CanonicalKey(key);
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
             OpenAfterImpact(i, canonical, residual);
         }
@@ -106,12 +94,12 @@ public sealed partial class Simulation
     private void LimitSpeeds()
     {
         double limit = Limits.MaxReboundSpeed(Scene.SmallestRadius);
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            double speed = partyVelocities[i].Length;
-            if (speed > limit && !double.IsPositiveInfinity(partyMasses[i]))
+            double speed = graph.Velocities[i].Length;
+            if (speed > limit && !double.IsPositiveInfinity(graph.Masses[i]))
             {
-                partyVelocities[i] *= limit / speed;
+                graph.Velocities[i] *= limit / speed;
             }
         }
     }
@@ -121,70 +109,28 @@ public sealed partial class Simulation
         $"At {time.ToShortString()} the impacts of {Scene.Whose(bodies.Id(slot))} have no end: {MostRounds} in one instant. What is squeezed between others and loses no energy is struck for ever:"
         + " give it, or what squeezes it, a restitution below 1, a mass that is less unlike, or room.", time);
 
-    private void EvaluateParties(SimTime time, double residual)
-    {
-        for (int i = 0; i < partyCount; i++)
-        {
-            EvaluateParty(i, time, residual);
-        }
-    }
-
-    private void EvaluateParty(int party, SimTime time, double residual)
-    {
-        int last = timelines.Last(parties[party]);
-        ref readonly MotionSegment segment = ref timelines.Segment(last);
-        DenseOutput dense = timelines.Dense(last);
-        double seconds = paths.SecondsInto(last, time) + residual;
-        partyMasses[party] = segment.Law == MotionLaw.Held ? double.PositiveInfinity : bodies.Spec(parties[party]).Mass;
-        partyPositions[party] = segment.PositionAt(seconds, dense);
-        partyVelocities[party] = segment.VelocityAt(seconds, dense);
-        partyAccelerations[party] = segment.AccelerationAt(seconds, dense);
-        partySpins[party] = timelines.SpinOf(last).At(seconds);
-        partyRadii[party] = bodies.Spec(parties[party]).Radius;
-    }
-
     private void SetTargets(bool collapses, SimTime time)
     {
-        for (int i = 0; i < contactCount; i++)
+        for (int i = 0; i < graph.ContactCount; i++)
         {
-            ref ContactPoint c = ref contacts[i];
-            c.Normal = NormalOf(c);
-            double closing = Math.Max(0, -ImpactSolver.Opening(c, partyVelocities));
-            double restitution = Restitution(c);
+            ref ContactPoint c = ref graph.Contacts[i];
+            c.Normal = graph.NormalOf(c);
+            double closing = Math.Max(0, -ImpactSolver.Opening(c, graph.Velocities));
+            double restitution = graph.RestitutionOf(c);
             bool isLast = collapses && WasStruck(c, time);
             double rebound = isLast ? 0 : restitution * closing;
-            c.Lasts = IsLast(c, restitution, rebound) || (isLast && HasMember(c));
+            c.Lasts = IsLast(c, restitution, rebound) || (isLast && graph.HasMember(c));
             c.Target = c.Lasts ? 0 : rebound;
         }
-    }
-
-    /// <summary>Whether one of the two is in a hand, which goes its own way, so that nothing lasts on it.</summary>
-    private bool IsByHand(in ContactPoint c) =>
-        double.IsPositiveInfinity(partyMasses[c.First]) || (c.Second != ContactPoint.Static && double.IsPositiveInfinity(partyMasses[c.Second]));
-
-    private double ReachOf(in ContactPoint c) =>
-        c.Second == ContactPoint.Static ? surfaces.Reach(c.Surface, partyRadii[c.First]) : partyRadii[c.First] + partyRadii[c.Second];
-
-    private Vector3D NormalOf(in ContactPoint c) => c.Second == ContactPoint.Static
-        ? surfaces.Normal(c.Surface, partyPositions[c.First])
-        : Scene.Box.Nearest(partyPositions[c.First] - partyPositions[c.Second]).Direction;
-
-    /// <summary>The lesser of the two parties' restitutions: a material behaves as named against anything more elastic.</summary>
-    private double Restitution(in ContactPoint c)
-    {
-        double first = bodies.Spec(parties[c.First]).Restitution;
-        double second = c.Second != ContactPoint.Static ? bodies.Spec(parties[c.Second]).Restitution
-            : surfaces.Restitution(c.Surface);
-        return Math.Min(first, second);
     }
 
     /// <summary>Friction in the impact at hand, if any of its parties has some.</summary>
     private void Rub()
     {
         bool rubs = false;
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            rubs |= bodies.Spec(parties[i]).Friction > 0;
+            rubs |= bodies.Spec(graph.Slots[i]).Friction > 0;
         }
 
         if (!rubs)
@@ -192,64 +138,38 @@ public sealed partial class Simulation
             return;
         }
 
-        if (contactCount > coefficients.Length)
+        if (graph.ContactCount > coefficients.Length)
         {
-            coefficients = new double[contactCount * 2];
+            coefficients = new double[graph.ContactCount * 2];
         }
 
-        for (int i = 0; i < contactCount; i++)
+        for (int i = 0; i < graph.ContactCount; i++)
         {
-            coefficients[i] = Friction(contacts[i]);
+            coefficients[i] = graph.FrictionOf(graph.Contacts[i]);
         }
 
         friction.Solve(
-            contacts.AsSpan(0, contactCount), coefficients.AsSpan(0, contactCount), partyMasses.AsSpan(0, partyCount), partyRadii.AsSpan(0, partyCount),
-            partyVelocities.AsSpan(0, partyCount), partySpins.AsSpan(0, partyCount));
+            graph.Contacts, coefficients.AsSpan(0, graph.ContactCount), graph.Masses, graph.Radii,
+            graph.Velocities, graph.Spins);
     }
-
-    /// <summary>The lesser of the two parties' coefficients of friction.</summary>
-    private double Friction(in ContactPoint c)
-    {
-        double first = bodies.Spec(parties[c.First]).Friction;
-        double second = c.Second != ContactPoint.Static ? bodies.Spec(parties[c.Second]).Friction
-            : surfaces.Friction(c.Surface);
-        return Math.Min(first, second);
-    }
-
-    /// <summary>Whether a body may come to rest or slide on what it hit: a plane, under an acceleration that is the same everywhere.</summary>
-    private bool IsSupportable(in ContactPoint c) =>
-        c.Second == ContactPoint.Static && surfaces.IsPlane(c.Surface) && bodies.Spec(parties[c.First]).Forces.IsEmpty;
 
     /// <summary>A body that is carried stays carried while it is hit: its supports push back as far as they must, and give nothing.</summary>
     private void AddSupports()
     {
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            SupportSet supports = timelines.Segment(timelines.Last(parties[i])).Supports;
+            SupportSet supports = timelines.Segment(timelines.Last(graph.Slots[i])).Supports;
             for (int k = 0; k < supports.Count; k++)
             {
-                if (!HasContact(i, supports[k]))
+                if (!graph.HasContact(i, supports[k]))
                 {
-                    AddContact(new ContactPoint(i, ContactPoint.Static, supports[k], default)
+                    graph.AddContact(new ContactPoint(i, ContactPoint.Static, supports[k], default)
                     {
                         Normal = surfaces.Plane(supports[k]).Normal,
                     });
                 }
             }
         }
-    }
-
-    private bool HasContact(int party, int surface)
-    {
-        for (int i = 0; i < contactCount; i++)
-        {
-            if (contacts[i].First == party && contacts[i].Second == ContactPoint.Static && contacts[i].Surface == surface)
-            {
-                return true;
-            }
-        }
-
-        return false;
     }
 
     /// <summary>What a collapse takes in besides has no part in its key: that would come before impacts of the round that are done already.</summary>
@@ -259,17 +179,17 @@ public sealed partial class Simulation
     private EventKey CanonicalKey(in EventKey popped)
     {
         int at = 0;
-        while (!IsOfThisRound(contacts[at]))
+        while (!IsOfThisRound(graph.Contacts[at]))
         {
             at++;
         }
 
-        int least = contacts[at].First;
-        BodyId first = bodies.Id(parties[least]);
+        int least = graph.Contacts[at].First;
+        BodyId first = bodies.Id(graph.Slots[least]);
         BodyId second = first;
-        for (int i = at; i < contactCount && contacts[i].First == least && second == first; i++)
+        for (int i = at; i < graph.ContactCount && graph.Contacts[i].First == least && second == first; i++)
         {
-            second = contacts[i].Second == ContactPoint.Static || !IsOfThisRound(contacts[i]) ? first : bodies.Id(parties[contacts[i].Second]);
+            second = graph.Contacts[i].Second == ContactPoint.Static || !IsOfThisRound(graph.Contacts[i]) ? first : bodies.Id(graph.Slots[graph.Contacts[i].Second]);
         }
 
         return new EventKey(popped.Time, popped.Round, EventKind.Impact, first, second, 0, 0);
@@ -277,7 +197,7 @@ public sealed partial class Simulation
 
     private void OpenAfterImpact(int party, in EventKey key, double residual)
     {
-        int slot = parties[party];
+        int slot = graph.Slots[party];
         if (paths.IsHeld(timelines.Last(slot)))
         {
             trajectories.Hands.GoOn(slot, key);
@@ -286,10 +206,10 @@ public sealed partial class Simulation
 
         SupportSet supports = timelines.Segment(timelines.Last(slot)).Supports;
         int count = 0;
-        for (int i = 0; i < contactCount; i++)
+        for (int i = 0; i < graph.ContactCount; i++)
         {
-            ref readonly ContactPoint c = ref contacts[i];
-            if (c.First == party && c.IsStruck && IsSupportable(c))
+            ref readonly ContactPoint c = ref graph.Contacts[i];
+            if (c.First == party && c.IsStruck && graph.IsSupportable(c))
             {
                 AddTouched(ref count, c.Surface);
             }
@@ -300,7 +220,7 @@ public sealed partial class Simulation
             AddTouched(ref count, supports[k]);
         }
 
-        trajectories.Open(slot, key, partyPositions[party], partyVelocities[party], -residual, touched.AsSpan(0, count), partySpins[party]);
+        trajectories.Open(slot, key, graph.Positions[party], graph.Velocities[party], -residual, touched.AsSpan(0, count), graph.Spins[party]);
     }
 
     private void AddTouched(ref int count, int plane)

@@ -1,4 +1,3 @@
-using System;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
@@ -49,8 +48,7 @@ public sealed partial class Simulation
     /// <summary>The parties: those that sleep in contact with a body to which something is about to happen; false if one was ahead of it and has been taken back.</summary>
     private bool TryFindSleepers(int slot, in EventKey key)
     {
-        partyCount = 0;
-        contactCount = 0;
+        graph.Clear();
         int last = timelines.Last(slot);
         if (last == TimelineStore.None || !paths.IsMember(last))
         {
@@ -70,7 +68,7 @@ public sealed partial class Simulation
                     ahead.Add(partner);
                 }
 
-                AddParty(partner);
+                graph.AddBody(partner);
             }
         }
 
@@ -80,26 +78,26 @@ public sealed partial class Simulation
             return false;
         }
 
-        SortParties();
+        graph.Sort();
         return true;
     }
 
     /// <summary>The parties wake: what they lay on has been touched.</summary>
     private void WakeParties(int slot, in EventKey key)
     {
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            int before = timelines.Last(parties[i]);
-            GoOnAsMember(parties[i], key, timelines.Segment(before).Position, Vector3D.Zero, timelines.SpinOf(before).AtEpoch, hasChanged: true);
-            timelines.EndMember(timelines.Last(parties[i]), bodies.Id(parties[i]));
+            int before = timelines.Last(graph.Slots[i]);
+            GoOnAsMember(graph.Slots[i], key, timelines.Segment(before).Position, Vector3D.Zero, timelines.SpinOf(before).AtEpoch, hasChanged: true);
+            timelines.EndMember(timelines.Last(graph.Slots[i]), bodies.Id(graph.Slots[i]));
         }
 
-        AddParty(slot);
-        timelines.Join(parties.AsSpan(0, partyCount));
-        partyCount--;
-        for (int i = 0; i < partyCount; i++)
+        graph.AddBody(slot);
+        timelines.Join(graph.Slots);
+        graph.KeepBodies(graph.BodyCount - 1);
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            Predict(parties[i]);
+            Predict(graph.Slots[i]);
         }
     }
 }

@@ -35,15 +35,15 @@ public sealed partial class Simulation
         }
 
         EventKey canonical = CanonicalKey(key);
-        for (int i = 0; i < contactCount; i++)
+        for (int i = 0; i < graph.ContactCount; i++)
         {
-            ref readonly ContactPoint c = ref contacts[i];
-            double closing = -ImpactSolver.Opening(c, partyVelocities);
+            ref readonly ContactPoint c = ref graph.Contacts[i];
+            double closing = -ImpactSolver.Opening(c, graph.Velocities);
             if (c.IsStruck && closing > 0)
             {
-                BodyId first = bodies.Id(parties[c.First]);
-                BodyId second = c.Second == ContactPoint.Static ? first : bodies.Id(parties[c.Second]);
-                Vector3D position = partyPositions[c.First] - (c.Normal * bodies.Spec(parties[c.First]).Radius);
+                BodyId first = bodies.Id(graph.Slots[c.First]);
+                BodyId second = c.Second == ContactPoint.Static ? first : bodies.Id(graph.Slots[c.Second]);
+                Vector3D position = graph.Positions[c.First] - (c.Normal * bodies.Spec(graph.Slots[c.First]).Radius);
                 int surface = c.Second == ContactPoint.Static ? c.Surface : ImpactContact.NoSurface;
                 observer.OnContact(canonical, new ImpactContact(first, second, surface, position, closing));
             }

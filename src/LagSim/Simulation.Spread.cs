@@ -20,6 +20,7 @@ public sealed partial class Simulation
 
     private readonly ContactProblem reached = new();
     private readonly NormalsAfterSweeps normals = new();
+    private bool[] isReached = Array.Empty<bool>(); // whether the impulse has gone on from a body to those that it holds
     private Vector3D[] velocitiesBefore = Array.Empty<Vector3D>();
     private Vector3D[] spinsBefore = Array.Empty<Vector3D>();
 
@@ -40,7 +41,7 @@ public sealed partial class Simulation
         int hands = 0;
         for (int n = 0; n < (isPair ? 2 : 1); n++)
         {
-            int piece = timelines.Last(parties[n == 0 ? c.First : c.Second]);
+            int piece = timelines.Last(graph.Slots[n == 0 ? c.First : c.Second]);
             members += paths.IsMember(piece) ? 1 : 0;
             hands += paths.IsHeld(piece) ? 1 : 0;
         }
@@ -60,9 +61,9 @@ public sealed partial class Simulation
             return rebound <= step.Scale.CaptureSpeed;
         }
 
-        Vector3D velocity = partyVelocities[c.First] - (isPair ? partyVelocities[c.Second] : Vector3D.Zero);
-        Vector3D acceleration = partyAccelerations[c.First] - (isPair ? partyAccelerations[c.Second] : Vector3D.Zero);
-        double pressing = -Vector3D.Dot(c.Normal, acceleration) - CollisionPredictor.FallingAway(c.Normal, velocity, ReachOf(c));
+        Vector3D velocity = graph.Velocities[c.First] - (isPair ? graph.Velocities[c.Second] : Vector3D.Zero);
+        Vector3D acceleration = graph.Accelerations[c.First] - (isPair ? graph.Accelerations[c.Second] : Vector3D.Zero);
+        double pressing = -Vector3D.Dot(c.Normal, acceleration) - CollisionPredictor.FallingAway(c.Normal, velocity, graph.ReachOf(c));
         double rises = restitution < 1 ? step.Scale.Length : Scene.Resolution;
         return pressing > 0 && rebound * rebound <= 2 * pressing * rises && (restitution >= 1 || 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds());
     }
@@ -70,27 +71,27 @@ public sealed partial class Simulation
     /// <summary>Whether the bounces of a contact are followed down to the scene's resolution, and a closed form carries its body then: alone on planes, of which one rubs at most if it is the only one.</summary>
     private bool IsCarriedByClosedForm(in ContactPoint c)
     {
-        if (!IsSupportable(c) || paths.IsMember(timelines.Last(parties[c.First])))
+        if (!graph.IsSupportable(c) || paths.IsMember(timelines.Last(graph.Slots[c.First])))
         {
             return false;
         }
 
         int planes = 0;
         bool rubs = false;
-        SupportSet supports = timelines.Segment(timelines.Last(parties[c.First])).Supports;
+        SupportSet supports = timelines.Segment(timelines.Last(graph.Slots[c.First])).Supports;
         for (int k = 0; k < supports.Count; k++)
         {
             planes++;
-            rubs |= trajectories.Friction.On(parties[c.First], supports[k]) > 0;
+            rubs |= trajectories.Friction.On(graph.Slots[c.First], supports[k]) > 0;
         }
 
-        for (int i = 0; i < contactCount; i++)
+        for (int i = 0; i < graph.ContactCount; i++)
         {
-            ref readonly ContactPoint other = ref contacts[i];
+            ref readonly ContactPoint other = ref graph.Contacts[i];
             if (other.First == c.First && other.Second == ContactPoint.Static && surfaces.IsPlane(other.Surface))
             {
                 planes++;
-                rubs |= Friction(other) > 0;
+                rubs |= graph.FrictionOf(other) > 0;
             }
         }
 
@@ -100,14 +101,14 @@ public sealed partial class Simulation
     private bool ReachesIsland()
     {
         bool reaches = false;
-        for (int i = 0; i < partyCount && !reaches; i++)
+        for (int i = 0; i < graph.BodyCount && !reaches; i++)
         {
-            reaches = paths.IsMember(timelines.Last(parties[i]));
+            reaches = paths.IsMember(timelines.Last(graph.Slots[i]));
         }
 
-        for (int i = 0; i < contactCount && !reaches; i++)
+        for (int i = 0; i < graph.ContactCount && !reaches; i++)
         {
-            reaches = contacts[i].Lasts || (IsByHand(contacts[i]) && IsBacked(contacts[i]));
+            reaches = graph.Contacts[i].Lasts || (graph.IsByHand(graph.Contacts[i]) && IsBacked(graph.Contacts[i]));
         }
 
         return reaches;
@@ -116,20 +117,8 @@ public sealed partial class Simulation
     /// <summary>Whether a body that a hand strikes touches something else as well, against which it may be pressed.</summary>
     private bool IsBacked(in ContactPoint c)
     {
-        int struck = paths.IsHeld(timelines.Last(parties[c.First])) ? c.Second : c.First;
-        return contactCount > 1 || timelines.Segment(timelines.Last(parties[struck])).Supports.Count > 0;
-    }
-
-    /// <summary>Whether a hand takes part in the impact at hand.</summary>
-    private bool HasHand()
-    {
-        bool has = false;
-        for (int i = 0; i < partyCount && !has; i++)
-        {
-            has = paths.IsHeld(timelines.Last(parties[i]));
-        }
-
-        return has;
+        int struck = paths.IsHeld(timelines.Last(graph.Slots[c.First])) ? c.Second : c.First;
+        return graph.ContactCount > 1 || timelines.Segment(timelines.Last(graph.Slots[struck])).Supports.Count > 0;
     }
 
     /// <summary>Solves the impact at hand with the lasting contacts that it reaches; false if somebody was ahead of it and has been taken back.</summary>
@@ -144,16 +133,16 @@ public sealed partial class Simulation
         givesWay = false;
         EventKey key = CanonicalKey(popped);
         reached.Clear();
-        int struckParties = partyCount;
-        for (int i = 0; i < partyCount; i++)
+        int struckParties = graph.BodyCount;
+        for (int i = 0; i < graph.BodyCount; i++)
         {
             AddReached(i);
         }
 
-        for (int i = 0; i < contactCount; i++)
+        for (int i = 0; i < graph.ContactCount; i++)
         {
-            ref readonly ContactPoint c = ref contacts[i];
-            ref SolverContact added = ref reached.AddContact(c.First, c.Second, c.Surface, c.Normal, 0, Friction(c), RollingLever(c));
+            ref readonly ContactPoint c = ref graph.Contacts[i];
+            ref SolverContact added = ref reached.AddContact(c.First, c.Second, c.Surface, c.Normal, 0, graph.FrictionOf(c), graph.RollingLeverOf(c));
             added.Target = c.Target;
         }
 
@@ -168,8 +157,8 @@ public sealed partial class Simulation
         for (bool goesOn = true; goesOn && ahead.Count == 0;)
         {
             bool grows = false;
-            bool hasHand = HasHand();
-            int known = partyCount;
+            bool hasHand = graph.HasHand();
+            int known = graph.BodyCount;
             int knownContacts = reached.ContactCount;
             for (int i = 0; i < known; i++)
             {
@@ -207,12 +196,12 @@ public sealed partial class Simulation
         if (presses && !(isNear && IsSqueezed()))
         {
             givesWay = true;
-            for (int i = struckParties; i < partyCount; i++)
+            for (int i = struckParties; i < graph.BodyCount; i++)
             {
-                lookedAt.Add(parties[i]);
+                lookedAt.Add(graph.Slots[i]);
             }
 
-            partyCount = struckParties;
+            graph.KeepBodies(struckParties);
             return true;
         }
 
@@ -228,7 +217,7 @@ public sealed partial class Simulation
     private bool IsSqueezed()
     {
         bool isSqueezed = false;
-        for (int i = contactCount; i < reached.ContactCount && !isSqueezed; i++)
+        for (int i = graph.ContactCount; i < reached.ContactCount && !isSqueezed; i++)
         {
             ref readonly SolverContact c = ref reached.Contacts[i];
             isSqueezed = c.Impulse > 0 && c.Second == ContactPoint.Static;
@@ -240,17 +229,17 @@ public sealed partial class Simulation
     /// <summary>What a hand presses against something lasts, and what it presses it against too.</summary>
     private void KeepPressed(bool presses)
     {
-        for (int i = 0; i < contactCount; i++)
+        for (int i = 0; i < graph.ContactCount; i++)
         {
-            contacts[i].Lasts |= IsByHand(contacts[i]) && reached.Contacts[i].Impulse >= reached.Contacts[i].Most;
+            graph.Contacts[i].Lasts |= graph.IsByHand(graph.Contacts[i]) && reached.Contacts[i].Impulse >= reached.Contacts[i].Most;
         }
 
-        for (int i = contactCount; i < reached.ContactCount && presses; i++)
+        for (int i = graph.ContactCount; i < reached.ContactCount && presses; i++)
         {
             ref readonly SolverContact c = ref reached.Contacts[i];
             if (c.Impulse > 0)
             {
-                AddContact(new ContactPoint(c.First, c.Second, c.Surface, default) { Normal = c.Normal, IsStruck = false, Lasts = true });
+                graph.AddContact(new ContactPoint(c.First, c.Second, c.Surface, default) { Normal = c.Normal, IsStruck = false, Lasts = true });
             }
         }
     }
@@ -262,7 +251,7 @@ public sealed partial class Simulation
     private bool TryReachNear(int party, SimTime time, double tolerance)
     {
         Vector3D push = reached.Bodies[party].Velocity - velocitiesBefore[party];
-        if (double.IsPositiveInfinity(partyMasses[party]) || push.Length <= tolerance)
+        if (double.IsPositiveInfinity(graph.Masses[party]) || push.Length <= tolerance)
         {
             return false;
         }
@@ -272,7 +261,7 @@ public sealed partial class Simulation
         for (int surface = 0; surface < surfaces.Count; surface++)
         {
             ContactPoint c = new(party, ContactPoint.Static, surface, default);
-            if (!IsReached(c) && Vector3D.Dot(NormalOf(c), push) < -tolerance && GapOf(c) <= step.Scale.Length)
+            if (!IsReached(c) && Vector3D.Dot(graph.NormalOf(c), push) < -tolerance && graph.GapOf(c) <= step.Scale.Length)
             {
                 AddReachedContact(c, left);
                 any = true;
@@ -300,7 +289,7 @@ public sealed partial class Simulation
         int taken = ContactSolver.Solve(reached, tolerance, sweeps, knownBodies, knownContacts);
         if (sweeps == ContactStep.MostSweeps && !SweepsAlone && NormalsAfterSweeps.IsNeeded(reached, taken, tolerance))
         {
-            for (int i = 0; i < partyCount; i++)
+            for (int i = 0; i < graph.BodyCount; i++)
             {
                 reached.Bodies[i].Velocity = velocitiesBefore[i];
                 reached.Bodies[i].Spin = spinsBefore[i];
@@ -325,7 +314,7 @@ public sealed partial class Simulation
 
     private void SwapVelocities()
     {
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
             ref SolverBody body = ref reached.Bodies[i];
             (body.Velocity, velocitiesBefore[i]) = (velocitiesBefore[i], body.Velocity);
@@ -335,30 +324,32 @@ public sealed partial class Simulation
 
     private void AddReached(int party)
     {
-        reached.AddBody(partyMasses[party], partyRadii[party], partyVelocities[party], partySpins[party]);
+        reached.AddBody(graph.Masses[party], graph.Radii[party], graph.Velocities[party], graph.Spins[party]);
         if (party >= velocitiesBefore.Length)
         {
-            Array.Resize(ref velocitiesBefore, parties.Length);
-            Array.Resize(ref spinsBefore, parties.Length);
+            int size = Math.Max(4, graph.BodyCount * 2);
+            Array.Resize(ref velocitiesBefore, size);
+            Array.Resize(ref spinsBefore, size);
+            Array.Resize(ref isReached, size);
         }
 
-        velocitiesBefore[party] = partyVelocities[party];
-        spinsBefore[party] = partySpins[party];
-        isReached[party] = double.IsPositiveInfinity(partyMasses[party]);
+        velocitiesBefore[party] = graph.Velocities[party];
+        spinsBefore[party] = graph.Spins[party];
+        isReached[party] = double.IsPositiveInfinity(graph.Masses[party]);
     }
 
     /// <summary>What carries a party by a closed form holds it up while it is struck.</summary>
     private void AddReachedSupports()
     {
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            SupportSet supports = timelines.Segment(timelines.Last(parties[i])).Supports;
+            SupportSet supports = timelines.Segment(timelines.Last(graph.Slots[i])).Supports;
             for (int k = 0; k < supports.Count; k++)
             {
-                if (!HasContact(i, supports[k]))
+                if (!graph.HasContact(i, supports[k]))
                 {
-                    double friction = trajectories.Friction.On(parties[i], supports[k]);
-                    double lever = Math.Min(bodies.Spec(parties[i]).RollingResistance, friction) * partyRadii[i];
+                    double friction = trajectories.Friction.On(graph.Slots[i], supports[k]);
+                    double lever = Math.Min(bodies.Spec(graph.Slots[i]).RollingResistance, friction) * graph.Radii[i];
                     reached.AddContact(i, ContactPoint.Static, supports[k], surfaces.Plane(supports[k]).Normal, 0, friction, lever);
                 }
             }
@@ -368,7 +359,7 @@ public sealed partial class Simulation
     /// <summary>Adds the lasting contacts of a party whose velocity the impact has changed, and the bodies on their other sides.</summary>
     private bool TryReachOn(int party, in EventKey key, double residual, bool presses)
     {
-        int slot = parties[party];
+        int slot = graph.Slots[party];
         int piece = timelines.Last(slot);
         if (!paths.IsMember(piece))
         {
@@ -388,7 +379,7 @@ public sealed partial class Simulation
 
             if (contact.Surface != LastingContact.NoSurface)
             {
-                if (!HasContact(party, contact.Surface))
+                if (!graph.HasContact(party, contact.Surface))
                 {
                     AddReachedContact(new ContactPoint(party, ContactPoint.Static, contact.Surface, default), left);
                     any = true;
@@ -402,21 +393,21 @@ public sealed partial class Simulation
                 continue;
             }
 
-            int other = PartyOf(partner);
-            if (other >= 0 && (isReached[other] && !double.IsPositiveInfinity(partyMasses[other])))
+            int other = graph.IndexOf(partner);
+            if (other >= 0 && (isReached[other] && !double.IsPositiveInfinity(graph.Masses[other])))
             {
                 continue; // it has added the contact
             }
 
-            if (other >= 0 && IsStruckWith(party, other))
+            if (other >= 0 && graph.HasPair(party, other))
             {
                 continue;
             }
 
             if (other < 0)
             {
-                other = AddParty(partner);
-                EvaluateParty(other, key.Time, residual);
+                other = graph.AddBody(partner);
+                graph.Evaluate(other, key.Time, residual);
                 AddReached(other);
             }
 
@@ -428,29 +419,13 @@ public sealed partial class Simulation
         return any;
     }
 
-    private bool IsStruckWith(int party, int other)
-    {
-        bool isStruck = false;
-        for (int i = 0; i < contactCount && !isStruck; i++)
-        {
-            ref readonly ContactPoint c = ref contacts[i];
-            isStruck = (c.First == party && c.Second == other) || (c.First == other && c.Second == party);
-        }
-
-        return isStruck;
-    }
-
     private void AddReachedContact(ContactPoint c, double left)
     {
-        c.Normal = NormalOf(c);
-        double gap = GapOf(c);
-        ref SolverContact added = ref reached.AddContact(c.First, c.Second, c.Surface, c.Normal, gap, Friction(c), RollingLever(c));
+        c.Normal = graph.NormalOf(c);
+        double gap = graph.GapOf(c);
+        ref SolverContact added = ref reached.AddContact(c.First, c.Second, c.Surface, c.Normal, gap, graph.FrictionOf(c), graph.RollingLeverOf(c));
         added.Target = gap > 0 && left > 0 ? -gap / left : 0;
     }
-
-    private double GapOf(in ContactPoint c) => c.Second == ContactPoint.Static
-        ? surfaces.Gap(c.Surface, partyPositions[c.First], partyRadii[c.First])
-        : Scene.Box.Nearest(partyPositions[c.First] - partyPositions[c.Second]).Length - ReachOf(c);
 
     /// <summary>Has a hand press with any force: only a test's negative control sets it.</summary>
     internal bool PressesOn
@@ -488,7 +463,7 @@ public sealed partial class Simulation
             return;
         }
 
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
             velocitiesBefore[i] = reached.Bodies[i].Velocity;
             spinsBefore[i] = reached.Bodies[i].Spin;
@@ -501,18 +476,18 @@ public sealed partial class Simulation
     private void OpenReached(in EventKey key, double residual)
     {
         SimTime end = SimTime.MaxValue;
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            ref readonly MotionSegment path = ref timelines.Segment(timelines.Last(parties[i]));
+            ref readonly MotionSegment path = ref timelines.Segment(timelines.Last(graph.Slots[i]));
             end = path.Law == MotionLaw.Constrained ? SimTime.Min(end, path.End) : end;
-            partyVelocities[i] = reached.Bodies[i].Velocity;
-            partySpins[i] = reached.Bodies[i].Spin;
+            graph.Velocities[i] = reached.Bodies[i].Velocity;
+            graph.Spins[i] = reached.Bodies[i].Spin;
         }
 
         LimitSpeeds();
-        for (int i = 0; i < partyCount; i++)
+        for (int i = 0; i < graph.BodyCount; i++)
         {
-            int slot = parties[i];
+            int slot = graph.Slots[i];
             int before = timelines.Last(slot);
             bool isMember = paths.IsMember(before);
             bool lasts = HasLasting(i);
@@ -526,17 +501,17 @@ public sealed partial class Simulation
             }
             else
             {
-                bool hasChanged = lasts || partyVelocities[i] != velocitiesBefore[i] || partySpins[i] != spinsBefore[i];
-                Vector3D position = partyPositions[i] - (partyVelocities[i] * residual);
+                bool hasChanged = lasts || graph.Velocities[i] != velocitiesBefore[i] || graph.Spins[i] != spinsBefore[i];
+                Vector3D position = graph.Positions[i] - (graph.Velocities[i] * residual);
                 if (isMember)
                 {
-                    GoOnAsMember(slot, key, position, partyVelocities[i], partySpins[i], hasChanged);
+                    GoOnAsMember(slot, key, position, graph.Velocities[i], graph.Spins[i], hasChanged);
                 }
                 else
                 {
                     SupportSet supports = timelines.Segment(before).Supports;
-                    SimTime tick = NextTick(slot, key.Time, StepWanted(slot, position, partyVelocities[i], partySpins[i]));
-                    OpenChord(slot, key, end == SimTime.MaxValue ? tick : SimTime.Min(end, tick > key.Time ? tick : end), position, partyVelocities[i], partySpins[i]);
+                    SimTime tick = NextTick(slot, key.Time, StepWanted(slot, position, graph.Velocities[i], graph.Spins[i]));
+                    OpenChord(slot, key, end == SimTime.MaxValue ? tick : SimTime.Min(end, tick > key.Time ? tick : end), position, graph.Velocities[i], graph.Spins[i]);
                     timelines.BeginMember(timelines.Last(slot), key.Time, key.Time);
                     for (int k = 0; k < supports.Count; k++)
                     {
@@ -553,9 +528,9 @@ public sealed partial class Simulation
     private bool HasLasting(int party)
     {
         bool has = false;
-        for (int i = 0; i < contactCount && !has; i++)
+        for (int i = 0; i < graph.ContactCount && !has; i++)
         {
-            has = contacts[i].Lasts && (contacts[i].First == party || contacts[i].Second == party);
+            has = graph.Contacts[i].Lasts && (graph.Contacts[i].First == party || graph.Contacts[i].Second == party);
         }
 
         return has;
@@ -564,16 +539,16 @@ public sealed partial class Simulation
     /// <summary>A member's new piece carries the contacts of the impact at hand that last from here on; those that bounced off without a loss hold no more.</summary>
     private void AddLasting(int party, int piece)
     {
-        for (int i = 0; i < contactCount; i++)
+        for (int i = 0; i < graph.ContactCount; i++)
         {
-            ref readonly ContactPoint c = ref contacts[i];
+            ref readonly ContactPoint c = ref graph.Contacts[i];
             bool isPair = c.Second != ContactPoint.Static;
-            if ((c.First != party && c.Second != party) || (!c.Lasts && !(c.IsStruck && Restitution(c) >= 1)))
+            if ((c.First != party && c.Second != party) || (!c.Lasts && !(c.IsStruck && graph.RestitutionOf(c) >= 1)))
             {
                 continue;
             }
 
-            BodyId partner = bodies.Id(parties[isPair && c.First == party ? c.Second : c.First]);
+            BodyId partner = bodies.Id(graph.Slots[isPair && c.First == party ? c.Second : c.First]);
             int known = isPair ? timelines.ContactWith(piece, partner) : timelines.ContactWith(piece, c.Surface);
             if (known != TimelineStore.None)
             {
@@ -586,14 +561,4 @@ public sealed partial class Simulation
         }
     }
 
-    /// <summary>
-    /// The lever of rolling resistance of a contact, in metres: the larger of its two bodies', each of which has no more resistance than friction.
-    /// </summary>
-    private double RollingLever(in ContactPoint c)
-    {
-        double friction = Friction(c);
-        double first = Math.Min(bodies.Spec(parties[c.First]).RollingResistance, friction) * partyRadii[c.First];
-        double second = c.Second == ContactPoint.Static ? 0 : Math.Min(bodies.Spec(parties[c.Second]).RollingResistance, friction) * partyRadii[c.Second];
-        return Math.Max(first, second);
-    }
 }

@@ -49,12 +49,12 @@ public sealed partial class Simulation
     /// <returns>What the observer says of it.</returns>
     private WorkVerdict ProcessTold(int slot, in EventKey key, IWorkObserver observer)
     {
-        partyCount = 0;
+        graph.Clear();
         solverWork = 0;
         Process(slot, key);
-        bool isOfMany = partyCount > 0 && key.Kind is EventKind.Impact or EventKind.StepEnd;
+        bool isOfMany = graph.BodyCount > 0 && key.Kind is EventKind.Impact or EventKind.StepEnd;
         aloneAtWork[0] = slot;
-        Span<int> who = isOfMany ? parties.AsSpan(0, partyCount) : aloneAtWork;
+        Span<int> who = isOfMany ? graph.Slots : aloneAtWork;
         bool isAgain = key.Time <= rollback.Horizon;
         return observer.OnWork(key, who, WorkOf(who.Length, isAgain), isAgain, this);
     }

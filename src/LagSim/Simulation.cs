@@ -43,6 +43,7 @@ public sealed partial class Simulation : IOpeningObserver
     private readonly StrikeCounts strikes;
     private readonly CollisionPredictor predictor;
     private readonly StepMarks stepMarks = new();
+    private readonly ContactGraph graph;
     private readonly CollisionSearch search;
     private Exception? fault;
 
@@ -128,6 +129,7 @@ public sealed partial class Simulation : IOpeningObserver
         surfaces = scene.Surfaces;
         hasLosses = surfaces.TakesEnergy();
         step = new ContactStep(scene, options.Scale ?? new ContactScale(scene.ContactTolerance, scene.Gravity, start));
+        graph = new ContactGraph(bodies, timelines, surfaces, scene.Box);
         memberContacts = new MemberContacts(timelines, view, bodies, surfaces, step.Scale);
         strikes = new StrikeCounts(timelines, bodies, surfaces, scene.Box);
         predictor = new CollisionPredictor(scene, start, bodies, timelines, rollback, view, memberContacts, strikes, step.Scale);

@@ -1,0 +1,263 @@
+using System;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Contacts;
+
+/// <summary>The bodies and contacts of one event, an impact or a contact step, in canonical order, with the states in which they meet.</summary>
+/// <remarks>
+/// Bodies are numbered within the graph; each has a place in every span of states. A graph is filled, solved and cleared again and again: it
+/// allocates only when an event has more bodies or contacts than any before.
+/// </remarks>
+internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, StaticSurfaces surfaces, PeriodicBox box)
+{
+    private readonly Paths paths = new(timelines);
+    private int[] slots = new int[4];
+    private double[] masses = new double[4];
+    private double[] radii = new double[4];
+    private Vector3D[] positions = new Vector3D[4];
+    private Vector3D[] velocities = new Vector3D[4];
+    private Vector3D[] accelerations = new Vector3D[4];
+    private Vector3D[] spins = new Vector3D[4];
+    private ContactPoint[] contacts = new ContactPoint[1]; // as many as nearly all impacts have
+
+    /// <summary>How many bodies there are.</summary>
+    internal int BodyCount { get; private set; }
+
+    /// <summary>How many contacts there are.</summary>
+    internal int ContactCount { get; private set; }
+
+    /// <summary>Whose states these are, by slot.</summary>
+    internal Span<int> Slots => slots.AsSpan(0, BodyCount);
+
+    /// <summary>In kg; infinite of a body in a hand.</summary>
+    internal Span<double> Masses => masses.AsSpan(0, BodyCount);
+
+    /// <summary>In metres.</summary>
+    internal Span<double> Radii => radii.AsSpan(0, BodyCount);
+
+    /// <summary>Where the centres are, in metres.</summary>
+    internal Span<Vector3D> Positions => positions.AsSpan(0, BodyCount);
+
+    /// <summary>In m/s; before the event is solved as the bodies come to it, then as they leave.</summary>
+    internal Span<Vector3D> Velocities => velocities.AsSpan(0, BodyCount);
+
+    /// <summary>What forces give, in m/s².</summary>
+    internal Span<Vector3D> Accelerations => accelerations.AsSpan(0, BodyCount);
+
+    /// <summary>How the bodies turn, in rad/s; as velocities.</summary>
+    internal Span<Vector3D> Spins => spins.AsSpan(0, BodyCount);
+
+    internal Span<ContactPoint> Contacts => contacts.AsSpan(0, ContactCount);
+
+    /// <summary>Begins another event.</summary>
+    internal void Clear() => BodyCount = ContactCount = 0;
+
+    /// <summary>Adds a body that is not there, and tells its number. Its state is not known yet.</summary>
+    internal int AddBody(int slot)
+    {
+        if (BodyCount == slots.Length)
+        {
+            int size = BodyCount * 2;
+            Array.Resize(ref slots, size);
+            Array.Resize(ref masses, size);
+            Array.Resize(ref radii, size);
+            Array.Resize(ref positions, size);
+            Array.Resize(ref velocities, size);
+            Array.Resize(ref accelerations, size);
+            Array.Resize(ref spins, size);
+        }
+
+        slots[BodyCount] = slot;
+        return BodyCount++;
+    }
+
+    internal void AddContact(in ContactPoint contact)
+    {
+        if (ContactCount == contacts.Length)
+        {
+            Array.Resize(ref contacts, Math.Max(8, ContactCount * 2));
+        }
+
+        contacts[ContactCount++] = contact;
+    }
+
+    /// <summary>Leaves out all bodies from a number on.</summary>
+    internal void KeepBodies(int count) => BodyCount = count;
+
+    /// <summary>Leaves out all contacts from a number on.</summary>
+    internal void KeepContacts(int count) => ContactCount = count;
+
+    /// <summary>The number of a body, or -1 if it is not there.</summary>
+    internal int IndexOf(int slot) => Array.IndexOf(slots, slot, 0, BodyCount);
+
+    /// <summary>Whether a body touches a static surface in it.</summary>
+    internal bool HasContact(int body, int surface)
+    {
+        bool has = false;
+        for (int i = 0; i < ContactCount && !has; i++)
+        {
+            has = contacts[i].First == body && contacts[i].Second == ContactPoint.Static && contacts[i].Surface == surface;
+        }
+
+        return has;
+    }
+
+    /// <summary>Whether two bodies touch in it.</summary>
+    internal bool HasPair(int body, int other)
+    {
+        bool has = false;
+        for (int i = 0; i < ContactCount && !has; i++)
+        {
+            ref readonly ContactPoint c = ref contacts[i];
+            has = (c.First == body && c.Second == other) || (c.First == other && c.Second == body);
+        }
+
+        return has;
+    }
+
+    /// <summary>Whether some body is in a hand.</summary>
+    internal bool HasHand()
+    {
+        bool has = false;
+        for (int i = 0; i < BodyCount && !has; i++)
+        {
+            has = paths.IsHeld(timelines.Last(slots[i]));
+        }
+
+        return has;
+    }
+
+    /// <summary>
+    /// Puts bodies in the order of their identities, and contacts in that of theirs, then of their surfaces: whose slot came first, and who
+    /// found whom, leaves no trace in any sum over them.
+    /// </summary>
+    internal void Sort()
+    {
+        // While bodies move, contacts name them by slot.
+        for (int i = 0; i < ContactCount; i++)
+        {
+            ref ContactPoint c = ref contacts[i];
+            c.First = slots[c.First];
+            c.Second = c.Second == ContactPoint.Static ? c.Second : slots[c.Second];
+        }
+
+        for (int i = 1; i < BodyCount; i++)
+        {
+            int moving = slots[i];
+            int at = i;
+            while (at > 0 && bodies.Id(moving) < bodies.Id(slots[at - 1]))
+            {
+                slots[at] = slots[at - 1];
+                at--;
+            }
+
+            slots[at] = moving;
+        }
+
+        for (int i = 0; i < ContactCount; i++)
+        {
+            ref ContactPoint c = ref contacts[i];
+            c.First = IndexOf(c.First);
+            c.Second = c.Second == ContactPoint.Static ? c.Second : IndexOf(c.Second);
+        }
+
+        for (int i = 1; i < ContactCount; i++)
+        {
+            ContactPoint moving = contacts[i];
+            int at = i;
+            while (at > 0 && Compare(moving, contacts[at - 1]) < 0)
+            {
+                contacts[at] = contacts[at - 1];
+                at--;
+            }
+
+            contacts[at] = moving;
+        }
+    }
+
+    /// <summary>Has the states of all bodies at an instant, by the newest segments of their paths.</summary>
+    internal void Evaluate(SimTime time, double residual)
+    {
+        for (int i = 0; i < BodyCount; i++)
+        {
+            Evaluate(i, time, residual);
+        }
+    }
+
+    /// <summary>The same of one body, so many seconds after the tick.</summary>
+    internal void Evaluate(int body, SimTime time, double residual)
+    {
+        int last = timelines.Last(slots[body]);
+        ref readonly MotionSegment segment = ref timelines.Segment(last);
+        DenseOutput dense = timelines.Dense(last);
+        double seconds = paths.SecondsInto(last, time) + residual;
+        masses[body] = segment.Law == MotionLaw.Held ? double.PositiveInfinity : bodies.Spec(slots[body]).Mass;
+        radii[body] = bodies.Spec(slots[body]).Radius;
+        positions[body] = segment.PositionAt(seconds, dense);
+        velocities[body] = segment.VelocityAt(seconds, dense);
+        accelerations[body] = segment.AccelerationAt(seconds, dense);
+        spins[body] = timelines.SpinOf(last).At(seconds);
+    }
+
+    /// <summary>Whether one of a contact's two bodies is in a hand, which goes its own way, so that nothing lasts on it.</summary>
+    internal bool IsByHand(in ContactPoint c) =>
+        double.IsPositiveInfinity(masses[c.First]) || (c.Second != ContactPoint.Static && double.IsPositiveInfinity(masses[c.Second]));
+
+    /// <summary>Whether one of a contact's two bodies is a member of an island.</summary>
+    internal bool HasMember(in ContactPoint c) =>
+        paths.IsMember(timelines.Last(slots[c.First])) || (c.Second != ContactPoint.Static && paths.IsMember(timelines.Last(slots[c.Second])));
+
+    /// <summary>
+    /// Whether a body may come to rest or slide on what it hit: a plane, under an acceleration that is the same everywhere.
+    /// </summary>
+    internal bool IsSupportable(in ContactPoint c) =>
+        c.Second == ContactPoint.Static && surfaces.IsPlane(c.Surface) && bodies.Spec(slots[c.First]).Forces.IsEmpty;
+
+    /// <summary>From the second of a contact to the first, a unit vector.</summary>
+    internal Vector3D NormalOf(in ContactPoint c) => c.Second == ContactPoint.Static
+        ? surfaces.Normal(c.Surface, positions[c.First])
+        : box.Nearest(positions[c.First] - positions[c.Second]).Direction;
+
+    /// <summary>How far apart the centres of two that touch are, in metres; infinite where one is a plane.</summary>
+    internal double ReachOf(in ContactPoint c) =>
+        c.Second == ContactPoint.Static ? surfaces.Reach(c.Surface, radii[c.First]) : radii[c.First] + radii[c.Second];
+
+    /// <summary>The distance in metres between the two of a contact; negative where they overlap.</summary>
+    internal double GapOf(in ContactPoint c) => c.Second == ContactPoint.Static
+        ? surfaces.Gap(c.Surface, positions[c.First], radii[c.First])
+        : box.Nearest(positions[c.First] - positions[c.Second]).Length - ReachOf(c);
+
+    /// <summary>The lesser of the two restitutions: a material behaves as named against anything more elastic.</summary>
+    internal double RestitutionOf(in ContactPoint c) => Math.Min(
+        bodies.Spec(slots[c.First]).Restitution,
+        c.Second == ContactPoint.Static ? surfaces.Restitution(c.Surface) : bodies.Spec(slots[c.Second]).Restitution);
+
+    /// <summary>The lesser of the two coefficients of friction.</summary>
+    internal double FrictionOf(in ContactPoint c) => Math.Min(
+        bodies.Spec(slots[c.First]).Friction,
+        c.Second == ContactPoint.Static ? surfaces.Friction(c.Surface) : bodies.Spec(slots[c.Second]).Friction);
+
+    /// <summary>
+    /// The lever of rolling resistance of a contact, in metres: the larger of its two bodies', each of which has no more resistance than
+    /// friction.
+    /// </summary>
+    internal double RollingLeverOf(in ContactPoint c)
+    {
+        double friction = FrictionOf(c);
+        double first = Math.Min(bodies.Spec(slots[c.First]).RollingResistance, friction) * radii[c.First];
+        double second = c.Second == ContactPoint.Static ? 0 : Math.Min(bodies.Spec(slots[c.Second]).RollingResistance, friction) * radii[c.Second];
+        return Math.Max(first, second);
+    }
+
+    private int Compare(in ContactPoint a, in ContactPoint b)
+    {
+        int byFirst = bodies.Id(slots[a.First]).CompareTo(bodies.Id(slots[b.First]));
+        return byFirst != 0 ? byFirst
+            : a.Second >= 0 && b.Second >= 0 ? bodies.Id(slots[a.Second]).CompareTo(bodies.Id(slots[b.Second]))
+            : a.Second != b.Second ? a.Second.CompareTo(b.Second)
+            : a.Surface.CompareTo(b.Surface);
+    }
+}
