@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
+using System.Net;
 using System.Threading;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
@@ -47,7 +48,10 @@ internal sealed class HostAdmin
 
         if (words is ["unban", string address])
         {
-            return banned.Remove(address, out PeerAddress machine) && host.Unban(machine) ? $"Players from {address} may come in again."
+            bool isKnown = banned.Remove(address, out PeerAddress machine);
+            isKnown |= IPAddress.TryParse(address, out IPAddress? ip);
+            machine = ip is null ? machine : PeerAddress.From(new IPEndPoint(ip, 0)); // also one that is shut out for a while
+            return isKnown && host.Unban(machine) ? $"Players from {address} may come in again."
                 : $"'{address}' is not banned; banned are: {(banned.Count == 0 ? "none" : string.Join(", ", banned.Keys.Order()))}.";
         }
 

@@ -127,6 +127,14 @@ public sealed partial class HostSession
 
     private bool IsShutOut(PeerAddress machine, SimTime now) => shutOut.TryGetValue(machine, out (SimTime Until, SimDuration For) until) && now < until.Until;
 
+    /// <summary>Shuts a machine out no longer; false if it was not.</summary>
+    private bool LetInAgain(PeerAddress machine, SimTime now)
+    {
+        bool wasShutOut = IsShutOut(machine, now);
+        shutOut.Remove(machine);
+        return wasShutOut;
+    }
+
     private void Count(PlayerBudget budget, WorkLedger ledger, SimTime now)
     {
         bool isFirst = counted == SimTime.MaxValue;

@@ -150,10 +150,14 @@ public sealed partial class HostSession : Session
         return machine;
     }
 
-    /// <summary>Lets players in again from a machine.</summary>
-    /// <param name="machine">What <see cref="Ban"/> gave.</param>
+    /// <summary>Lets players in again from a machine: one that was banned, or one that is shut out for a while because a player from there cost too much.</summary>
+    /// <param name="machine">What <see cref="Ban"/> gave, or any address of the machine.</param>
     /// <returns>False if it was not shut out.</returns>
-    public bool Unban(PeerAddress machine) => banned.Remove(machine);
+    public bool Unban(PeerAddress machine)
+    {
+        bool wasBanned = banned.Remove(machine.Machine);
+        return LetInAgain(machine.Machine, Clock.Now) || wasBanned;
+    }
 
     /// <summary>
     /// Removes all bodies that were spawned under a player's number, whether or not somebody has it now. The removals are events of this host, so all peers see them at the same

@@ -18,8 +18,8 @@ public sealed class PlayerExpulsion
         string what = wasThere ? $"Player {player} is sent away: what it did"
             : player == 0 ? "What players who are gone had left is removed: it" : $"What player {player}, who is gone, had left is removed: it";
         Sentence = what + FormattableString.Invariant($" took {work / 1000:0} ms of work within {seconds:0.0##} s, more than one player may cost.")
-            + $" As of {from.ToShortString()} of the simulation, {removed} of its bodies are removed"
-            + $" and {stopped} others that it moved are stopped.";
+            + $" As of {from.ToShortString()} of the simulation, {removed} of its bodies {(removed == 1 ? "is" : "are")} removed"
+            + $" and {stopped} {(stopped == 1 ? "other that it moved is" : "others that it moved are")} stopped.";
     }
 
     /// <summary>Whose number it is; 0 for players who are gone and whose number another has by now.</summary>

@@ -78,7 +78,8 @@ public static class ExternalEventCheck
         if (external.Spec.Radius < scene.SmallestRadius)
         {
             throw new SceneException(
-                $"The radius of {whose} is {Limits.Text(external.Spec.Radius)} m; the scene promises none below {Limits.Text(scene.SmallestRadius)} m.");
+                $"The radius of {whose} is {Limits.Text(external.Spec.Radius)} m; the scene promises none below {Limits.Text(scene.SmallestRadius)} m,"
+                    + " its smallest body unless smallest_radius_m (SceneBuilder.WithSmallestRadius) says less.");
         }
 
         Limits.CheckSpin(external.Spin, external.Spec, scene.SmallestRadius, whose, scene.ForceArray);

@@ -148,8 +148,10 @@ public sealed class BudgetTests
         Assert.Equal(hasBudget, group.Sessions[1].Counters.EventsRefused > 0);
     }
 
-    [Fact]
-    public void Step_WhoWasSentAway_IsLetInAgainAfterAMinute()
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Step_WhoWasSentAway_IsLetInAgainAfterAMinuteOrWhenTheHostSaysSo(bool hostSaysSo)
     {
         SessionGroup group = Three();
         for (int n = 0; n < 40 && group.Sessions[1].State == SessionState.Running; n++)
@@ -161,7 +163,9 @@ public sealed class BudgetTests
         Assert.Equal(SessionEnd.Kicked, group.Sessions[1].EndedBy);
         group.Steps.WorkPerSecond = 0;
         Assert.Equal(SessionEnd.Refused, Again(group, 70).EndedBy);
-        group.Run(60);
+        group.Run(hostSaysSo ? 0 : 60);
+        Assert.Equal(hostSaysSo, hostSaysSo && group.Host.Unban(PeerAddress.Virtual(1)));
+        Assert.False(group.Host.Unban(PeerAddress.Virtual(1))); // it is shut out no longer
         Assert.Equal(SessionState.Running, Again(group, 71).State);
     }
 
