@@ -81,13 +81,18 @@ public sealed partial class Simulation
             graph.AddContact(new ContactPoint(0, 1, -1, default));
         }
 
-        for (int i = 0; i < graph.BodyCount; i++)
+        Span<int> slots = graph.Slots;
+        Span<Vector3D> positions = graph.Positions;
+        Span<Vector3D> velocities = graph.Velocities;
+        Span<Vector3D> spins = graph.Spins;
+        for (int i = 0; i < slots.Length; i++)
         {
-            graph.Masses[i] = bodies.Spec(graph.Slots[i]).Mass;
+            ref readonly BodySpec spec = ref bodies.Spec(slots[i]);
+            graph.Masses[i] = spec.Mass;
+            graph.Radii[i] = spec.Radius;
             graph.Accelerations[i] = Scene.Gravity;
-            graph.Radii[i] = bodies.Spec(graph.Slots[i]).Radius;
-            graph.Spins[i] = timelines.SpinOf(timelines.Last(graph.Slots[i])).AtEpoch; // in flight it stays
-            flights.StateAt(graph.Slots[i], key.Time, residual, out graph.Positions[i], out graph.Velocities[i]);
+            spins[i] = timelines.SpinOf(timelines.Last(slots[i])).AtEpoch; // in flight it stays
+            flights.StateAt(slots[i], key.Time, residual, out positions[i], out velocities[i]);
         }
 
         SetTargets(collapses: false, key.Time);
@@ -102,19 +107,19 @@ public sealed partial class Simulation
         LimitSpeeds();
         touched[0] = graph.Contacts[0].Surface;
         Span<int> planes = touched.AsSpan(0, graph.IsSupportable(graph.Contacts[0]) ? 1 : 0);
-        for (int i = 0; i < graph.BodyCount; i++)
+        for (int i = 0; i < slots.Length; i++)
         {
-            trajectories.Open(graph.Slots[i], key, graph.Positions[i], graph.Velocities[i], -residual, planes, graph.Spins[i]);
+            trajectories.Open(slots[i], key, positions[i], velocities[i], -residual, planes, spins[i]);
         }
 
-        timelines.Join(graph.Slots);
-        for (int i = 0; i < graph.BodyCount; i++)
+        timelines.Join(slots);
+        for (int i = 0; i < slots.Length; i++)
         {
-            Predict(graph.Slots[i]);
+            Predict(slots[i]);
         }
 
         AloneProcessed++;
-        PairsProcessed += graph.BodyCount - 1;
+        PairsProcessed += slots.Length - 1;
         return true;
     }
 }

@@ -24,7 +24,11 @@ public sealed partial class Simulation
     internal long StepsTaken { get; private set; }
 
     /// <summary>Takes no contact for one that lasts: only a test's negative control sets it.</summary>
-    internal bool IgnoresIslands { get; set; }
+    internal bool IgnoresIslands
+    {
+        get => faults.IgnoresIslands;
+        set => faults.IgnoresIslands = value;
+    }
 
     /// <summary>A tick of an island has come; false if somebody who takes part was ahead of it and has been taken back.</summary>
     private bool TryHandleContactStep(int slot, in EventKey key)
@@ -252,12 +256,13 @@ public sealed partial class Simulation
                 gain = graph.Accelerations[i] * since;
             }
 
-            step.AddBody(spec, graph.Positions[i], velocity, gain, graph.Spins[i], isHeld);
+            step.AddBody(
+                spec, graph.Positions[i], velocity, gain, graph.Spins[i], isHeld, spec.Forces.IsEmpty || isHeld ? 0 : graph.Accelerations[i].Length);
         }
 
         step.FindContacts(seconds);
         Warm();
-        step.DropElastic();
+        step.DropImpacts(seconds);
         return length;
     }
 
@@ -272,7 +277,10 @@ public sealed partial class Simulation
     /// <summary>So far, in parts of a force's own time, a step may go.</summary>
     private const double MostRateTimesStep = 1.0 / 16;
 
-    /// <summary>How long a step may be at most, in seconds, for the forces on a body to be followed; infinite where there are none.</summary>
+    /// <summary>
+    /// How long a step may be at most, in seconds, for the forces on a body to be followed, and for it not to fall by more than the tolerance
+    /// where they are stronger than gravity; infinite where there are none.
+    /// </summary>
     private double StepWanted(int slot, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         ref readonly BodySpec spec = ref bodies.Spec(slot);
@@ -282,7 +290,15 @@ public sealed partial class Simulation
             throw trajectories.Failures.OfContactStep(slot, rollback.Cursor.Time, position, velocity, spin, double.IsNaN(rate) ? double.PositiveInfinity : rate);
         }
 
-        return rate > 0 ? MostRateTimesStep / rate : double.PositiveInfinity;
+        double fall = step.Scale.FallAt(PullOn(slot, position, velocity, spin));
+        return rate > 0 ? Math.Min(fall, MostRateTimesStep / rate) : fall;
+    }
+
+    /// <summary>How hard forces, gravity among them, pull a body, in m/s²; 0 of one on which gravity alone acts, for the scale knows that.</summary>
+    private double PullOn(int slot, in Vector3D position, in Vector3D velocity, in Vector3D spin)
+    {
+        ref readonly BodySpec spec = ref bodies.Spec(slot);
+        return spec.Forces.IsEmpty ? 0 : forces.On(bodies.Id(slot)).At(spec, rollback.Cursor.Time, 0, position, velocity, spin).Length;
     }
 
     /// <summary>
@@ -473,7 +489,8 @@ public sealed partial class Simulation
     }
 
     /// <summary>
-    /// Whether a party is so slow that in the time before a sleep it does not move by the tolerance; nor its surface, against what rolling resistance is to have it turn with.
+    /// Whether a body is so slow that in the time before a sleep it does not move by the tolerance; nor its surface, against what it rubs on,
+    /// or what rolling resistance is to have it turn with.
     /// </summary>
     private bool IsStill(int party, in SolverBody solved)
     {
@@ -484,6 +501,8 @@ public sealed partial class Simulation
             ref readonly SolverContact c = ref step.Problem.Contacts[i];
             Vector3D turning = c.Second == ContactPoint.Static ? solved.Spin : step.Problem.Bodies[c.First].Spin - step.Problem.Bodies[c.Second].Spin;
             isStill &= c.Lever == 0 || turning.Length * solved.Radius <= speed;
+            bool slips = c.Impulse > 0 && c.Rub.Length >= 0.999 * c.Friction * c.Impulse;
+            isStill &= c.Friction == 0 || !slips || ContactSolver.Slip(step.Problem, c).Length <= speed;
         }
 
         return isStill;

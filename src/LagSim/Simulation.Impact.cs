@@ -94,12 +94,13 @@ public sealed partial class Simulation
     private void LimitSpeeds()
     {
         double limit = Limits.MaxReboundSpeed(Scene.SmallestRadius);
-        for (int i = 0; i < graph.BodyCount; i++)
+        Span<Vector3D> velocities = graph.Velocities;
+        for (int i = 0; i < velocities.Length; i++)
         {
-            double speed = graph.Velocities[i].Length;
+            double speed = velocities[i].Length;
             if (speed > limit && !double.IsPositiveInfinity(graph.Masses[i]))
             {
-                graph.Velocities[i] *= limit / speed;
+                velocities[i] *= limit / speed;
             }
         }
     }

@@ -51,6 +51,11 @@ public sealed partial class Simulation
             return rebound <= step.Scale.CaptureSpeed; // whatever its restitution: a hand gives and takes energy
         }
 
+        if (isPair && hands == 0 && graph.GapOf(c) < -0.5 * step.Scale.Length)
+        {
+            return true; // one was put into the other, and steps push them out
+        }
+
         if (IsCarriedByClosedForm(c))
         {
             return false;
@@ -58,7 +63,7 @@ public sealed partial class Simulation
 
         if (restitution < 1 && isPair && members > 0) // leaves at the next tick if nothing presses it: a chord's acceleration does not tell
         {
-            return rebound <= step.Scale.CaptureSpeed;
+            return rebound <= step.Scale.CaptureSpeedAt(Math.Max(PullOn(c.First), PullOn(c.Second)));
         }
 
         Vector3D velocity = graph.Velocities[c.First] - (isPair ? graph.Velocities[c.Second] : Vector3D.Zero);
@@ -67,6 +72,8 @@ public sealed partial class Simulation
         double rises = restitution < 1 ? step.Scale.Length : Scene.Resolution;
         return pressing > 0 && rebound * rebound <= 2 * pressing * rises && (restitution >= 1 || 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds());
     }
+
+    private double PullOn(int body) => PullOn(graph.Slots[body], graph.Positions[body], graph.Velocities[body], graph.Spins[body]);
 
     /// <summary>Whether the bounces of a contact are followed down to the scene's resolution, and a closed form carries its body then: alone on planes, of which one rubs at most if it is the only one.</summary>
     private bool IsCarriedByClosedForm(in ContactPoint c)

@@ -54,7 +54,7 @@ public sealed partial class Simulation : IOpeningObserver
     /// <para>Peers of other versions would each compute a world of its own, and a recording of another version gives other hashes than stand in it.</para>
     /// <para>Not a <see langword="const"/>: that would be copied into whatever is built against the library, and tell of another build than the one that runs.</para>
     /// </remarks>
-    public static int FoldVersion => 9;
+    public static int FoldVersion => 10;
 
     /// <summary>A world at the start of its scene, with all that happens at that instant. Cost: the bodies, and which of them can meet.</summary>
     /// <param name="scene">What is simulated.</param>
@@ -118,7 +118,7 @@ public sealed partial class Simulation : IOpeningObserver
         bodies = new BodyTable(expected);
         scheduler = new EventScheduler(expected);
         log = new EventLog(expected);
-        flights = new FreeFlights(scene.Gravity, scene.Resolution, scene.Box, expected);
+        flights = new FreeFlights(scene.Gravity, scene.Resolution, scene.Box, expected, 0.5 * scene.ContactTolerance);
         timelines = new TimelineStore(start, options.MaxSegments, flights, expected, history);
         paths = new Paths(timelines);
         view = new PathView(timelines, rollback, faults);
@@ -132,7 +132,7 @@ public sealed partial class Simulation : IOpeningObserver
         graph = new ContactGraph(bodies, timelines, surfaces, scene.Box);
         memberContacts = new MemberContacts(timelines, view, bodies, surfaces, step.Scale);
         strikes = new StrikeCounts(timelines, bodies, surfaces, scene.Box);
-        predictor = new CollisionPredictor(scene, start, bodies, timelines, rollback, view, memberContacts, strikes, step.Scale);
+        predictor = new CollisionPredictor(scene, start, bodies, timelines, rollback, view, memberContacts, strikes, step.Scale, faults);
         search = new CollisionSearch(bodies, timelines, flights, surfaces, predictor, stepMarks, faults);
     }
 

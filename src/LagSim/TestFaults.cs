@@ -17,6 +17,9 @@ internal sealed class TestFaults
     /// <summary>Gathers every impact, however plain, and looks at every pair: the same bits by the long way, to compare.</summary>
     internal bool TakesNoShortcut { get; set; }
 
+    /// <summary>Takes no contact for one that lasts.</summary>
+    internal bool IgnoresIslands { get; set; }
+
     /// <summary>Whether it heals wrongly in that way.</summary>
     internal bool Has(HealingFault wrong) => (Healing & wrong) != 0;
 }

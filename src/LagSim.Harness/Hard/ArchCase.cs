@@ -204,7 +204,7 @@ internal sealed class ArchCase : IHardCase
             new SceneBuilder("chain").WithGravity(Vector3D.Zero).AddForce(Force.Supplied(new SuppliedWeight())),
             [.. Enumerable.Range(0, side + 1).Select(n => Math.Atan(steeper * (n + 0.5) / side))], ball);
         Simulation simulation = context.Simulate(scene);
-        double step = ContactSteps.Step(Tolerance, ContactSteps.PullWithoutGravity), seconds = Seconds(context), sum = 0;
+        double step = ContactSteps.Step(Tolerance), seconds = Seconds(context), sum = 0;
         int steps = (int)(Watched / step), contacts = (2 * side) + 2;
         for (int n = 0; n < steps; n++)
         {

@@ -104,7 +104,7 @@ internal sealed class ColumnCase : IHardCase
         }
 
         Simulation simulation = context.Simulate(builder.Build());
-        double seconds = context.Size(1.0, 2.0), step = ContactSteps.Step(Standing, ContactSteps.PullWithoutGravity);
+        double seconds = context.Size(1.0, 2.0), step = ContactSteps.Step(Standing);
         int steps = (int)(Watched / step);
         Dictionary<(BodyId Body, BodyId Partner, int Surface), Vector3D> forces = [];
         for (int n = 0; n < steps; n++)
@@ -165,7 +165,7 @@ internal sealed class ColumnCase : IHardCase
         yield return new HardRow(
             Name, size, depth, "depth_m", 2 * Standing, "two of d, 1e-6 m: a fall in a step, and the turning of a line of centres in one",
             "no ball is in another or in the floor");
-        double step = ContactSteps.Step(Standing, ContactSteps.PullWithoutGravity), part = 1 + (2 * Slope);
+        double step = ContactSteps.Step(Standing), part = 1 + (2 * Slope);
         yield return new HardRow(
             Name, size, amiss, "force_over_weight_above",
             part * ((ContactSteps.Closing * Standing / step / Watched / Gravity) + (2 * most / Radius)),

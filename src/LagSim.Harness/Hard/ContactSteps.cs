@@ -23,9 +23,6 @@ internal static class ContactSteps
     /// <summary>The part of d by which sweeps alone leave a contact to close, or to slip, in a step.</summary>
     internal const double Sweep = 0.005;
 
-    /// <summary>What is pressed together where a scene has no gravity: by 1 m/s².</summary>
-    internal const double PullWithoutGravity = 1;
-
     /// <summary>How long a step is at a tolerance, in seconds.</summary>
     internal static double Step(double tolerance, double pull = Gravity)
     {

@@ -229,7 +229,7 @@ internal sealed class HeapCase : IHardCase
             context.Report(n / (double)samples);
         }
 
-        double step = ContactSteps.Step(OfPyramid, ContactSteps.PullWithoutGravity), most = Edge * ContactSteps.Closing * OfPyramid;
+        double step = ContactSteps.Step(OfPyramid), most = Edge * ContactSteps.Closing * OfPyramid;
         bool isStepped = simulation.EventsProcessed > 0.9 * seconds / step; // else nothing was shown
         string size = FormattableString.Invariant($"a pyramid of {pyramid.Bodies.Count}, mu {friction}, {seconds} s");
         drift = isStepped ? drift : double.NaN;

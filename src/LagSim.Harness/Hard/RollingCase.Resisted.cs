@@ -11,10 +11,10 @@ namespace LagSim.Harness.Hard;
 /// <content>Slipping against rolling resistance, by closed form and in an island's steps; turning on the spot in steps.</content>
 internal sealed partial class RollingCase
 {
-    /// <summary>The contact tolerance of what moves in steps, and how long these are: the weight is a program's own force, and there is no
-    /// gravity.</summary>
+    /// <summary>The contact tolerance of what moves in steps, and how long these are: the weight is a program's own force, as large as
+    /// gravity is elsewhere.</summary>
     private const double Tolerance = 1e-5;
-    private static readonly double Step = ContactSteps.Step(Tolerance, ContactSteps.PullWithoutGravity);
+    private static readonly double Step = ContactSteps.Step(Tolerance);
 
     /// <summary>How a ball is thrown along the floor: its friction, its resistance, its speed, and that with which its spin would have it roll.</summary>
     private static readonly (double Mu, double C, double Speed, double Turn)[] Throws = [(0.3, 0.1, 2, 0), (0.3, 0.02, 2, -3), (0.2, 0.1, 1, 4), (0.3, 0.3, 2, 0), (0.5, 0.4, 3, -1)];

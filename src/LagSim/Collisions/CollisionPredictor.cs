@@ -11,10 +11,11 @@ using LagSim.Timelines;
 namespace LagSim.Collisions;
 
 /// <summary>When a body's newest segment next meets a static surface or another's path.</summary>
-/// <remarks>A pure function of the segments, of two bodies ordered by identity; never of the time of day, of who asks first, or of what is asked besides.</remarks>
+/// <remarks>A pure function of the segments, of two bodies ordered by identity; never of the time of day, of who asks first, or of what
+/// is asked besides.</remarks>
 internal sealed class CollisionPredictor(
-    Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, RollbackState rollback, PathView view, MemberContacts members, StrikeCounts strikes,
-    ContactScale scale)
+    Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, RollbackState rollback, PathView view, MemberContacts members,
+    StrikeCounts strikes, ContactScale scale, TestFaults faults)
 {
     /// <summary>
     /// The first round of an instant in which there can be a collapse: a contact is struck, then something else strikes one of the
@@ -49,7 +50,8 @@ internal sealed class CollisionPredictor(
         SimTime from = opened;
         if (segment.Epoch < opened && TouchSurface(slot, last, surface, isPlane, segment.Epoch, out contact) && contact.Tick > opened)
         {
-            // A path taken over from an event that came late: looked at from where it began, the root has the bits that it has on other peers.
+            // A path taken over from an event that came late: looked at from where it began, the root has the bits that it has on other
+            // peers.
             return true;
         }
 
@@ -75,7 +77,8 @@ internal sealed class CollisionPredictor(
             Closing closing = new(
                 -Vector3D.Dot(normal, velocity), pressing, velocity.Length,
                 surfaces.Gap(surface, position, radius), RoundingOf(position, radius));
-            SimDuration wait = WaitFor(closing, segment.IsOfIsland && members.Holds(last, surface));
+            bool isElastic = Math.Min(bodies.Spec(slot).Restitution, surfaces.Restitution(surface)) >= 1;
+            SimDuration wait = WaitFor(closing, segment.IsOfIsland && members.Holds(last, surface), isElastic);
             if (wait < ContactTime.Soon
                 && !MayWait(closing, closing.Speed <= StrikeCounts.CollapseSpeed ? strikes.On(last, surface, opened) : 0, round))
             {
@@ -108,7 +111,8 @@ internal sealed class CollisionPredictor(
     }
 
     /// <summary>
-    /// The next contact of a body's newest segment with another body's path: with its newest piece, or, where that body is ahead of what is being
+    /// The next contact of a body's newest segment with another body's path: with its newest piece, or, where that body is ahead of what
+    /// is being
     /// healed, with the first piece until then that is touched before what ended it.
     /// </summary>
     internal bool TryMeet(int slot, int other, SimTime until, out int piece, out ContactTime contact, out uint round)
@@ -137,7 +141,9 @@ internal sealed class CollisionPredictor(
         }
     }
 
-    /// <summary>The next contact of a body's newest segment with a piece of another's path; a pure function of the two, ordered by identity.</summary>
+    /// <summary>
+    /// The next contact of a body's newest segment with a piece of another's path; a pure function of the two, ordered by identity.
+    /// </summary>
     internal bool TryTouchBody(int slot, int other, int piece, out ContactTime contact, out uint round)
     {
         contact = default;
@@ -175,6 +181,13 @@ internal sealed class CollisionPredictor(
         }
 
         double reach = bodies.Spec(a).Radius + bodies.Spec(b).Radius;
+        if (IsSunkIn(lastA, lastB, reach, opened))
+        {
+            contact = ContactTime.At(opened);
+            round = Math.Max(paths.RoundAfter(lastA, opened), paths.RoundAfter(lastB, opened));
+            return true;
+        }
+
         SimTime from = opened;
         while (from <= until && ContactFinder.WithSphere(
             segmentA, timelines.Dense(lastA), segmentB, timelines.Dense(lastB), reach, from, until, out contact))
@@ -196,11 +209,13 @@ internal sealed class CollisionPredictor(
             Vector3D velocityA = paths.VelocityAt(lastA, contact);
             Vector3D velocityB = paths.VelocityAt(lastB, contact);
             Vector3D velocity = velocityA - velocityB;
-            double pressing = -Vector3D.Dot(normal, paths.AccelerationAt(lastA, contact) - paths.AccelerationAt(lastB, contact)) - FallingAway(normal, velocity, reach);
+            Vector3D acceleration = paths.AccelerationAt(lastA, contact) - paths.AccelerationAt(lastB, contact);
+            double pressing = -Vector3D.Dot(normal, acceleration) - FallingAway(normal, velocity, reach);
             Closing closing = new(
                 -Vector3D.Dot(normal, velocity), pressing, velocityA.Length + velocityB.Length,
                 apart.Length - reach, RoundingOf(position, reach));
-            SimDuration wait = WaitFor(closing, members.HoldTogether(a, lastA, b, lastB));
+            SimDuration wait = WaitFor(
+                closing, members.HoldTogether(a, lastA, b, lastB), Math.Min(bodies.Spec(a).Restitution, bodies.Spec(b).Restitution) >= 1);
             if (wait < ContactTime.Soon
                 && !MayWait(closing, closing.Speed <= StrikeCounts.CollapseSpeed ? strikes.Between(lastA, lastB, opened) : 0, round))
             {
@@ -217,18 +232,39 @@ internal sealed class CollisionPredictor(
         return false;
     }
 
+    /// <summary>
+    /// Whether two bodies are in each other by more than the contact tolerance and do not part: one was put there, and a contact step has
+    /// to
+    /// push them out. In a periodic box there are no steps, and nothing pushes against a hand.
+    /// </summary>
+    private bool IsSunkIn(int first, int second, double reach, SimTime opened)
+    {
+        if (box.Exists || faults.IgnoresIslands || paths.IsHeld(first) || paths.IsHeld(second))
+        {
+            return false;
+        }
+
+        ContactTime now = ContactTime.At(opened);
+        Vector3D apart = paths.PositionAt(first, now) - paths.PositionAt(second, now);
+        double nearest = reach - scale.Length;
+        return nearest > 0 && apart.LengthSquared < nearest * nearest
+            && Vector3D.Dot(apart, paths.VelocityAt(first, now) - paths.VelocityAt(second, now)) <= 0;
+    }
+
     /// <summary>The image of a path in a periodic box that is nearest to a point when the path is at <paramref name="at"/>.</summary>
     private MotionSegment NearestImage(in MotionSegment path, in Vector3D point, in Vector3D at) =>
         path.At(path.Position + (box.Nearest(at - point) - (at - point)));
 
     /// <summary>
     /// How long a contact that closes from the opening of its segments on needs not be looked for: so slow, as rounding leaves it, or a
-    /// step's sweeps where it holds, that it uses up its room only then. If that is sooner than <see cref="ContactTime.Soon"/> it may have
-    /// to be struck at once.
+    /// step's sweeps where it holds, that it uses up its room only then. An elastic one has what is left of that room, for no step makes up
+    /// for what its impacts leave. If that is sooner than <see cref="ContactTime.Soon"/> it may have to be struck at once.
     /// </summary>
-    private SimDuration WaitFor(in Closing closing, bool holds)
+    private SimDuration WaitFor(in Closing closing, bool holds, bool isElastic)
     {
-        double seconds = UntilDeep(holds ? scale.LookDepth : 2 * closing.Room(resolution), closing.Speed, closing.Pressing);
+        double room = 2 * closing.Room(resolution);
+        room = !holds ? room : isElastic ? Math.Max(room, scale.LookDepth + (2 * Math.Min(0, closing.Gap))) : scale.LookDepth;
+        double seconds = UntilDeep(room, closing.Speed, closing.Pressing);
         SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;
         if (closing.Pressing < 0)
         {

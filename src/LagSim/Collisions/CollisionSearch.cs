@@ -12,10 +12,12 @@ namespace LagSim.Collisions;
 /// Finds the next contact among candidates: of a body in free flight from what is side by side, of any other by a look at everybody.
 /// </summary>
 internal sealed class CollisionSearch(
-    BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor, StepMarks stepMarks, TestFaults faults)
+    BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor,
+    StepMarks stepMarks, TestFaults faults)
 {
     /// <summary>
-    /// The next contact of a body in free flight. From the flights it is seen which of the others come near at all, and from when on; so only those are looked
+    /// The next contact of a body in free flight. From the flights it is seen which of the others come near at all, and from when on; so
+    /// only those are looked
     /// at that may be the first, and that is one as a rule. It finds what <see cref="FindAlong"/> finds, to the bit.
     /// </summary>
     internal void FindInFlight(int slot, Span<int> candidates, SimTime from, SimTime until, int except, ref NextEvent next)
@@ -37,10 +39,11 @@ internal sealed class CollisionSearch(
             }
 
             int other = approaches[first].Slot;
+            bool isClose = approaches[first].Seconds == 0;
             approaches[first] = approaches[--count];
             if (other != except)
             {
-                ConsiderFlights(slot, other, until, ref next);
+                ConsiderFlights(slot, other, isClose, until, ref next);
             }
         }
 
@@ -94,8 +97,10 @@ internal sealed class CollisionSearch(
         }
     }
 
-    /// <summary>The same of one in free flight, without a look at the segments unless the two touch as soon as both paths are open.</summary>
-    private void ConsiderFlights(int slot, int other, SimTime until, ref NextEvent next)
+    /// <summary>
+    /// The same of one in free flight, without a look at the segments unless the two touch as soon as both paths are open.
+    /// </summary>
+    private void ConsiderFlights(int slot, int other, bool isClose, SimTime until, ref NextEvent next)
     {
         bool ordered = bodies.Id(slot) < bodies.Id(other);
         if (!flights.IsFree(other) || !flights.TryTouch(ordered ? slot : other, ordered ? other : slot, out bool touches, out ContactTime contact))
@@ -105,6 +110,10 @@ internal sealed class CollisionSearch(
         else if (touches)
         {
             ConsiderContact(slot, other, timelines.Last(other), contact, 0, ref next);
+        }
+        else if (isClose && flights.AreSunk(slot, other))
+        {
+            ConsiderMeeting(slot, other, until, ref next);
         }
     }
 

@@ -20,6 +20,8 @@ internal readonly struct Closing(double speed, double pressing, double speedOfBo
 
     internal double Pressing { get; } = pressing;
 
+    internal double Gap { get; } = gap;
+
     internal double Rounding { get; } = rounding;
 
     /// <summary>Whether it is so slow that it may be what a solver's rounding has left.</summary>
@@ -30,5 +32,5 @@ internal readonly struct Closing(double speed, double pressing, double speedOfBo
     /// rounding makes close has all of that from where it is; what closes by more has what is left of it, else a light body between two that
     /// close goes to and fro for ever.
     /// </summary>
-    internal double Room(double resolution) => Math.Max(0, (IsRounding ? 0 : Math.Min(0, gap)) + (1e-3 * resolution));
+    internal double Room(double resolution) => Math.Max(0, (IsRounding ? 0 : Math.Min(0, Gap)) + (1e-3 * resolution));
 }

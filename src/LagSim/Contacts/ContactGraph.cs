@@ -6,9 +6,12 @@ using LagSim.Timelines;
 
 namespace LagSim.Contacts;
 
-/// <summary>The bodies and contacts of one event, an impact or a contact step, in canonical order, with the states in which they meet.</summary>
+/// <summary>
+/// The bodies and contacts of one event, an impact or a contact step, in canonical order, with the states in which they meet.
+/// </summary>
 /// <remarks>
-/// Bodies are numbered within the graph; each has a place in every span of states. A graph is filled, solved and cleared again and again: it
+/// Bodies are numbered within the graph; each has a place in every span of states. A graph is filled, solved and cleared again and again:
+/// it
 /// allocates only when an event has more bodies or contacts than any before.
 /// </remarks>
 internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, StaticSurfaces surfaces, PeriodicBox box)

@@ -84,6 +84,12 @@ internal readonly struct ContactScale
     /// <summary>The speed, in m/s, from which a body rises by the tolerance.</summary>
     internal double CaptureSpeed { get; }
 
+    /// <summary>The same where forces pull a body harder than gravity does, in m/s².</summary>
+    internal double CaptureSpeedAt(double pull) => pull > Pull ? Math.Sqrt(2 * Length * pull) : CaptureSpeed;
+
+    /// <summary>How long, in seconds, a fall by the tolerance takes where forces pull a body harder than gravity does; else as long as you like.</summary>
+    internal double FallAt(double pull) => pull > Pull ? Math.Sqrt(2 * Length / pull) : double.PositiveInfinity;
+
     /// <summary>What the sweeps of a step leave contacts to close at, in m/s.</summary>
     internal double SweepSpeed { get; }
 

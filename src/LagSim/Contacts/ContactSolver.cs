@@ -145,6 +145,22 @@ internal static class ContactSolver
         }
     }
 
+    /// <summary>How fast, and which way, the surfaces of the two of a contact slip on each other, in m/s.</summary>
+    internal static Vector3D Slip(ContactProblem problem, in SolverContact c)
+    {
+        ref readonly SolverBody a = ref problem.Bodies[c.First];
+        Vector3D velocity = a.Velocity;
+        Vector3D rim = a.Spin * a.Radius;
+        if (c.Second != ContactPoint.Static)
+        {
+            ref readonly SolverBody b = ref problem.Bodies[c.Second];
+            velocity -= b.Velocity;
+            rim += b.Spin * b.Radius;
+        }
+
+        return velocity - (c.Normal * Vector3D.Dot(c.Normal, velocity)) - Vector3D.Cross(rim, c.Normal);
+    }
+
     /// <summary>How fast the two of a contact part; negative while they close.</summary>
     internal static double Opening(ContactProblem problem, in SolverContact c) =>
         Vector3D.Dot(c.Normal, c.Second == ContactPoint.Static

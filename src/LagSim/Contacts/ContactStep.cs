@@ -65,7 +65,8 @@ internal sealed class ContactStep
     /// <param name="gain">What forces add to that until the middle of this step; zero of one in a hand, whose velocity is its mean in the step.</param>
     /// <param name="spin">How it turned.</param>
     /// <param name="isHeld">Whether it is in a hand.</param>
-    internal void AddBody(in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D gain, in Vector3D spin, bool isHeld)
+    /// <param name="pull">How hard forces pull it, in m/s².</param>
+    internal void AddBody(in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D gain, in Vector3D spin, bool isHeld, double pull = 0)
     {
         int n = Problem.AddBody(isHeld ? double.PositiveInfinity : spec.Mass, spec.Radius, velocity + gain, spin);
         if (n == members.Length)
@@ -83,6 +84,7 @@ internal sealed class ContactStep
             Friction = spec.Friction,
             Lever = Math.Min(spec.RollingResistance, spec.Friction) * spec.Radius,
             Restitution = spec.Restitution,
+            Pull = pull,
         };
     }
 
@@ -108,20 +110,19 @@ internal sealed class ContactStep
     }
 
     /// <summary>
-    /// Leaves out the elastic contacts that did not hold before: what they do is impacts' affair, which take nothing. Not where there is a hand, which gives and takes.
+    /// Leaves out what did not hold before and is impacts' affair: elastic contacts, of which they take nothing, but where there is a hand,
+    /// which gives and takes; and contacts past which the two go so fast that within the step the surfaces curve away by more than the
+    /// tolerance, for then the gap along the line between them does not tell whether they touch.
     /// </summary>
-    internal void DropElastic()
+    /// <param name="seconds">How long the step is.</param>
+    internal void DropImpacts(double seconds)
     {
-        if (Problem.HasHand())
-        {
-            return;
-        }
-
+        bool hasHand = Problem.HasHand();
         int kept = 0;
         for (int i = 0; i < Problem.ContactCount; i++)
         {
             ref readonly SolverContact c = ref Problem.Contacts[i];
-            if (!c.IsElastic || c.Held)
+            if (c.Held || !((c.IsElastic && !hasHand) || (c.Gap > 0 && CurvesAway(c, seconds))))
             {
                 Problem.Contacts[kept++] = c;
             }
@@ -256,7 +257,7 @@ internal sealed class ContactStep
             Vector3D normal = surfaces.Normal(surface, m.Position);
             double opening = Vector3D.Dot(normal, body.Velocity);
             double restitution = Math.Min(surfaces.Restitution(surface), m.Restitution);
-            if (MayTouch(gap, opening, seconds, restitution))
+            if (MayTouch(gap, opening, seconds, restitution, m.Pull))
             {
                 double friction = Math.Min(surfaces.Friction(surface), m.Friction);
                 ref SolverContact c = ref Problem.AddContact(i, ContactPoint.Static, surface, normal, gap, friction, Math.Min(m.Lever, friction * body.Radius));
@@ -266,13 +267,26 @@ internal sealed class ContactStep
     }
 
     /// <summary>
+    /// Whether two that pass each other are by more than the tolerance further apart at the end of the step than the plane between them
+    /// tells: by s^2 / 2R, where s is how far one moves past the other and R how far apart their centres are.
+    /// </summary>
+    private bool CurvesAway(in SolverContact c, double seconds)
+    {
+        ref readonly SolverBody first = ref Problem.Bodies[c.First];
+        bool isPair = c.Second != ContactPoint.Static;
+        double reach = isPair ? first.Radius + Problem.Bodies[c.Second].Radius : surfaces.Reach(c.Surface, first.Radius);
+        Vector3D velocity = isPair ? first.Velocity - Problem.Bodies[c.Second].Velocity : first.Velocity;
+        return velocity.LengthSquared * seconds * seconds > 2 * reach * Scale.Length;
+    }
+
+    /// <summary>
     /// Whether two may touch in the step, and are then a contact of it: not what closes so fast that its rebound would rise by more than the tolerance, for which
     /// there are impacts.
     /// </summary>
-    private bool MayTouch(double gap, double opening, double seconds, double restitution)
+    private bool MayTouch(double gap, double opening, double seconds, double restitution, double pull)
     {
         bool isNear = gap + (Math.Min(0, opening) * seconds) <= Scale.SpeculativeMargin;
-        return isNear && (gap <= 0 || -opening * restitution <= Scale.CaptureSpeed);
+        return isNear && (gap <= 0 || -opening * restitution <= Scale.CaptureSpeedAt(pull));
     }
 
     /// <summary>Finds the pairs of bodies that may touch, in no order.</summary>
@@ -301,7 +315,8 @@ internal sealed class ContactStep
 
                 double length = Math.Sqrt(square);
                 double opening = length > 0 ? along / length : opens.Y;
-                bool mayTouch = MayTouch(length - reach, opening, seconds, Math.Min(members[i].Restitution, members[j].Restitution));
+                bool mayTouch = MayTouch(
+                    length - reach, opening, seconds, Math.Min(members[i].Restitution, members[j].Restitution), Math.Max(members[i].Pull, members[j].Pull));
                 long pair = ((long)Math.Min(i, j) << 32) | (uint)Math.Max(i, j);
                 if (mayTouch)
                 {
@@ -385,6 +400,7 @@ internal sealed class ContactStep
         Vector3D high = low;
         double speed = 0;
         double largest = 0;
+        double pull = 0;
         for (int i = 0; i < count; i++)
         {
             Vector3D x = members[i].Position;
@@ -392,6 +408,7 @@ internal sealed class ContactStep
             high = new Vector3D(Math.Max(high.X, x.X), Math.Max(high.Y, x.Y), Math.Max(high.Z, x.Z));
             largest = Math.Max(largest, Problem.Bodies[i].Radius);
             speed = Math.Max(speed, Problem.Bodies[i].Velocity.Length);
+            pull = Math.Max(pull, members[i].Pull);
         }
 
         Vector3D span = high - low;
@@ -403,7 +420,7 @@ internal sealed class ContactStep
         }
 
         Array.Sort(places, byPlace, 0, count);
-        fastest = speed + Scale.CaptureSpeed;
+        fastest = speed + Scale.CaptureSpeedAt(pull);
         widest = (2 * largest) + Scale.SpeculativeMargin + (2 * fastest * Scale.Step.ToSeconds());
     }
 
@@ -416,5 +433,6 @@ internal sealed class ContactStep
         internal double Friction;
         internal double Lever;
         internal double Restitution;
+        internal double Pull;
     }
 }

@@ -27,6 +27,7 @@ internal sealed class FreeFlights
     private readonly Vector3D gravity;
     private readonly PeriodicBox box;
     private readonly double near;
+    private readonly double sunk;
     private readonly Vector3D halfBox; // its sides by two; endless if there is none
     private readonly bool hasBox;
     private readonly bool falls;
@@ -40,12 +41,14 @@ internal sealed class FreeFlights
     /// <param name="near">How far apart two may be, in metres, that are not to be called apart.</param>
     /// <param name="box">The box whose sides meet; empty if there is none.</param>
     /// <param name="expected">For how many bodies there is room at first.</param>
-    internal FreeFlights(in Vector3D gravity, double near, in PeriodicBox box, int expected = 0)
+    /// <param name="sunk">How deep two may be in each other, in metres, without a closer look, though they do not close.</param>
+    internal FreeFlights(in Vector3D gravity, double near, in PeriodicBox box, int expected = 0, double sunk = double.PositiveInfinity)
     {
         flights = new Flight[expected];
         radii = new double[expected];
         this.gravity = gravity;
         this.near = near;
+        this.sunk = sunk;
         this.box = box;
         hasBox = box.Exists;
         halfBox = hasBox ? box.Size * 0.5 : new Vector3D(double.PositiveInfinity, double.PositiveInfinity, double.PositiveInfinity);
@@ -331,6 +334,16 @@ internal sealed class FreeFlights
             a.Position, a.Velocity, from.SecondsSince(a.From), positionB, b.Velocity, from.SecondsSince(b.From), gravity, radii[first] + radii[second],
             from, SimTime.MaxValue, out contact);
         return !touches || !contact.IsSoonAfter(from);
+    }
+
+    /// <summary>Whether two bodies in free flight are so deep in each other, once both are open, that it has to be looked whether they part.</summary>
+    internal bool AreSunk(int first, int second)
+    {
+        ref readonly Flight a = ref flights[first];
+        ref readonly Flight b = ref flights[second];
+        SimTime from = SimTime.Max(a.From, b.From);
+        double nearest = Math.Max(0, radii[first] + radii[second] - sunk);
+        return (PositionAt(a, from.SecondsSince(a.From)) - PositionAt(b, from.SecondsSince(b.From))).LengthSquared < nearest * nearest;
     }
 
     /// <summary>Whether so many seconds after a time is surely after another.</summary>

@@ -3,7 +3,8 @@ using System;
 namespace LagSim.Events;
 
 /// <summary>What is due next: at most one event a body, and of an impact with whom it is.</summary>
-/// <remarks>Cost: O(1), amortised (<see cref="EventQueue"/>). Allocates only when there are more bodies, or more is pending, than ever before.</remarks>
+/// <remarks>Cost: O(1), amortised (<see cref="EventQueue"/>). Allocates only when there are more bodies, or more is pending, than ever
+/// before.</remarks>
 internal sealed class EventScheduler(int expected)
 {
     private readonly EventQueue queue = new(expected);
@@ -39,7 +40,8 @@ internal sealed class EventScheduler(int expected)
     internal bool TryGet(int slot, out EventKey key) => queue.TryGet(slot, out key);
 
     /// <summary>
-    /// Whether nothing is pending up to and including the time of the least key but that, of one body and of another that waits for the same.
+    /// Whether nothing is pending up to and including the time of the least key but that, of one body and of another that waits for the
+    /// same.
     /// </summary>
     internal bool IsLeastAloneWith(int other, in EventKey least) => queue.IsLeastAloneWith(other, least);
 

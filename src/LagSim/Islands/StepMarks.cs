@@ -2,7 +2,9 @@ using System;
 
 namespace LagSim.Islands;
 
-/// <summary>The bodies that the contact step at hand has opened and that strike nobody of it: nobody needs to look whether they meet.</summary>
+/// <summary>
+/// The bodies that the contact step at hand has opened and that strike nobody of it: nobody needs to look whether they meet.
+/// </summary>
 /// <remarks>Cost: O(1), also of clearing. Allocates only when there are more bodies than ever before.</remarks>
 internal sealed class StepMarks
 {

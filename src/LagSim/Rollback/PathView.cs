@@ -7,7 +7,8 @@ namespace LagSim.Rollback;
 internal sealed class PathView(TimelineStore timelines, RollbackState rollback, TestFaults faults)
 {
     /// <summary>
-    /// The piece of its path on which a body meets an impact of this tick and round: its newest, unless it is ahead, with what it did before the heal
+    /// The piece of its path on which a body meets an impact of this tick and round: its newest, unless it is ahead, with what it did
+    /// before the heal
     /// from there on still standing.
     /// </summary>
     internal int PieceAt(int slot, in EventKey key)
@@ -21,7 +22,9 @@ internal sealed class PathView(TimelineStore timelines, RollbackState rollback, 
         return timelines.Before(slot, EventKey.BeforeImpacts(key.Time, key.Round));
     }
 
-    /// <summary>The first piece of another's path that a body's newest segment can still meet: the newest, but for one who is ahead.</summary>
+    /// <summary>
+    /// The first piece of another's path that a body's newest segment can still meet: the newest, but for one who is ahead.
+    /// </summary>
     internal int PieceFrom(int slot, int other)
     {
         int piece = timelines.Last(other);

@@ -33,7 +33,9 @@ internal readonly struct StaticSurfaces(StaticPlane[] planes, StaticSphere[] sph
     internal Vector3D Normal(int surface, in Vector3D point) =>
         surface < planes.Length ? planes[surface].Normal : (point - spheres[surface - planes.Length].Centre).Direction;
 
-    /// <summary>How far, in metres, the centre of what touches a surface is from the centre of its curvature; infinite for a plane.</summary>
+    /// <summary>
+    /// How far, in metres, the centre of what touches a surface is from the centre of its curvature; infinite for a plane.
+    /// </summary>
     internal double Reach(int surface, double radius) =>
         surface < planes.Length ? double.PositiveInfinity : radius + spheres[surface - planes.Length].Radius;
 

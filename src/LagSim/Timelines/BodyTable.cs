@@ -5,7 +5,8 @@ using LagSim.Scenes;
 namespace LagSim.Timelines;
 
 /// <summary>The bodies that a world knows, absent ones included: which slot each has, what it is, and their canonical order.</summary>
-/// <remarks>A body keeps its slot until it is forgotten; then another may get it. No slot enters an order or a hash. Not thread-safe.</remarks>
+/// <remarks>A body keeps its slot until it is forgotten; then another may get it. No slot enters an order or a hash. Not
+/// thread-safe.</remarks>
 internal sealed class BodyTable
 {
     /// <summary>There is room for so many bodies at least: whether a quarter is free tells whether there is to be more.</summary>
@@ -73,7 +74,8 @@ internal sealed class BodyTable
     }
 
     /// <summary>
-    /// Forgets all bodies of which that is so, and makes more room where few slots come free: else every other body that is added would have
+    /// Forgets all bodies of which that is so, and makes more room where few slots come free: else every other body that is added would
+    /// have
     /// all of them looked through.
     /// </summary>
     /// <param name="isGone">Asked for each slot, in canonical order, and only once.</param>

@@ -32,7 +32,8 @@ internal readonly struct Paths(TimelineStore timelines)
         timelines.Segment(segment).AccelerationAt(SecondsInto(segment, contact.Tick) + contact.Residual, timelines.Dense(segment));
 
     /// <summary>
-    /// The round of what happens to a body on a segment at <paramref name="time"/>: what a tick's own event causes at it comes a round later.
+    /// The round of what happens to a body on a segment at <paramref name="time"/>: what a tick's own event causes at it comes a round
+    /// later.
     /// </summary>
     internal uint RoundAfter(int segment, SimTime time)
     {

@@ -7,7 +7,8 @@ using LagSim.Timelines;
 namespace LagSim.Trajectories;
 
 /// <summary>Opens flights: of a body that nothing holds, by the law that its scene gives it.</summary>
-internal sealed class FlightFactory(Scene scene, in Forces forces, BodyTable bodies, TimelineStore timelines, StateLimits limits, ForceFailures failures)
+internal sealed class FlightFactory(
+    Scene scene, in Forces forces, BodyTable bodies, TimelineStore timelines, StateLimits limits, ForceFailures failures)
 {
     private readonly Forces forces = forces;
 
@@ -30,7 +31,9 @@ internal sealed class FlightFactory(Scene scene, in Forces forces, BodyTable bod
         }
     }
 
-    /// <summary>The first piece of a flight that is no parabola: a step of an integrator, or as much of a closed form as a polynomial follows.</summary>
+    /// <summary>
+    /// The first piece of a flight that is no parabola: a step of an integrator, or as much of a closed form as a polynomial follows.
+    /// </summary>
     private MotionSegment PieceOfFlight(int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, out DenseOutput dense)
     {
         ref readonly BodySpec spec = ref bodies.Spec(slot);

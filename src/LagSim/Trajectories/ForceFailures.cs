@@ -18,7 +18,8 @@ internal sealed class ForceFailures(Scene scene, in Forces forces, BodyTable bod
     /// <param name="v">The velocity then.</param>
     /// <param name="spin">How it turns.</param>
     /// <param name="tooStiff">The rate in 1/s that was met by fixed steps; zero if that is not why.</param>
-    /// <param name="tooLarge">How many times the tolerance the error of the shortest step is, infinite if it has no number; zero if that is not why.</param>
+    /// <param name="tooLarge">How many times the tolerance the error of the shortest step is, infinite if it has no number; zero if that
+    /// is not why.</param>
     /// <param name="isFinite">Whether the acceleration at the state is.</param>
     internal SimulationException OfStep(
         int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, double tooStiff, double tooLarge, bool isFinite)
@@ -100,7 +101,8 @@ internal sealed class ForceFailures(Scene scene, in Forces forces, BodyTable bod
     }
 
     /// <summary>
-    /// Whose path most segments of full timelines are, how short they are, and how long they would have to be; a sentence that follows another.
+    /// Whose path most segments of full timelines are, how short they are, and how long they would have to be; a sentence that follows
+    /// another.
     /// </summary>
     internal string OfFullTimelines(SimDuration history)
     {

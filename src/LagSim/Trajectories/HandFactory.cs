@@ -8,7 +8,8 @@ namespace LagSim.Trajectories;
 
 /// <summary>Opens the paths of held bodies: a hand takes one, tells now and then where it is, and lets go.</summary>
 /// <remarks>
-/// While it is held a body's path is the hand's: nothing it meets changes it, and it pushes others as if its mass were infinite. Static geometry does not
+/// While it is held a body's path is the hand's: nothing it meets changes it, and it pushes others as if its mass were infinite. Static
+/// geometry does not
 /// stop a hand, and two held bodies pass through each other. Where it is at t depends on the grab and the knots up to t alone.
 /// </remarks>
 internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits, FlightFactory flights)
@@ -25,7 +26,8 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// What a hand does to a body that is there. A grab of what is held, and a knot or release of whoever does not hold it, has no effect, now: later news may
+    /// What a hand does to a body that is there. A grab of what is held, and a knot or release of whoever does not hold it, has no
+    /// effect, now: later news may
     /// still change that. So has one that would have it move faster than may be given.
     /// </summary>
     internal void Act(int slot, in EventKey key, in ExternalEvent external)
@@ -52,7 +54,8 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// Converges on what a knot foretells; where the body is there already, as far as the scene resolves, it just follows: so keeps who only says that he holds
+    /// Converges on what a knot foretells; where the body is there already, as far as the scene resolves, it just follows: so keeps who
+    /// only says that he holds
     /// it still.
     /// </summary>
     private void Converge(
@@ -83,7 +86,9 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         timelines.Append(slot, bodies.Id(slot), key, path, default, hold);
     }
 
-    /// <summary>A piece of a held path ends: the next begins where it ends, or the hand, of which nothing was heard for so long, has let go.</summary>
+    /// <summary>
+    /// A piece of a held path ends: the next begins where it ends, or the hand, of which nothing was heard for so long, has let go.
+    /// </summary>
     internal void OpenNext(int slot, in EventKey key)
     {
         int last = timelines.Last(slot);
@@ -101,7 +106,10 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         }
     }
 
-    /// <summary>A held body goes on after an impact as before it: the same path, to the bit, in a new piece, so that who cuts it cuts what it struck.</summary>
+    /// <summary>
+    /// A held body goes on after an impact as before it: the same path, to the bit, in a new piece, so that who cuts it cuts what it
+    /// struck.
+    /// </summary>
     internal void GoOn(int slot, in EventKey key)
     {
         int last = timelines.Last(slot);
@@ -110,7 +118,8 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// Where a body is let go that a hand holds inside static geometry: outside of it, at the surface, one after the other in the scene's order. What is
+    /// Where a body is let go that a hand holds inside static geometry: outside of it, at the surface, one after the other in the scene's
+    /// order. What is
     /// between surfaces too close for it stays inside.
     /// </summary>
     private Vector3D PutOut(int slot, in Vector3D position)

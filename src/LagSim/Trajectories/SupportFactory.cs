@@ -14,8 +14,10 @@ internal sealed class SupportFactory(Scene scene, BodyTable bodies, TimelineStor
     private readonly StaticSurfaces surfaces = scene.Surfaces;
 
     /// <summary>
-    /// Rest or sliding, if after the impact no bounce is left that the scene resolves. The bounces that remain rise at most w^2 / 2a and last
-    /// 2w / (a (1 - e)) in all, for a rebound at speed w pressed back by a: below the scene's resolution they are left out, the body is put on
+    /// Rest or sliding, if after the impact no bounce is left that the scene resolves. The bounces that remain rise at most w^2 / 2a and
+    /// last
+    /// 2w / (a (1 - e)) in all, for a rebound at speed w pressed back by a: below the scene's resolution they are left out, the body is
+    /// put on
     /// the plane, and it rests from the end of that time on. Tangential motion goes on unchanged: frictionless bounces do not touch it.
     /// </summary>
     internal bool TryOpen(
@@ -100,7 +102,9 @@ internal sealed class SupportFactory(Scene scene, BodyTable bodies, TimelineStor
         return TickConversion.TryFromSeconds(longest, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.Zero;
     }
 
-    /// <summary>The limit of the bounces lies on the plane; only what a bounce below the resolution leaves is taken away, never a real overlap.</summary>
+    /// <summary>
+    /// The limit of the bounces lies on the plane; only what a bounce below the resolution leaves is taken away, never a real overlap.
+    /// </summary>
     private Vector3D OntoSupports(int slot, SupportSet supports, in Vector3D position)
     {
         Vector3D onto = position;

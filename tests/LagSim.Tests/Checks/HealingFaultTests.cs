@@ -60,7 +60,7 @@ public sealed class HealingFaultTests
     [Theory]
     [InlineData(HealingFault.ForgetsThePast, 3u)]
     [InlineData(HealingFault.OverlooksWhoIsAhead, 4u)]
-    [InlineData(HealingFault.GivesUpByBody, 47u)]
+    [InlineData(HealingFault.GivesUpByBody, 14u)]
     [InlineData(HealingFault.DropsEvents, 2u)]
     [InlineData(HealingFault.LeavesMates, 29u)]
     [InlineData(HealingFault.CutsByTime, 2u)]
@@ -80,7 +80,7 @@ public sealed class HealingFaultTests
     [InlineData(2u)]
     [InlineData(3u)]
     [InlineData(4u)]
-    [InlineData(47u)]
+    [InlineData(14u)]
     [InlineData(29u)]
     [InlineData(415u)]
     public void Run_SameSeedWithoutAFault_Passes(uint seed) =>
@@ -95,7 +95,7 @@ public sealed class HealingFaultTests
         CheckOptions options = new()
         {
             Sessions = 1,
-            Seed = 20_872,
+            Seed = 21_288,
             ShrinkingPlays = 0,
             Prepare = (_, simulation) => simulation.Fault = fault,
             PrepareAlone = alone => alone.Fault = fault,

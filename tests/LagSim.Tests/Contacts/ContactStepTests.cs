@@ -190,8 +190,41 @@ public sealed class ContactStepTests
         step.FindContacts(step.Scale.Step.ToSeconds());
         Assert.Equal(1, step.Problem.ContactCount);
         step.Problem.Contacts[0].Held = held;
-        step.DropElastic();
+        step.DropImpacts(step.Scale.Step.ToSeconds());
         Assert.Equal(expected, step.Problem.ContactCount);
+    }
+
+    /// <summary>
+    /// Rule 5: what goes so fast past something round that its surface curves away by more than the tolerance within the step is no contact of
+    /// it, unless it held or touches; past a plane it is.
+    /// </summary>
+    [Theory]
+    [InlineData(0.99, 1e-4, false, 1)]
+    [InlineData(1.01, 1e-4, false, 0)]
+    [InlineData(1.01, 1e-4, true, 1)]
+    [InlineData(1.01, -1e-6, false, 1)]
+    public void WhatCurvesAwayWithinTheStep_IsLeftToImpacts(double part, double gap, bool held, int expected)
+    {
+        ContactStep step = new(Floor(0), new ContactScale(Tolerance, Down, default));
+        double seconds = step.Scale.Step.ToSeconds();
+        double speed = part * Math.Sqrt(2 * 0.2 * Tolerance) / seconds;
+        BodySpec ball = new(0.1, 1, 0);
+        step.AddBody(ball, new Vector3D(0, 5, 0), Vector3D.Zero, Vector3D.Zero, Vector3D.Zero, isHeld: false);
+        step.AddBody(ball, new Vector3D(0, 5.2 + gap, 0), new Vector3D(speed, 0, 0), Vector3D.Zero, Vector3D.Zero, isHeld: false);
+        step.FindContacts(seconds);
+        Assert.Equal(1, step.Problem.ContactCount);
+        step.Problem.Contacts[0].Held = held;
+        step.DropImpacts(seconds);
+        Assert.Equal(expected, step.Problem.ContactCount);
+    }
+
+    [Fact]
+    public void FastOnAPlane_IsAContact()
+    {
+        ContactStep step = On(new BodySpec(0.1, 1, 0), 1e-4, new Vector3D(50, 0, 0));
+        step.FindContacts(step.Scale.Step.ToSeconds());
+        step.DropImpacts(step.Scale.Step.ToSeconds());
+        Assert.Equal(1, step.Problem.ContactCount);
     }
 
     [Fact]
