@@ -9,7 +9,7 @@ using LagSim.Timelines;
 
 namespace LagSim;
 
-/// <content>Contact steps: bodies in lasting contact are islands, which move by steps of a common rollback.Cursor.</content>
+/// <content>Contact steps: bodies in lasting contact are islands, which move by steps of a common clock.</content>
 /// <remarks>
 /// A step opens the pieces of all of an island with one key. Within it an impact or a player opens new pieces for those alone whom it reaches; all others go on along
 /// their chords to the next tick, which gathers the island by the contacts that its pieces carry.
