@@ -501,6 +501,7 @@ public sealed partial class Simulation
             ref readonly SolverContact c = ref step.Problem.Contacts[i];
             Vector3D turning = c.Second == ContactPoint.Static ? solved.Spin : step.Problem.Bodies[c.First].Spin - step.Problem.Bodies[c.Second].Spin;
             isStill &= c.Lever == 0 || turning.Length * solved.Radius <= speed;
+            // At its bound friction slips; what is just below it has been moved there by the last sweeps.
             bool slips = c.Impulse > 0 && c.Rub.Length >= 0.999 * c.Friction * c.Impulse;
             isStill &= c.Friction == 0 || !slips || ContactSolver.Slip(step.Problem, c).Length <= speed;
         }

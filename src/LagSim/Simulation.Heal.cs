@@ -106,7 +106,7 @@ public sealed partial class Simulation
         if (key.Time <= to)
         {
             rollback.Cursor = key;
-            rollback.LastOld = timelines.LastSerial; // what an unfinished heal has made anew may be ahead of this one
+            rollback.LastOld = timelines.LastSerial; // segments that an unfinished rollback has remade may lie beyond this one
             SimulatedTo = key.Time - SimDuration.OneTick;
         }
 

@@ -18,8 +18,8 @@ internal sealed class CollisionPredictor(
     StrikeCounts strikes, ContactScale scale, TestFaults faults)
 {
     /// <summary>
-    /// The first round of an instant in which there can be a collapse: a contact is struck, then something else strikes one of the
-    /// two, a round later, and only then can they close again. Rounds are numbered from 0.
+    /// The first round of an instant in which there can be a collapse: a contact is struck, then something else strikes one of the two, a
+    /// round later, and only then can they close again. Rounds are numbered from 0.
     /// </summary>
     internal const uint CollapseRound = 2;
 
@@ -62,7 +62,7 @@ internal sealed class CollisionPredictor(
                 contact = ContactTime.At(opened);
             }
 
-            round = paths.RoundAfter(timelines.Last(slot), contact.Tick);
+            round = paths.RoundAfter(last, contact.Tick);
             if (contact.Tick != opened)
             {
                 return true;
@@ -111,9 +111,8 @@ internal sealed class CollisionPredictor(
     }
 
     /// <summary>
-    /// The next contact of a body's newest segment with another body's path: with its newest piece, or, where that body is ahead of what
-    /// is being
-    /// healed, with the first piece until then that is touched before what ended it.
+    /// The next contact of a body's newest segment with another body's path: with its newest piece, or, where that body is ahead of what is
+    /// being healed, with the first piece until then that is touched before what ended it.
     /// </summary>
     internal bool TryMeet(int slot, int other, SimTime until, out int piece, out ContactTime contact, out uint round)
     {
@@ -234,8 +233,7 @@ internal sealed class CollisionPredictor(
 
     /// <summary>
     /// Whether two bodies are in each other by more than the contact tolerance and do not part: one was put there, and a contact step has
-    /// to
-    /// push them out. In a periodic box there are no steps, and nothing pushes against a hand.
+    /// to push them out. In a periodic box there are no steps, and nothing pushes against a hand.
     /// </summary>
     private bool IsSunkIn(int first, int second, double reach, SimTime opened)
     {
@@ -288,9 +286,8 @@ internal sealed class CollisionPredictor(
     }
 
     /// <summary>
-    /// Whether what closes in the instant in which it was struck may wait: rounding after one impact, and what a collapse has left,
-    /// or would have ended if one were possible. In the round of the first collapse it may not, however slow it is: that is what ends
-    /// it.
+    /// Whether what closes in the instant in which it was struck may wait: rounding after one impact, and what a collapse has left, or
+    /// would have ended if one were possible. In the round of the first collapse it may not, however slow it is: that is what ends it.
     /// </summary>
     private static bool MayWait(in Closing closing, int strikes, uint round) =>
         closing.IsRounding ? strikes > 0 : strikes > 1 && round > CollapseRound;

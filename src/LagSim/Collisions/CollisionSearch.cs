@@ -17,8 +17,7 @@ internal sealed class CollisionSearch(
 {
     /// <summary>
     /// The next contact of a body in free flight. From the flights it is seen which of the others come near at all, and from when on; so
-    /// only those are looked
-    /// at that may be the first, and that is one as a rule. It finds what <see cref="FindAlong"/> finds, to the bit.
+    /// only those are looked at that may be the first, and that is one as a rule. It finds what <see cref="FindAlong"/> finds, to the bit.
     /// </summary>
     internal void FindInFlight(int slot, Span<int> candidates, SimTime from, SimTime until, int except, ref NextEvent next)
     {

@@ -15,10 +15,9 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
     private readonly Paths paths = new(timelines);
 
     /// <summary>
-    /// Whether a contact that a member's piece carries is the step's affair and no impact's: a surface that the step took into account,
-    /// or an impact by a hand, which may
-    /// press no further, or that the member does not close on. What a step's solver leaves is an error of the step, which the next goes
-    /// on from.
+    /// Whether a contact that a member's piece carries is the step's affair and no impact's: a surface that the step took into account, or
+    /// an impact by a hand, which may press no further, or that the member does not close on. What a step's solver leaves is an error of
+    /// the step, which the next goes on from.
     /// </summary>
     internal bool IsCovered(int slot, int piece, int surface)
     {
@@ -34,8 +33,8 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
     }
 
     /// <summary>
-    /// Whether the impact that opened a piece solved a contact that it carries: one that holds, but for an elastic one, which impacts
-    /// do not go on over.
+    /// Whether the impact that opened a piece solved a contact that it carries: one that holds, but for an elastic one, which impacts do
+    /// not go on over.
     /// </summary>
     private bool IsSolved(int slot, int piece, int contact) =>
         timelines.Key(piece).Kind == EventKind.Impact && timelines.Contact(contact).Holds && !IsElastic(slot, timelines.Contact(contact));
@@ -108,8 +107,7 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
     }
 
     /// <summary>
-    /// The same of a hand, which may speed up, and a member: neither where the later piece begins nor where the step ends do they
-    /// close.
+    /// The same of a hand, which may speed up, and a member: neither where the later piece begins nor where the step ends do they close.
     /// </summary>
     private bool IsCoveredFromHand(int hand, int handPiece, int piece)
     {

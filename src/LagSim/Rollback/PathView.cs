@@ -8,8 +8,7 @@ internal sealed class PathView(TimelineStore timelines, RollbackState rollback, 
 {
     /// <summary>
     /// The piece of its path on which a body meets an impact of this tick and round: its newest, unless it is ahead, with what it did
-    /// before the heal
-    /// from there on still standing.
+    /// before the heal from there on still standing.
     /// </summary>
     internal int PieceAt(int slot, in EventKey key)
     {

@@ -5,7 +5,7 @@ using LagSim.Time;
 namespace LagSim.Rollback;
 
 /// <summary>How far a rollback has come: what is known beyond the event at hand, and since when.</summary>
-/// <remarks>Not thread-safe. The rollback writes it; whoever asks on which segment a body meets something reads it.</remarks>
+/// <remarks>Not thread-safe. Only the rollback changes it.</remarks>
 internal sealed class RollbackState
 {
     private uint[] healedIn = Array.Empty<uint>(); // by slot: the number of the last rollback that touched the body

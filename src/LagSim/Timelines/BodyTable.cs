@@ -35,7 +35,7 @@ internal sealed class BodyTable
     /// <summary>Whether another body needs more memory, or one that is forgotten first.</summary>
     internal bool IsFull => free.Count == 0 && SlotCount == bodies.Length;
 
-    /// <summary>Changes whenever a body is added or forgotten, so that a reader knows when to look at all of them anew.</summary>
+    /// <summary>A number that changes whenever a body is added or forgotten: who keeps a list of them compares it.</summary>
     internal long Version { get; private set; }
 
     internal BodyId Id(int slot) => bodies[slot].Id;

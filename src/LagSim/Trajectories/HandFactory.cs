@@ -9,8 +9,8 @@ namespace LagSim.Trajectories;
 /// <summary>Opens the paths of held bodies: a hand takes one, tells now and then where it is, and lets go.</summary>
 /// <remarks>
 /// While it is held a body's path is the hand's: nothing it meets changes it, and it pushes others as if its mass were infinite. Static
-/// geometry does not
-/// stop a hand, and two held bodies pass through each other. Where it is at t depends on the grab and the knots up to t alone.
+/// geometry does not stop a hand, and two held bodies pass through each other. Where it is at t depends on the grab and the knots up to t
+/// alone.
 /// </remarks>
 internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits, FlightFactory flights)
 {
@@ -26,9 +26,8 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// What a hand does to a body that is there. A grab of what is held, and a knot or release of whoever does not hold it, has no
-    /// effect, now: later news may
-    /// still change that. So has one that would have it move faster than may be given.
+    /// Does what a hand does to a body that is there. To grab what is held has no effect, nor has a knot or a release of a hand that does
+    /// not hold it, nor what would move it faster than may be given. An event that comes late may change that.
     /// </summary>
     internal void Act(int slot, in EventKey key, in ExternalEvent external)
     {
@@ -54,9 +53,8 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// Converges on what a knot foretells; where the body is there already, as far as the scene resolves, it just follows: so keeps who
-    /// only says that he holds
-    /// it still.
+    /// Converges on the path that a knot foretells. A body that is on it already, as far as the scene resolves, follows it: so a hand that
+    /// only says that it keeps still moves nothing.
     /// </summary>
     private void Converge(
         int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D target, in Vector3D targetVelocity, in Hold hold)
@@ -119,8 +117,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
 
     /// <summary>
     /// Where a body is let go that a hand holds inside static geometry: outside of it, at the surface, one after the other in the scene's
-    /// order. What is
-    /// between surfaces too close for it stays inside.
+    /// order. What is between surfaces too close for it stays inside.
     /// </summary>
     private Vector3D PutOut(int slot, in Vector3D position)
     {

@@ -10,16 +10,13 @@ namespace LagSim.Trajectories;
 /// <summary>Opens motion on a plane with friction: slipping, rolling, rest.</summary>
 /// <remarks>
 /// <para>A solid sphere that moves with v, turns with q = r w x n, as fast as it would have to move to roll so, and slips with u = v - q
-/// is slowed down by mu
-/// g_n against u and turned by 5/2 as much, with g_n and g_t what gravity has across and along the plane. Rolling resistance c takes 5/2
-/// c g_n from q. So v' =
-/// g_t - mu g_n u/|u|, q' = 5/2 mu g_n u/|u| - 5/2 c g_n q/|q|: even, but for the two directions, which turn where they and gravity are
-/// aslant. What does not
+/// is slowed down by mu g_n against u and turned by 5/2 as much, with g_n and g_t what gravity has across and along the plane. Rolling
+/// resistance c takes 5/2 c g_n from q. So v' = g_t - mu g_n u/|u|, q' = 5/2 mu g_n u/|u| - 5/2 c g_n q/|q|: even, but for the two
+/// directions, which turn where they and gravity are aslant. What does not
 /// turn yet begins to do so with q' along u, for c counts for no more than mu.</para>
 /// <para>Once u is zero it rolls, with 5/7 of g_t - c g_n v/|v|, if 2/7 g_t + 5/7 c g_n v/|v|, which friction then has to give, is no
-/// more than mu g_n.
-/// Resistance holds at rest what gravity pulls by no more than c g_n. From what turns about the normal it takes 5/2 c g_n / r, whether
-/// the sphere slips, rolls
+/// more than mu g_n. Resistance holds at rest what gravity pulls by no more than c g_n. From what turns about the normal it takes 5/2 c g_n
+/// / r, whether the sphere slips, rolls
 /// or stays where it is.</para>
 /// </remarks>
 internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits)
@@ -158,9 +155,8 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// What rolling resistance takes from what turns about the normal, in rad/s²; where it is slower than <paramref name="least"/>, or
-    /// than a tick takes, it
-    /// turns no more.
+    /// What rolling resistance takes from what turns about the normal, in rad/s²; where it is slower than <paramref name="least"/>, or than
+    /// a tick takes, it turns no more.
     /// </summary>
     private static Vector3D Slowing(ref Vector3D pivot, double rate, double least)
     {
@@ -179,8 +175,8 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
         slowing != Vector3D.Zero && TryTicks(from, pivot.Length / slowing.Length, out SimDuration turns) ? from + turns : SimTime.MaxValue;
 
     /// <summary>
-    /// When something that slips or rolls with that velocity has stopped doing so, or has turned so far that a new piece is due; never,
-    /// if neither comes.
+    /// When something that slips or rolls with that velocity has stopped doing so, or has turned so far that a new piece is due; never, if
+    /// neither comes.
     /// </summary>
     private SimTime EndOfTurning(SimTime from, in Vector3D velocity, in Vector3D along, in Vector3D pull, double rate) =>
         TryTicks(from, SecondsOfTurning(velocity, along, pull, rate), out SimDuration turns) ? from + turns : SimTime.MaxValue;
@@ -201,12 +197,10 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// By how much, in radians, the direction of something so fast may turn in a piece. A piece is off by its speed times the cube of
-    /// that; so what is slower
-    /// than a hundred times what it gets within the scene's resolution, some 14 mm/s, may turn more, as the inverse of the fourth root,
-    /// and is off by less than
-    /// that is all the same, some 7 nm/s. Else what starts from next to nothing would take thousands of pieces, and what hops again and
-    /// again would each time.
+    /// By how much, in radians, the direction of something so fast may turn in a piece. A piece is off by its speed times the cube of that;
+    /// so what is slower than a hundred times what it gets within the scene's resolution, some 14 mm/s, may turn more, as the inverse of
+    /// the fourth root, and is off by less than that is all the same, some 7 nm/s. Else what starts from next to nothing would take
+    /// thousands of pieces, and what hops again and again would each time.
     /// </summary>
     private double Turn(double speed, in Vector3D pull)
     {
@@ -216,14 +210,12 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
 
     /// <summary>
     /// When something that slips and turns with that surface speed has stopped turning, or a new piece is due because the direction in
-    /// which it turns follows that
-    /// of the slip, at the rate of what drives it by the speed.
+    /// which it turns follows that of the slip, at the rate of what drives it by the speed.
     /// </summary>
     /// <remarks>
-    /// From where less is left of that than may turn in a piece the rest of it fades away within some speed / drive, of which a piece is
-    /// at most a quarter, but
-    /// not below 2^-8 s: <see cref="Following"/> bears any. What is slow follows in no time, and as little as resistance lets it gain it
-    /// stays slow.
+    /// From where less is left of that than may turn in a piece the rest of it fades away within some speed / drive, of which a piece is at
+    /// most a quarter, but not below 2^-8 s: <see cref="Following"/> bears any. What is slow follows in no time, and as little as
+    /// resistance lets it gain it stays slow.
     /// </remarks>
     private SimTime EndOfFollowing(SimTime from, in Vector3D turn, in Vector3D over, in Vector3D drive, double resistance)
     {
@@ -237,9 +229,8 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// The direction in which something turns in a piece, if that which drives it does so throughout: the one at its middle, which makes
-    /// it right to the second
-    /// order; or where that is long against speed / drive, the one at its end, which bears any length.
+    /// The direction in which something turns in a piece, if that which drives it does so throughout: the one at its middle, which makes it
+    /// right to the second order; or where that is long against speed / drive, the one at its end, which bears any length.
     /// </summary>
     private static Vector3D Following(in Vector3D turn, in Vector3D drive, SimTime from, SimTime end)
     {
