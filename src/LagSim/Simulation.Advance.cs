@@ -195,8 +195,9 @@ public sealed partial class Simulation
                 Predict(slot);
                 break;
             default:
-                if (!TryFindSleepers(slot, key))
+                if (!sleepers.TryFind(slot, key))
                 {
+                    TakeBackAhead(key);
                     return; // as above
                 }
 
@@ -204,7 +205,11 @@ public sealed partial class Simulation
                 HandleExternal(slot, key);
                 if (graph.BodyCount > 0 && timelines.Last(slot) != before && !(faults.Has(HealingFault.LeavesMates) && rollback.MayBeKnownBeyond(key)))
                 {
-                    WakeParties(slot, key);
+                    sleepers.Wake(slot, key);
+                    for (int i = 0; i < graph.BodyCount; i++)
+                    {
+                        Predict(graph.Slots[i]);
+                    }
                 }
 
                 Predict(slot);

@@ -105,11 +105,15 @@ public sealed partial class Simulation
         solver.Solve(graph.Contacts, graph.Masses, graph.Velocities);
         Rub();
         LimitSpeeds();
-        touched[0] = graph.Contacts[0].Surface;
-        Span<int> planes = touched.AsSpan(0, graph.IsSupportable(graph.Contacts[0]) ? 1 : 0);
+        touched.Clear();
+        if (graph.IsSupportable(graph.Contacts[0]))
+        {
+            touched.Add(graph.Contacts[0].Surface);
+        }
+
         for (int i = 0; i < slots.Length; i++)
         {
-            trajectories.Open(slots[i], key, positions[i], velocities[i], -residual, planes, spins[i]);
+            trajectories.Open(slots[i], key, positions[i], velocities[i], -residual, touched.Planes, spins[i]);
         }
 
         timelines.Join(slots);

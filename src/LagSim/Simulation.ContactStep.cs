@@ -1,27 +1,22 @@
-using System;
-using System.Collections.Generic;
 using LagSim.Contacts;
 using LagSim.Events;
-using LagSim.Motion;
-using LagSim.Scenes;
-using LagSim.Time;
+using LagSim.Islands;
 using LagSim.Timelines;
 
 namespace LagSim;
 
-/// <content>Contact steps: bodies in lasting contact are islands, which move by steps of a common clock.</content>
-/// <remarks>
-/// A step opens the pieces of all of an island with one key. Within it an impact or a player opens new pieces for those alone whom it reaches; all others go on along
-/// their chords to the next tick, which gathers the island by the contacts that its pieces carry.
-/// </remarks>
+/// <content>Contact steps as events: what a step opens is cut together, and predicted.</content>
 public sealed partial class Simulation
 {
     private readonly ContactStep step;
-    private readonly List<int> lookedAt = new(); // slots of partners that carry no contact any more that another still carries
-    private bool[] holdsPair = Array.Empty<bool>(); // by party: whether another body holds it
+    private readonly Partners partners;
+    private readonly MemberFactory members;
+    private readonly IslandStepper stepper;
+    private readonly Sleepers sleepers;
+    private readonly SolverWork work = new();
 
-    /// <summary>How many contact steps were taken, and of how many bodies.</summary>
-    internal long StepsTaken { get; private set; }
+    /// <summary>How many contact steps were taken.</summary>
+    internal long StepsTaken => stepper.StepsTaken;
 
     /// <summary>Takes no contact for one that lasts: only a test's negative control sets it.</summary>
     internal bool IgnoresIslands
@@ -33,62 +28,24 @@ public sealed partial class Simulation
     /// <summary>A tick of an island has come; false if somebody who takes part was ahead of it and has been taken back.</summary>
     private bool TryHandleContactStep(int slot, in EventKey key)
     {
-        ahead.Clear();
-        lookedAt.Clear();
-        GatherIsland(slot, key);
-        if (ahead.Count > 0)
+        if (!stepper.TryStep(slot, key, out EventKey canonical))
         {
             TakeBackAhead(key);
             return false;
         }
 
-        EventKey canonical = StepKey();
-        graph.Evaluate(canonical.Time, 0);
-        SimDuration length = FillStep(canonical.Time, StepWanted());
-        double tolerance = StepTolerance(out bool mayRest);
-        if (mayRest && HaveRested(canonical.Time))
-        {
-            OpenRest(canonical);
-        }
-        else
-        {
-            SolveStep(canonical.Time, length, tolerance);
-            for (double wanted = StepWantedAfter(); step.Scale.StepFrom(canonical.Time, wanted) < length; wanted = Math.Min(wanted, StepWantedAfter()))
-            {
-                length = FillStep(canonical.Time, wanted); // a force got strong within it
-                SolveStep(canonical.Time, length, tolerance);
-            }
-
-            step.FindHolding(length.ToSeconds());
-            OpenStep(canonical, length);
-            MarkStep();
-        }
-
-        StepsTaken++;
-        JoinLookedAt(canonical);
+        JoinNearMisses(canonical);
         stepMarks.Clear();
         return true;
-    }
-
-    /// <summary>Marks those of the step who strike nobody of it, so that in the predictions that follow nobody looks.</summary>
-    private void MarkStep()
-    {
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            if (!step.MayMeet(i) && timelines.Segment(timelines.Last(graph.Slots[i])).Law == MotionLaw.Constrained)
-            {
-                stepMarks.Add(graph.Slots[i], bodies.Room);
-            }
-        }
     }
 
     /// <summary>
     /// The parties, and those that the event at hand has looked at and that are no part of it, are opened by one event, and predicted again: who is cut later cuts
     /// whoever looked at it. What is looked at goes on as it did.
     /// </summary>
-    private void JoinLookedAt(in EventKey key)
+    private void JoinNearMisses(in EventKey key)
     {
-        foreach (int slot in lookedAt)
+        foreach (int slot in partners.NearMisses)
         {
             if (graph.IndexOf(slot) >= 0 || faults.Has(HealingFault.ForgetsWhoWasLookedAt))
             {
@@ -98,7 +55,7 @@ public sealed partial class Simulation
             int last = timelines.Last(slot);
             if (paths.IsMember(last))
             {
-                GoOnAsMember(slot, key, paths.PositionAt(last, key.Time), timelines.Segment(last).Velocity, timelines.SpinOf(last).AtEpoch, hasChanged: false);
+                members.GoOn(slot, key, paths.PositionAt(last, key.Time), timelines.Segment(last).Velocity, timelines.SpinOf(last).AtEpoch, hasChanged: false);
                 timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
             }
             else
@@ -120,504 +77,13 @@ public sealed partial class Simulation
         }
     }
 
-    /// <summary>The parties: all that hold together with a body, through others as well, and who is held among them, by the pieces of path that they are on at the key.</summary>
-    private void GatherIsland(int slot, in EventKey key)
-    {
-        graph.Clear();
-        graph.AddBody(slot);
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            int piece = timelines.Last(graph.Slots[i]);
-            if (!paths.IsMember(piece))
-            {
-                continue; // in a hand
-            }
-
-            for (int at = timelines.FirstContact(piece); at != TimelineStore.None; at = timelines.NextContact(at))
-            {
-                ref readonly LastingContact contact = ref timelines.Contact(at);
-                if (contact.Holds && contact.Surface == LastingContact.NoSurface && TryPartner(bodies.Id(graph.Slots[i]), contact.Partner, key, out int partner)
-                    && graph.IndexOf(partner) < 0)
-                {
-                    graph.AddBody(partner);
-                }
-            }
-        }
-
-        graph.Sort();
-    }
-
-    /// <summary>The other body of a contact that is carried, if it carries it too, or is in a hand; who is ahead of the key is noted.</summary>
-    private bool TryPartner(BodyId body, BodyId partnerId, in EventKey key, out int partner)
-    {
-        partner = bodies.SlotOf(partnerId);
-        int piece = partner < 0 ? TimelineStore.None : view.PieceBefore(partner, key);
-        if (piece == TimelineStore.None)
-        {
-            return false;
-        }
-
-        if (piece != timelines.Last(partner))
-        {
-            ahead.Add(partner);
-        }
-
-        bool holds = paths.IsHeld(piece) || (paths.IsMember(piece) && timelines.ContactWith(piece, body) != TimelineStore.None);
-        if (!holds && !lookedAt.Contains(partner))
-        {
-            lookedAt.Add(partner);
-        }
-
-        return holds;
-    }
-
     private void TakeBackAhead(in EventKey key)
     {
-        while (ahead.Count > 0)
+        while (partners.Ahead.Count > 0)
         {
-            int slot = ahead[ahead.Count - 1];
-            ahead.RemoveAt(ahead.Count - 1);
+            int slot = partners.Ahead[partners.Ahead.Count - 1];
+            partners.Ahead.RemoveAt(partners.Ahead.Count - 1);
             TakeBack(slot, key);
-        }
-    }
-
-    /// <summary>The step's key whoever of the island was popped: the least of those of its members, sleepers not among them.</summary>
-    private EventKey StepKey()
-    {
-        EventKey least = default;
-        bool any = false;
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            int piece = timelines.Last(graph.Slots[i]);
-            if (timelines.Segment(piece).Law == MotionLaw.Constrained)
-            {
-                SimTime end = timelines.Segment(piece).End;
-                BodyId id = bodies.Id(graph.Slots[i]);
-                EventKey own = new(end, paths.RoundAfter(piece, end), EventKind.StepEnd, id, id, 0, 0);
-                least = any && EventKey.Compare(least, own) <= 0 ? least : own;
-                any = true;
-            }
-        }
-
-        return least;
-    }
-
-    /// <summary>How long, in seconds, a step of the parties may be at most by where they come from.</summary>
-    private double StepWanted()
-    {
-        double wanted = double.PositiveInfinity;
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            wanted = double.IsPositiveInfinity(graph.Masses[i]) ? wanted
-                : Math.Min(wanted, StepWanted(graph.Slots[i], graph.Positions[i], graph.Velocities[i], graph.Spins[i]));
-        }
-
-        return wanted;
-    }
-
-    /// <summary>The same by where the step that was solved leads them.</summary>
-    private double StepWantedAfter()
-    {
-        double wanted = double.PositiveInfinity;
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            ref readonly SolverBody solved = ref step.Problem.Bodies[i];
-            wanted = double.IsPositiveInfinity(graph.Masses[i]) ? wanted
-                : Math.Min(wanted, StepWanted(graph.Slots[i], graph.Positions[i], solved.Velocity, solved.Spin));
-        }
-
-        return wanted;
-    }
-
-    /// <summary>Has the step's bodies and contacts ready.</summary>
-    /// <returns>How long it is.</returns>
-    private SimDuration FillStep(SimTime tick, double wanted)
-    {
-        SimDuration length = step.Scale.StepFrom(tick, wanted);
-        double seconds = length.ToSeconds();
-        SimTime middle = tick + SimDuration.FromTicks(length.Ticks / 2);
-        step.Clear();
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            int slot = graph.Slots[i];
-            int piece = timelines.Last(slot);
-            ref readonly BodySpec spec = ref bodies.Spec(slot);
-            bool isHeld = paths.IsHeld(piece);
-            Vector3D velocity = graph.Velocities[i];
-            Vector3D gain = Vector3D.Zero;
-            if (isHeld)
-            {
-                velocity = (paths.PositionAt(piece, tick + length) - graph.Positions[i]) / seconds;
-            }
-            else
-            {
-                double since = middle.SecondsSince(timelines.Segment(piece).Law == MotionLaw.Resting ? tick : timelines.CentreOf(piece));
-                graph.Accelerations[i] = forces.On(bodies.Id(slot)).At(spec, tick, 0, graph.Positions[i], velocity, graph.Spins[i]);
-                gain = graph.Accelerations[i] * since;
-            }
-
-            step.AddBody(
-                spec, graph.Positions[i], velocity, gain, graph.Spins[i], isHeld, spec.Forces.IsEmpty || isHeld ? 0 : graph.Accelerations[i].Length);
-        }
-
-        step.FindContacts(seconds);
-        Warm();
-        step.DropImpacts(seconds);
-        return length;
-    }
-
-    private void SolveStep(SimTime tick, SimDuration length, double tolerance)
-    {
-        step.Solve(length.ToSeconds(), tolerance);
-        SettleForces(tick, length, tolerance);
-        step.LimitEnergy(length.ToSeconds(), tolerance);
-        CountSweeps(step.Sweeps, step.Problem.ContactCount);
-    }
-
-    /// <summary>So far, in parts of a force's own time, a step may go.</summary>
-    private const double MostRateTimesStep = 1.0 / 16;
-
-    /// <summary>
-    /// How long a step may be at most, in seconds, for the forces on a body to be followed, and for it not to fall by more than the tolerance
-    /// where they are stronger than gravity; infinite where there are none.
-    /// </summary>
-    private double StepWanted(int slot, in Vector3D position, in Vector3D velocity, in Vector3D spin)
-    {
-        ref readonly BodySpec spec = ref bodies.Spec(slot);
-        double rate = spec.Forces.IsEmpty ? 0 : forces.FixedStepRateAt(spec, position, velocity, spin);
-        if (!(rate * SimDuration.FromTicks(ContactScale.ShortestTicks).ToSeconds() <= 1)) // what is not a number is too stiff
-        {
-            throw trajectories.Failures.OfContactStep(slot, rollback.Cursor.Time, position, velocity, spin, double.IsNaN(rate) ? double.PositiveInfinity : rate);
-        }
-
-        double fall = step.Scale.FallAt(PullOn(slot, position, velocity, spin));
-        return rate > 0 ? Math.Min(fall, MostRateTimesStep / rate) : fall;
-    }
-
-    /// <summary>How hard forces, gravity among them, pull a body, in m/s²; 0 of one on which gravity alone acts, for the scale knows that.</summary>
-    private double PullOn(int slot, in Vector3D position, in Vector3D velocity, in Vector3D spin)
-    {
-        ref readonly BodySpec spec = ref bodies.Spec(slot);
-        return spec.Forces.IsEmpty ? 0 : forces.On(bodies.Id(slot)).At(spec, rollback.Cursor.Time, 0, position, velocity, spin).Length;
-    }
-
-    /// <summary>
-    /// Has forces act at the mean of the velocities before the tick and after it, contacts included: the implicit midpoint rule, under which a magnetic force makes and
-    /// takes no speed, and a damper none but what it should. At the velocity that the body came with, a force across it would drive away what lies still.
-    /// </summary>
-    private void SettleForces(SimTime tick, SimDuration length, double tolerance)
-    {
-        SimTime middle = tick + SimDuration.FromTicks(length.Ticks / 2);
-        double last = double.PositiveInfinity;
-        double change = 0;
-        for (int n = 0; n < MostForceIterations && HasForces() && change < last; n++)
-        {
-            last = n == 0 ? double.PositiveInfinity : change;
-            change = 0;
-            for (int i = 0; i < graph.BodyCount; i++)
-            {
-                ref readonly BodySpec spec = ref bodies.Spec(graph.Slots[i]);
-                if (spec.Forces.IsEmpty || double.IsPositiveInfinity(graph.Masses[i]))
-                {
-                    continue;
-                }
-
-                int piece = timelines.Last(graph.Slots[i]);
-                double since = middle.SecondsSince(timelines.Segment(piece).Law == MotionLaw.Resting ? tick : timelines.CentreOf(piece));
-                Vector3D mean = (graph.Velocities[i] + step.Problem.Bodies[i].Velocity) * 0.5;
-                Vector3D spin = (graph.Spins[i] + step.Problem.Bodies[i].Spin) * 0.5;
-                Vector3D acceleration = forces.On(bodies.Id(graph.Slots[i])).At(spec, tick, 0, graph.Positions[i], mean, spin);
-                change = Math.Max(change, (acceleration - graph.Accelerations[i]).Length * since);
-                graph.Accelerations[i] = acceleration;
-                step.Regain(i, graph.Velocities[i] + (acceleration * since), graph.Spins[i]);
-            }
-
-            if (change == 0)
-            {
-                return;
-            }
-
-            step.SolveAgain(tolerance);
-        }
-    }
-
-    /// <summary>So often at most a force is asked again for the velocity that it leaves: what is off gets half as large each time, or far less.</summary>
-    private const int MostForceIterations = 64;
-
-    private bool HasForces()
-    {
-        bool has = false;
-        for (int i = 0; i < graph.BodyCount && !has; i++)
-        {
-            has = !bodies.Spec(graph.Slots[i]).Forces.IsEmpty;
-        }
-
-        return has;
-    }
-
-    /// <summary>Has the contacts begin with the impulses that they had in the last step.</summary>
-    private void Warm()
-    {
-        for (int i = 0; i < step.Problem.ContactCount; i++)
-        {
-            ref SolverContact c = ref step.Problem.Contacts[i];
-            int piece = timelines.Last(graph.Slots[c.First]);
-            if (!paths.IsMember(piece))
-            {
-                continue;
-            }
-
-            int at = c.Second == ContactPoint.Static ? timelines.ContactWith(piece, c.Surface) : timelines.ContactWith(piece, bodies.Id(graph.Slots[c.Second]));
-            if (at != TimelineStore.None)
-            {
-                ref readonly LastingContact known = ref timelines.Contact(at);
-                c.Impulse = Math.Max(0, Vector3D.Dot(known.Push, c.Normal));
-                c.Rub = c.Friction > 0 ? known.Push - (c.Normal * Vector3D.Dot(known.Push, c.Normal)) : Vector3D.Zero;
-                c.Turn = c.Lever > 0 ? known.Turn : Vector3D.Zero;
-                c.Held = known.Holds;
-            }
-        }
-    }
-
-    /// <summary>How well the step is solved: the finer, the less the island moves.</summary>
-    private double StepTolerance(out bool mayRest)
-    {
-        double fastest = 0;
-        mayRest = true;
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            bool isHeld = double.IsPositiveInfinity(graph.Masses[i]);
-            fastest = Math.Max(fastest, graph.Velocities[i].Length);
-            mayRest &= !isHeld && !forces.HasSupplied(bodies.Spec(graph.Slots[i]));
-        }
-
-        return Math.Min(step.Scale.SweepSpeed, Math.Max(0.05 * fastest, 0.05 * step.Scale.StillSpeed));
-    }
-
-    private bool HaveRested(SimTime tick)
-    {
-        bool rests = true;
-        for (int i = 0; i < graph.BodyCount && rests; i++)
-        {
-            int piece = timelines.Last(graph.Slots[i]);
-            rests = tick - timelines.StillSince(piece) >= ContactScale.StillFor;
-        }
-
-        return rests;
-    }
-
-    /// <summary>All of the island rest from here on, and forget the impulses, so that those that come to rest in other ways meet.</summary>
-    private void OpenRest(in EventKey key)
-    {
-        step.Problem.List();
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            int slot = graph.Slots[i];
-            int before = timelines.Last(slot);
-            MotionSegment rest = MotionSegment.AtRest(key.Time, graph.Positions[i].WithoutNegativeZero());
-            timelines.Append(slot, bodies.Id(slot), key, rest, default, spin: new Spin(SpinAtRest(i)));
-            int piece = timelines.Last(slot);
-            timelines.BeginMember(piece, key.Time, timelines.StillSince(before));
-            for (int at = timelines.FirstContact(before); at != TimelineStore.None; at = timelines.NextContact(at))
-            {
-                LastingContact contact = timelines.Contact(at);
-                if (contact.Holds)
-                {
-                    timelines.AddContact(piece, new LastingContact(contact.Partner, contact.Surface, holds: true));
-                }
-            }
-
-            timelines.EndMember(piece, bodies.Id(slot));
-        }
-    }
-
-    /// <summary>
-    /// How a party turns once its centre rests: as it did, but for what moves its surface slower than rest allows. What turns about the
-    /// normal of a contact and what rolls there are told apart, so that what goes on turning on the spot does not go on rolling.
-    /// </summary>
-    private Vector3D SpinAtRest(int party)
-    {
-        Vector3D spin = graph.Spins[party];
-        double least = step.Scale.StillSpeed / graph.Radii[party];
-        foreach (int i in step.Problem.ListOf(party))
-        {
-            ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            Vector3D onTheSpot = c.Normal * Vector3D.Dot(c.Normal, spin);
-            spin = c.Held && c.Friction > 0 && (spin - onTheSpot).Length <= least ? onTheSpot : spin;
-        }
-
-        return spin.Length > least ? spin : Vector3D.Zero;
-    }
-
-    /// <summary>Opens the pieces of the step that was solved: chords of those that something holds, else whatever law they follow alone.</summary>
-    private void OpenStep(in EventKey key, SimDuration length)
-    {
-        step.Problem.List();
-        FindHoldingPairs();
-        SimTime end = key.Time + length;
-        SimTime centre = key.Time + SimDuration.FromTicks(length.Ticks / 2);
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            int slot = graph.Slots[i];
-            int before = timelines.Last(slot);
-            if (paths.IsHeld(before))
-            {
-                trajectories.Hands.GoOn(slot, key);
-                continue;
-            }
-
-            ref readonly SolverBody solved = ref step.Problem.Bodies[i];
-            if (!IsHeldTogether(i, out int planes))
-            {
-                trajectories.Flights.Open(slot, key, graph.Positions[i], LeavingVelocity(i, before, key.Time), spin: graph.Spins[i]);
-            }
-            else if (planes > 0)
-            {
-                OpenAlone(i, key, planes, solved);
-            }
-            else
-            {
-                SimTime still = IsStill(i, solved) && timelines.Segment(before).Law == MotionLaw.Constrained
-                    ? timelines.StillSince(before) : key.Time;
-                OpenChord(slot, key, end, graph.Positions[i], solved.Velocity, solved.Spin);
-                int piece = timelines.Last(slot);
-                timelines.BeginMember(piece, centre, still);
-                CarryContacts(i, piece);
-                timelines.EndMember(piece, bodies.Id(slot));
-            }
-        }
-    }
-
-    /// <summary>
-    /// Whether a body is so slow that in the time before a sleep it does not move by the tolerance; nor its surface, against what it rubs on,
-    /// or what rolling resistance is to have it turn with.
-    /// </summary>
-    private bool IsStill(int party, in SolverBody solved)
-    {
-        double speed = step.Scale.StillSpeed;
-        bool isStill = solved.Velocity.Length <= speed;
-        foreach (int i in step.Problem.ListOf(party))
-        {
-            ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            Vector3D turning = c.Second == ContactPoint.Static ? solved.Spin : step.Problem.Bodies[c.First].Spin - step.Problem.Bodies[c.Second].Spin;
-            isStill &= c.Lever == 0 || turning.Length * solved.Radius <= speed;
-            // At its bound friction slips; what is just below it has been moved there by the last sweeps.
-            bool slips = c.Impulse > 0 && c.Rub.Length >= 0.999 * c.Friction * c.Impulse;
-            isStill &= c.Friction == 0 || !slips || ContactSolver.Slip(step.Problem, c).Length <= speed;
-        }
-
-        return isStill;
-    }
-
-    private void OpenChord(int slot, in EventKey key, SimTime end, in Vector3D position, in Vector3D velocity, in Vector3D spin)
-    {
-        Vector3D x = position.WithoutNegativeZero();
-        Vector3D v = velocity.WithoutNegativeZero();
-        trajectories.Check(slot, key.Time, x, v);
-        timelines.Append(slot, bodies.Id(slot), key, new MotionSegment(MotionLaw.Constrained, key.Time, end, x, v, Vector3D.Zero), default, spin: new Spin(spin));
-    }
-
-    /// <summary>Who is held by another body in the step.</summary>
-    private void FindHoldingPairs()
-    {
-        if (holdsPair.Length < graph.BodyCount)
-        {
-            holdsPair = new bool[graph.BodyCount * 2];
-        }
-
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            holdsPair[i] = false;
-        }
-
-        for (int i = 0; i < step.Problem.ContactCount; i++)
-        {
-            ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            if (c.Second != ContactPoint.Static && c.Holds)
-            {
-                holdsPair[c.First] = true;
-                holdsPair[c.Second] = true;
-            }
-        }
-    }
-
-    /// <summary>
-    /// Whether something pushes a party in the step. If that is static planes alone, on which a closed form carries it, <paramref name="planes"/> tells how many.
-    /// </summary>
-    private bool IsHeldTogether(int party, out int planes)
-    {
-        planes = 0;
-        bool isHeld = holdsPair[party];
-        bool needsSteps = isHeld || !bodies.Spec(graph.Slots[party]).Forces.IsEmpty;
-        bool rubs = false;
-        foreach (int i in step.Problem.ListOf(party))
-        {
-            ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            if (c.Second == ContactPoint.Static && c.Holds)
-            {
-                isHeld = true;
-                needsSteps |= !surfaces.IsPlane(c.Surface) || c.Impulse == 0;
-                rubs |= c.Friction > 0;
-                planes++;
-            }
-        }
-
-        planes = needsSteps || (rubs && planes > 1) ? 0 : planes;
-        return isHeld;
-    }
-
-    /// <summary>The velocity at the tick of who leaves: with what the contacts of the last step gave in its second half, for until now they have held it.</summary>
-    private Vector3D LeavingVelocity(int party, int piece, SimTime tick)
-    {
-        if (timelines.Segment(piece).Law != MotionLaw.Constrained)
-        {
-            return graph.Velocities[party];
-        }
-
-        double since = tick.SecondsSince(timelines.CentreOf(piece));
-        Vector3D push = Vector3D.Zero;
-        for (int at = timelines.FirstContact(piece); at != TimelineStore.None; at = timelines.NextContact(at))
-        {
-            push += timelines.Contact(at).Push;
-        }
-
-        return graph.Velocities[party] + (graph.Accelerations[party] * since) + (push * (0.5 / graph.Masses[party]));
-    }
-
-    /// <summary>Opens the closed form of a body that planes alone hold: with the mean of its velocities before the tick and after.</summary>
-    private void OpenAlone(int party, in EventKey key, int planes, in SolverBody solved)
-    {
-        Vector3D velocity = (graph.Velocities[party] + solved.Velocity) * 0.5;
-        Vector3D spin = (graph.Spins[party] + solved.Spin) * 0.5;
-        int count = 0;
-        foreach (int i in step.Problem.ListOf(party))
-        {
-            ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            if (c.Second == ContactPoint.Static && c.Impulse > 0)
-            {
-                velocity -= c.Normal * Vector3D.Dot(c.Normal, velocity);
-                AddTouched(ref count, c.Surface);
-            }
-        }
-
-        trajectories.Open(graph.Slots[party], key, graph.Positions[party], velocity, 0, touched.AsSpan(0, count), spin);
-    }
-
-    private void CarryContacts(int party, int piece)
-    {
-        BodyId self = bodies.Id(graph.Slots[party]);
-        foreach (int i in step.Problem.ListOf(party))
-        {
-            ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            bool isFirst = c.First == party;
-            bool isPair = c.Second != ContactPoint.Static;
-            Vector3D push = (c.Normal * c.Impulse) + c.Rub;
-            timelines.AddContact(piece, new LastingContact(
-                !isPair ? self : bodies.Id(graph.Slots[isFirst ? c.Second : c.First]),
-                isPair ? LastingContact.NoSurface : c.Surface,
-                c.Holds,
-                (isFirst ? push : -push).WithoutNegativeZero(),
-                (isFirst ? c.Turn : -c.Turn).WithoutNegativeZero()));
         }
     }
 }

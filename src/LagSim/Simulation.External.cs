@@ -199,7 +199,7 @@ public sealed partial class Simulation
 
             if (isPermitted && paths.IsMember(last) && external.Kind != EventKind.Teleport)
             {
-                GoOnAsMember(slot, key, position, velocity, timelines.SpinOf(last).At(seconds), hasChanged: true);
+                members.GoOn(slot, key, position, velocity, timelines.SpinOf(last).At(seconds), hasChanged: true);
                 timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
             }
             else if (isPermitted)

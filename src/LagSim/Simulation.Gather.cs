@@ -18,13 +18,13 @@ public sealed partial class Simulation
     {
         bool mayCollapse = hasLosses && MayBeStruckAgain(key) && !NeverCollapses;
         Follow(slot, key, mayCollapse);
-        collapses = mayCollapse && ahead.Count == 0 && Collapses(key.Time);
-        if (mayCollapse && ahead.Count == 0 && !collapses)
+        collapses = mayCollapse && partners.Ahead.Count == 0 && Collapses(key.Time);
+        if (mayCollapse && partners.Ahead.Count == 0 && !collapses)
         {
             Follow(slot, key, withStruckBefore: false);
         }
 
-        if (ahead.Count > 0)
+        if (partners.Ahead.Count > 0)
         {
             return 0;
         }
@@ -48,9 +48,9 @@ public sealed partial class Simulation
     private void Follow(int slot, in EventKey key, bool withStruckBefore)
     {
         graph.Clear();
-        ahead.Clear();
+        partners.Ahead.Clear();
         graph.AddBody(slot);
-        for (int i = 0; i < graph.BodyCount && ahead.Count == 0; i++)
+        for (int i = 0; i < graph.BodyCount && partners.Ahead.Count == 0; i++)
         {
             int party = graph.Slots[i];
             for (int surface = 0; surface < surfaces.Count; surface++)
@@ -81,7 +81,7 @@ public sealed partial class Simulation
                 {
                     if (then != timelines.Last(other))
                     {
-                        ahead.Add(other);
+                        partners.Ahead.Add(other);
                         continue;
                     }
 

@@ -10,9 +10,6 @@ namespace LagSim;
 /// <content>Healing: late news rewrites only what it can have touched.</content>
 public sealed partial class Simulation
 {
-    /// <summary>Bodies that the impact at hand reaches, though their paths are known beyond it.</summary>
-    private readonly List<int> ahead = new();
-
     /// <summary>What is still to be cut: a body, and the key from which on.</summary>
     private readonly Stack<(int Slot, EventKey Key)> cuts = new();
 
@@ -200,16 +197,16 @@ public sealed partial class Simulation
     /// <summary>Takes back, to the round at hand, whom <see cref="Gather"/> found ahead of it; false if nobody was.</summary>
     private bool TryTakeBack(in EventKey key)
     {
-        if (ahead.Count == 0)
+        if (partners.Ahead.Count == 0)
         {
             return false;
         }
 
         EventKey round = EventKey.BeforeImpacts(key.Time, key.Round);
-        while (ahead.Count > 0)
+        while (partners.Ahead.Count > 0)
         {
-            int slot = ahead[ahead.Count - 1];
-            ahead.RemoveAt(ahead.Count - 1);
+            int slot = partners.Ahead[partners.Ahead.Count - 1];
+            partners.Ahead.RemoveAt(partners.Ahead.Count - 1);
             TakeBack(slot, round);
         }
 

@@ -18,7 +18,7 @@ public sealed partial class Simulation
     private readonly ImpactSolver solver = new();
     private readonly ImpactFriction friction = new();
     private double[] coefficients = new double[8];
-    private int[] touched = new int[8];
+    private readonly PlaneSet touched = new();
     /// <summary>Takes the operands of a contact the wrong way round: only a test's negative control sets it.</summary>
     internal bool SwapsOperands
     {
@@ -45,7 +45,7 @@ public sealed partial class Simulation
         }
 
         SetTargets(collapses, key.Time);
-        lookedAt.Clear();
+        partners.NearMisses.Clear();
         bool givesWay = true;
         if (graph.HasHand() && !TrySpread(key, residual, presses: true, out givesWay))
         {
@@ -83,7 +83,7 @@ public sealed partial class Simulation
             OpenAfterImpact(i, canonical, residual);
         }
 
-        JoinLookedAt(canonical);
+        JoinNearMisses(canonical);
         return true;
     }
 
@@ -206,46 +206,21 @@ public sealed partial class Simulation
         }
 
         SupportSet supports = timelines.Segment(timelines.Last(slot)).Supports;
-        int count = 0;
+        touched.Clear();
         for (int i = 0; i < graph.ContactCount; i++)
         {
             ref readonly ContactPoint c = ref graph.Contacts[i];
             if (c.First == party && c.IsStruck && graph.IsSupportable(c))
             {
-                AddTouched(ref count, c.Surface);
+                touched.Add(c.Surface);
             }
         }
 
         for (int k = 0; k < supports.Count; k++)
         {
-            AddTouched(ref count, supports[k]);
+            touched.Add(supports[k]);
         }
 
-        trajectories.Open(slot, key, graph.Positions[party], graph.Velocities[party], -residual, touched.AsSpan(0, count), graph.Spins[party]);
-    }
-
-    private void AddTouched(ref int count, int plane)
-    {
-        int at = count;
-        for (int i = 0; i < count; i++)
-        {
-            if (touched[i] == plane)
-            {
-                return;
-            }
-        }
-
-        if (count == touched.Length)
-        {
-            Array.Resize(ref touched, count * 2);
-        }
-
-        for (; at > 0 && touched[at - 1] > plane; at--)
-        {
-            touched[at] = touched[at - 1];
-        }
-
-        touched[at] = plane;
-        count++;
+        trajectories.Open(slot, key, graph.Positions[party], graph.Velocities[party], -residual, touched.Planes, graph.Spins[party]);
     }
 }

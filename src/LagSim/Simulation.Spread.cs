@@ -73,7 +73,7 @@ public sealed partial class Simulation
         return pressing > 0 && rebound * rebound <= 2 * pressing * rises && (restitution >= 1 || 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds());
     }
 
-    private double PullOn(int body) => PullOn(graph.Slots[body], graph.Positions[body], graph.Velocities[body], graph.Spins[body]);
+    private double PullOn(int body) => members.PullOn(graph.Slots[body], rollback.Cursor.Time, graph.Positions[body], graph.Velocities[body], graph.Spins[body]);
 
     /// <summary>Whether the bounces of a contact are followed down to the scene's resolution, and a closed form carries its body then: alone on planes, of which one rubs at most if it is the only one.</summary>
     private bool IsCarriedByClosedForm(in ContactPoint c)
@@ -158,10 +158,10 @@ public sealed partial class Simulation
         double more = step.Scale.Pull * step.Scale.Step.ToSeconds();
         LimitAgain(more);
         SolveReached(tolerance, GrowingSweeps, 0, 0);
-        ahead.Clear();
+        partners.Ahead.Clear();
         bool isNear = false;
         bool isSolved = false;
-        for (bool goesOn = true; goesOn && ahead.Count == 0;)
+        for (bool goesOn = true; goesOn && partners.Ahead.Count == 0;)
         {
             bool grows = false;
             bool hasHand = graph.HasHand();
@@ -176,7 +176,7 @@ public sealed partial class Simulation
                 }
             }
 
-            for (int i = 0; i < known && ahead.Count == 0 && hasHand; i++)
+            for (int i = 0; i < known && partners.Ahead.Count == 0 && hasHand; i++)
             {
                 if (TryReachNear(i, key.Time, tolerance))
                 {
@@ -186,7 +186,7 @@ public sealed partial class Simulation
             }
 
             goesOn = grows || !isSolved; // what it was solved to may reach others yet
-            if (goesOn && ahead.Count == 0)
+            if (goesOn && partners.Ahead.Count == 0)
             {
                 LimitAgain(more);
                 SolveReached(tolerance, grows ? GrowingSweeps : ContactStep.MostSweeps, known, knownContacts);
@@ -194,7 +194,7 @@ public sealed partial class Simulation
             }
         }
 
-        if (ahead.Count > 0)
+        if (partners.Ahead.Count > 0)
         {
             TakeBackAhead(key);
             return false;
@@ -205,7 +205,7 @@ public sealed partial class Simulation
             givesWay = true;
             for (int i = struckParties; i < graph.BodyCount; i++)
             {
-                lookedAt.Add(graph.Slots[i]);
+                partners.NearMisses.Add(graph.Slots[i]);
             }
 
             graph.KeepBodies(struckParties);
@@ -216,7 +216,7 @@ public sealed partial class Simulation
         DropReboundsThatGain(tolerance);
         KeepPressed(isNear);
         OpenReached(key, residual);
-        JoinLookedAt(key);
+        JoinNearMisses(key);
         return true;
     }
 
@@ -305,7 +305,7 @@ public sealed partial class Simulation
             taken += normals.Solve(reached, tolerance);
         }
 
-        CountSweeps(taken, reached.ContactCount);
+        work.Count(taken, reached.ContactCount);
     }
 
     /// <summary>The more bodies are reached, the more a hand may give; by the velocities before.</summary>
@@ -395,7 +395,7 @@ public sealed partial class Simulation
                 continue;
             }
 
-            if (!TryPartner(bodies.Id(slot), contact.Partner, key, out int partner))
+            if (!partners.TryFind(bodies.Id(slot), contact.Partner, key, out int partner))
             {
                 continue;
             }
@@ -512,13 +512,13 @@ public sealed partial class Simulation
                 Vector3D position = graph.Positions[i] - (graph.Velocities[i] * residual);
                 if (isMember)
                 {
-                    GoOnAsMember(slot, key, position, graph.Velocities[i], graph.Spins[i], hasChanged);
+                    members.GoOn(slot, key, position, graph.Velocities[i], graph.Spins[i], hasChanged);
                 }
                 else
                 {
                     SupportSet supports = timelines.Segment(before).Supports;
-                    SimTime tick = NextTick(slot, key.Time, StepWanted(slot, position, graph.Velocities[i], graph.Spins[i]));
-                    OpenChord(slot, key, end == SimTime.MaxValue ? tick : SimTime.Min(end, tick > key.Time ? tick : end), position, graph.Velocities[i], graph.Spins[i]);
+                    SimTime tick = members.NextTick(slot, key.Time, members.StepWanted(slot, key.Time, position, graph.Velocities[i], graph.Spins[i]));
+                    members.OpenChord(slot, key, end == SimTime.MaxValue ? tick : SimTime.Min(end, tick > key.Time ? tick : end), position, graph.Velocities[i], graph.Spins[i]);
                     timelines.BeginMember(timelines.Last(slot), key.Time, key.Time);
                     for (int k = 0; k < supports.Count; k++)
                     {

@@ -22,16 +22,10 @@ public sealed partial class Simulation
     /// </summary>
     private const double WorkPerBody = 2;
 
-    /// <summary>What it costs to visit a contact in a sweep; most visits find that nothing has changed.</summary>
-    private const double WorkPerVisit = 0.03;
-
     /// <summary>
     /// How many times what no contact solver solves counts where it is simulated again: it was measured at 2 to 40 times.
     /// </summary>
     private const double WorkAgain = 4;
-
-    /// <summary>What the contact solvers did for the event at hand.</summary>
-    private double solverWork;
 
     /// <summary>
     /// How much an event of so many bodies costs, in units of about a microsecond on a core of the 2020s. What contact solvers solve counts
@@ -40,17 +34,14 @@ public sealed partial class Simulation
     /// that is.
     /// </summary>
     private double WorkOf(int bodies, bool isAgain) =>
-        solverWork > 0 ? 2 + (WorkPerBody * bodies) + solverWork : (isAgain ? WorkAgain : 1) * (2 + ((double)bodies * bodies));
-
-    /// <summary>Counts sweeps over contacts.</summary>
-    private void CountSweeps(int sweeps, int contacts) => solverWork += WorkPerVisit * sweeps * contacts;
+        work.Done > 0 ? 2 + (WorkPerBody * bodies) + work.Done : (isAgain ? WorkAgain : 1) * (2 + ((double)bodies * bodies));
 
     /// <summary>Processes an event and tells the observer which bodies took part.</summary>
     /// <returns>What the observer says of it.</returns>
     private WorkVerdict ProcessTold(int slot, in EventKey key, IWorkObserver observer)
     {
         graph.Clear();
-        solverWork = 0;
+        work.Clear();
         Process(slot, key);
         bool isOfMany = graph.BodyCount > 0 && key.Kind is EventKind.Impact or EventKind.StepEnd;
         aloneAtWork[0] = slot;

@@ -130,6 +130,10 @@ public sealed partial class Simulation : IOpeningObserver
         hasLosses = surfaces.TakesEnergy();
         step = new ContactStep(scene, options.Scale ?? new ContactScale(scene.ContactTolerance, scene.Gravity, start));
         graph = new ContactGraph(bodies, timelines, surfaces, scene.Box);
+        partners = new Partners(bodies, timelines, view);
+        members = new MemberFactory(bodies, timelines, forces, step.Scale, trajectories);
+        sleepers = new Sleepers(bodies, timelines, view, graph, partners, members);
+        stepper = new IslandStepper(scene, bodies, timelines, forces, graph, step, partners, members, trajectories, stepMarks, work);
         memberContacts = new MemberContacts(timelines, view, bodies, surfaces, step.Scale);
         strikes = new StrikeCounts(timelines, bodies, surfaces, scene.Box);
         predictor = new CollisionPredictor(scene, start, bodies, timelines, rollback, view, memberContacts, strikes, step.Scale, faults);

@@ -1,0 +1,87 @@
+using System;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+using LagSim.Trajectories;
+
+namespace LagSim.Islands;
+
+/// <summary>Opens the paths of members of islands: chords to the next tick, and rest.</summary>
+internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, in Forces forces, ContactScale scale, TrajectoryFactory trajectories)
+{
+    /// <summary>So far, in parts of a force's own time, a step may go.</summary>
+    private const double MostRateTimesStep = 1.0 / 16;
+
+    private readonly Forces forces = forces;
+
+    /// <summary>Opens the next piece of a member from a state: a chord to the end of the step under way, or of one that begins if it slept.</summary>
+    internal void GoOn(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D spin, bool hasChanged)
+    {
+        int before = timelines.Last(slot);
+        MotionSegment path = timelines.Segment(before);
+        bool slept = path.Law == MotionLaw.Resting;
+        SimTime centre = slept ? key.Time : timelines.CentreOf(before);
+        SimTime still = slept || hasChanged ? key.Time : timelines.StillSince(before);
+        if (slept && !hasChanged)
+        {
+            centre = timelines.CentreOf(before);
+            still = timelines.StillSince(before);
+            timelines.Append(slot, bodies.Id(slot), key, MotionSegment.AtRest(key.Time, path.Position), default, spin: timelines.SpinOf(before));
+        }
+        else
+        {
+            OpenChord(slot, key, slept ? NextTick(slot, key.Time, StepWanted(slot, key.Time, position, velocity, spin)) : path.End, position, velocity, spin);
+        }
+
+        int piece = timelines.Last(slot);
+        timelines.BeginMember(piece, centre, still);
+        for (int at = timelines.FirstContact(before); at != TimelineStore.None; at = timelines.NextContact(at))
+        {
+            LastingContact contact = timelines.Contact(at);
+            timelines.AddContact(piece, contact);
+        }
+    }
+
+    internal void OpenChord(int slot, in EventKey key, SimTime end, in Vector3D position, in Vector3D velocity, in Vector3D spin)
+    {
+        Vector3D x = position.WithoutNegativeZero();
+        Vector3D v = velocity.WithoutNegativeZero();
+        trajectories.Check(slot, key.Time, x, v);
+        timelines.Append(slot, bodies.Id(slot), key, new MotionSegment(MotionLaw.Constrained, key.Time, end, x, v, Vector3D.Zero), default, spin: new Spin(spin));
+    }
+
+    /// <summary>When the first step of a body begins that becomes a member: at this instant if it is a tick, but for one that a step has let go at it.</summary>
+    internal SimTime NextTick(int slot, SimTime time, double wanted)
+    {
+        ref readonly EventKey opened = ref timelines.Key(timelines.Last(slot));
+        bool hadIt = opened.Kind == EventKind.StepEnd && opened.Time == time;
+        return scale.TickFrom(hadIt ? time + SimDuration.OneTick : time, wanted);
+    }
+
+    /// <summary>
+    /// How long a step may be at most, in seconds, for the forces on a body to be followed, and for it not to fall by more than the tolerance
+    /// where they are stronger than gravity; infinite where there are none.
+    /// </summary>
+    internal double StepWanted(int slot, SimTime time, in Vector3D position, in Vector3D velocity, in Vector3D spin)
+    {
+        ref readonly BodySpec spec = ref bodies.Spec(slot);
+        double rate = spec.Forces.IsEmpty ? 0 : forces.FixedStepRateAt(spec, position, velocity, spin);
+        if (!(rate * SimDuration.FromTicks(ContactScale.ShortestTicks).ToSeconds() <= 1)) // what is not a number is too stiff
+        {
+            throw trajectories.Failures.OfContactStep(slot, time, position, velocity, spin, double.IsNaN(rate) ? double.PositiveInfinity : rate);
+        }
+
+        double fall = scale.FallAt(PullOn(slot, time, position, velocity, spin));
+        return rate > 0 ? Math.Min(fall, MostRateTimesStep / rate) : fall;
+    }
+
+    /// <summary>How hard forces, gravity among them, pull a body, in m/s²; 0 of one on which gravity alone acts, for the scale knows that.</summary>
+    internal double PullOn(int slot, SimTime time, in Vector3D position, in Vector3D velocity, in Vector3D spin)
+    {
+        ref readonly BodySpec spec = ref bodies.Spec(slot);
+        return spec.Forces.IsEmpty ? 0 : forces.On(bodies.Id(slot)).At(spec, time, 0, position, velocity, spin).Length;
+    }
+}
