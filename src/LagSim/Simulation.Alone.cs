@@ -39,7 +39,7 @@ public sealed partial class Simulation
     /// </summary>
     private bool IsAlone(int slot, in EventKey key)
     {
-        bool isPlain = !rollback.IsActive && !MayBeStruckAgain(key)
+        bool isPlain = !rollback.IsActive && !CollapseRule.MayBeStruckAgain(key)
             && (!scheduler.Contact(slot).IsTied || IgnoresTies) && flights.IsFree(slot) && !TakesNoShortcut && !SwapsOperands;
         int other = scheduler.Contact(slot).Partner;
         return isPlain && (other == NoPartner

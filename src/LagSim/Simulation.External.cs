@@ -147,7 +147,7 @@ public sealed partial class Simulation
             if (!isThere)
             {
                 bodies.SetSpec(slot, trajectories.Flights.Chosen(external.Spec));
-                hasLosses |= external.Spec.Restitution < 1;
+                collapseRule.HasLosses |= external.Spec.Restitution < 1;
                 flights.SetRadius(slot, external.Spec.Radius);
                 if (log.IsForwarded(entry))
                 {
@@ -173,7 +173,7 @@ public sealed partial class Simulation
         }
         else if (external.Kind is EventKind.Grab or EventKind.HoldKnot or EventKind.Release)
         {
-            hasLosses |= external.Kind == EventKind.Grab; // a hand gives and takes
+            collapseRule.HasLosses |= external.Kind == EventKind.Grab; // a hand gives and takes
             trajectories.Hands.Act(slot, key, external);
         }
         else if (paths.IsHeld(timelines.Last(slot)))

@@ -1,8 +1,6 @@
 using System;
 using LagSim.Contacts;
 using LagSim.Events;
-using LagSim.Scenes;
-using LagSim.Time;
 using LagSim.Timelines;
 
 namespace LagSim;
@@ -16,9 +14,9 @@ public sealed partial class Simulation
     /// </summary>
     private double Gather(int slot, in EventKey key, out bool collapses)
     {
-        bool mayCollapse = hasLosses && MayBeStruckAgain(key) && !NeverCollapses;
+        bool mayCollapse = collapseRule.HasLosses && CollapseRule.MayBeStruckAgain(key) && !faults.NeverCollapses;
         Follow(slot, key, mayCollapse);
-        collapses = mayCollapse && partners.Ahead.Count == 0 && Collapses(key.Time);
+        collapses = mayCollapse && partners.Ahead.Count == 0 && collapseRule.Collapses(key.Time);
         if (mayCollapse && partners.Ahead.Count == 0 && !collapses)
         {
             Follow(slot, key, withStruckBefore: false);
@@ -56,7 +54,7 @@ public sealed partial class Simulation
             for (int surface = 0; surface < surfaces.Count; surface++)
             {
                 bool isStruck = predictor.TryTouchSurface(party, surface, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
-                if (isStruck || (withStruckBefore && IsStillTouching(party, surface, key.Time, out contact)))
+                if (isStruck || (withStruckBefore && collapseRule.IsStillTouching(party, surface, key.Time, out contact)))
                 {
                     graph.AddContact(new ContactPoint(i, ContactPoint.Static, surface, contact) { IsFromBefore = !isStruck });
                 }
@@ -77,7 +75,7 @@ public sealed partial class Simulation
 
                 bool isStruck = predictor.TryTouchBody(party, other, then, out ContactTime contact, out uint round) && contact.Tick == key.Time && round == key.Round;
                 if (isStruck || (withStruckBefore && paths.RoundAfter(then, key.Time) <= key.Round
-                    && AreStillTouching(party, other, then, key.Time, out contact)))
+                    && collapseRule.AreStillTouching(party, other, then, key.Time, out contact)))
                 {
                     if (then != timelines.Last(other))
                     {
@@ -98,8 +96,4 @@ public sealed partial class Simulation
 
         graph.Sort();
     }
-
-    /// <summary>The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits whoever asks.</summary>
-    private double Gap(int slot, int piece, int other, int otherPiece, SimTime time) =>
-        Scene.Box.Nearest(paths.PositionAt(piece, time) - paths.PositionAt(otherPiece, time)).Length - (bodies.Spec(slot).Radius + bodies.Spec(other).Radius);
 }

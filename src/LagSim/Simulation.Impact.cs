@@ -19,6 +19,14 @@ public sealed partial class Simulation
     private readonly ImpactFriction friction = new();
     private double[] coefficients = new double[8];
     private readonly PlaneSet touched = new();
+
+    /// <summary>Bounces as often as it closes: only a test's negative control sets it.</summary>
+    internal bool NeverCollapses
+    {
+        get => faults.NeverCollapses;
+        set => faults.NeverCollapses = value;
+    }
+
     /// <summary>Takes the operands of a contact the wrong way round: only a test's negative control sets it.</summary>
     internal bool SwapsOperands
     {
@@ -70,9 +78,9 @@ public sealed partial class Simulation
         {
             Rub(); // a collapse is only to end
         }
-        else if (StillCloses())
+        else if (collapseRule.StillCloses())
         {
-            Unite();
+            collapseRule.GoOnTogether();
         }
 
         LimitSpeeds();
@@ -118,7 +126,7 @@ public sealed partial class Simulation
             c.Normal = graph.NormalOf(c);
             double closing = Math.Max(0, -ImpactSolver.Opening(c, graph.Velocities));
             double restitution = graph.RestitutionOf(c);
-            bool isLast = collapses && WasStruck(c, time);
+            bool isLast = collapses && collapseRule.WasStruck(c, time);
             double rebound = isLast ? 0 : restitution * closing;
             c.Lasts = IsLast(c, restitution, rebound) || (isLast && graph.HasMember(c));
             c.Target = c.Lasts ? 0 : rebound;

@@ -22,7 +22,7 @@ public sealed partial class Simulation
         foreach (ref readonly BodySnapshot body in snapshot.BodyArray.AsSpan())
         {
             int slot = AddBody(body.Id, body.Spec);
-            hasLosses |= body.Spec.Restitution < 1 || body.Segment.Law == MotionLaw.Held;
+            collapseRule.HasLosses |= body.Spec.Restitution < 1 || body.Segment.Law == MotionLaw.Held;
             timelines.Append(slot, body.Id, body.Opened, body.Segment, body.Dense, body.Hold, body.SpinPath);
             if (body.Segment.IsOfIsland)
             {

@@ -42,6 +42,7 @@ public sealed partial class Simulation : IOpeningObserver
     private readonly MemberContacts memberContacts;
     private readonly StrikeCounts strikes;
     private readonly CollisionPredictor predictor;
+    private readonly CollapseRule collapseRule;
     private readonly StepMarks stepMarks = new();
     private readonly ContactGraph graph;
     private readonly CollisionSearch search;
@@ -127,7 +128,6 @@ public sealed partial class Simulation : IOpeningObserver
         forces = new Forces(scene, start);
         trajectories = new TrajectoryFactory(scene, forces, bodies, timelines);
         surfaces = scene.Surfaces;
-        hasLosses = surfaces.TakesEnergy();
         step = new ContactStep(scene, options.Scale ?? new ContactScale(scene.ContactTolerance, scene.Gravity, start));
         graph = new ContactGraph(bodies, timelines, surfaces, scene.Box);
         partners = new Partners(bodies, timelines, view);
@@ -136,6 +136,7 @@ public sealed partial class Simulation : IOpeningObserver
         stepper = new IslandStepper(scene, bodies, timelines, forces, graph, step, partners, members, trajectories, stepMarks, work);
         memberContacts = new MemberContacts(timelines, view, bodies, surfaces, step.Scale);
         strikes = new StrikeCounts(timelines, bodies, surfaces, scene.Box);
+        collapseRule = new CollapseRule(scene, bodies, timelines, graph, strikes, faults);
         predictor = new CollisionPredictor(scene, start, bodies, timelines, rollback, view, memberContacts, strikes, step.Scale, faults);
         search = new CollisionSearch(bodies, timelines, flights, surfaces, predictor, stepMarks, faults);
     }
@@ -182,7 +183,7 @@ public sealed partial class Simulation : IOpeningObserver
     {
         ref readonly SceneBody body = ref Scene.BodyArray[n];
         int slot = AddBody(BodyId.OfScene(n), body.Spec);
-        hasLosses |= body.Spec.Restitution < 1;
+        collapseRule.HasLosses |= body.Spec.Restitution < 1;
         EventKey key = new(Start, 0, EventKind.Start, bodies.Id(slot), bodies.Id(slot), 0, 0);
         trajectories.Flights.Open(slot, key, body.Position, body.Velocity, spin: body.Spin);
     }

@@ -20,6 +20,9 @@ internal sealed class TestFaults
     /// <summary>Takes no contact for one that lasts.</summary>
     internal bool IgnoresIslands { get; set; }
 
+    /// <summary>Bounces as often as it closes.</summary>
+    internal bool NeverCollapses { get; set; }
+
     /// <summary>Whether it heals wrongly in that way.</summary>
     internal bool Has(HealingFault wrong) => (Healing & wrong) != 0;
 }
