@@ -95,16 +95,14 @@ public sealed partial class Simulation
             flights.StateAt(slots[i], key.Time, residual, out positions[i], out velocities[i]);
         }
 
-        SetTargets(collapses: false, key.Time);
+        resolver.SetTargets(collapses: false, key.Time);
         if (graph.Contacts[0].Lasts)
         {
             return false;
         }
 
         TellContacts(key);
-        solver.Solve(graph.Contacts, graph.Masses, graph.Velocities);
-        Rub();
-        LimitSpeeds();
+        resolver.ResolveAlone();
         touched.Clear();
         if (graph.IsSupportable(graph.Contacts[0]))
         {

@@ -1,4 +1,3 @@
-using System;
 using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
@@ -15,9 +14,6 @@ public sealed partial class Simulation
     /// </summary>
     private const uint MostRounds = 1 << 16;
 
-    private readonly ImpactSolver solver = new();
-    private readonly ImpactFriction friction = new();
-    private double[] coefficients = new double[8];
     private readonly PlaneSet touched = new();
 
     /// <summary>Bounces as often as it closes: only a test's negative control sets it.</summary>
@@ -52,7 +48,7 @@ public sealed partial class Simulation
             return false;
         }
 
-        SetTargets(collapses, key.Time);
+        resolver.SetTargets(collapses, key.Time);
         partners.NearMisses.Clear();
         bool givesWay = true;
         if (graph.HasHand() && !TrySpread(key, residual, presses: true, out givesWay))
@@ -71,20 +67,7 @@ public sealed partial class Simulation
         }
 
         TellContacts(key);
-        int struck = graph.ContactCount;
-        AddSupports();
-        solver.Solve(graph.Contacts, graph.Masses, graph.Velocities);
-        if (!collapses)
-        {
-            Rub(); // a collapse is only to end
-        }
-        else if (collapseRule.StillCloses())
-        {
-            collapseRule.GoOnTogether();
-        }
-
-        LimitSpeeds();
-        graph.KeepContacts(struck);
+        resolver.Resolve(collapses);
         EventKey canonical = CanonicalKey(key);
         for (int i = 0; i < graph.BodyCount; i++)
         {
@@ -95,91 +78,10 @@ public sealed partial class Simulation
         return true;
     }
 
-    /// <summary>
-    /// What an impact would make faster than <see cref="Limits.MaxReboundSpeed"/> leaves it at that speed, in its direction: a rule of the world, the same bits
-    /// on every peer. What is not finite stays as it is, and ends the simulation.
-    /// </summary>
-    private void LimitSpeeds()
-    {
-        double limit = Limits.MaxReboundSpeed(Scene.SmallestRadius);
-        Span<Vector3D> velocities = graph.Velocities;
-        for (int i = 0; i < velocities.Length; i++)
-        {
-            double speed = velocities[i].Length;
-            if (speed > limit && !double.IsPositiveInfinity(graph.Masses[i]))
-            {
-                velocities[i] *= limit / speed;
-            }
-        }
-    }
-
     /// <summary>Why an instant does not end.</summary>
     private EndlessInstantException Endless(int slot, SimTime time) => new(
         $"At {time.ToShortString()} the impacts of {Scene.Whose(bodies.Id(slot))} have no end: {MostRounds} in one instant. What is squeezed between others and loses no energy is struck for ever:"
         + " give it, or what squeezes it, a restitution below 1, a mass that is less unlike, or room.", time);
-
-    private void SetTargets(bool collapses, SimTime time)
-    {
-        for (int i = 0; i < graph.ContactCount; i++)
-        {
-            ref ContactPoint c = ref graph.Contacts[i];
-            c.Normal = graph.NormalOf(c);
-            double closing = Math.Max(0, -ImpactSolver.Opening(c, graph.Velocities));
-            double restitution = graph.RestitutionOf(c);
-            bool isLast = collapses && collapseRule.WasStruck(c, time);
-            double rebound = isLast ? 0 : restitution * closing;
-            c.Lasts = IsLast(c, restitution, rebound) || (isLast && graph.HasMember(c));
-            c.Target = c.Lasts ? 0 : rebound;
-        }
-    }
-
-    /// <summary>Friction in the impact at hand, if any of its parties has some.</summary>
-    private void Rub()
-    {
-        bool rubs = false;
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            rubs |= bodies.Spec(graph.Slots[i]).Friction > 0;
-        }
-
-        if (!rubs)
-        {
-            return;
-        }
-
-        if (graph.ContactCount > coefficients.Length)
-        {
-            coefficients = new double[graph.ContactCount * 2];
-        }
-
-        for (int i = 0; i < graph.ContactCount; i++)
-        {
-            coefficients[i] = graph.FrictionOf(graph.Contacts[i]);
-        }
-
-        friction.Solve(
-            graph.Contacts, coefficients.AsSpan(0, graph.ContactCount), graph.Masses, graph.Radii,
-            graph.Velocities, graph.Spins);
-    }
-
-    /// <summary>A body that is carried stays carried while it is hit: its supports push back as far as they must, and give nothing.</summary>
-    private void AddSupports()
-    {
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            SupportSet supports = timelines.Segment(timelines.Last(graph.Slots[i])).Supports;
-            for (int k = 0; k < supports.Count; k++)
-            {
-                if (!graph.HasContact(i, supports[k]))
-                {
-                    graph.AddContact(new ContactPoint(i, ContactPoint.Static, supports[k], default)
-                    {
-                        Normal = surfaces.Plane(supports[k]).Normal,
-                    });
-                }
-            }
-        }
-    }
 
     /// <summary>What a collapse takes in besides has no part in its key: that would come before impacts of the round that are done already.</summary>
     private static bool IsOfThisRound(in ContactPoint c) => c.IsStruck && !c.IsFromBefore;

@@ -1,5 +1,4 @@
 using System;
-using LagSim.Collisions;
 using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
@@ -24,87 +23,6 @@ public sealed partial class Simulation
     private Vector3D[] velocitiesBefore = Array.Empty<Vector3D>();
     private Vector3D[] spinsBefore = Array.Empty<Vector3D>();
 
-    /// <summary>
-    /// Whether a rebound is the last of its contact, which lasts from then on (docs/CONTACT.md, rule of capture): not of an elastic one; of two that are members
-    /// already if it is slower than the capture speed; else if something presses them together so that the rebound would rise less than the contact tolerance, and
-    /// all bounces to come would be over within a step.
-    /// </summary>
-    private bool IsLast(in ContactPoint c, double restitution, double rebound)
-    {
-        if (IgnoresIslands || Scene.Box.Exists)
-        {
-            return false;
-        }
-
-        bool isPair = c.Second != ContactPoint.Static;
-        int members = 0;
-        int hands = 0;
-        for (int n = 0; n < (isPair ? 2 : 1); n++)
-        {
-            int piece = timelines.Last(graph.Slots[n == 0 ? c.First : c.Second]);
-            members += paths.IsMember(piece) ? 1 : 0;
-            hands += paths.IsHeld(piece) ? 1 : 0;
-        }
-
-        if (isPair && hands == 1 && (members > 0 || IsBacked(c)))
-        {
-            return rebound <= step.Scale.CaptureSpeed; // whatever its restitution: a hand gives and takes energy
-        }
-
-        if (isPair && hands == 0 && graph.GapOf(c) < -0.5 * step.Scale.Length)
-        {
-            return true; // one was put into the other; half of what is predicted from, so that rounding cannot part the two rules
-        }
-
-        if (IsCarriedByClosedForm(c))
-        {
-            return false;
-        }
-
-        if (restitution < 1 && isPair && members > 0) // leaves at the next tick if nothing presses it: a chord's acceleration does not tell
-        {
-            return rebound <= step.Scale.CaptureSpeedAt(Math.Max(PullOn(c.First), PullOn(c.Second)));
-        }
-
-        Vector3D velocity = graph.Velocities[c.First] - (isPair ? graph.Velocities[c.Second] : Vector3D.Zero);
-        Vector3D acceleration = graph.Accelerations[c.First] - (isPair ? graph.Accelerations[c.Second] : Vector3D.Zero);
-        double pressing = -Vector3D.Dot(c.Normal, acceleration) - CollisionPredictor.FallingAway(c.Normal, velocity, graph.ReachOf(c));
-        double rises = restitution < 1 ? step.Scale.Length : Scene.Resolution;
-        return pressing > 0 && rebound * rebound <= 2 * pressing * rises && (restitution >= 1 || 2 * rebound <= pressing * (1 - restitution) * step.Scale.Step.ToSeconds());
-    }
-
-    private double PullOn(int body) => members.PullOn(graph.Slots[body], rollback.Cursor.Time, graph.Positions[body], graph.Velocities[body], graph.Spins[body]);
-
-    /// <summary>Whether the bounces of a contact are followed down to the scene's resolution, and a closed form carries its body then: alone on planes, of which one rubs at most if it is the only one.</summary>
-    private bool IsCarriedByClosedForm(in ContactPoint c)
-    {
-        if (!graph.IsSupportable(c) || paths.IsMember(timelines.Last(graph.Slots[c.First])))
-        {
-            return false;
-        }
-
-        int planes = 0;
-        bool rubs = false;
-        SupportSet supports = timelines.Segment(timelines.Last(graph.Slots[c.First])).Supports;
-        for (int k = 0; k < supports.Count; k++)
-        {
-            planes++;
-            rubs |= trajectories.Friction.On(graph.Slots[c.First], supports[k]) > 0;
-        }
-
-        for (int i = 0; i < graph.ContactCount; i++)
-        {
-            ref readonly ContactPoint other = ref graph.Contacts[i];
-            if (other.First == c.First && other.Second == ContactPoint.Static && surfaces.IsPlane(other.Surface))
-            {
-                planes++;
-                rubs |= graph.FrictionOf(other) > 0;
-            }
-        }
-
-        return planes == 1 || !rubs;
-    }
-
     private bool ReachesIsland()
     {
         bool reaches = false;
@@ -115,17 +33,10 @@ public sealed partial class Simulation
 
         for (int i = 0; i < graph.ContactCount && !reaches; i++)
         {
-            reaches = graph.Contacts[i].Lasts || (graph.IsByHand(graph.Contacts[i]) && IsBacked(graph.Contacts[i]));
+            reaches = graph.Contacts[i].Lasts || (graph.IsByHand(graph.Contacts[i]) && capture.IsBacked(graph.Contacts[i]));
         }
 
         return reaches;
-    }
-
-    /// <summary>Whether a body that a hand strikes touches something else as well, against which it may be pressed.</summary>
-    private bool IsBacked(in ContactPoint c)
-    {
-        int struck = paths.IsHeld(timelines.Last(graph.Slots[c.First])) ? c.Second : c.First;
-        return graph.ContactCount > 1 || timelines.Segment(timelines.Last(graph.Slots[struck])).Supports.Count > 0;
     }
 
     /// <summary>Solves the impact at hand with the lasting contacts that it reaches; false if somebody was ahead of it and has been taken back.</summary>
@@ -491,7 +402,7 @@ public sealed partial class Simulation
             graph.Spins[i] = reached.Bodies[i].Spin;
         }
 
-        LimitSpeeds();
+        resolver.LimitSpeeds();
         for (int i = 0; i < graph.BodyCount; i++)
         {
             int slot = graph.Slots[i];

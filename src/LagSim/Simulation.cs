@@ -43,6 +43,8 @@ public sealed partial class Simulation : IOpeningObserver
     private readonly StrikeCounts strikes;
     private readonly CollisionPredictor predictor;
     private readonly CollapseRule collapseRule;
+    private readonly CaptureRule capture;
+    private readonly ImpactResolver resolver;
     private readonly StepMarks stepMarks = new();
     private readonly ContactGraph graph;
     private readonly CollisionSearch search;
@@ -137,6 +139,8 @@ public sealed partial class Simulation : IOpeningObserver
         memberContacts = new MemberContacts(timelines, view, bodies, surfaces, step.Scale);
         strikes = new StrikeCounts(timelines, bodies, surfaces, scene.Box);
         collapseRule = new CollapseRule(scene, bodies, timelines, graph, strikes, faults);
+        capture = new CaptureRule(scene, timelines, graph, step.Scale, members, trajectories.Friction, faults);
+        resolver = new ImpactResolver(scene, bodies, timelines, graph, capture, collapseRule);
         predictor = new CollisionPredictor(scene, start, bodies, timelines, rollback, view, memberContacts, strikes, step.Scale, faults);
         search = new CollisionSearch(bodies, timelines, flights, surfaces, predictor, stepMarks, faults);
     }

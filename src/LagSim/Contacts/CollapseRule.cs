@@ -86,8 +86,10 @@ internal sealed class CollapseRule(
     }
 
     /// <summary>
-    /// What is squeezed so that even plastic impacts do not end it (a mass ratio beyond what the solver resolves) goes on together: with the
-    /// velocity of its centre of mass, with that of the first hand that takes part, or at rest where something static does. Nothing closes then, but for what
+    /// What is squeezed so that even plastic impacts do not end it (a mass ratio beyond what the solver resolves) goes on together: with
+    /// the
+    /// velocity of its centre of mass, with that of the first hand that takes part, or at rest where something static does. Nothing
+    /// closes then, but for what
     /// a hand presses, which is left alone; so the tick ends.
     /// </summary>
     internal void GoOnTogether()

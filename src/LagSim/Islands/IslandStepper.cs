@@ -11,7 +11,8 @@ namespace LagSim.Islands;
 
 /// <summary>Contact steps: bodies in lasting contact are islands, which move by steps of a common clock, or rest together.</summary>
 /// <remarks>
-/// A step opens the segments of all of an island with one key. Within it an impact or a player opens new ones for those alone whom it reaches;
+/// A step opens the segments of all of an island with one key. Within it an impact or a player opens new ones for those alone whom it
+/// reaches;
 /// all others go on along their chords to the next tick, which gathers the island by the contacts that its segments carry.
 /// </remarks>
 internal sealed class IslandStepper(
@@ -77,7 +78,10 @@ internal sealed class IslandStepper(
         }
     }
 
-    /// <summary>The parties: all that hold together with a body, through others as well, and who is held among them, by the pieces of path that they are on at the key.</summary>
+    /// <summary>
+    /// The parties: all that hold together with a body, through others as well, and who is held among them, by the pieces of path that
+    /// they are on at the key.
+    /// </summary>
     private void GatherIsland(int slot, in EventKey key)
     {
         graph.Clear();
@@ -198,8 +202,10 @@ internal sealed class IslandStepper(
     }
 
     /// <summary>
-    /// Has forces act at the mean of the velocities before the tick and after it, contacts included: the implicit midpoint rule, under which a magnetic force makes and
-    /// takes no speed, and a damper none but what it should. At the velocity that the body came with, a force across it would drive away what lies still.
+    /// Has forces act at the mean of the velocities before the tick and after it, contacts included: the implicit midpoint rule, under
+    /// which a magnetic force makes and
+    /// takes no speed, and a damper none but what it should. At the velocity that the body came with, a force across it would drive away
+    /// what lies still.
     /// </summary>
     private void SettleForces(SimTime tick, SimDuration length, double tolerance)
     {
@@ -237,7 +243,9 @@ internal sealed class IslandStepper(
         }
     }
 
-    /// <summary>So often at most a force is asked again for the velocity that it leaves: what is off gets half as large each time, or far less.</summary>
+    /// <summary>
+    /// So often at most a force is asked again for the velocity that it leaves: what is off gets half as large each time, or far less.
+    /// </summary>
     private const int MostForceIterations = 64;
 
     private bool HasForces()
@@ -345,7 +353,9 @@ internal sealed class IslandStepper(
         return spin.Length > least ? spin : Vector3D.Zero;
     }
 
-    /// <summary>Opens the pieces of the step that was solved: chords of those that something holds, else whatever law they follow alone.</summary>
+    /// <summary>
+    /// Opens the pieces of the step that was solved: chords of those that something holds, else whatever law they follow alone.
+    /// </summary>
     private void OpenStep(in EventKey key, SimDuration length)
     {
         step.Problem.List();
@@ -385,7 +395,8 @@ internal sealed class IslandStepper(
     }
 
     /// <summary>
-    /// Whether a body is so slow that in the time before a sleep it does not move by the tolerance; nor its surface, against what it rubs on,
+    /// Whether a body is so slow that in the time before a sleep it does not move by the tolerance; nor its surface, against what it rubs
+    /// on,
     /// or what rolling resistance is to have it turn with.
     /// </summary>
     private bool IsStill(int party, in SolverBody solved)
@@ -430,7 +441,8 @@ internal sealed class IslandStepper(
     }
 
     /// <summary>
-    /// Whether something pushes a party in the step. If that is static planes alone, on which a closed form carries it, <paramref name="planes"/> tells how many.
+    /// Whether something pushes a party in the step. If that is static planes alone, on which a closed form carries it, <paramref
+    /// name="planes"/> tells how many.
     /// </summary>
     private bool IsHeldTogether(int party, out int planes)
     {
@@ -454,7 +466,10 @@ internal sealed class IslandStepper(
         return isHeld;
     }
 
-    /// <summary>The velocity at the tick of who leaves: with what the contacts of the last step gave in its second half, for until now they have held it.</summary>
+    /// <summary>
+    /// The velocity at the tick of who leaves: with what the contacts of the last step gave in its second half, for until now they have
+    /// held it.
+    /// </summary>
     private Vector3D LeavingVelocity(int party, int piece, SimTime tick)
     {
         if (timelines.Segment(piece).Law != MotionLaw.Constrained)
@@ -472,7 +487,9 @@ internal sealed class IslandStepper(
         return graph.Velocities[party] + (graph.Accelerations[party] * since) + (push * (0.5 / graph.Masses[party]));
     }
 
-    /// <summary>Opens the closed form of a body that planes alone hold: with the mean of its velocities before the tick and after.</summary>
+    /// <summary>
+    /// Opens the closed form of a body that planes alone hold: with the mean of its velocities before the tick and after.
+    /// </summary>
     private void OpenAlone(int party, in EventKey key, in SolverBody solved)
     {
         Vector3D velocity = (graph.Velocities[party] + solved.Velocity) * 0.5;

@@ -17,7 +17,9 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
 
     private readonly Forces forces = forces;
 
-    /// <summary>Opens the next piece of a member from a state: a chord to the end of the step under way, or of one that begins if it slept.</summary>
+    /// <summary>
+    /// Opens the next piece of a member from a state: a chord to the end of the step under way, or of one that begins if it slept.
+    /// </summary>
     internal void GoOn(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D spin, bool hasChanged)
     {
         int before = timelines.Last(slot);
@@ -53,7 +55,10 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
         timelines.Append(slot, bodies.Id(slot), key, new MotionSegment(MotionLaw.Constrained, key.Time, end, x, v, Vector3D.Zero), default, spin: new Spin(spin));
     }
 
-    /// <summary>When the first step of a body begins that becomes a member: at this instant if it is a tick, but for one that a step has let go at it.</summary>
+    /// <summary>
+    /// When the first step of a body begins that becomes a member: at this instant if it is a tick, but for one that a step has let go
+    /// at it.
+    /// </summary>
     internal SimTime NextTick(int slot, SimTime time, double wanted)
     {
         ref readonly EventKey opened = ref timelines.Key(timelines.Last(slot));
@@ -62,7 +67,8 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
     }
 
     /// <summary>
-    /// How long a step may be at most, in seconds, for the forces on a body to be followed, and for it not to fall by more than the tolerance
+    /// How long a step may be at most, in seconds, for the forces on a body to be followed, and for it not to fall by more than the
+    /// tolerance
     /// where they are stronger than gravity; infinite where there are none.
     /// </summary>
     internal double StepWanted(int slot, SimTime time, in Vector3D position, in Vector3D velocity, in Vector3D spin)
@@ -78,7 +84,9 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
         return rate > 0 ? Math.Min(fall, MostRateTimesStep / rate) : fall;
     }
 
-    /// <summary>How hard forces, gravity among them, pull a body, in m/s²; 0 of one on which gravity alone acts, for the scale knows that.</summary>
+    /// <summary>
+    /// How hard forces, gravity among them, pull a body, in m/s²; 0 of one on which gravity alone acts, for the scale knows that.
+    /// </summary>
     internal double PullOn(int slot, SimTime time, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         ref readonly BodySpec spec = ref bodies.Spec(slot);

@@ -14,7 +14,9 @@ internal sealed class Partners(BodyTable bodies, TimelineStore timelines, PathVi
     /// <summary>Who takes part in the event at hand, though its path is known beyond it: it has to be rewound first.</summary>
     internal List<int> Ahead { get; } = new();
 
-    /// <summary>Who was looked at for the event at hand and is no part of it: one that carries no contact that another still carries with it.</summary>
+    /// <summary>
+    /// Who was looked at for the event at hand and is no part of it: one that carries no contact that another still carries with it.
+    /// </summary>
     internal List<int> NearMisses { get; } = new();
 
     /// <summary>Begins another event.</summary>
@@ -24,7 +26,9 @@ internal sealed class Partners(BodyTable bodies, TimelineStore timelines, PathVi
         NearMisses.Clear();
     }
 
-    /// <summary>The other body of a contact that is carried, if it carries it too, or is in a hand; who is ahead of the key is noted.</summary>
+    /// <summary>
+    /// The other body of a contact that is carried, if it carries it too, or is in a hand; who is ahead of the key is noted.
+    /// </summary>
     internal bool TryFind(BodyId body, BodyId partnerId, in EventKey key, out int partner)
     {
         partner = bodies.SlotOf(partnerId);

@@ -12,7 +12,10 @@ internal sealed class Sleepers(
 {
     private readonly Paths paths = new(timelines);
 
-    /// <summary>The parties: those that sleep in contact with a body to which something is about to happen; false if one was ahead of it and has been taken back.</summary>
+    /// <summary>
+    /// The parties: those that sleep in contact with a body to which something is about to happen; false if one was ahead of it and has
+    /// been taken back.
+    /// </summary>
     internal bool TryFind(int slot, in EventKey key)
     {
         graph.Clear();
