@@ -9,7 +9,7 @@ internal sealed class PlaneSet
     private int[] planes = new int[8];
     private int count;
 
-    internal ReadOnlySpan<int> Planes => planes.AsSpan(0, count);
+    internal Span<int> Planes => planes.AsSpan(0, count);
 
     internal void Clear() => count = 0;
 

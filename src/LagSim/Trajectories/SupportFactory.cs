@@ -20,7 +20,7 @@ internal sealed class SupportFactory(Scene scene, BodyTable bodies, TimelineStor
     /// touch it.
     /// </summary>
     internal bool TryOpen(
-        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, ReadOnlySpan<int> touchedPlanes, in Vector3D spin)
+        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, in Vector3D spin)
     {
         if (!bodies.Spec(slot).Forces.IsEmpty)
         {

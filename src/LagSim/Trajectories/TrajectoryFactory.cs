@@ -55,7 +55,7 @@ internal sealed class TrajectoryFactory
     /// way): at rest on or sliding along those of the touched planes that carry it, else in free flight.
     /// </summary>
     internal void Open(
-        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, ReadOnlySpan<int> touchedPlanes, in Vector3D spin)
+        int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, in Vector3D spin)
     {
         if (touchedPlanes.Length > 0 && supports.TryOpen(slot, key, position, velocity, carry, touchedPlanes, spin))
         {
