@@ -47,7 +47,7 @@ internal sealed class CaptureRule(
 
         if (isPair && hands == 0 && graph.GapOf(c) < -0.5 * scale.Length)
         {
-            return true; // one was put into the other, and steps push them out
+            return true; // one was put into the other; half of what is predicted from, so that rounding cannot part the two rules
         }
 
         if (IsCarriedByClosedForm(c))
