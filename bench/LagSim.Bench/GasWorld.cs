@@ -44,17 +44,20 @@ internal sealed class GasWorld
         for (int i = 0; i < count; i++)
         {
             Simulation.AdvanceTo(Simulation.SimulatedTo + SimDuration.FromSeconds(apart));
-            ulong events = Simulation.Timelines.EventHash;
+            SimTime now = Simulation.SimulatedTo;
+            ulong events = Simulation.Engine.Timelines.EventHash;
             BodyId body = BodyId.OfScene(random.Next(bodies));
             ExternalEvent external = ExternalEvent.Impulse(Simulation.SimulatedTo - SimDuration.FromSeconds(late), 1, ++sequence, body, new Vector3D(0.1, 0.05, 0));
             long impacts = Simulation.ImpactsProcessed;
             double began = ThreadClock.Microseconds;
             Simulation.Submit(external);
+            Simulation.AdvanceTo(now);
             double took = ThreadClock.Microseconds - began;
             heals.Add(new Heal(report.Events, Simulation.ImpactsProcessed - impacts, report.Bodies, took));
-            bool changed = Simulation.Timelines.EventHash != events;
+            bool changed = Simulation.Engine.Timelines.EventHash != events;
             Simulation.Retract(external);
-            if (!changed || Simulation.Timelines.EventHash != events)
+            Simulation.AdvanceTo(now);
+            if (!changed || Simulation.Engine.Timelines.EventHash != events)
             {
                 throw new InvalidOperationException($"A late event of {external.Time} {(changed ? "was taken back and left something behind" : "changed nothing")}.");
             }
@@ -69,7 +72,7 @@ internal sealed class GasWorld
     {
         SimTime now = Simulation.SimulatedTo + SimDuration.FromSeconds(0.125);
         Simulation.AdvanceTo(now);
-        ulong events = Simulation.Timelines.EventHash;
+        ulong events = Simulation.Engine.Timelines.EventHash;
         ExternalEvent[] news = new ExternalEvent[count];
         for (int i = 0; i < count; i++)
         {
@@ -82,17 +85,15 @@ internal sealed class GasWorld
         Together(external => Simulation.Submit(external));
         double took = ThreadClock.Microseconds - began;
         Heal heal = new(report.Events, Simulation.ImpactsProcessed - impacts, report.Bodies, took);
-        bool changed = Simulation.Timelines.EventHash != events;
+        bool changed = Simulation.Engine.Timelines.EventHash != events;
         Together(external => Simulation.Retract(external));
-        return changed && Simulation.Timelines.EventHash == events
+        return changed && Simulation.Engine.Timelines.EventHash == events
             ? heal
             : throw new InvalidOperationException($"{count} late events {(changed ? "were taken back and left something behind" : "changed nothing")}.");
 
         void Together(Action<ExternalEvent> bring)
         {
-            Simulation.DefersAgain = true; // as a live world does: what comes at a time is simulated again at a time
             Array.ForEach(news, bring);
-            Simulation.DefersAgain = false;
             Simulation.AdvanceTo(now);
         }
     }

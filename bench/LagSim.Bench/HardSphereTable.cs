@@ -59,7 +59,7 @@ internal static class HardSphereTable
         return string.Create(
             CultureInfo.InvariantCulture,
             $"| {bodies:N0} | {fraction} | {(history == Shortest ? "a tick" : "250 ms")} | {each:0.00} / {fluid.EnskogRate:0.00} "
-            + $"| {fluid.Simulation.Timelines.Alive / (double)bodies:0.0} "
+            + $"| {fluid.Simulation.Engine.Timelines.Alive / (double)bodies:0.0} "
             + $"| {median:N0} / {rates.Max():N0} | {1e6 / median:0.00} | {events / (double)collisions:0.00} | {allocated:N0} |");
     }
 }

@@ -67,8 +67,7 @@ internal static class HeapHealTable
             SimTime.FromSeconds(settled + (n / (Players * EventsPerSecond))), (byte)(1 + (n % Players)), (uint)n + 1, BodyId.OfScene(random.Next(row.Balls)),
             new Vector3D(random.NextDouble() - 0.5, random.NextDouble(), random.NextDouble() - 0.5) * (2 * Push)))];
         WorkLedger work = new() { MostAStep = double.PositiveInfinity };
-        world.Work = work;
-        world.DefersAgain = true; // as a live world does: what comes at a time is simulated again at a time
+        world.Engine.Meter.Observer = work;
         double began = ThreadClock.Microseconds;
         int next = 0;
         for (double now = settled; now < settled + row.Seconds; now += Frame)
@@ -92,7 +91,7 @@ internal static class HeapHealTable
 
         double seconds = (ThreadClock.Microseconds - began) / 1e6;
         double mega = (GC.GetTotalMemory(forceFullCollection: true) - before) * 1e-6;
-        return (seconds, heals, world.Timelines.Alive / (double)row.Balls, mega, work.Total);
+        return (seconds, heals, world.Engine.Timelines.Alive / (double)row.Balls, mega, work.Total);
     }
 
     private static Scene Heap(Row row)

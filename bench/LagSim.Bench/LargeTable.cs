@@ -51,7 +51,7 @@ internal static class LargeTable
 
         double each = (ThreadClock.Microseconds - began) / (simulation.EventsProcessed - happened);
         double bytes = (GC.GetTotalMemory(forceFullCollection: true) - before) / (double)bodies;
-        double segments = simulation.Timelines.Room * (double)MemoryTable.SegmentBytes() / bodies;
+        double segments = simulation.Engine.Timelines.Room * (double)MemoryTable.SegmentBytes() / bodies;
         string row = string.Create(
             CultureInfo.InvariantCulture, $"| {bodies:N0} | {sceneBuilt:N0} | {built:N0} | {bytes:N0} | {segments:N0} | {1e6 / each:N0} | {each:0.00}");
         GC.KeepAlive(simulation);

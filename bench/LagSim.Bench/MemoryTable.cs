@@ -45,13 +45,13 @@ internal static class MemoryTable
         long before = GC.GetTotalMemory(forceFullCollection: true);
         Simulation simulation = new(scene, new SimulationOptions(default, SimDuration.FromSeconds(History)));
         simulation.AdvanceTo(SimTime.FromSeconds(2));
-        long opened = simulation.Timelines.LastSerial;
+        long opened = simulation.Engine.Timelines.LastSerial;
         simulation.AdvanceTo(SimTime.FromSeconds(3));
-        double rate = (simulation.Timelines.LastSerial - opened) / (double)bodies;
+        double rate = (simulation.Engine.Timelines.LastSerial - opened) / (double)bodies;
         double whole = GC.GetTotalMemory(forceFullCollection: true) - before;
         HashSet<object> seen = new(ReferenceEqualityComparer.Instance) { scene };
-        double timelines = simulation.Timelines.Room * (double)SegmentBytes();
-        double perBody = ObjectSize.Of(simulation.Timelines, seen) - timelines;
+        double timelines = simulation.Engine.Timelines.Room * (double)SegmentBytes();
+        double perBody = ObjectSize.Of(simulation.Engine.Timelines, seen) - timelines;
         double index = ObjectSize.Of(ObjectSize.Field(simulation, "index"), seen);
         double rest = perBody + ObjectSize.Of(simulation, seen);
         double formula = bodies * rate * History * SegmentBytes();
@@ -59,7 +59,7 @@ internal static class MemoryTable
         const double mega = 1e-6;
         return string.Create(
             CultureInfo.InvariantCulture,
-            $"| {bodies:N0} | {rate:0.00} | {simulation.Timelines.Alive / (double)bodies:0.00} | {formula * mega:0.00} | {timelines * mega:0.00} | {timelines / formula:0.00} | {timelines / withLast:0.00} "
+            $"| {bodies:N0} | {rate:0.00} | {simulation.Engine.Timelines.Alive / (double)bodies:0.00} | {formula * mega:0.00} | {timelines * mega:0.00} | {timelines / formula:0.00} | {timelines / withLast:0.00} "
             + $"| {index * mega:0.00} | {rest * mega:0.00} | {whole * mega:0.00} |");
     }
 }

@@ -1,5 +1,5 @@
 using BenchmarkDotNet.Attributes;
-using LagSim.Contacts;
+using LagSim.Collisions;
 using LagSim.Harness.Scenes;
 using LagSim.Motion;
 using LagSim.Scenes;

@@ -42,6 +42,9 @@ public class SimulationBenchmark
     public SubmitResult LateEvent()
     {
         late.AdvanceTo(late.SimulatedTo + SimDuration.FromMilliseconds(10));
-        return late.Submit(ExternalEvent.Impulse(late.SimulatedTo - SimDuration.FromMilliseconds(100), 1, ++sequence, BodyId.OfScene(0), new Vector3D(0, 1, 0)));
+        SimTime now = late.SimulatedTo;
+        SubmitResult result = late.Submit(ExternalEvent.Impulse(now - SimDuration.FromMilliseconds(100), 1, ++sequence, BodyId.OfScene(0), new Vector3D(0, 1, 0)));
+        late.AdvanceTo(now);
+        return result;
     }
 }

@@ -82,15 +82,15 @@ public sealed class SceneExplanation
     {
         string?[] obstacles = new string?[scene.BodyArray.Length];
         string? cannotBegin = null;
-        Simulation start;
+        Engine start;
         try
         {
-            start = new Simulation(scene);
+            start = new Simulation(scene).Engine;
         }
         catch (SimulationException failure)
         {
             cannotBegin = failure.Message;
-            start = Simulation.OfFlightsAlone(scene, obstacles);
+            start = FlightsAlone(scene, obstacles);
         }
 
         List<BodyExplanation> bodies = new();
@@ -100,13 +100,37 @@ public sealed class SceneExplanation
             bodies.Add(
                 obstacles[i] is string obstacle
                     ? new BodyExplanation(body.Name, body.Spec.Flight, $"{Why(scene, body.Spec)} Its first step cannot be taken. {obstacle}", double.NaN, double.NaN)
-                    : OfBody(scene, body, start, start.Timelines.Last(start.SlotNamed(BodyId.OfScene(i)))));
+                    : OfBody(scene, body, start, start.Timelines.Last(start.Bodies.SlotOf(BodyId.OfScene(i)))));
         }
 
         return new SceneExplanation(bodies, FeaturesOf(scene), cannotBegin);
     }
 
-    private static BodyExplanation OfBody(Scene scene, in SceneBody body, Simulation start, int piece)
+    /// <summary>
+    /// A scene's bodies on the first segments of their flights, of which none meets anything: where a world of the scene cannot begin.
+    /// </summary>
+    /// <param name="scene">The scene.</param>
+    /// <param name="obstacles">Of each body why it cannot take a step; null where it can.</param>
+    private static Engine FlightsAlone(Scene scene, string?[] obstacles)
+    {
+        SimulationOptions options = new();
+        Engine flights = new(scene, options, options.Start, options.Start, scene.BodyArray.Length);
+        for (int i = 0; i < scene.BodyArray.Length; i++)
+        {
+            try
+            {
+                flights.AddFromScene(i);
+            }
+            catch (SimulationException failure)
+            {
+                obstacles[i] = failure.Message;
+            }
+        }
+
+        return flights;
+    }
+
+    private static BodyExplanation OfBody(Scene scene, in SceneBody body, Engine start, int piece)
     {
         BodySpec spec = body.Spec;
         ref readonly MotionSegment first = ref start.Timelines.Segment(piece);

@@ -1,63 +1,24 @@
 using System;
-using System.Threading;
-using LagSim.Collisions;
-using LagSim.Contacts;
+using System.Collections.Generic;
 using LagSim.Events;
-using LagSim.Islands;
-using LagSim.Motion;
-using LagSim.Rollback;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
-using LagSim.Trajectories;
 
 namespace LagSim;
 
-/// <summary>The face of the world: advance it to a time, submit what players do, read any instant in the window, hash it.</summary>
+/// <summary>A deterministic world that can be advanced, changed and read at any time in its window.</summary>
 /// <remarks>
 /// <para>Its state is a pure function of the scene and the external events submitted, whatever the order in which they came:
 /// <c>state(t) = Fold(scene, events up to t, in canonical order)</c>, bit for bit.</para>
 /// <para>Not thread-safe: one thread at a time. <c>LagSim.Hosting</c> gives it a thread of its own. No allocation per event once as many
 /// segments were alive as will be.</para>
-/// <para>An exception out of <see cref="AdvanceTo"/> or <see cref="Submit"/> other than an argument's leaves it faulted: every later call
-/// throws. One that was cancelled still stands from <see cref="HistoryEdge"/> to <see cref="SimulatedTo"/>, if that is not before it.</para>
+/// <para>An exception out of <see cref="AdvanceTo"/> other than an argument's leaves it faulted: every later call throws. One that was
+/// cancelled still stands from <see cref="HistoryEdge"/> to <see cref="SimulatedTo"/>, if that is not before it.</para>
 /// </remarks>
-public sealed partial class Simulation : IOpeningObserver
+public sealed class Simulation
 {
-    private readonly TimelineStore timelines;
-    private readonly Paths paths;
-    private readonly EventLog log;
-    private readonly EventScheduler scheduler;
-    private readonly Forces forces;
-    private readonly FreeFlights flights;
-    private readonly StaticSurfaces surfaces;
-    private readonly SimDuration history;
-    private readonly CancellationToken cancellation;
-    private readonly HealingMode healing;
-    private readonly BodyTable bodies;
-    private readonly TrajectoryFactory trajectories;
-    private readonly RollbackState rollback = new();
-    private readonly PathView view;
-    private readonly TestFaults faults = new();
-    private readonly MemberContacts memberContacts;
-    private readonly StrikeCounts strikes;
-    private readonly CollisionPredictor predictor;
-    private readonly CollapseRule collapseRule;
-    private readonly CaptureRule capture;
-    private readonly ImpactResolver resolver;
-    private readonly StepMarks stepMarks = new();
-    private readonly ContactGraph graph;
-    private readonly CollisionSearch search;
-    private Exception? fault;
-
-    /// <summary>Which fold this library computes, from 1 on: builds of one version give one scene and events the same states and hashes, to the bit.</summary>
-    /// <remarks>
-    /// <para>It is raised by one whenever a pinned hash or one of the corpus moves; a test holds it to that. It says nothing of layouts, which the versions of wire and
-    /// recordings count, nor of a program's own forces, which have their author's.</para>
-    /// <para>Peers of other versions would each compute a world of its own, and a recording of another version gives other hashes than stand in it.</para>
-    /// <para>Not a <see langword="const"/>: that would be copied into whatever is built against the library, and tell of another build than the one that runs.</para>
-    /// </remarks>
-    public static int FoldVersion => 10;
+    private readonly SyncTest? syncTest;
 
     /// <summary>A world at the start of its scene, with all that happens at that instant. Cost: the bodies, and which of them can meet.</summary>
     /// <param name="scene">What is simulated.</param>
@@ -68,177 +29,320 @@ public sealed partial class Simulation : IOpeningObserver
     /// </exception>
     /// <exception cref="OperationCanceledException">The options' token asked for an end.</exception>
     public Simulation(Scene scene, SimulationOptions? options = null)
-        : this(scene ?? throw new ArgumentNullException(nameof(scene)), options ??= new SimulationOptions(), options.Start, options.Start,
-              scene.BodyArray.Length)
+        : this(Begun(scene ?? throw new ArgumentNullException(nameof(scene)), options ??= new SimulationOptions()), options.Start)
     {
-        for (int i = 0; i < scene.BodyArray.Length; i++)
-        {
-            Begin(i);
-        }
+        syncTest = options.Healing == HealingMode.SyncTest ? new SyncTest(Engine, new Simulation(scene, options.FullyRolledBack())) : null;
+    }
 
-        PredictAll();
-        AdvanceTo(Start);
-        twin = healing == HealingMode.SyncTest ? new Simulation(scene, options.FullyRolledBack()) : null;
+    /// <summary>Goes on from a snapshot of a world of this scene: the same events give the same bits as in the world that it was taken of.</summary>
+    /// <param name="scene">The scene that the snapshot's world has.</param>
+    /// <param name="snapshot">From where to go on. Earlier events are in it; they are <see cref="SubmitResult.TooOld"/>.</param>
+    /// <param name="options">As of a new world, but for <see cref="SimulationOptions.Start"/>, which the snapshot tells.</param>
+    /// <exception cref="ArgumentNullException">The scene or the snapshot is missing.</exception>
+    /// <exception cref="SceneException">The snapshot holds a value that cannot be of a world of this scene; the sentence names it.</exception>
+    /// <exception cref="SimulationException">It cannot be simulated.</exception>
+    public Simulation(Scene scene, WorldSnapshot snapshot, SimulationOptions? options = null)
+        : this(Begun(scene, snapshot, options ??= new SimulationOptions()), snapshot.Time)
+    {
+        syncTest = options.Healing == HealingMode.SyncTest ? new SyncTest(Engine, new Simulation(scene, snapshot, options.FullyRolledBack())) : null;
+    }
+
+    private Simulation(Engine engine, SimTime from)
+    {
+        Engine = engine;
+        AdvanceTo(from);
+    }
+
+    /// <summary>Which fold this library computes, from 1 on: builds of one version give one scene and events the same states and hashes, to the bit.</summary>
+    /// <remarks>
+    /// <para>It is raised by one whenever a pinned hash or one of the corpus moves; a test holds it to that. It says nothing of layouts, which the versions of wire and
+    /// recordings count, nor of a program's own forces, which have their author's.</para>
+    /// <para>Peers of other versions would each compute a world of its own, and a recording of another version gives other hashes than stand in it.</para>
+    /// <para>Not a <see langword="const"/>: that would be copied into whatever is built against the library, and tell of another build than the one that runs.</para>
+    /// </remarks>
+    public static int FoldVersion => 10;
+
+    /// <summary>What was there at the start.</summary>
+    public Scene Scene => Engine.Scene;
+
+    /// <summary>The instant at which the scene began.</summary>
+    public SimTime Start => Engine.Progress.Start;
+
+    /// <summary>The instant up to which, and including which, everything has happened. A late event that is submitted takes it back to before its own time.</summary>
+    public SimTime SimulatedTo => Engine.Progress.SimulatedTo;
+
+    /// <summary>The earliest instant that can be read or changed.</summary>
+    public SimTime HistoryEdge => Engine.Progress.HistoryEdge;
+
+    /// <summary>The last instant that can be read: nothing happens between <see cref="SimulatedTo"/> and here.</summary>
+    public SimTime Horizon => Engine.Horizon;
+
+    /// <summary>How many bodies are known, absent ones included. One that is gone for good is forgotten when room is needed.</summary>
+    public int BodyCount => Engine.Bodies.Count;
+
+    /// <summary>How many events were processed, those that were simulated again included.</summary>
+    public long EventsProcessed => Engine.Progress.EventsProcessed;
+
+    /// <summary>How many impacts were among them; what bodies do to each other at one tick and round is one.</summary>
+    public long ImpactsProcessed => Engine.Progress.ImpactsProcessed;
+
+    /// <summary>How often timelines were cut for an event that came late or was taken back.</summary>
+    public long Rollbacks => Engine.Rollback.Count;
+
+    /// <summary>How many segments were cut off by rollbacks, to be simulated again.</summary>
+    public long SegmentsCut => Engine.Rollback.SegmentsCut;
+
+    /// <summary>Its parts.</summary>
+    internal Engine Engine { get; }
+
+    /// <summary>
+    /// Whether an advance may stop within an instant (<see cref="EventLoop.WaitsForLateEvents"/>). A sync test's twin has no way to stop
+    /// where this world does, so there it never may.
+    /// </summary>
+    internal bool WaitsForLateEvents
+    {
+        get => Engine.Loop.WaitsForLateEvents;
+        set => Engine.Loop.WaitsForLateEvents = value && syncTest is null;
     }
 
     /// <summary>
-    /// A scene's bodies on the first pieces of their flights, of which none meets anything: only to be read, where a world of the scene cannot begin.
+    /// Raised on the thread that advances, once per heal, when the world is again where it was. Handlers must not throw, and not change the world.
     /// </summary>
-    /// <param name="scene">The scene.</param>
-    /// <param name="obstacles">Of each body why it cannot take a step; null where it can.</param>
-    internal static Simulation OfFlightsAlone(Scene scene, string?[] obstacles)
+    public event Action<HealReport>? Healed
     {
-        SimulationOptions options = new();
-        Simulation flights = new(scene, options, options.Start, options.Start, scene.BodyArray.Length);
-        for (int i = 0; i < scene.BodyArray.Length; i++)
+        add => Engine.Rewinder.Healed += value;
+        remove => Engine.Rewinder.Healed -= value;
+    }
+
+    /// <summary>Lets everything happen up to and including <paramref name="time"/>; what late events have changed is simulated again.</summary>
+    /// <remarks>Reading, and advancing in smaller or larger steps, changes no bit of what happens. Cost: per event, not per time.</remarks>
+    /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>.</exception>
+    /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their memory.</exception>
+    /// <exception cref="OperationCanceledException">The options' token asked for an end; what lies behind <see cref="SimulatedTo"/> stands.</exception>
+    public void AdvanceTo(SimTime time)
+    {
+        long events = long.MaxValue;
+        TryAdvanceTo(time, ref events);
+        Engine.Loop.ThrowIfBlockedAt(time);
+    }
+
+    /// <summary>
+    /// Lets everything happen up to and including <paramref name="time"/>, or as much of it as so many events are, and stops between two instants; the world of a
+    /// session (<see cref="Hosting.LiveWorld.WaitsForLateEvents"/>) stops within one too, if it takes too long.
+    /// </summary>
+    /// <param name="time">Up to when.</param>
+    /// <param name="events">
+    /// How many events may happen; what is left of them. The events of one instant all happen, so it may end below zero; at or below zero nothing happens.
+    /// Looking again what a body meets next counts as an event.
+    /// </param>
+    /// <returns>
+    /// Whether it got there; if not, <see cref="SimulatedTo"/> tells how far, and the next call goes on from there. A world that an instant without end blocks
+    /// (<see cref="Hosting.LiveWorld.BlockedAt"/>) gets no further, whatever is left, until an event comes that lies no later.
+    /// </returns>
+    /// <remarks>Advancing in pieces changes no bit of what happens. Cost: per event, not per time.</remarks>
+    /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>.</exception>
+    /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their memory.</exception>
+    /// <exception cref="OperationCanceledException">The options' token asked for an end; what lies behind <see cref="SimulatedTo"/> stands.</exception>
+    public bool TryAdvanceTo(SimTime time, ref long events)
+    {
+        Engine.Loop.ThrowIfFaulted();
+        if (time < SimulatedTo)
         {
-            try
-            {
-                flights.Begin(i);
-            }
-            catch (SimulationException failure)
-            {
-                obstacles[i] = failure.Message;
-            }
+            throw new ArgumentOutOfRangeException(
+                nameof(time), time.ToShortString(), $"The world is simulated to {SimulatedTo.ToShortString()} already; it advances, and an event that lies"
+                    + " before rolls it back.");
         }
 
-        return flights;
+        bool isThere = Engine.Loop.TryAdvanceTo(time, ref events);
+        syncTest?.Follow();
+        return isThere;
     }
 
-    /// <summary>A world without bodies, with room for as many as are expected; what none of them may need is made when one does.</summary>
-    private Simulation(Scene scene, SimulationOptions options, SimTime start, SimTime from, int expected)
+    /// <summary>
+    /// Adds an event at its own time. Should that be simulated already, what it can have touched is taken back from there on (<see
+    /// cref="SimulationOptions.Healing"/> says what that is), <see cref="SimulatedTo"/> lies before it, and the next <see cref="AdvanceTo"/> simulates it again;
+    /// <see cref="Healed"/> tells what that took.
+    /// </summary>
+    /// <returns>What became of it. <see cref="SubmitResult.TooOld"/> means that nothing changed.</returns>
+    /// <remarks>
+    /// That it is there does not mean that it has an effect: that depends on what it meets when its time comes, and <see cref="TookEffect"/> tells. Cost: O(1) in
+    /// the bodies if it lies ahead; else, with the next advance, that of the events since its time of the bodies it can have touched, or of all with a full rollback.
+    /// </remarks>
+    /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
+    public SubmitResult Submit(in ExternalEvent external)
     {
-        Scene = scene;
-        Start = start;
-        history = options.History;
-        cancellation = options.Cancellation;
-        Threads = options.Threads;
-        healing = options.Healing;
-        mostPairs = options.MostPairs;
-        rollback.Cursor = EventKey.Before(from);
-        SimulatedTo = from - SimDuration.OneTick;
-        HistoryEdge = from;
-        bodies = new BodyTable(expected);
-        scheduler = new EventScheduler(expected);
-        log = new EventLog(expected);
-        flights = new FreeFlights(scene.Gravity, scene.Resolution, scene.Box, expected, 0.5 * scene.ContactTolerance);
-        timelines = new TimelineStore(start, options.MaxSegments, flights, expected, history);
-        paths = new Paths(timelines);
-        view = new PathView(timelines, rollback, faults);
-        Observer = options.Observer;
-        timelines.ForgetBefore(from);
-        forces = new Forces(scene, start);
-        trajectories = new TrajectoryFactory(scene, forces, bodies, timelines);
-        surfaces = scene.Surfaces;
-        step = new ContactStep(scene, options.Scale ?? new ContactScale(scene.ContactTolerance, scene.Gravity, start));
-        graph = new ContactGraph(bodies, timelines, surfaces, scene.Box);
-        partners = new Partners(bodies, timelines, view);
-        members = new MemberFactory(bodies, timelines, forces, step.Scale, trajectories);
-        sleepers = new Sleepers(bodies, timelines, view, graph, partners, members);
-        stepper = new IslandStepper(scene, bodies, timelines, forces, graph, step, partners, members, trajectories, stepMarks, work);
-        memberContacts = new MemberContacts(timelines, view, bodies, surfaces, step.Scale);
-        strikes = new StrikeCounts(timelines, bodies, surfaces, scene.Box);
-        collapseRule = new CollapseRule(scene, bodies, timelines, graph, strikes, faults);
-        capture = new CaptureRule(scene, timelines, graph, step.Scale, members, trajectories.Friction, faults);
-        resolver = new ImpactResolver(scene, bodies, timelines, graph, capture, collapseRule);
-        predictor = new CollisionPredictor(scene, start, bodies, timelines, rollback, view, memberContacts, strikes, step.Scale, faults);
-        search = new CollisionSearch(bodies, timelines, flights, surfaces, predictor, stepMarks, faults);
+        Check(external);
+        syncTest?.Submit(external);
+        return Engine.Insert(external, external.Key, isForwarded: false);
     }
 
-    /// <summary>How many threads at most may be at work for it.</summary>
-    internal int Threads { get; }
+    /// <summary>
+    /// Adds an event that takes effect at <paramref name="arrival"/>, after its own time, by advancing the body alone from the event's time to the arrival: its
+    /// own motion and contacts with static geometry, as the thesis does. What lies before the arrival is not rewritten. What a hand does (grab, knot, release)
+    /// is done at the arrival as it is.
+    /// </summary>
+    /// <returns>What became of it.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The arrival is before the event's time.</exception>
+    /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
+    public SubmitResult SubmitForwarded(in ExternalEvent external, SimTime arrival)
+    {
+        if (arrival < external.Time)
+        {
+            throw new ArgumentOutOfRangeException(nameof(arrival), arrival.ToShortString(), $"An event of {external.Time.ToShortString()} cannot arrive before"
+                + " it happened.");
+        }
 
-    /// <summary>What was there at the start.</summary>
-    public Scene Scene { get; }
+        Check(external);
+        syncTest?.SubmitForwarded(external, arrival);
+        return external.Time < HistoryEdge ? SubmitResult.TooOld : Engine.Insert(external, external.At(arrival).Key, isForwarded: true);
+    }
 
-    /// <summary>The instant at which the scene began.</summary>
-    public SimTime Start { get; }
-
-    /// <summary>The instant up to which, and including which, everything has happened.</summary>
-    public SimTime SimulatedTo { get; private set; }
-
-    /// <summary>The earliest instant that can be read or changed.</summary>
-    public SimTime HistoryEdge { get; private set; }
-
-    /// <summary>The last instant that can be read: nothing happens between <see cref="SimulatedTo"/> and here.</summary>
-    public SimTime Horizon => scheduler.Count == 0 ? SimTime.MaxValue : SimTime.Max(SimulatedTo, scheduler.LeastKey.Time - SimDuration.OneTick);
-
-    /// <summary>How many bodies are known, absent ones included. One that is gone for good is forgotten when room is needed.</summary>
-    public int BodyCount => bodies.Count;
-
-    /// <summary>How many events were processed, those that were simulated again included.</summary>
-    public long EventsProcessed { get; private set; }
-
-    /// <summary>How many impacts were among them; what bodies do to each other at one tick and round is one.</summary>
-    public long ImpactsProcessed { get; private set; }
-
-    /// <summary>How often timelines were cut for an event that came late or was taken back.</summary>
-    public long Rollbacks { get; private set; }
-
-    /// <summary>How many segments were cut off by rollbacks, to be simulated again.</summary>
-    public long SegmentsCut { get; private set; }
+    /// <summary>Takes an event back, as if it had never been; false if it is not there (any more). The next advance simulates again what it had touched.</summary>
+    public bool Retract(in ExternalEvent external)
+    {
+        Engine.Loop.ThrowIfFaulted();
+        syncTest?.Retract(external);
+        return Engine.Retract(external);
+    }
 
     /// <summary>The identity of the n-th body in canonical order, 0 &lt;= n &lt; <see cref="BodyCount"/>. Later spawns may shift n.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no n-th.</exception>
-    public BodyId BodyAt(int n) => bodies.Id(bodies.SlotAt(n));
+    public BodyId BodyAt(int n) => Engine.Bodies.Id(Engine.Bodies.SlotAt(n));
 
-    /// <summary>Adds a body of the scene, on the first piece of its flight.</summary>
-    private void Begin(int n)
+    /// <summary>Where a body is at any instant from <see cref="HistoryEdge"/> to <see cref="Horizon"/>, after all events of that tick.</summary>
+    /// <returns>False, and a state that is <see cref="MotionLaw.Absent"/>, if the body is unknown or not there at that time.</returns>
+    /// <remarks>
+    /// Opens no segment and changes nothing. Cost: the number of the body's segments after that time. A time that is not simulated is a mistake of the caller,
+    /// who advances this world himself, and so an exception; a <see cref="Hosting.Picture"/>, which another thread makes, returns false there.
+    /// </remarks>
+    /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="HistoryEdge"/> or after <see cref="Horizon"/>: advance first.</exception>
+    /// <exception cref="InvalidOperationException">The simulation ended by an exception.</exception>
+    public bool TryRead(BodyId body, SimTime time, out BodyState state)
     {
-        ref readonly SceneBody body = ref Scene.BodyArray[n];
-        int slot = AddBody(BodyId.OfScene(n), body.Spec);
-        collapseRule.HasLosses |= body.Spec.Restitution < 1;
-        EventKey key = new(Start, 0, EventKind.Start, bodies.Id(slot), bodies.Id(slot), 0, 0);
-        trajectories.Flights.Open(slot, key, body.Position, body.Velocity, spin: body.Spin);
+        CheckReadable(time);
+        state = Engine.Reader.StateAt(Engine.Bodies.SlotOf(body), time);
+        return state.Motion != MotionLaw.Absent;
     }
 
-    private void PredictAll()
+    /// <summary>Who holds a body at an instant that can be read, by which point, and when its hand last told where it is.</summary>
+    /// <returns>False, and the default, if nobody does.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
+    public bool TryReadHold(BodyId body, SimTime time, out Hold hold)
     {
-        index = bodies.Count > mostPairs ? NewIndex() : index;
-        for (int slot = 0; slot < bodies.SlotCount; slot++)
+        CheckReadable(time);
+        return Engine.Reader.TryReadHold(Engine.Bodies.SlotOf(body), time, out hold);
+    }
+
+    /// <summary>A hash of the exact bits and identities of every body that is there at <paramref name="time"/>.</summary>
+    /// <remarks>Equal on two peers if and, to 64 bits, only if their worlds are the same then. It does not depend on the time of day.</remarks>
+    /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
+    public ulong StateHash(SimTime time)
+    {
+        CheckReadable(time);
+        return Engine.Reader.StateHash(time);
+    }
+
+    /// <summary>A hash of every event from the start up to and including <paramref name="time"/>, in canonical order, with what came of it.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
+    public ulong EventHash(SimTime time)
+    {
+        CheckReadable(time);
+        return Engine.Reader.EventHash(time);
+    }
+
+    /// <summary>A body's events that are kept, in order, each with the state right after it. Empty for an unknown body.</summary>
+    /// <remarks>For reports and tests; allocates. Cost: the number of the body's segments.</remarks>
+    public IReadOnlyList<TimelineEntry> Timeline(BodyId body) => Timeline(body, SimTime.MinValue);
+
+    /// <summary>Of a body's events that are kept the last one up to and including <paramref name="from"/>, whose motion it is in then, and all after it.</summary>
+    /// <param name="body">The body. Of an unknown one there are none.</param>
+    /// <param name="from">From when on, in simulated time; any instant, also one that is no longer kept or not simulated yet.</param>
+    /// <returns>In order, each with the state right after it.</returns>
+    /// <remarks>For reports that go along with the simulation; allocates. Cost: the number of the events returned, however long the history is.</remarks>
+    public IReadOnlyList<TimelineEntry> Timeline(BodyId body, SimTime from) => Engine.Reader.Timeline(Engine.Bodies.SlotOf(body), from);
+
+    /// <summary>
+    /// Whether an event changed its body, as far as is known now. False while its time is not simulated yet; if it was submitted and its time has come, it had no
+    /// effect: the body was not there, or was in a hand (or not in that hand), or an impulse would have made it faster than a body may be given to move, a tenth
+    /// of <see cref="Scene.SmallestRadius"/> in a tick. Nothing is ever clamped. A late event may change the answer.
+    /// </summary>
+    /// <remarks>Pure, the same on every peer. Cost: the number of the body's segments. What lies before <see cref="HistoryEdge"/> is no longer known: false.</remarks>
+    public bool TookEffect(in ExternalEvent external) => Engine.Reader.TookEffect(external);
+
+    /// <summary>The properties of a body that has been there; the default for an unknown one.</summary>
+    public BodySpec SpecOf(BodyId body)
+    {
+        int slot = Engine.Bodies.SlotOf(body);
+        return slot < 0 ? default : Engine.Bodies.Spec(slot);
+    }
+
+    /// <summary>The world after everything before <paramref name="time"/>. Changes nothing. Cost: the segments of all bodies since then.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">
+    /// The time is outside <see cref="HistoryEdge"/> to <see cref="SimulatedTo"/>, or not after the start.
+    /// </exception>
+    public WorldSnapshot Snapshot(SimTime time)
+    {
+        Engine.Loop.ThrowIfFaulted();
+        if (time < HistoryEdge || time > SimulatedTo || time <= Start)
         {
-            cancellation.ThrowIfCancellationRequested();
-            Predict(slot);
+            throw new ArgumentOutOfRangeException(
+                nameof(time), time.ToShortString(), $"A snapshot can be taken from {SimTime.Max(HistoryEdge, Start + SimDuration.OneTick).ToShortString()} to"
+                    + $" {SimulatedTo.ToShortString()}, up to where the world is simulated.");
         }
+
+        return Engine.Reader.Snapshot(time);
     }
 
-    private int AddBody(BodyId id, BodySpec spec = default)
+    /// <summary>
+    /// Forgets what lies before <paramref name="time"/>: nothing there can be read or changed any more. Earlier than now is kept, later is not forgotten.
+    /// </summary>
+    public void DropHistoryBefore(SimTime time)
     {
-        if (bodies.IsFull)
+        Engine.DropHistoryBefore(time);
+        syncTest?.DropHistoryBefore(time);
+    }
+
+    private static Engine Begun(Scene scene, SimulationOptions options)
+    {
+        Engine engine = new(scene, options, options.Start, options.Start, scene.BodyArray.Length);
+        for (int i = 0; i < scene.BodyArray.Length; i++)
         {
-            bodies.Forget(ForgetIfAbsent);
+            engine.AddFromScene(i);
         }
 
-        int slot = bodies.Add(id, spec);
-        scheduler.AddSlot(slot);
-        rollback.AddSlot(slot);
-        timelines.AddSlot(slot);
-        flights.AddSlot(slot, spec.Radius);
-        log.AddSlot(slot);
-        return slot;
+        engine.Begin();
+        return engine;
     }
 
-    /// <summary>Forgets the timeline of a body that is not there and that nothing inside the window says anything of; false for any other.</summary>
-    private bool ForgetIfAbsent(int slot)
+    private static Engine Begun(Scene scene, WorldSnapshot snapshot, SimulationOptions options)
     {
-        log.DropBefore(slot, HistoryEdge);
-        timelines.DropBefore(slot, HistoryEdge);
-        int last = timelines.Last(slot);
-        bool isGone = log.IsEmpty(slot) && !timelines.Segment(last).IsPresent && timelines.Key(last).Time < HistoryEdge;
-        if (isGone)
+        _ = scene ?? throw new ArgumentNullException(nameof(scene));
+        SnapshotCheck.Throw(snapshot ?? throw new ArgumentNullException(nameof(snapshot)), scene);
+        Engine engine = new(scene, options, snapshot.Start, snapshot.Time, snapshot.BodyArray.Length);
+        foreach (ref readonly BodySnapshot body in snapshot.BodyArray.AsSpan())
         {
-            timelines.Forget(slot);
-            index.Forget(slot);
+            engine.AddFromSnapshot(body);
         }
 
-        return isGone;
+        engine.Timelines.ContinueFrom(snapshot.EventHash);
+        engine.Begin();
+        return engine;
     }
 
-    private void ThrowIfFaulted()
+    private void Check(in ExternalEvent external)
     {
-        if (fault is not null)
+        Engine.Loop.ThrowIfFaulted();
+        ExternalEventCheck.Throw(external, Scene);
+    }
+
+    private void CheckReadable(SimTime time)
+    {
+        Engine.Loop.ThrowIfFaulted();
+        if (time < HistoryEdge || time > Horizon)
         {
-            throw new InvalidOperationException("The simulation has faulted and cannot go on; see the inner exception.", fault);
+            throw new ArgumentOutOfRangeException(
+                nameof(time), time.ToShortString(), $"Readable is from {HistoryEdge.ToShortString()}, the edge of the history, to {Horizon.ToShortString()},"
+                    + " where the next event is due.");
         }
     }
 }

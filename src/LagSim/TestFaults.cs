@@ -23,6 +23,9 @@ internal sealed class TestFaults
     /// <summary>Bounces as often as it closes.</summary>
     internal bool NeverCollapses { get; set; }
 
+    /// <summary>Cuts timelines at their time instead of at their key, in a full rollback.</summary>
+    internal bool CutsByTime { get; set; }
+
     /// <summary>Whether it heals wrongly in that way.</summary>
     internal bool Has(HealingFault wrong) => (Healing & wrong) != 0;
 }

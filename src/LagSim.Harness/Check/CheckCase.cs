@@ -296,7 +296,7 @@ internal sealed class CheckCase
                 return false;
             }
 
-            StepsAhead = alone.StepsTaken;
+            StepsAhead = alone.Engine.Stepper.StepsTaken;
             ExternalEvent external = deed.On(deed.Spawn >= 0 ? bodies[deed.Spawn] : BodyId.OfScene(Math.Max(0, deed.Body))).Stamp(time, (byte)deed.Peer, (uint)i + 1);
             bodies[i] = external.Body;
             alone.Submit(external);

@@ -188,7 +188,7 @@ internal sealed class CheckSession
             options.Prepare?.Invoke(address, simulation);
             if (player.IndexAbove is int bodies)
             {
-                simulation.UseIndexAbove(bodies);
+                simulation.Engine.UseListsAbove(bodies);
             }
 
             member.Heals.Add(new HealImpacts(simulation, report => report.From < session.SharedTime.Now));

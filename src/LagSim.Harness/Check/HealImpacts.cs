@@ -23,7 +23,7 @@ internal sealed class HealImpacts : IImpactObserver
     {
         this.simulation = simulation;
         rollbacks = simulation.Rollbacks;
-        simulation.Observer = this;
+        simulation.Engine.Reconvergence.Observer = this;
         simulation.Healed += report =>
         {
             if (isOfThePast(report))

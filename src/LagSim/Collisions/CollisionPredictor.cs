@@ -1,9 +1,7 @@
 using System;
 using LagSim.Contacts;
 using LagSim.Events;
-using LagSim.Islands;
 using LagSim.Motion;
-using LagSim.Rollback;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;

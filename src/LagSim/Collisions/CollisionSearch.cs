@@ -1,7 +1,5 @@
 using System;
-using LagSim.Contacts;
 using LagSim.Events;
-using LagSim.Islands;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;

@@ -1,4 +1,3 @@
-using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Time;
 

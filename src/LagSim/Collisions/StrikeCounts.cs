@@ -1,5 +1,4 @@
 using System;
-using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Time;

@@ -1,4 +1,5 @@
 using System;
+using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -254,6 +255,31 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
         double second = c.Second == ContactPoint.Static ? 0 : Math.Min(bodies.Spec(slots[c.Second]).RollingResistance, friction) * radii[c.Second];
         return Math.Max(first, second);
     }
+
+    /// <summary>
+    /// The impact's key whichever of its contacts was popped: named by the least body that is struck and that one's least partner. What a
+    /// collapse takes in besides has no part in it: that would come before impacts of the round that are done already.
+    /// </summary>
+    internal EventKey CanonicalKey(in EventKey popped)
+    {
+        int at = 0;
+        while (!IsOfThisRound(contacts[at]))
+        {
+            at++;
+        }
+
+        int least = contacts[at].First;
+        BodyId first = bodies.Id(slots[least]);
+        BodyId second = first;
+        for (int i = at; i < ContactCount && contacts[i].First == least && second == first; i++)
+        {
+            second = contacts[i].Second == ContactPoint.Static || !IsOfThisRound(contacts[i]) ? first : bodies.Id(slots[contacts[i].Second]);
+        }
+
+        return new EventKey(popped.Time, popped.Round, EventKind.Impact, first, second, 0, 0);
+    }
+
+    private static bool IsOfThisRound(in ContactPoint c) => c.IsStruck && !c.IsFromBefore;
 
     private int Compare(in ContactPoint a, in ContactPoint b)
     {

@@ -1,3 +1,4 @@
+using LagSim.Events;
 using LagSim.Scenes;
 
 namespace LagSim.Contacts;

@@ -1,4 +1,5 @@
 using System;
+using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -15,8 +16,8 @@ internal readonly struct ContactScale
     /// <summary>No step is longer: a picture a frame of an old screen, so that what moves in a heap is seen to.</summary>
     private const long LongestTicks = SimDuration.TicksPerSecond / 64;
 
-    /// <summary>No step is shorter than 2^-20 s, whatever asks for it.</summary>
-    internal const long ShortestTicks = 1L << 20;
+    /// <summary>No step is shorter than 2^-20 s, whatever asks for it: what closes sooner is as good as at once.</summary>
+    internal const long ShortestTicks = ContactTime.SoonTicks;
 
     /// <summary>What presses where the scene has no gravity, in m/s²: of hands and forces nobody knows beforehand, and a hand moves things by about so much.</summary>
     private const double LeastPull = 1;

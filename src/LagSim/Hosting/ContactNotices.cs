@@ -131,7 +131,7 @@ public sealed class ContactNotices : IImpactObserver
     /// </summary>
     internal void Tell(Simulation simulation)
     {
-        if (simulation.IsHealing)
+        if (simulation.Engine.Rollback.IsActive)
         {
             return;
         }

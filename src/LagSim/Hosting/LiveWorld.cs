@@ -1,5 +1,6 @@
 using System;
 using System.Threading;
+using LagSim.BroadPhase;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -89,8 +90,8 @@ public sealed class LiveWorld
     /// </summary>
     public WorkLedger? Work
     {
-        get => (WorkLedger?)Simulation.Work;
-        set => Simulation.Work = value;
+        get => (WorkLedger?)Simulation.Engine.Meter.Observer;
+        set => Simulation.Engine.Meter.Observer = value;
     }
 
     /// <summary>Where another thread, one only, gets its picture.</summary>
@@ -123,7 +124,7 @@ public sealed class LiveWorld
     /// </summary>
     internal long Effort { get; set; } = DefaultEffort;
 
-    private long EventsAStep => Math.Max(LeastEvents, Effort / (Math.Min(Simulation.BodyCount, Simulation.MostLooks) + 8));
+    private long EventsAStep => Math.Max(LeastEvents, Effort / (Math.Min(Simulation.BodyCount, AdaptiveBroadPhase.MostLooks) + 8));
 
     /// <summary>Gives the contact notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to be stepped again.</summary>
     public void Retire() => Contacts?.Restart();
@@ -140,14 +141,14 @@ public sealed class LiveWorld
     }
 
     /// <summary>The instant that blocks the world, if it <see cref="WaitsForLateEvents"/>; the latest time there is if none does.</summary>
-    public SimTime BlockedAt => Simulation.BlockedAt;
+    public SimTime BlockedAt => Simulation.Engine.Loop.BlockedAt;
 
     /// <summary>Why an instant blocks the world, in a sentence; empty if none does.</summary>
-    public string BlockedBecause => Simulation.Blocked?.Message ?? "";
+    public string BlockedBecause => Simulation.Engine.Loop.Blocked?.Message ?? "";
 
     /// <summary>Tells <see cref="Work"/>, if there is one, whose event is submitted next.</summary>
     /// <param name="player">The player's number.</param>
-    public void NoteNews(byte player) => Work?.NoteNews(player, Simulation.IsHealing);
+    public void NoteNews(byte player) => Work?.NoteNews(player, Simulation.Engine.Rollback.IsActive);
 
     /// <summary>Submits an event at its own time.</summary>
     /// <remarks>
@@ -156,7 +157,7 @@ public sealed class LiveWorld
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult Submit(in ExternalEvent external)
     {
-        using Change change = new(this);
+        Change change = new(this);
         return change.Finish(Simulation.Submit(external));
     }
 
@@ -164,14 +165,14 @@ public sealed class LiveWorld
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult SubmitForwarded(in ExternalEvent external, SimTime arrival)
     {
-        using Change change = new(this);
+        Change change = new(this);
         return change.Finish(Simulation.SubmitForwarded(external, arrival));
     }
 
     /// <summary>Takes an event back; see <see cref="Simulation.Retract"/>.</summary>
     public bool Retract(in ExternalEvent external)
     {
-        using Change change = new(this);
+        Change change = new(this);
         return change.Finish(Simulation.Retract(external));
     }
 
@@ -179,7 +180,7 @@ public sealed class LiveWorld
     public void Advance(SimTime now)
     {
         SimTime target = SimTime.Max(now, Simulation.Start) + LookAhead;
-        changed |= Simulation.Horizon < target && Simulation.Blocked is null;
+        changed |= Simulation.Horizon < target && Simulation.Engine.Loop.Blocked is null;
         Work?.Resume();
         isBehind = target > Simulation.SimulatedTo && !Simulation.TryAdvanceTo(target, ref events);
     }
@@ -219,13 +220,13 @@ public sealed class LiveWorld
             changed = false;
         }
 
-        if (!Simulation.IsPartDone)
+        if (!Simulation.Engine.Loop.IsPartDone)
         {
             Contacts?.Tell(Simulation);
         }
 
-        SimTime confirmation = Contacts?.NextDue(Simulation.History, LookAhead) ?? SimTime.MaxValue;
-        if (Simulation.Blocked is not null)
+        SimTime confirmation = Contacts?.NextDue(Simulation.Engine.Progress.History, LookAhead) ?? SimTime.MaxValue;
+        if (Simulation.Engine.Loop.Blocked is not null)
         {
             return SimTime.Min(confirmation, now + LookAhead); // there is nothing to do before an event comes
         }
@@ -273,14 +274,18 @@ public sealed class LiveWorld
             this.world = world;
             front = world.Simulation.SimulatedTo;
             world.changed = true;
-            world.Simulation.DefersAgain = true;
             world.Work?.Resume();
         }
 
-        public void Dispose() => world.Simulation.DefersAgain = false;
-
         internal T Finish<T>(T result)
         {
+            if (world.Simulation.SimulatedTo < front)
+            {
+                // The instant of a late event is simulated at once, whatever this step may still cost: else one such event a step would keep the world there.
+                long all = long.MaxValue;
+                world.Simulation.TryAdvanceTo(world.Simulation.SimulatedTo + SimDuration.OneTick, ref all);
+            }
+
             world.Work?.ChargeNews(world.Simulation.SimulatedTo);
             if (world.Simulation.SimulatedTo < front)
             {

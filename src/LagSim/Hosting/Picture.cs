@@ -77,7 +77,7 @@ public sealed class Picture
     /// <summary>Takes over what changed in the simulation since this picture last showed it.</summary>
     internal void Follow(Simulation simulation, SimTime from, long number)
     {
-        int count = simulation.SlotCount;
+        int count = simulation.Engine.Bodies.SlotCount;
         if (count > timelines.Length)
         {
             int size = Math.Max(count, timelines.Length * 2);
@@ -87,22 +87,22 @@ public sealed class Picture
             Array.Resize(ref slots, size);
         }
 
-        if (simulation.OrderVersion != orderVersion)
+        if (simulation.Engine.Bodies.Version != orderVersion)
         {
-            orderVersion = simulation.OrderVersion;
+            orderVersion = simulation.Engine.Bodies.Version;
             BodyCount = simulation.BodyCount;
             for (int n = 0; n < BodyCount; n++)
             {
-                slots[n] = simulation.SlotAt(n);
-                identities[n] = simulation.IdOfSlot(slots[n]).Packed;
+                slots[n] = simulation.Engine.Bodies.SlotAt(n);
+                identities[n] = simulation.Engine.Bodies.Id(slots[n]).Packed;
             }
         }
 
         for (int slot = 0; slot < count; slot++)
         {
             timelines[slot] ??= new PictureTimeline();
-            timelines[slot].Follow(simulation.Timelines, slot, from);
-            radii[slot] = simulation.RadiusOfSlot(slot);
+            timelines[slot].Follow(simulation.Engine.Timelines, slot, from);
+            radii[slot] = simulation.Engine.Bodies.Spec(slot).Radius;
         }
 
         box = simulation.Scene.Box;

@@ -117,7 +117,7 @@ internal sealed class PictureTimeline
     }
 
     private static BodyState State(in Entry entry, SimTime time, in PeriodicBox box) =>
-        Simulation.StateOf(entry.Segment, time.SecondsSince(entry.Segment.Epoch), entry.Dense, box, entry.Spin);
+        StateReader.StateOf(entry.Segment, time.SecondsSince(entry.Segment.Epoch), entry.Dense, box, entry.Spin);
 
     private void Reserve(int fresh)
     {

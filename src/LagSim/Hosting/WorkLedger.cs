@@ -170,7 +170,7 @@ public sealed class WorkLedger : IWorkObserver
     }
 
     /// <inheritdoc/>
-    WorkVerdict IWorkObserver.OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, Simulation world)
+    WorkVerdict IWorkObserver.OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table)
     {
         amount = Math.Max(amount, Measure());
         Total += amount;
@@ -181,7 +181,7 @@ public sealed class WorkLedger : IWorkObserver
         bool isShared = false;
         foreach (int slot in bodies)
         {
-            ref Entry entry = ref EntryOf(slot, key.Time, world);
+            ref Entry entry = ref EntryOf(slot, key.Time, table);
             if (isAct)
             {
                 entry.Charged = 0;
@@ -260,7 +260,7 @@ public sealed class WorkLedger : IWorkObserver
         return account.Charged < account.Most;
     }
 
-    private ref Entry EntryOf(int slot, SimTime at, Simulation world)
+    private ref Entry EntryOf(int slot, SimTime at, BodyTable table)
     {
         if (slot >= entries.Length)
         {
@@ -268,7 +268,7 @@ public sealed class WorkLedger : IWorkObserver
         }
 
         ref Entry entry = ref entries[slot];
-        BodyId body = world.BodyIn(slot);
+        BodyId body = table.Id(slot);
         if (!entry.HasOwner || entry.Body != body)
         {
             entry = new Entry { Body = body, HasOwner = true };

@@ -1,7 +1,9 @@
 using System;
+using LagSim.Collisions;
 using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
+using LagSim.Rollback;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -17,7 +19,7 @@ namespace LagSim.Islands;
 /// </remarks>
 internal sealed class IslandStepper(
     Scene scene, BodyTable bodies, TimelineStore timelines, in Forces forces, ContactGraph graph, ContactStep step, Partners partners,
-    MemberFactory members, TrajectoryFactory trajectories, StepMarks marks, SolverWork work)
+    RewindRequests rewinds, MemberFactory members, TrajectoryFactory trajectories, StepMarks marks, SolverWork work)
 {
     private readonly Forces forces = forces;
     private readonly StaticSurfaces surfaces = scene.Surfaces;
@@ -28,13 +30,13 @@ internal sealed class IslandStepper(
     /// <summary>How many contact steps were taken.</summary>
     internal long StepsTaken { get; private set; }
 
-    /// <summary>A tick of an island has come; false if somebody who takes part was ahead of it and has been taken back.</summary>
+    /// <summary>A tick of an island has come; false if somebody that takes part is ahead and has to be rewound first.</summary>
     internal bool TryStep(int slot, in EventKey key, out EventKey canonical)
     {
         canonical = default;
-        partners.Clear();
+        partners.NearMisses.Clear();
         GatherIsland(slot, key);
-        if (partners.Ahead.Count > 0)
+        if (!rewinds.AreNone)
         {
             return false;
         }

@@ -7,27 +7,17 @@ using LagSim.Timelines;
 namespace LagSim.Islands;
 
 /// <summary>Finds the bodies on the other sides of contacts that members carry, by the segments on which they come to an event.</summary>
-internal sealed class Partners(BodyTable bodies, TimelineStore timelines, PathView view)
+internal sealed class Partners(BodyTable bodies, TimelineStore timelines, PathView view, RewindRequests rewinds)
 {
     private readonly Paths paths = new(timelines);
-
-    /// <summary>Who takes part in the event at hand, though its path is known beyond it: it has to be rewound first.</summary>
-    internal List<int> Ahead { get; } = new();
 
     /// <summary>
     /// Who was looked at for the event at hand and is no part of it: one that carries no contact that another still carries with it.
     /// </summary>
     internal List<int> NearMisses { get; } = new();
 
-    /// <summary>Begins another event.</summary>
-    internal void Clear()
-    {
-        Ahead.Clear();
-        NearMisses.Clear();
-    }
-
     /// <summary>
-    /// The other body of a contact that is carried, if it carries it too, or is in a hand; who is ahead of the key is noted.
+    /// The other body of a contact that is carried, if it carries it too, or is in a hand; who is ahead of the key has to be rewound to it.
     /// </summary>
     internal bool TryFind(BodyId body, BodyId partnerId, in EventKey key, out int partner)
     {
@@ -40,7 +30,7 @@ internal sealed class Partners(BodyTable bodies, TimelineStore timelines, PathVi
 
         if (piece != timelines.Last(partner))
         {
-            Ahead.Add(partner);
+            rewinds.Add(partner, key);
         }
 
         bool holds = paths.IsHeld(piece) || (paths.IsMember(piece) && timelines.ContactWith(piece, body) != TimelineStore.None);

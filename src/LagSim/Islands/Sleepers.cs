@@ -8,13 +8,13 @@ namespace LagSim.Islands;
 
 /// <summary>Who sleeps on a body to which something is about to happen, and wakes.</summary>
 internal sealed class Sleepers(
-    BodyTable bodies, TimelineStore timelines, PathView view, ContactGraph graph, Partners partners, MemberFactory members)
+    BodyTable bodies, TimelineStore timelines, PathView view, ContactGraph graph, RewindRequests rewinds, MemberFactory members)
 {
     private readonly Paths paths = new(timelines);
 
     /// <summary>
-    /// The parties: those that sleep in contact with a body to which something is about to happen; false if one was ahead of it and has
-    /// been taken back.
+    /// Has the graph hold those that sleep in contact with a body to which something is about to happen; false if one of them is ahead and
+    /// has to be rewound first.
     /// </summary>
     internal bool TryFind(int slot, in EventKey key)
     {
@@ -25,7 +25,6 @@ internal sealed class Sleepers(
             return true;
         }
 
-        partners.Ahead.Clear();
         for (int at = timelines.FirstContact(last); at != TimelineStore.None; at = timelines.NextContact(at))
         {
             ref readonly LastingContact contact = ref timelines.Contact(at);
@@ -35,14 +34,14 @@ internal sealed class Sleepers(
             {
                 if (piece != timelines.Last(partner))
                 {
-                    partners.Ahead.Add(partner);
+                    rewinds.Add(partner, key);
                 }
 
                 graph.AddBody(partner);
             }
         }
 
-        if (partners.Ahead.Count > 0)
+        if (!rewinds.AreNone)
         {
             return false;
         }
@@ -51,10 +50,11 @@ internal sealed class Sleepers(
         return true;
     }
 
-    /// <summary>The parties wake: what they lay on has been touched.</summary>
+    /// <summary>The bodies of the graph wake: what they lay on has been touched, and is added last.</summary>
     internal void Wake(int slot, in EventKey key)
     {
-        for (int i = 0; i < graph.BodyCount; i++)
+        int sleepers = graph.BodyCount;
+        for (int i = 0; i < sleepers; i++)
         {
             int before = timelines.Last(graph.Slots[i]);
             members.GoOn(graph.Slots[i], key, timelines.Segment(before).Position, Vector3D.Zero, timelines.SpinOf(before).AtEpoch, hasChanged: true);
@@ -62,7 +62,9 @@ internal sealed class Sleepers(
         }
 
         graph.AddBody(slot);
-        timelines.Join(graph.Slots);
-        graph.KeepBodies(graph.BodyCount - 1);
+        if (sleepers > 0)
+        {
+            timelines.Join(graph.Slots);
+        }
     }
 }

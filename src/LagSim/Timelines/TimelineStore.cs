@@ -1,5 +1,4 @@
 using System;
-using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
@@ -23,7 +22,7 @@ internal sealed partial class TimelineStore
     private readonly SimTime origin;
     private readonly SimDuration history;
     private readonly EventHashSum hashes = new();
-    private readonly FreeFlights? flights; // is told of each body's newest segment
+    private readonly INewestSegments? newest; // is told of each body's newest segment
     private Piece[] pieces;
     private Link[] links; // apart, so that what is old is dropped without a look at what it was
     private DenseOutput[] dense = Array.Empty<DenseOutput>(); // only once something is integrated
@@ -37,11 +36,11 @@ internal sealed partial class TimelineStore
 
     /// <summary>
     /// No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to <paramref
-    /// name="flights"/>; with room for as many bodies as are expected at first, and for few of them for a second segment each. Of how long a history it will be
+    /// name="newest"/>; with room for as many bodies as are expected at first, and for few of them for a second segment each. Of how long a history it will be
     /// helps to guess how much room it will need.
     /// </summary>
     internal TimelineStore(
-        SimTime origin, int most = SimulationOptions.DefaultMaxSegments, FreeFlights? flights = null, int expected = 0, SimDuration history = default)
+        SimTime origin, int most = SimulationOptions.DefaultMaxSegments, INewestSegments? newest = null, int expected = 0, SimDuration history = default)
     {
         int room = FirstRoom;
         while (room < 2 * expected && room < Large)
@@ -57,7 +56,7 @@ internal sealed partial class TimelineStore
         Array.Fill(first, None);
         Array.Fill(last, None);
         this.origin = origin;
-        this.flights = flights;
+        this.newest = newest;
         this.history = history;
         Most = most;
     }
@@ -216,7 +215,7 @@ internal sealed partial class TimelineStore
         }
 
         last[slot] = at;
-        flights?.Set(slot, segment, key.Time);
+        newest?.Set(slot, segment, key.Time);
         Alive++;
         if (segment.IsOfIsland)
         {
@@ -260,13 +259,13 @@ internal sealed partial class TimelineStore
         if (last[slot] == None)
         {
             first[slot] = None;
-            flights?.Clear(slot);
+            newest?.Clear(slot);
         }
         else
         {
             links[last[slot]].Next = None;
             links[last[slot]].Closed = SimTime.MaxValue;
-            flights?.Set(slot, pieces[last[slot]].Segment, pieces[last[slot]].Key.Time);
+            newest?.Set(slot, pieces[last[slot]].Segment, pieces[last[slot]].Key.Time);
         }
 
         int before = at;
@@ -285,7 +284,7 @@ internal sealed partial class TimelineStore
         Release(first[slot]);
         first[slot] = None;
         last[slot] = None;
-        flights?.Clear(slot);
+        newest?.Clear(slot);
     }
 
     /// <summary>The segment that holds at <paramref name="time"/>, after all events of that tick; <see cref="None"/> before the first kept.</summary>

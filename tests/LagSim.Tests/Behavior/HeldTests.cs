@@ -383,6 +383,7 @@ public sealed class HeldTests
 
             // Late news that the first never was, or had let go before.
             simulation.Retract(one);
+            simulation.AdvanceTo(At(1));
             Assert.True(simulation.TryReadHold(First, At(0.7), out hold));
             Assert.Equal(new Hold(2, V(0.1), At(0.5)), hold);
             Assert.Equal(With(Lonely(), 1, [two]).StateHash(At(1)), simulation.StateHash(At(1)));

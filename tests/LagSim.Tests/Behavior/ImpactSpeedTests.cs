@@ -67,6 +67,7 @@ public sealed class ImpactSpeedTests
         late.AdvanceTo(At(1));
         Assert.NotEqual(inTime.StateHash(At(1)), late.StateHash(At(1)));
         Assert.Equal(SubmitResult.RolledBack, late.Submit(heavy));
+        late.AdvanceTo(At(1));
         SameTimelines(inTime, late);
         Near(1.5 * Given, Read(late, light.Body, 1).Velocity.Length, Given * 1e-9);
     }

@@ -21,10 +21,12 @@ public sealed class HealImpactsTests
         simulation.AdvanceTo(At(1));
         Assert.Equal(0, heals.Heals);
         simulation.Submit(ExternalEvent.Teleport(At(stamp), 1, 1, First, V(-1, 5)));
+        simulation.AdvanceTo(At(1));
         Assert.Equal((1L, changes ? 1L : 0L), (heals.Heals, heals.Changed));
 
         // The same impact made again is no change: the body that was to be hit only turns out to have had its velocity set to what it was.
         simulation.Submit(ExternalEvent.SetVelocity(At(0.2), 1, 2, Second, V(-2)));
+        simulation.AdvanceTo(At(1));
         Assert.Equal((2L, changes ? 1L : 0L), (heals.Heals, heals.Changed));
     }
 }

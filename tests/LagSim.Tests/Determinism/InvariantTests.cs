@@ -94,10 +94,11 @@ public sealed class InvariantTests
     public void Start_IsNotStoppedWithin()
     {
         Scene scene = new SceneBuilder("start").AddPlane("floor", Vector3D.Up, V(0), 0.3).AddBody("a", Ball(e: 1), V(0, 1)).AddBody("b", Ball(e: 1), V(3, 1)).Build();
-        Simulation simulation = new(scene, KeepAll) { WaitsForLateEvents = true, DefersAgain = true, Work = new Stops(static () => true) };
+        Simulation simulation = new(scene, KeepAll) { WaitsForLateEvents = true, Work = new Stops(static () => true) };
         simulation.Submit(ExternalEvent.SetVelocity(At(0), 1, 1, Second, V(-1, 1)));
         simulation.Submit(ExternalEvent.SetVelocity(At(0), 2, 1, First, V(1, 2)));
-        Assert.False(simulation.IsPartDone);
+        simulation.AdvanceTo(At(0));
+        Assert.False(simulation.Engine.Loop.IsPartDone);
         Assert.Equal(V(1, 2), Read(simulation, First, 0).Velocity);
         long most = long.MaxValue;
         Assert.False(simulation.TryAdvanceTo(At(2), ref most)); // later it is stopped
@@ -360,7 +361,7 @@ public sealed class InvariantTests
     /// <summary>Stops advances where it is told to.</summary>
     private sealed class Stops(Func<bool> isToStop) : IWorkObserver
     {
-        public WorkVerdict OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, Simulation world) => isToStop() ? WorkVerdict.StopNow : WorkVerdict.GoOn;
+        public WorkVerdict OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table) => isToStop() ? WorkVerdict.StopNow : WorkVerdict.GoOn;
     }
 
     private static void AssertNone(int block, Func<RandomWorld, Simulation> onTime, Func<RandomWorld, int, Simulation> late)

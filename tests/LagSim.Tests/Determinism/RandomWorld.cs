@@ -108,9 +108,8 @@ internal sealed class RandomWorld
         {
             SimTime now = At(Math.Min(when, End));
             long most = inPieces ? arrivals.Next(8) : long.MaxValue;
-            simulation.DefersAgain = inPieces;
             simulation.TryAdvanceTo(SimTime.Max(now, simulation.SimulatedTo), ref most);
-            PartDoneStops += simulation.IsPartDone ? 1 : 0;
+            PartDoneStops += simulation.Engine.Loop.IsPartDone ? 1 : 0;
             if (retracts)
             {
                 simulation.Retract(external);
@@ -120,7 +119,7 @@ internal sealed class RandomWorld
                 throw new InvalidOperationException($"Too old at {now}: {external}");
             }
 
-            if (arrivals.Next(5) == 0)
+            if (arrivals.Next(5) == 0 && simulation.SimulatedTo >= simulation.HistoryEdge) // else an event of the first instant came late
             {
                 simulation.StateHash(simulation.SimulatedTo); // reading leaves no trace
             }

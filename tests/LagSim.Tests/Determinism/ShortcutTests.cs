@@ -22,8 +22,8 @@ public sealed class ShortcutTests
         Assert.Equal(general.EventHash(At(2)), quick.EventHash(At(2)));
         Assert.Equal(general.StateHash(At(2)), quick.StateHash(At(2)));
         Assert.Equal(general.ImpactsProcessed, quick.ImpactsProcessed);
-        Assert.Equal(0, general.PairsProcessed);
-        Assert.True(quick.PairsProcessed > bodies / 2, $"{quick.PairsProcessed} of {quick.ImpactsProcessed}");
+        Assert.Equal(0, general.Engine.Isolated.PairCount);
+        Assert.True(quick.Engine.Isolated.PairCount > bodies / 2, $"{quick.Engine.Isolated.PairCount} of {quick.ImpactsProcessed}");
     }
 
     [Fact]
@@ -47,8 +47,8 @@ public sealed class ShortcutTests
         Simulation general = Play(scene, s => s.TakesNoShortcut = true, 12);
         Assert.Equal(general.EventHash(At(12)), quick.EventHash(At(12)));
         Assert.Equal(general.StateHash(At(12)), quick.StateHash(At(12)));
-        Assert.Equal(0, general.AloneProcessed);
-        Assert.True(quick.AloneProcessed > quick.PairsProcessed + 20, $"{quick.AloneProcessed} of {quick.ImpactsProcessed}");
+        Assert.Equal(0, general.Engine.Isolated.Count);
+        Assert.True(quick.Engine.Isolated.Count > quick.Engine.Isolated.PairCount + 20, $"{quick.Engine.Isolated.Count} of {quick.ImpactsProcessed}");
     }
 
     [Fact]

@@ -59,18 +59,18 @@ public sealed class TimelineStoreTests
         static (double Times, double RoomForEach) Copied(bool growsByLittle)
         {
             Simulation world = new(Heap(), new SimulationOptions(default, SimDuration.FromSeconds(0.25), threads: 1));
-            world.Timelines.GrowsByLittle = growsByLittle;
+            world.Engine.Timelines.GrowsByLittle = growsByLittle;
             long copied = 0;
             int most = 0;
             for (int n = 1; n <= 1000; n++)
             {
-                int before = world.Timelines.Room;
+                int before = world.Engine.Timelines.Room;
                 world.AdvanceTo(SimTime.FromSeconds(n * 2e-3));
-                copied += world.Timelines.Room > before ? before : 0;
-                most = Math.Max(most, world.Timelines.Alive);
+                copied += world.Engine.Timelines.Room > before ? before : 0;
+                most = Math.Max(most, world.Engine.Timelines.Alive);
             }
 
-            return (copied / (double)world.Timelines.Room, world.Timelines.Room / (double)most);
+            return (copied / (double)world.Engine.Timelines.Room, world.Engine.Timelines.Room / (double)most);
         }
 
         static Scene Heap()
@@ -90,16 +90,16 @@ public sealed class TimelineStoreTests
     private static (int Steps, double RoomForEach) Growth(bool growsByLittle)
     {
         Simulation world = new(BuiltInScenes.Gas(1000, 0.2), new SimulationOptions(default, SimDuration.FromSeconds(1)));
-        world.Timelines.GrowsByLittle = growsByLittle;
+        world.Engine.Timelines.GrowsByLittle = growsByLittle;
         int steps = 0;
         for (int ms = 1; ms < 1000; ms++)
         {
-            int before = world.Timelines.Room;
+            int before = world.Engine.Timelines.Room;
             world.AdvanceTo(SimTime.FromSeconds(ms * 1e-3));
-            steps += world.Timelines.Room > before ? 1 : 0;
+            steps += world.Engine.Timelines.Room > before ? 1 : 0;
         }
 
-        return (steps, world.Timelines.Room / (double)world.Timelines.Alive);
+        return (steps, world.Engine.Timelines.Room / (double)world.Engine.Timelines.Alive);
     }
 
     [Fact]

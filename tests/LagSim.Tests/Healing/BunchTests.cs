@@ -44,9 +44,12 @@ public sealed class BunchTests
             List<HealReport> reports = [];
             simulation.Healed += reports.Add;
             simulation.AdvanceTo(At(1.5));
-            simulation.DefersAgain = together;
-            Array.ForEach(news, e => simulation.Submit(e));
-            simulation.DefersAgain = false;
+            foreach (ExternalEvent external in news)
+            {
+                simulation.Submit(external);
+                simulation.AdvanceTo(together ? simulation.SimulatedTo : At(1.5));
+            }
+
             simulation.AdvanceTo(At(1.5));
             return (simulation, reports[^1], reports.Sum(r => r.Events));
         }

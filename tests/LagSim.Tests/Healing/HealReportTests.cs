@@ -19,6 +19,9 @@ public sealed class HealReportTests
         (Simulation simulation, List<HealReport> reports) = Row(mode, 10);
         simulation.AdvanceTo(At(1));
         simulation.Submit(ExternalEvent.SetVelocity(At(0.5), 1, 1, BodyId.OfScene(3), V(0, 5)));
+        Assert.Empty(reports); // it is only marked
+        Assert.Equal(At(0.5) - SimDuration.OneTick, simulation.SimulatedTo);
+        simulation.AdvanceTo(At(1));
 
         HealReport report = Assert.Single(reports);
         Assert.Equal((At(0.5), At(1), 1), (report.From, report.To, report.News));
@@ -32,7 +35,6 @@ public sealed class HealReportTests
     {
         (Simulation simulation, List<HealReport> reports) = Row(HealingMode.CausalCone, 4);
         simulation.AdvanceTo(At(1));
-        simulation.DefersAgain = true;
         foreach (int body in Enumerable.Range(0, 3))
         {
             simulation.Submit(ExternalEvent.SetVelocity(At(0.5 - (0.1 * body)), 1, (uint)body + 1, BodyId.OfScene(body), V(0, 5)));

@@ -24,6 +24,7 @@ public sealed class MeetTests
         long cut = simulation.SegmentsCut;
         ExternalEvent late = ExternalEvent.Release(At(0.5), 1, 1, Ball3); // of what nobody holds
         simulation.Submit(late);
+        simulation.AdvanceTo(At(4));
 
         HealReport report = Assert.Single(reports);
         Assert.Equal(At(0.5), report.Met);
@@ -39,6 +40,7 @@ public sealed class MeetTests
         simulation.AdvanceTo(At(4));
         ExternalEvent late = ExternalEvent.SetVelocity(At(0.5), 1, 1, Ball3, V(0.5, 5)); // meets nobody in half a second
         simulation.Submit(late);
+        simulation.AdvanceTo(At(4));
 
         HealReport report = Assert.Single(reports);
         Assert.Equal(At(1), report.Met);
@@ -52,6 +54,7 @@ public sealed class MeetTests
         (Simulation simulation, List<HealReport> reports) = Row();
         simulation.AdvanceTo(At(4));
         simulation.Submit(ExternalEvent.SetVelocity(At(0.5), 1, 1, Ball3, V(0, 5)));
+        simulation.AdvanceTo(At(4));
         Assert.Null(Assert.Single(reports).Met);
     }
 
@@ -62,6 +65,7 @@ public sealed class MeetTests
         (Simulation simulation, List<HealReport> reports) = Row(Back);
         simulation.AdvanceTo(At(4));
         simulation.Submit(ExternalEvent.SetVelocity(At(0.5), 1, 1, Ball3, V(5, 0)));
+        simulation.AdvanceTo(At(4));
         Assert.Null(Assert.Single(reports).Met);
         Assert.True(reports[0].Bodies > 1);
     }
@@ -76,6 +80,7 @@ public sealed class MeetTests
         simulation.Submit(Back);
         simulation.AdvanceTo(At(4));
         simulation.Submit(ExternalEvent.SetVelocity(At(0.5), 1, 1, Ball3, V(5, -0.5 * 9.81)));
+        simulation.AdvanceTo(At(4));
         Assert.Null(Assert.Single(reports).Met);
         Assert.Equal(7, reports[0].Bodies); // it and all in the row beyond, each of which had one flight
         Simulation onTime = new(simulation.Scene, new SimulationOptions(default, SimDuration.MaxValue));
@@ -89,10 +94,9 @@ public sealed class MeetTests
     {
         (Simulation simulation, List<HealReport> reports) = Row(0, Back);
         simulation.AdvanceTo(At(4));
-        simulation.DefersAgain = true;
         simulation.Submit(ExternalEvent.SetVelocity(At(0.5), 1, 1, Ball3, V(0.5, 5)));
         Assert.Empty(reports);
-        Assert.Equal(At(0.5), simulation.SimulatedTo);
+        Assert.True(simulation.SimulatedTo < At(0.5));
         long events = 1;
         while (!simulation.TryAdvanceTo(At(4), ref events))
         {
@@ -112,7 +116,6 @@ public sealed class MeetTests
     {
         (Simulation simulation, List<HealReport> reports) = Row();
         simulation.AdvanceTo(At(4));
-        simulation.DefersAgain = true;
         simulation.Submit(ExternalEvent.Release(At(0.5), 1, 1, Ball3, V(0)));
         simulation.Submit(ExternalEvent.Release(At(0.6), 1, 2, Ball3, V(0)));
         simulation.AdvanceTo(At(4));

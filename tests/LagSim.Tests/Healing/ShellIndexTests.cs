@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
-using LagSim.Contacts;
+using LagSim.BroadPhase;
+using LagSim.Collisions;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;

@@ -295,7 +295,9 @@ public sealed class LiveWorldTests
                 }
                 else
                 {
+                    SimTime to = world.Simulation.SimulatedTo;
                     world.Simulation.Submit(external);
+                    world.Simulation.AdvanceTo(to);
                 }
             }
 

@@ -107,11 +107,13 @@ public sealed class PictureExchangeTests
         Assert.False(exchange.Latest().TryRead(late, At(1), out _));
 
         simulation.Submit(ExternalEvent.Spawn(At(0.95), 1, 2, Ball(0.1), V(0, 0, 50)));
+        simulation.AdvanceTo(At(1));
         exchange.Publish(simulation, At(0.9));
         Assert.False(exchange.Latest().TryRead(late, At(0.94), out _));
         Assert.True(exchange.Latest().TryRead(late, At(1), out _));
 
         simulation.Submit(ExternalEvent.Remove(At(0.98), 1, 3, late));
+        simulation.AdvanceTo(At(1));
         exchange.Publish(simulation, At(0.9));
         Assert.True(exchange.Latest().TryRead(late, At(0.97), out _));
         Assert.False(exchange.Latest().TryRead(late, At(1), out _));

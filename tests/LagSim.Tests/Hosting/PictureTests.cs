@@ -27,6 +27,7 @@ public sealed class PictureTests
         Simulation simulation = Run(Drop(50, 0.8), 0.5);
         simulation.Submit(PlayerAction.Impulse(First, V(3)).Stamp(At(0.25), 1, 1));
         simulation.Submit(PlayerAction.Impulse(First, V(0, 0, 4)).Stamp(At(0.3), 1, 2));
+        simulation.AdvanceTo(At(0.5));
         Picture picture = Shown(simulation);
         Assert.Equal(0, Change(picture, 0.25, 0.29));
         Assert.Equal(3, Change(picture, 0.24, 0.25), 1e-12);
@@ -41,6 +42,7 @@ public sealed class PictureTests
         simulation.Submit(PlayerAction.Teleport(First, V(0, 60)).Stamp(At(0.2), 1, 1));
         simulation.Submit(PlayerAction.Spawn(Ball(), V(9, 60)).Stamp(At(0.2), 1, 2));
         simulation.Submit(PlayerAction.Remove(late).Stamp(At(0.4), 1, 3));
+        simulation.AdvanceTo(At(0.5));
         Picture picture = Shown(simulation);
         Assert.Equal(double.PositiveInfinity, Change(picture, 0.19, 0.21));
         foreach ((double after, double upTo, double change) in new[] { (0.1, 0.2, double.PositiveInfinity), (0.2, 0.39, 0), (0.39, 0.4, double.PositiveInfinity), (0.4, 0.5, 0) })
@@ -58,6 +60,7 @@ public sealed class PictureTests
     {
         Simulation simulation = Run(Drop(50, 0.8), 0.5);
         simulation.Submit(PlayerAction.Spawn(Ball(0.75), V(9, 60)).Stamp(At(0.2), 1, 2));
+        simulation.AdvanceTo(At(0.5));
         Picture picture = Shown(simulation);
         Assert.Equal((0.5, 0.75, 0), (picture.RadiusOf(First), picture.RadiusOf(new BodyId(1, 2, 0)), picture.RadiusOf(Second)));
     }

@@ -1,7 +1,8 @@
 using System;
 using FsCheck;
 using FsCheck.Fluent;
-using LagSim.Contacts;
+using LagSim.Collisions;
+using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;

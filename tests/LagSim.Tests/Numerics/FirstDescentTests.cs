@@ -2,7 +2,7 @@ using System;
 using System.Linq;
 using FsCheck;
 using FsCheck.Fluent;
-using LagSim.Contacts;
+using LagSim.Collisions;
 using Xunit;
 
 namespace LagSim.Tests.Numerics;

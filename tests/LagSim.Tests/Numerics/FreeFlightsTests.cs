@@ -1,5 +1,6 @@
 using System;
-using LagSim.Contacts;
+using LagSim.Collisions;
+using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;

@@ -154,14 +154,15 @@ public sealed class MassRatioTests
         Assert.False(waits.TryAdvanceTo(At(3), ref events));
         long before = waits.EventsProcessed;
         Assert.False(waits.TryAdvanceTo(At(3), ref events));
-        Assert.Equal((before, waits.Blocked!.At - SimDuration.OneTick), (waits.EventsProcessed, waits.SimulatedTo)); // it does nothing meanwhile
+        Assert.Equal((before, waits.Engine.Loop.Blocked!.At - SimDuration.OneTick), (waits.EventsProcessed, waits.SimulatedTo)); // it does nothing meanwhile
         Assert.InRange(waits.SimulatedTo.ToSeconds(), 0.49, 0.51);
         Assert.Equal(SubmitResult.Queued, waits.Submit(ExternalEvent.SetVelocity(At(2), 1, 2, Second, V(0)))); // of no help
-        Assert.NotNull(waits.Blocked);
+        Assert.NotNull(waits.Engine.Loop.Blocked);
         waits.Submit(gone);
         inTime.Submit(ExternalEvent.SetVelocity(At(2), 1, 2, Second, V(0)));
+        inTime.AdvanceTo(At(3));
         Assert.True(waits.TryAdvanceTo(At(3), ref events));
-        Assert.Null(waits.Blocked);
+        Assert.Null(waits.Engine.Loop.Blocked);
         Assert.Equal(inTime.StateHash(At(3)), waits.StateHash(At(3)));
         Assert.Equal(inTime.EventHash(At(3)), waits.EventHash(At(3)));
     }

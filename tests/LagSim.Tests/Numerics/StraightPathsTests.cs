@@ -1,5 +1,5 @@
 using System;
-using LagSim.Contacts;
+using LagSim.Collisions;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;

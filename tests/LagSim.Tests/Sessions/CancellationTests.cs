@@ -23,7 +23,7 @@ public sealed class CancellationTests
         using CancellationTokenSource stop = new();
         SessionGroup group = new(Rattle, 1, LinkProfiles.PureDelay(0), options: _ => new SessionOptions { Cancellation = stop.Token, MaxGivenSpeed = double.PositiveInfinity });
         StopAt limit = new(100_000, stop);
-        group.Host.Begun += () => group.Host.World!.Simulation.Observer = limit;
+        group.Host.Begun += () => group.Host.World!.Simulation.Engine.Reconvergence.Observer = limit;
         Assert.Throws<OperationCanceledException>(() => group.Run(10));
         Assert.Equal(100_000, limit.Contacts);
         Assert.True(group.Host.World!.Simulation.SimulatedTo < group.Host.World.Simulation.Start + LagSim.Time.SimDuration.FromMilliseconds(1));

@@ -166,9 +166,9 @@ public sealed class JoiningTests
     public void Threads_OfASessionOrAHost_AreThoseOfItsWorld()
     {
         SessionGroup group = new SessionGroup(Deeds.Box(), 3, LinkProfiles.PureDelay(5), options: peer => new SessionOptions { Threads = peer == 0 ? null : 10 + peer }).Connect();
-        Assert.Equal([new SimulationOptions().Threads, 11, 12], group.Sessions.Select(s => s.World!.Simulation.Threads));
+        Assert.Equal([new SimulationOptions().Threads, 11, 12], group.Sessions.Select(s => s.World!.Simulation.Engine.Threads));
         using SimulationHost host = new(Deeds.Box(), new VirtualClock(), threads: 13);
-        Assert.Equal(13, host.World.Simulation.Threads);
+        Assert.Equal(13, host.World.Simulation.Engine.Threads);
 
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
         ArgumentOutOfRangeException refused = Assert.Throws<ArgumentOutOfRangeException>(

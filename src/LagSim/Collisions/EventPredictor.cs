@@ -1,0 +1,121 @@
+using System;
+using LagSim.BroadPhase;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Collisions;
+
+/// <summary>Finds each body's next event, and has it scheduled: the least of an external event, the end of a segment, and a contact.</summary>
+/// <remarks>A body has one event pending at most; its next contact is never earlier than that.</remarks>
+internal sealed class EventPredictor(
+    BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
+    AdaptiveBroadPhase broadPhase, CollisionSearch search, PathView view, TestFaults faults)
+{
+    private const int NoPartner = PendingContact.NoPartner;
+
+    private readonly Paths paths = new(timelines);
+
+    /// <summary>Finds the body's next event and schedules it in place of any other.</summary>
+    /// <param name="slot">The body.</param>
+    /// <param name="except">Another that is not met, whatever the paths say: only a fault put in on purpose names one.</param>
+    internal void Predict(int slot, int except = NoPartner)
+    {
+        NextEvent next = new() { Partner = NoPartner };
+        int external = log.Due(slot);
+        if (external != EventLog.None)
+        {
+            next.Consider(log.Key(external));
+        }
+
+        int last = timelines.Last(slot);
+        if (last != TimelineStore.None && timelines.Segment(last).IsPresent)
+        {
+            ConsiderPath(slot, last, except, ref next);
+        }
+
+        if (next.Any)
+        {
+            Schedule(slot, last, next);
+        }
+        else
+        {
+            scheduler.Remove(slot);
+        }
+    }
+
+    /// <summary>
+    /// Looks again what a body meets next, because the window for which the broad phase was asked has ended, or because the impact that
+    /// is due was found with a segment on which its partner no longer is.
+    /// </summary>
+    internal void Recheck(int slot) =>
+        Predict(slot, faults.Has(HealingFault.GivesUpByBody) ? scheduler.Contact(slot).Partner : NoPartner);
+
+    /// <summary>Whether the segment of the partner's path that the pending impact was found with is no longer what the partner is on then.</summary>
+    internal bool IsStale(int slot, in EventKey key)
+    {
+        int partner = scheduler.Contact(slot).Partner;
+        if (partner == NoPartner)
+        {
+            return false;
+        }
+
+        int piece = faults.Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : view.PieceAt(partner, key);
+        return piece == TimelineStore.None || timelines.Serial(piece) != scheduler.Contact(slot).PartnerSerial; // or forgotten meanwhile
+    }
+
+    private void ConsiderPath(int slot, int last, int except, ref NextEvent next)
+    {
+        BodyId id = bodies.Id(slot);
+        SimTime end = timelines.Segment(last).End;
+        if (end != SimTime.MaxValue)
+        {
+            next.Consider(new EventKey(end, paths.RoundAfter(last, end), EventKind.StepEnd, id, id, 0, 0));
+        }
+
+        SimTime from = SimTime.Max(timelines.Key(last).Time, rollback.Cursor.Time);
+        Span<int> candidates = broadPhase.Current.Candidates(slot, bodies.Spec(slot).Radius, from, rollback.AtHand, out SimTime until);
+        if (until < end)
+        {
+            next.Consider(new EventKey(until, 0, EventKind.None, id, id, 0, 0));
+        }
+
+        if (flights.IsFree(slot) && !rollback.MayBeKnownBeyond(rollback.Cursor) && !faults.TakesNoShortcut && !faults.SwapsOperands)
+        {
+            search.FindInFlight(slot, candidates, from, until, except, ref next);
+        }
+        else
+        {
+            search.FindAlong(slot, candidates, from, until, except, ref next);
+        }
+    }
+
+    private void Schedule(int slot, int last, in NextEvent next)
+    {
+        Set(slot, next, next.Partner, next.Piece, next.IsTied);
+        int partner = next.Partner;
+        if (partner == NoPartner || next.Piece != timelines.Last(partner))
+        {
+            return;
+        }
+
+        bool isPending = scheduler.TryGet(partner, out EventKey theirs);
+        if (!isPending || EventKey.Compare(next.Key, theirs) < 0)
+        {
+            Set(partner, next, slot, last, next.IsTied || (isPending && theirs.Time == next.Key.Time));
+        }
+    }
+
+    private void Set(int slot, in NextEvent next, int partner, int piece, bool isTied)
+    {
+        scheduler.Set(slot, next.Key, new PendingContact
+        {
+            Partner = partner,
+            Surface = next.Surface,
+            PartnerSerial = partner == NoPartner ? 0 : timelines.Serial(faults.Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : piece),
+            Residual = next.Residual,
+            IsTied = isTied,
+        });
+    }
+}

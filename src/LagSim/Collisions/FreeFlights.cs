@@ -1,0 +1,397 @@
+using System;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Collisions;
+
+/// <summary>
+/// Of each body whose newest piece of path is free flight under the scene's gravity what is needed of it, side by side: two of them move along a straight
+/// line as seen from each other, so that most pairs are seen at once to stay apart. So do two that rest or slide straight on.
+/// </summary>
+/// <remarks>
+/// It answers no in doubt, and then the pair is looked at as ever; so it changes no bit of what happens. It is there for speed alone: a look at a pair's
+/// segments is several loads from far apart, and nearly all pairs that an index names do not meet.
+/// </remarks>
+internal sealed class FreeFlights : INewestSegments
+{
+    /// <summary>What rounding may have moved, in parts of what was added up; four thousand times of what it does.</summary>
+    private const double Slack = 1e-12;
+
+    /// <summary>Two that touch surely part only if the cosine between their distance and their opening is above this.</summary>
+    private const double Parting = 1e-9;
+
+    /// <summary>What rounding does to the square of a distance, and to that of a miss, in parts of the distance's; thirty times of it.</summary>
+    private const double FarSlack = 1e-14;
+
+    private readonly Vector3D gravity;
+    private readonly PeriodicBox box;
+    private readonly double near;
+    private readonly double sunk;
+    private readonly Vector3D halfBox; // its sides by two; endless if there is none
+    private readonly bool hasBox;
+    private readonly bool falls;
+    private Flight[] flights;
+    private double[] radii;
+    private Approach[] approaches = Array.Empty<Approach>();
+    private SimTime[] straightFrom = Array.Empty<SimTime>(); // only once something rests or slides: since when on a line, or never
+
+    /// <summary>Nobody yet.</summary>
+    /// <param name="gravity">The acceleration of free flight, in m/s².</param>
+    /// <param name="near">How far apart two may be, in metres, that are not to be called apart.</param>
+    /// <param name="box">The box whose sides meet; empty if there is none.</param>
+    /// <param name="expected">For how many bodies there is room at first.</param>
+    /// <param name="sunk">How deep two may be in each other, in metres, without a closer look, though they do not close.</param>
+    internal FreeFlights(in Vector3D gravity, double near, in PeriodicBox box, int expected = 0, double sunk = double.PositiveInfinity)
+    {
+        flights = new Flight[expected];
+        radii = new double[expected];
+        this.gravity = gravity;
+        this.near = near;
+        this.sunk = sunk;
+        this.box = box;
+        hasBox = box.Exists;
+        halfBox = hasBox ? box.Size * 0.5 : new Vector3D(double.PositiveInfinity, double.PositiveInfinity, double.PositiveInfinity);
+        falls = gravity != Vector3D.Zero;
+    }
+
+    /// <summary>Makes room for a body.</summary>
+    internal void AddSlot(int slot, double radius)
+    {
+        if (slot >= flights.Length)
+        {
+            int size = Math.Max(slot + 1, flights.Length * 2);
+            Array.Resize(ref flights, size);
+            Array.Resize(ref radii, size);
+        }
+
+        flights[slot] = new Flight { Margin = radius, From = SimTime.MaxValue };
+        radii[slot] = radius;
+    }
+
+    /// <summary>The body's radius, in metres.</summary>
+    internal void SetRadius(int slot, double radius)
+    {
+        radii[slot] = radius;
+        flights[slot].Margin = MarginOf(slot);
+    }
+
+    /// <summary>The body's newest piece of path, and when it was opened.</summary>
+    public void Set(int slot, in MotionSegment path, SimTime opened)
+    {
+        ref Flight flight = ref flights[slot];
+        bool isFree = path.Law == MotionLaw.Ballistic && path.Epoch == opened && path.Acceleration == gravity;
+        flight.From = isFree ? opened : SimTime.MaxValue;
+        flight.Position = path.Position;
+        flight.Velocity = path.Velocity;
+        flight.Margin = MarginOf(slot);
+        bool isStraight = !isFree && path.Law is (MotionLaw.Sliding or MotionLaw.Resting or MotionLaw.Constrained) && path.Epoch == opened && path.Acceleration == Vector3D.Zero;
+        if (isStraight || slot < straightFrom.Length)
+        {
+            SetStraight(slot, isStraight ? opened : SimTime.MaxValue);
+        }
+    }
+
+    /// <summary>The body has no path.</summary>
+    public void Clear(int slot)
+    {
+        flights[slot].From = SimTime.MaxValue;
+        if (slot < straightFrom.Length)
+        {
+            straightFrom[slot] = SimTime.MaxValue;
+        }
+    }
+
+    /// <summary>
+    /// Whether two bodies surely come nowhere near each other from a time on, on the pieces of path that are their newest, those opened by then; false if it
+    /// cannot be told so easily. A tick more on both sides is looked at. It is told of free flights and of those who rest or slide straight on; of one of each
+    /// where they begin at rest to each other, or come no nearer within the span however the one falls.
+    /// </summary>
+    internal bool AreApart(int slot, int other, SimTime from, SimTime until)
+    {
+        bool isFree = IsFree(slot);
+        bool isOtherFree = IsFree(other);
+        SimTime fromA = isFree ? flights[slot].From : StraightFrom(slot);
+        SimTime fromB = isOtherFree ? flights[other].From : StraightFrom(other);
+        if (fromA > from || fromB > from)
+        {
+            return false;
+        }
+
+        // Scalars: among few this is most of what an impact costs.
+        ref readonly Flight a = ref flights[slot];
+        ref readonly Flight b = ref flights[other];
+        double reach = a.Margin + b.Margin + near;
+        double since = fromA == from ? 0 : from.SecondsSince(fromA);
+        StateAt(a, since, isFree && falls, ref reach, out double x, out double y, out double z, out double u, out double v, out double w);
+        reach += Slack * (Math.Abs(x) + Math.Abs(y) + Math.Abs(z));
+        since = fromB == from ? 0 : from.SecondsSince(fromB);
+        StateAt(b, since, isOtherFree && falls, ref reach, out double p, out double q, out double r, out double k, out double m, out double n);
+        x -= p;
+        y -= q;
+        z -= r;
+        u -= k;
+        v -= m;
+        w -= n;
+        if (hasBox)
+        {
+            x = PeriodicBox.Nearest(x, box.Size.X);
+            y = PeriodicBox.Nearest(y, box.Size.Y);
+            z = PeriodicBox.Nearest(z, box.Size.Z);
+        }
+
+        double span = until == from ? TickConversion.SecondsPerTick : until.SecondsSince(from) + TickConversion.SecondsPerTick;
+        if (isFree != isOtherFree && falls)
+        {
+            if (u == 0 && v == 0 && w == 0 && fromA == from && fromB == from)
+            {
+                // From rest to each other it is a line in the square of time.
+                double pull = isFree ? 0.5 : -0.5;
+                (u, v, w) = (gravity.X * pull, gravity.Y * pull, gravity.Z * pull);
+                span *= span;
+            }
+            else
+            {
+                reach += Size(gravity) * span * span;
+            }
+        }
+
+        double along = (x * u) + (y * v) + (z * w);
+        double nearest = -TickConversion.SecondsPerTick;
+        if (along < 0)
+        {
+            double square = Square(u, v, w);
+            nearest = square * span < -along ? span : -along / square;
+        }
+
+        return Square(x + (u * nearest), y + (v * nearest), z + (w * nearest)) > reach * reach * (1 + 1e-6); // not so of what is not a number
+    }
+
+    /// <summary>Since when the body rests or slides straight on; never if it does not.</summary>
+    private SimTime StraightFrom(int slot) => slot < straightFrom.Length ? straightFrom[slot] : SimTime.MaxValue;
+
+    /// <summary>Where a body is so many seconds after its path was opened, and how fast; what rounding may do to it there widens the reach.</summary>
+    private void StateAt(
+        in Flight flight, double since, bool isFalling, ref double reach, out double x, out double y, out double z, out double u, out double v, out double w)
+    {
+        (u, v, w) = (flight.Velocity.X, flight.Velocity.Y, flight.Velocity.Z);
+        (x, y, z) = (flight.Position.X, flight.Position.Y, flight.Position.Z);
+        if (since == 0)
+        {
+            return;
+        }
+
+        double half = isFalling ? 0.5 * since : 0;
+        x += (u + (gravity.X * half)) * since;
+        y += (v + (gravity.Y * half)) * since;
+        z += (w + (gravity.Z * half)) * since;
+        if (isFalling)
+        {
+            u += gravity.X * since;
+            v += gravity.Y * since;
+            w += gravity.Z * since;
+            reach += FallSlack(since);
+        }
+    }
+
+    private void SetStraight(int slot, SimTime from)
+    {
+        if (slot >= straightFrom.Length)
+        {
+            int known = straightFrom.Length;
+            Array.Resize(ref straightFrom, flights.Length);
+            Array.Fill(straightFrom, SimTime.MaxValue, known, straightFrom.Length - known);
+        }
+
+        straightFrom[slot] = from;
+    }
+
+    /// <summary>Whether the body's newest piece of path is free flight.</summary>
+    internal bool IsFree(int slot) => flights[slot].From != SimTime.MaxValue;
+
+    /// <summary>
+    /// Which of the others a body in free flight may touch in a span that begins at its opening or later, and from when on: in seconds from the beginning,
+    /// never too many. Nobody is left out who is touched; who is not in free flight may be touched at once.
+    /// </summary>
+    internal Span<Approach> Approaches(int slot, Span<int> others, SimTime from, SimTime until)
+    {
+        if (others.Length > approaches.Length)
+        {
+            approaches = new Approach[Math.Max(others.Length, approaches.Length * 2)];
+        }
+
+        int count = 0;
+        ref readonly Flight a = ref flights[slot];
+        double since = from.SecondsSince(a.From);
+        Vector3D place = a.Position + ((a.Velocity + (gravity * (0.5 * since))) * since);
+        Vector3D velocity = a.Velocity + (gravity * since);
+        double radius = a.Margin + near + FallSlack(since) + (Slack * Size(place));
+        double span = until.SecondsSince(from) + TickConversion.SecondsPerTick;
+        double speed = Size(velocity);
+        bool isOpened = a.From == from;
+        Vector3D half = halfBox;
+        Span<Flight> all = flights;
+        Span<Approach> into = approaches;
+        for (int i = 0; i < others.Length; i++)
+        {
+            int other = others[i];
+            ref Flight b = ref all[other];
+            long ticks = unchecked(from.Ticks - b.From.Ticks);
+            if (b.From > from || ticks < 0)
+            {
+                into[count++] = new Approach(other, 0); // not in free flight yet, or for longer than a span can be
+                continue;
+            }
+
+            // Scalars, and as few steps as can be: what this loop does is most of what a prediction costs.
+            double time = ticks * TickConversion.SecondsPerTick;
+            double u = b.Velocity.X, v = b.Velocity.Y, w = b.Velocity.Z;
+            double x = u * time, y = v * time, z = w * time;
+            double reach = radius + b.Margin;
+            if (falls)
+            {
+                double mean = 0.5 * time;
+                x = (u + (gravity.X * mean)) * time;
+                y = (v + (gravity.Y * mean)) * time;
+                z = (w + (gravity.Z * mean)) * time;
+                u += gravity.X * time;
+                v += gravity.Y * time;
+                w += gravity.Z * time;
+                reach += FallSlack(time);
+            }
+
+            x = b.Position.X + x - place.X;
+            y = b.Position.Y + y - place.Y;
+            z = b.Position.Z + z - place.Z;
+            x = Math.Abs(x) > half.X ? PeriodicBox.Nearest(x, box.Size.X) : x;
+            y = Math.Abs(y) > half.Y ? PeriodicBox.Nearest(y, box.Size.Y) : y;
+            z = Math.Abs(z) > half.Z ? PeriodicBox.Nearest(z, box.Size.Z) : z;
+            u -= velocity.X;
+            v -= velocity.Y;
+            w -= velocity.Z;
+            double along = (x * u) + (y * v) + (z * w);
+            double distance = Square(x, y, z);
+            double square = Square(u, v, w);
+            double limit = reach * reach * (1 + 2e-6);
+            double beyond = (distance * (1 - FarSlack)) - limit;
+            if (beyond > 0)
+            {
+                bool parts = along >= 0;
+                bool misses = beyond * square > along * along;
+                if (parts | misses)
+                {
+                    continue; // asked at once: which of the two it is nobody can foretell, that it is one of them nearly always can be
+                }
+
+                double nearest = -along / square;
+                double miss = Square(x + (u * nearest), y + (v * nearest), z + (w * nearest));
+                double seconds = nearest - Math.Sqrt(Math.Max(0, (limit + (FarSlack * distance)) - miss) / square);
+                into[count] = new Approach(other, seconds);
+                count += seconds > span ? 0 : 1; // no branch: nobody can foretell it, and it would wait for the root
+            }
+            else if (other != slot)
+            {
+                // What the finder makes of the two at the later opening, of the very signs: they part, and by far more than rounding can turn around.
+                double opening = Math.Abs(u) + Math.Abs(v) + Math.Abs(w);
+                double doubt = (opening * ((Parting * reach) + (reach - (radii[slot] + radii[other] + near)))) + (Slack * reach * ((2 * speed) + opening));
+                if (!((isOpened || b.From == from) && along > doubt))
+                {
+                    into[count++] = new Approach(other, 0);
+                }
+            }
+        }
+
+        return into.Slice(0, count);
+    }
+
+    /// <summary>Where a body in free flight is at a tick and so many seconds after it, and how fast: the bits that its segment tells.</summary>
+    internal void StateAt(int slot, SimTime time, double after, out Vector3D position, out Vector3D velocity)
+    {
+        ref readonly Flight flight = ref flights[slot];
+        double seconds = time.SecondsSince(flight.From) + after;
+        position = PositionAt(flight, seconds);
+        velocity = flight.Velocity + (gravity * seconds);
+    }
+
+    /// <summary>
+    /// Whether two bodies in free flight touch, however late, and when: the bits that <see cref="ContactFinder"/> tells of their segments, the body of lesser
+    /// identity first. False if they touch so soon after both hold that more has to be looked at.
+    /// </summary>
+    internal bool TryTouch(int first, int second, out bool touches, out ContactTime contact)
+    {
+        ref readonly Flight a = ref flights[first];
+        ref readonly Flight b = ref flights[second];
+        SimTime from = SimTime.Max(a.From, b.From);
+        Vector3D positionB = b.Position;
+        if (hasBox)
+        {
+            Vector3D at = PositionAt(b, from.SecondsSince(b.From));
+            Vector3D apart = at - PositionAt(a, from.SecondsSince(a.From));
+            positionB += box.Nearest(apart) - apart;
+        }
+
+        touches = ContactFinder.OfParabolas(
+            a.Position, a.Velocity, from.SecondsSince(a.From), positionB, b.Velocity, from.SecondsSince(b.From), gravity, radii[first] + radii[second],
+            from, SimTime.MaxValue, out contact);
+        return !touches || !contact.IsSoonAfter(from);
+    }
+
+    /// <summary>Whether two bodies in free flight are so deep in each other, once both are open, that it has to be looked whether they part.</summary>
+    internal bool AreSunk(int first, int second)
+    {
+        ref readonly Flight a = ref flights[first];
+        ref readonly Flight b = ref flights[second];
+        SimTime from = SimTime.Max(a.From, b.From);
+        double nearest = Math.Max(0, radii[first] + radii[second] - sunk);
+        return (PositionAt(a, from.SecondsSince(a.From)) - PositionAt(b, from.SecondsSince(b.From))).LengthSquared < nearest * nearest;
+    }
+
+    /// <summary>Whether so many seconds after a time is surely after another.</summary>
+    internal static bool IsLater(double seconds, SimTime from, SimTime time) =>
+        seconds > (time.SecondsSince(from) * (1 + Slack)) + TickConversion.SecondsPerTick;
+
+    /// <summary>Whether a body in free flight surely does not touch a plane in a span that begins at its opening or later.</summary>
+    internal bool Misses(int slot, in StaticPlane plane, SimTime from, SimTime until)
+    {
+        ref readonly Flight a = ref flights[slot];
+        double since = from.SecondsSince(a.From);
+        Vector3D way = (a.Velocity + (gravity * (0.5 * since))) * since;
+        double gap = plane.Gap(a.Position + way, radii[slot]);
+        double span = until.SecondsSince(from) + TickConversion.SecondsPerTick;
+        double fall = Size(gravity);
+        double slack = near + (Slack * (Size(a.Position) + Size(way) + (fall * since * since) + Math.Abs(plane.Offset) + radii[slot]));
+        double speed = Size(a.Velocity) + (fall * (since + span));
+        if (gap > slack + (speed * span * (1 + Slack)))
+        {
+            return true; // it does not come that far, in whatever direction it flies
+        }
+
+        double opening = Vector3D.Dot(plane.Normal, a.Velocity + (gravity * since));
+        double curve = Vector3D.Dot(plane.Normal, gravity);
+        double atEnd = gap + ((opening + (0.5 * curve * span)) * span) - (Slack * speed * span);
+        double least = curve > 0 && opening < 0 && -opening < curve * span ? gap - (opening * opening / (2 * curve)) : Math.Min(gap, atEnd);
+        return least > slack + (TickConversion.SecondsPerTick * Math.Abs(opening)); // not so of what is not a number
+    }
+
+    /// <summary>The radius, and how far rounding and a tick may move a body in flight that it is told of at another time, but for what it falls.</summary>
+    private double MarginOf(int slot) =>
+        radii[slot] + (2 * Slack * Size(flights[slot].Position)) + (2 * TickConversion.SecondsPerTick * Size(flights[slot].Velocity));
+
+    private double FallSlack(double time) => 2 * Size(gravity) * time * ((Slack * time) + TickConversion.SecondsPerTick);
+
+    private Vector3D PositionAt(in Flight flight, double seconds) => flight.Position + ((flight.Velocity + (gravity * (0.5 * seconds))) * seconds);
+
+    private static double Size(in Vector3D v) => Math.Abs(v.X) + Math.Abs(v.Y) + Math.Abs(v.Z);
+
+    private static double Square(double x, double y, double z) => (x * x) + (y * y) + (z * z);
+
+    private struct Flight
+    {
+        internal Vector3D Position;
+        internal Vector3D Velocity;
+        internal SimTime From;
+        internal double Margin;
+    }
+}

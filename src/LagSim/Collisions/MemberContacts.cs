@@ -1,0 +1,163 @@
+using System;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Collisions;
+
+/// <summary>Which contacts of members are their steps' affair, so that no impact is looked for.</summary>
+internal sealed class MemberContacts(TimelineStore timelines, PathView view, BodyTable bodies, StaticSurfaces surfaces, ContactScale scale)
+{
+    private readonly Paths paths = new(timelines);
+
+    /// <summary>
+    /// Whether a contact that a member's piece carries is the step's affair and no impact's: a surface that the step took into account, or
+    /// an impact by a hand, which may press no further, or that the member does not close on. What a step's solver leaves is an error of
+    /// the step, which the next goes on from.
+    /// </summary>
+    internal bool IsCovered(int slot, int piece, int surface)
+    {
+        int at = timelines.ContactWith(piece, surface);
+        if (at == TimelineStore.None)
+        {
+            return false;
+        }
+
+        ref readonly MotionSegment path = ref timelines.Segment(piece);
+        return timelines.Key(piece).Kind == EventKind.StepEnd || (IsSolved(slot, piece, at) && IsOpenedWithHand(piece))
+            || (timelines.Contact(at).Holds && Vector3D.Dot(surfaces.Normal(surface, path.Position), path.Velocity) >= -scale.ImpactSpeed);
+    }
+
+    /// <summary>
+    /// Whether the impact that opened a piece solved a contact that it carries: one that holds, but for an elastic one, which impacts do
+    /// not go on over.
+    /// </summary>
+    private bool IsSolved(int slot, int piece, int contact) =>
+        timelines.Key(piece).Kind == EventKind.Impact && timelines.Contact(contact).Holds && !IsElastic(slot, timelines.Contact(contact));
+
+    /// <summary>
+    /// Whether the impact that opened a member's piece was one with a hand that the member touches. A world that began from a snapshot may
+    /// know the hand's path only from a later piece on; then that one tells.
+    /// </summary>
+    private bool IsOpenedWithHand(int piece)
+    {
+        bool isByHand = false;
+        for (int at = timelines.FirstContact(piece); at != TimelineStore.None && !isByHand; at = timelines.NextContact(at))
+        {
+            ref readonly LastingContact contact = ref timelines.Contact(at);
+            int partner = contact.Surface == LastingContact.NoSurface ? bodies.SlotOf(contact.Partner) : -1;
+            isByHand = partner >= 0 && IsOpenedWith(partner, timelines.Key(piece));
+        }
+
+        return isByHand;
+    }
+
+    private bool IsOpenedWith(int hand, in EventKey key)
+    {
+        int before = view.PieceBefore(hand, key);
+        int opened = before == TimelineStore.None ? timelines.First(hand) : timelines.Next(before);
+        return opened != TimelineStore.None && paths.IsHeld(opened) && (before == TimelineStore.None || timelines.Key(opened) == key);
+    }
+
+    /// <summary>Whether a member is surely further from a surface than it gets on its chord.</summary>
+    internal bool IsOutOfReach(int slot, in MotionSegment chord, int surface)
+    {
+        double gap = surfaces.Gap(surface, chord.Position, bodies.Spec(slot).Radius);
+        double way = chord.End.SecondsSince(chord.Epoch) * 1.001;
+        return gap > 0 && gap * gap > chord.Velocity.LengthSquared * way * way + (scale.Length * scale.Length * 1e-6);
+    }
+
+    /// <summary>The same of two bodies: pieces of one step or impact, or such that do not close where the later one begins.</summary>
+    internal bool IsCovered(int slot, int piece, int other, int otherPiece)
+    {
+        if (paths.IsHeld(otherPiece))
+        {
+            (slot, piece, other, otherPiece) = (other, otherPiece, slot, piece);
+        }
+
+        if (paths.IsHeld(piece) && paths.IsMember(otherPiece))
+        {
+            return IsCoveredFromHand(slot, piece, otherPiece);
+        }
+
+        if (!paths.IsMember(piece) || !paths.IsMember(otherPiece))
+        {
+            return false;
+        }
+
+        int at = timelines.ContactWith(piece, bodies.Id(other));
+        if (at == TimelineStore.None || timelines.ContactWith(otherPiece, bodies.Id(slot)) == TimelineStore.None)
+        {
+            return false;
+        }
+
+        if (timelines.Key(piece) == timelines.Key(otherPiece) && (timelines.Key(piece).Kind == EventKind.StepEnd || IsSolved(slot, piece, at)))
+        {
+            return true;
+        }
+
+        SimTime opened = SimTime.Max(timelines.Key(piece).Time, timelines.Key(otherPiece).Time);
+        Vector3D normal = (paths.PositionAt(piece, opened) - paths.PositionAt(otherPiece, opened)).Direction;
+        double opening = Vector3D.Dot(normal, timelines.Segment(piece).Velocity - timelines.Segment(otherPiece).Velocity);
+        return timelines.Contact(at).Holds && opening >= -scale.ImpactSpeed;
+    }
+
+    /// <summary>
+    /// The same of a hand, which may speed up, and a member: neither where the later piece begins nor where the step ends do they close.
+    /// </summary>
+    private bool IsCoveredFromHand(int hand, int handPiece, int piece)
+    {
+        int at = timelines.ContactWith(piece, bodies.Id(hand));
+        if (at == TimelineStore.None || !timelines.Contact(at).Holds)
+        {
+            return false;
+        }
+
+        if (timelines.Key(piece) == timelines.Key(handPiece))
+        {
+            return true;
+        }
+
+        SimTime opened = SimTime.Max(timelines.Key(piece).Time, timelines.Key(handPiece).Time);
+        SimTime end = SimTime.Min(timelines.Segment(piece).End, timelines.Segment(handPiece).End);
+        return end >= opened && OpeningAt(handPiece, piece, opened) >= -scale.ImpactSpeed && OpeningAt(handPiece, piece, end) >= -scale.ImpactSpeed;
+    }
+
+    internal bool Holds(int piece, int surface)
+    {
+        int at = timelines.ContactWith(piece, surface);
+        return at != TimelineStore.None && timelines.Contact(at).Holds;
+    }
+
+    /// <summary>Whether two bodies, of which one may be a hand's, carry a contact that holds them together.</summary>
+    internal bool HoldTogether(int slot, int piece, int other, int otherPiece)
+    {
+        bool isMember = paths.IsMember(piece);
+        if (!isMember && !paths.IsMember(otherPiece))
+        {
+            return false;
+        }
+
+        int at = isMember ? timelines.ContactWith(piece, bodies.Id(other)) : timelines.ContactWith(otherPiece, bodies.Id(slot));
+        return at != TimelineStore.None && timelines.Contact(at).Holds;
+    }
+
+    private double OpeningAt(int piece, int otherPiece, SimTime time)
+    {
+        Vector3D velocity = timelines.Segment(piece).VelocityAt(paths.SecondsInto(piece, time), timelines.Dense(piece))
+            - timelines.Segment(otherPiece).VelocityAt(paths.SecondsInto(otherPiece, time), timelines.Dense(otherPiece));
+        return Vector3D.Dot((paths.PositionAt(piece, time) - paths.PositionAt(otherPiece, time)).Direction, velocity);
+    }
+
+    /// <summary>Whether a contact that a body carries is elastic.</summary>
+    internal bool IsElastic(int slot, in LastingContact contact)
+    {
+        int partner = contact.Surface == LastingContact.NoSurface ? bodies.SlotOf(contact.Partner) : -1;
+        double other = contact.Surface != LastingContact.NoSurface ? surfaces.Restitution(contact.Surface)
+            : partner >= 0 ? bodies.Spec(partner).Restitution : 0;
+        return Math.Min(bodies.Spec(slot).Restitution, other) >= 1;
+    }
+}

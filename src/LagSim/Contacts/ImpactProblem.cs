@@ -1,0 +1,129 @@
+using System;
+using LagSim.Scenes;
+
+namespace LagSim.Contacts;
+
+/// <summary>
+/// An impact as a contact problem that grows: what is struck first, and then what the impulse reaches over contacts that last. It goes on
+/// from the impulses so far each time it has grown.
+/// </summary>
+internal sealed class ImpactProblem(ContactStep step, SolverWork work)
+{
+    private readonly NormalsAfterSweeps normals = new();
+    private bool[] isReached = Array.Empty<bool>(); // whether the impulse has gone on from a body to those that it holds
+    private Vector3D[] velocitiesBefore = Array.Empty<Vector3D>();
+    private Vector3D[] spinsBefore = Array.Empty<Vector3D>();
+
+    /// <summary>Its bodies and contacts, with the velocities after it as far as it is solved.</summary>
+    internal ContactProblem Problem { get; } = new();
+
+    /// <summary>Begins another.</summary>
+    internal void Clear() => Problem.Clear();
+
+    /// <summary>Adds a body with the velocity and the spin with which it comes.</summary>
+    internal void AddBody(double mass, double radius, in Vector3D velocity, in Vector3D spin)
+    {
+        int body = Problem.AddBody(mass, radius, velocity, spin);
+        if (body >= velocitiesBefore.Length)
+        {
+            int size = Math.Max(4, Problem.BodyCount * 2);
+            Array.Resize(ref velocitiesBefore, size);
+            Array.Resize(ref spinsBefore, size);
+            Array.Resize(ref isReached, size);
+        }
+
+        velocitiesBefore[body] = velocity;
+        spinsBefore[body] = spin;
+        isReached[body] = double.IsPositiveInfinity(mass);
+    }
+
+    /// <summary>How much the impact has changed a body's velocity so far.</summary>
+    internal Vector3D ChangeOf(int body) => Problem.Bodies[body].Velocity - velocitiesBefore[body];
+
+    /// <summary>Whether the impact has changed how a body moves or turns.</summary>
+    internal bool HasChanged(int body, in Vector3D velocity, in Vector3D spin) => velocity != velocitiesBefore[body] || spin != spinsBefore[body];
+
+    /// <summary>Whether the impulse has gone on from a body to those that it holds; it never does from one in a hand.</summary>
+    internal bool IsReached(int body) => isReached[body];
+
+    /// <summary>The impulse goes on from a body.</summary>
+    internal void Reach(int body) => isReached[body] = true;
+
+    /// <summary>Whether it has a contact.</summary>
+    internal bool Has(in ContactPoint c)
+    {
+        bool has = false;
+        for (int i = 0; i < Problem.ContactCount && !has; i++)
+        {
+            ref readonly SolverContact known = ref Problem.Contacts[i];
+            has = known.First == c.First && known.Second == c.Second && known.Surface == c.Surface;
+        }
+
+        return has;
+    }
+
+    /// <summary>Solves it from the impulses so far.</summary>
+    /// <param name="tolerance">In m/s: what sweeps leave.</param>
+    /// <param name="sweeps">How many at most.</param>
+    /// <param name="knownBodies">How many bodies were in it when it was solved last.</param>
+    /// <param name="knownContacts">How many contacts.</param>
+    internal void Solve(double tolerance, int sweeps, int knownBodies, int knownContacts)
+    {
+        int taken = ContactSolver.Solve(Problem, tolerance, sweeps, knownBodies, knownContacts);
+        if (sweeps == ContactStep.MostSweeps && !step.SweepsAlone && NormalsAfterSweeps.IsNeeded(Problem, taken, tolerance))
+        {
+            for (int i = 0; i < Problem.BodyCount; i++)
+            {
+                Problem.Bodies[i].Velocity = velocitiesBefore[i];
+                Problem.Bodies[i].Spin = spinsBefore[i];
+            }
+
+            taken += normals.Solve(Problem, tolerance);
+        }
+
+        work.Count(taken, Problem.ContactCount);
+    }
+
+    /// <summary>Limits what hands may give, by the velocities before: the more bodies there are, the more that is.</summary>
+    /// <param name="more">In m/s: what they may give beyond what stops the bodies.</param>
+    internal void LimitHands(double more)
+    {
+        if (!step.HandsHaveNoLimit)
+        {
+            SwapVelocities();
+            ContactSolver.LimitHands(Problem, more);
+            SwapVelocities();
+        }
+    }
+
+    /// <summary>Rebound and friction together may make energy where several contacts share bodies; then there is no rebound.</summary>
+    internal void DropReboundsThatGain(double tolerance)
+    {
+        double after = Problem.KineticEnergy();
+        SwapVelocities();
+        if (step.MayGainEnergy || Problem.HasHand() || !ContactProblem.IsGain(Problem.KineticEnergy(), after))
+        {
+            SwapVelocities();
+            return;
+        }
+
+        for (int i = 0; i < Problem.BodyCount; i++)
+        {
+            velocitiesBefore[i] = Problem.Bodies[i].Velocity;
+            spinsBefore[i] = Problem.Bodies[i].Spin;
+        }
+
+        Problem.DropRebounds();
+        Solve(tolerance, ContactStep.MostSweeps, 0, 0);
+    }
+
+    private void SwapVelocities()
+    {
+        for (int i = 0; i < Problem.BodyCount; i++)
+        {
+            ref SolverBody body = ref Problem.Bodies[i];
+            (body.Velocity, velocitiesBefore[i]) = (velocitiesBefore[i], body.Velocity);
+            (body.Spin, spinsBefore[i]) = (spinsBefore[i], body.Spin);
+        }
+    }
+}

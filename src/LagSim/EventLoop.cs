@@ -1,0 +1,207 @@
+using System;
+using System.Threading;
+using LagSim.BroadPhase;
+using LagSim.Events;
+using LagSim.Handlers;
+using LagSim.Rollback;
+using LagSim.Time;
+using LagSim.Timelines;
+using LagSim.Trajectories;
+
+namespace LagSim;
+
+/// <summary>The event loop: takes the least event that is due, has it processed, and moves on how far the world is simulated.</summary>
+/// <remarks>
+/// An instant happens as a whole. In a session's world an advance may stop within one that takes long, and one that has no end blocks the
+/// world until an event removes the cause.
+/// </remarks>
+internal sealed class EventLoop(
+    Progress progress, TimelineStore timelines, EventScheduler scheduler, RollbackState rollback, Rewinder rewinder,
+    EventDispatcher dispatcher, AdaptiveBroadPhase broadPhase, WorkMeter meter, ForceFailures failures, TestFaults faults,
+    CancellationToken cancellation)
+{
+    private Exception? fault;
+    private SimTime partDone = SimTime.MinValue; // the instant of which some has happened and the rest has not; the least time if there is none
+
+    /// <summary>
+    /// Whether an advance may stop within an instant, and whether one with more impacts than can be followed blocks the world until an
+    /// event comes that lies no later; otherwise an instant happens as a whole, and such a one ends the simulation.
+    /// </summary>
+    internal bool WaitsForLateEvents { get; set; }
+
+    /// <summary>The instant that blocks the world, and why; null if none does.</summary>
+    internal EndlessInstantException? Blocked { get; private set; }
+
+    /// <summary>The instant that blocks the world; the latest time there is if none does.</summary>
+    internal SimTime BlockedAt => Blocked?.At ?? SimTime.MaxValue;
+
+    /// <summary>Whether a part of an instant has happened, and the rest has not.</summary>
+    internal bool IsPartDone => partDone != SimTime.MinValue;
+
+    /// <summary>Throws if an exception has ended the simulation.</summary>
+    internal void ThrowIfFaulted()
+    {
+        if (fault is not null)
+        {
+            throw new InvalidOperationException("The simulation has faulted and cannot go on; see the inner exception.", fault);
+        }
+    }
+
+    /// <summary>Throws if an end was asked for.</summary>
+    internal void ThrowIfCancelled() => cancellation.ThrowIfCancellationRequested();
+
+    /// <summary>Throws if an instant without an end blocks the world up to a time. It can go on once an event comes that removes the cause.</summary>
+    internal void ThrowIfBlockedAt(SimTime time)
+    {
+        if (Blocked is EndlessInstantException endless && endless.At <= time)
+        {
+            throw new SimulationException(endless.Message);
+        }
+    }
+
+    /// <summary>Ends the simulation, which throws from now on.</summary>
+    /// <returns>The exception.</returns>
+    internal Exception Fail(Exception failure) => fault = failure;
+
+    /// <summary>Lets events happen up to and including a time, or as many as <paramref name="events"/> says; see <see cref="Simulation.TryAdvanceTo"/>.</summary>
+    /// <exception cref="OperationCanceledException">The token asked for an end; what lies behind <see cref="Progress.SimulatedTo"/> stands.</exception>
+    internal bool TryAdvanceTo(SimTime time, ref long events)
+    {
+        SimTime reached = progress.SimulatedTo;
+        SimTime until = SimTime.Min(time, BlockedAt - SimDuration.OneTick);
+        Stop stop = Stop.None;
+        try
+        {
+            stop = Run(until, time, ref events, ref reached);
+        }
+        catch (EndlessInstantException endless) when (MayWaitBefore(endless.At))
+        {
+            Blocked = endless;
+            RewindInstant(endless.At);
+            until = endless.At - SimDuration.OneTick;
+        }
+        catch (SimulationException failure) when (failure is not TimelinesFullException)
+        {
+            Fail(failure);
+            throw;
+        }
+        catch (Exception failure)
+        {
+            throw Fail(Ending(failure, reached));
+        }
+
+        progress.SimulatedTo = stop != Stop.None ? reached : until;
+        rewinder.EndIfDone();
+        ForgetUpTo(progress.SimulatedTo);
+        if (stop == Stop.Cancelled)
+        {
+            throw new OperationCanceledException(cancellation);
+        }
+
+        return stop == Stop.None && until == time;
+    }
+
+    /// <summary>
+    /// An event was added or taken away: it may free a blocked world, and what has happened of a part-done instant is computed again with
+    /// it.
+    /// </summary>
+    internal void Reconsider(SimTime changed)
+    {
+        if (changed <= BlockedAt)
+        {
+            Blocked = null;
+        }
+
+        if (IsPartDone && changed <= SimTime.Max(partDone, rewinder.KnownTo) && !faults.Has(HealingFault.LeavesPartOfAnInstant))
+        {
+            RewindInstant(partDone);
+        }
+    }
+
+    /// <param name="until">Up to when events happen.</param>
+    /// <param name="asked">Up to when was asked for.</param>
+    /// <param name="events">How many may happen; what is left.</param>
+    /// <param name="reached">The last instant of which all has happened.</param>
+    private Stop Run(SimTime until, SimTime asked, ref long events, ref SimTime reached)
+    {
+        WorkVerdict verdict = WorkVerdict.GoOn;
+        while (scheduler.TryGetLeast(out int slot, out EventKey least) && least.Time <= until)
+        {
+            if (least.Time > reached)
+            {
+                if (least.Time != partDone && rewinder.TryReconverge(least.Time - SimDuration.OneTick, asked))
+                {
+                    reached = progress.SimulatedTo;
+                    continue;
+                }
+
+                if (cancellation.IsCancellationRequested || events <= 0)
+                {
+                    return cancellation.IsCancellationRequested ? Stop.Cancelled : Stop.OutOfEvents;
+                }
+
+                reached = least.Time;
+                partDone = SimTime.MinValue;
+                ForgetUpTo(reached);
+            }
+            else if (MayWaitBefore(reached) && (verdict == WorkVerdict.StopNow || cancellation.IsCancellationRequested))
+            {
+                partDone = reached;
+                reached -= SimDuration.OneTick;
+                return verdict == WorkVerdict.StopNow ? Stop.OutOfEvents : Stop.Cancelled;
+            }
+
+            events--;
+            rollback.Cursor = least;
+            if (meter.Observer is null)
+            {
+                dispatcher.Process(slot, least);
+                continue;
+            }
+
+            meter.Begin();
+            dispatcher.Process(slot, least);
+            WorkVerdict said = meter.Tell(slot, least);
+            verdict = said > verdict ? said : verdict;
+            events = verdict == WorkVerdict.GoOn ? events : Math.Min(events, 0);
+        }
+
+        return Stop.None;
+    }
+
+    /// <summary>Not before the first instant that is kept: nothing could be read then.</summary>
+    private bool MayWaitBefore(SimTime instant) => WaitsForLateEvents && instant > progress.HistoryEdge;
+
+    private void RewindInstant(SimTime instant)
+    {
+        partDone = SimTime.MinValue;
+        rewinder.RewindInstant(instant);
+    }
+
+    /// <summary>Moves the edge of the history along, event by event, so that one long advance takes no more memory than many short ones.</summary>
+    private void ForgetUpTo(SimTime now)
+    {
+        if (progress.IsLongerThanHistory(now))
+        {
+            progress.ForgetBefore(now - progress.History);
+            timelines.ForgetBefore(progress.HistoryEdge);
+            broadPhase.Current.DropBefore(progress.HistoryEdge);
+        }
+    }
+
+    /// <summary>With what a failure ends the simulation: in the one way that callers know.</summary>
+    private SimulationException Ending(Exception failure, SimTime reached) => failure switch
+    {
+        EndlessInstantException endless => new SimulationException(endless.Message),
+        TimelinesFullException full => new TimelinesFullException($"{full.Message}{failures.OfFullTimelines(progress.History)}", full),
+        _ => new SimulationException($"The simulation failed at or after {reached.ToShortString()}: {failure.Message}", failure),
+    };
+
+    /// <summary>Why an advance stops before the time that it was to reach.</summary>
+    private enum Stop
+    {
+        None,
+        OutOfEvents,
+        Cancelled,
+    }
+}

@@ -1,0 +1,125 @@
+using System;
+using LagSim.Collisions;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Islands;
+using LagSim.Motion;
+using LagSim.Response;
+using LagSim.Scenes;
+using LagSim.Timelines;
+using LagSim.Trajectories;
+
+namespace LagSim.Handlers;
+
+/// <summary>External events: what players do.</summary>
+internal sealed class ExternalHandler(
+    Scene scene, BodyTable bodies, TimelineStore timelines, EventLog log, RollbackState rollback, FreeFlights flights, ContactGraph graph,
+    Sleepers sleepers, MemberFactory members, TrajectoryFactory trajectories, CollapseRule collapse, LonePath lonePath, TestFaults faults)
+{
+    private readonly Paths paths = new(timelines);
+
+    /// <summary>
+    /// Applies the body's event that is due; the graph has whose segments follow. False if somebody who sleeps on it has to be rewound
+    /// first.
+    /// </summary>
+    internal bool TryHandle(int slot, in EventKey key)
+    {
+        if (!sleepers.TryFind(slot, key))
+        {
+            return false;
+        }
+
+        int before = timelines.Last(slot);
+        int entry = log.TakeDue(slot);
+        Apply(slot, key, log.Event(entry), log.IsForwarded(entry));
+        if (timelines.Last(slot) == before || (faults.Has(HealingFault.LeavesMates) && rollback.MayBeKnownBeyond(key)))
+        {
+            graph.Clear();
+        }
+
+        sleepers.Wake(slot, key);
+        return true;
+    }
+
+    private void Apply(int slot, in EventKey key, in ExternalEvent external, bool isForwarded)
+    {
+        int last = timelines.Last(slot);
+        bool isThere = timelines.Segment(last).IsPresent;
+        if (external.Kind == EventKind.Spawn)
+        {
+            if (!isThere)
+            {
+                Spawn(slot, key, external, isForwarded);
+            }
+        }
+        else if (!isThere)
+        {
+            return; // nothing to act on, now; a late event may still put the body there, and then this is simulated again
+        }
+        else if (external.Kind == EventKind.Remove)
+        {
+            timelines.Append(slot, bodies.Id(slot), key, MotionSegment.Nothing(key.Time), default);
+        }
+        else if (external.Kind is EventKind.Grab or EventKind.HoldKnot or EventKind.Release)
+        {
+            collapse.HasLosses |= external.Kind == EventKind.Grab; // a hand gives and takes
+            trajectories.Hands.Act(slot, key, external);
+        }
+        else if (paths.IsHeld(last))
+        {
+            return; // what is in a hand goes where the hand goes
+        }
+        else if (isForwarded)
+        {
+            lonePath.Follow(slot, key, external);
+        }
+        else
+        {
+            Push(slot, key, external);
+        }
+    }
+
+    private void Spawn(int slot, in EventKey key, in ExternalEvent external, bool isForwarded)
+    {
+        bodies.SetSpec(slot, trajectories.Flights.Chosen(external.Spec));
+        collapse.HasLosses |= external.Spec.Restitution < 1;
+        flights.SetRadius(slot, external.Spec.Radius);
+        if (isForwarded)
+        {
+            lonePath.Follow(slot, key, external);
+        }
+        else
+        {
+            trajectories.Flights.Open(slot, key, external.Position, external.Velocity, spin: external.Spin.WithoutNegativeZero());
+        }
+    }
+
+    /// <summary>An impulse, a new velocity, or a teleport.</summary>
+    private void Push(int slot, in EventKey key, in ExternalEvent external)
+    {
+        int last = timelines.Last(slot);
+        double seconds = paths.SecondsInto(last, key.Time);
+        SupportSet supports = timelines.Segment(last).Supports;
+        if (!Pushes.TryApply(external, timelines.Segment(last), timelines.Dense(last), seconds, bodies.Spec(slot).Mass, scene, out Vector3D position, out Vector3D velocity))
+        {
+            return;
+        }
+
+        Vector3D spin = timelines.SpinOf(last).At(seconds);
+        if (paths.IsMember(last) && external.Kind != EventKind.Teleport)
+        {
+            members.GoOn(slot, key, position, velocity, spin, hasChanged: true);
+            timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
+            return;
+        }
+
+        Span<int> carriers = stackalloc int[SupportSet.Most];
+        int count = external.Kind == EventKind.Teleport ? 0 : supports.Count;
+        for (int k = 0; k < count; k++)
+        {
+            carriers[k] = supports[k];
+        }
+
+        trajectories.Open(slot, key, position, velocity, 0, carriers.Slice(0, count), spin);
+    }
+}

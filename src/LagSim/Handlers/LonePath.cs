@@ -1,0 +1,43 @@
+using System;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Timelines;
+
+namespace LagSim.Handlers;
+
+/// <summary>The thesis's way with a late event (latency-forward): advance the one body it concerns.</summary>
+internal sealed class LonePath(Scene scene, BodyTable bodies, TimelineStore timelines, ILoneWorld world)
+{
+    private readonly Paths paths = new(timelines);
+
+    /// <summary>
+    /// Puts the body at the key's time on the very path it would be on, had the event come in time and were nothing there but static
+    /// geometry. The path keeps its own epoch and step grid, so where it flew freely at the stamp and nothing else was touched it agrees
+    /// with the other peers bit for bit. What carried it then is found again by contact, and a closed-form flight's next contact is looked
+    /// for from the arrival on: both may differ in rounding.
+    /// </summary>
+    internal void Follow(int slot, in EventKey key, in ExternalEvent external)
+    {
+        Vector3D position = external.Position;
+        Vector3D velocity = external.Velocity;
+        Vector3D spin = external.Spin;
+        if (external.Kind != EventKind.Spawn)
+        {
+            // Should its stamp have left the history, when a later rollback comes here again, the oldest state that is kept has to do.
+            int then = timelines.At(slot, external.Time);
+            then = then == TimelineStore.None ? timelines.First(slot) : then;
+            double seconds = Math.Max(0, paths.SecondsInto(then, external.Time));
+            if (!Pushes.TryApply(external, timelines.Segment(then), timelines.Dense(then), seconds, bodies.Spec(slot).Mass, scene, out position, out velocity))
+            {
+                return;
+            }
+
+            spin = timelines.SpinOf(then).At(seconds);
+        }
+
+        (MotionSegment path, DenseOutput dense, Spin turning) =
+            world.Follow(ExternalEvent.Spawn(external.Time, 1, 1, bodies.Spec(slot), position, velocity, spin), key.Time);
+        timelines.Append(slot, bodies.Id(slot), key, path, dense, spin: turning);
+    }
+}

@@ -1,0 +1,47 @@
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Timelines;
+
+namespace LagSim.Islands;
+
+/// <summary>Joins the segments that one event opens, so that a rollback that cuts one of them cuts all.</summary>
+internal sealed class SegmentJoiner(
+    BodyTable bodies, TimelineStore timelines, ContactGraph graph, Partners partners, MemberFactory members, TestFaults faults)
+{
+    private readonly Paths paths = new(timelines);
+
+    /// <summary>
+    /// Joins those of the graph's bodies, and opens segments for the near misses, which go on as they did, and are the graph's too from
+    /// then on: who is cut later cuts whoever looked at it.
+    /// </summary>
+    internal void Join(in EventKey key)
+    {
+        foreach (int slot in partners.NearMisses)
+        {
+            if (graph.IndexOf(slot) < 0 && !faults.Has(HealingFault.ForgetsWhoWasLookedAt))
+            {
+                GoOn(slot, key);
+                graph.AddBody(slot);
+            }
+        }
+
+        if (!faults.Has(HealingFault.CutsMembersAlone))
+        {
+            timelines.Join(graph.Slots);
+        }
+    }
+
+    private void GoOn(int slot, in EventKey key)
+    {
+        int last = timelines.Last(slot);
+        if (paths.IsMember(last))
+        {
+            members.GoOn(slot, key, paths.PositionAt(last, key.Time), timelines.Segment(last).Velocity, timelines.SpinOf(last).AtEpoch, hasChanged: false);
+            timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
+        }
+        else
+        {
+            timelines.Append(slot, bodies.Id(slot), key, timelines.Segment(last), timelines.Dense(last), timelines.HoldOf(last), timelines.SpinOf(last));
+        }
+    }
+}

@@ -1,0 +1,36 @@
+using LagSim.Events;
+using LagSim.Handlers;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <summary>A world of a scene's static geometry and forces, in which a body is alone; made anew for each.</summary>
+/// <remarks>
+/// It begins when the scene does, so that a force that depends on time sees the same time. It goes on to its end whatever is cancelled, for
+/// the instant at hand is half done.
+/// </remarks>
+internal sealed class LoneWorld(Scene scene, SimTime start, int maxSegments) : ILoneWorld
+{
+    /// <inheritdoc/>
+    public (MotionSegment Segment, DenseOutput Dense, Spin Spin) Follow(in ExternalEvent spawn, SimTime time)
+    {
+        Engine engine = new(scene.WithoutBodies(), new SimulationOptions(start, SimDuration.MaxValue, maxSegments), start, start, 1);
+        engine.Begin();
+        Advance(engine, SimTime.Max(start, spawn.Time - SimDuration.OneTick));
+        engine.Insert(spawn, spawn.Key, isForwarded: false);
+        Advance(engine, SimTime.Max(engine.Progress.SimulatedTo, time));
+        TimelineStore timelines = engine.Timelines;
+        int end = timelines.Last(engine.Bodies.SlotOf(spawn.Body));
+        return (timelines.Segment(end), timelines.Dense(end), timelines.SpinOf(end));
+    }
+
+    private static void Advance(Engine engine, SimTime time)
+    {
+        long events = long.MaxValue;
+        engine.Loop.TryAdvanceTo(time, ref events);
+        engine.Loop.ThrowIfBlockedAt(time);
+    }
+}

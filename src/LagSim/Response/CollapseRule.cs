@@ -1,0 +1,139 @@
+using System;
+using LagSim.Collisions;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Response;
+
+/// <summary>
+/// Inelastic collapse: below a threshold of restitution infinitely many impacts come in a finite time. A contact that closes again in the
+/// instant in which it was struck has not parted, for the clock cannot tell the two apart; so it bounces no second time (docs/CONTACT.md,
+/// rule 14).
+/// </summary>
+internal sealed class CollapseRule(
+    Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, StrikeCounts strikes, TestFaults faults)
+{
+    private readonly StaticSurfaces surfaces = scene.Surfaces;
+    private readonly Paths paths = new(timelines);
+    private readonly InelasticCollapse collapse = new();
+
+    /// <summary>
+    /// Whether something there can take energy, or could once: an inelastic body or surface, or a hand. Where nothing can there is no
+    /// collapse to look for, which costs more than the impacts do.
+    /// </summary>
+    internal bool HasLosses { get; set; } = scene.Surfaces.TakesEnergy();
+
+    /// <summary>Whether a contact can have been struck in this instant already.</summary>
+    internal static bool MayBeStruckAgain(in EventKey key) => key.Round >= CollisionPredictor.CollapseRound;
+
+    /// <summary>
+    /// Whether the impact at hand strikes a contact that can lose energy, and that was struck in this instant already, and infinitely many
+    /// impacts may follow. Where a member of an island takes part they always may: what holds it gives way to no push, however light it is
+    /// itself.
+    /// </summary>
+    internal bool Collapses(SimTime time)
+    {
+        bool isStruckAgain = false;
+        bool hasMember = false;
+        for (int i = 0; i < graph.ContactCount; i++)
+        {
+            isStruckAgain |= !graph.Contacts[i].IsFromBefore && MayLose(graph.Contacts[i]) && WasStruck(graph.Contacts[i], time);
+            hasMember |= graph.HasMember(graph.Contacts[i]);
+        }
+
+        if (!isStruckAgain || hasMember)
+        {
+            return isStruckAgain;
+        }
+
+        graph.Evaluate(time, 0);
+        Span<double> restitutions = graph.ContactCount <= 64 ? stackalloc double[graph.ContactCount] : new double[graph.ContactCount];
+        Span<double> frictions = graph.ContactCount <= 64 ? stackalloc double[graph.ContactCount] : new double[graph.ContactCount];
+        for (int i = 0; i < graph.ContactCount; i++)
+        {
+            graph.Contacts[i].Normal = graph.NormalOf(graph.Contacts[i]);
+            restitutions[i] = graph.RestitutionOf(graph.Contacts[i]);
+            frictions[i] = graph.FrictionOf(graph.Contacts[i]);
+        }
+
+        return collapse.IsPossible(graph.Contacts, restitutions, frictions, graph.Masses);
+    }
+
+    /// <summary>Whether the two of a contact were struck in this instant already, and have not parted.</summary>
+    internal bool WasStruck(in ContactPoint c, SimTime time)
+    {
+        int first = timelines.Last(graph.Slots[c.First]);
+        return (c.Second == ContactPoint.Static
+            ? strikes.On(first, c.Surface, time) : strikes.Between(first, timelines.Last(graph.Slots[c.Second]), time)) > 0;
+    }
+
+    /// <summary>Whether a contact may lose energy: it does not bounce back in full, or there is a hand, which gives and takes.</summary>
+    private bool MayLose(in ContactPoint c) => graph.RestitutionOf(c) < 1 || paths.IsHeld(timelines.Last(graph.Slots[c.First]))
+        || (c.Second != ContactPoint.Static && paths.IsHeld(timelines.Last(graph.Slots[c.Second])));
+
+    /// <summary>Whether a contact closes after all that the solver could do.</summary>
+    internal bool StillCloses()
+    {
+        bool closes = false;
+        for (int i = 0; i < graph.ContactCount && !closes; i++)
+        {
+            closes = ImpactSolver.Opening(graph.Contacts[i], graph.Velocities) < -StrikeCounts.CollapseSpeed;
+        }
+
+        return closes;
+    }
+
+    /// <summary>
+    /// What is squeezed so that even plastic impacts do not end it (a mass ratio beyond what the solver resolves) goes on together: with
+    /// the
+    /// velocity of its centre of mass, with that of the first hand that takes part, or at rest where something static does. Nothing
+    /// closes then, but for what
+    /// a hand presses, which is left alone; so the tick ends.
+    /// </summary>
+    internal void GoOnTogether()
+    {
+        double mass = 0;
+        Vector3D common = Vector3D.Zero;
+        for (int i = 0; i < graph.BodyCount && !double.IsPositiveInfinity(mass); i++)
+        {
+            mass += graph.Masses[i];
+            common = double.IsPositiveInfinity(mass) ? graph.Velocities[i] : common + ((graph.Velocities[i] - common) * (graph.Masses[i] / mass));
+        }
+
+        for (int i = 0; i < graph.ContactCount; i++)
+        {
+            common = graph.Contacts[i].Second == ContactPoint.Static ? Vector3D.Zero : common;
+        }
+
+        for (int i = 0; i < graph.BodyCount; i++)
+        {
+            graph.Velocities[i] = double.IsPositiveInfinity(graph.Masses[i]) ? graph.Velocities[i] : common;
+        }
+    }
+
+    /// <summary>Whether a body touches a surface that it struck in this instant.</summary>
+    internal bool IsStillTouching(int slot, int surface, SimTime time, out ContactTime contact)
+    {
+        contact = ContactTime.At(time);
+        int last = timelines.Last(slot);
+        return !paths.IsHeld(last) && surfaces.Gap(surface, paths.PositionAt(last, time), bodies.Spec(slot).Radius) <= scene.Resolution
+            && (faults.Has(HealingFault.CollapsesWithWhoTouches) || strikes.On(last, surface, time) > 0);
+    }
+
+    /// <summary>Whether two bodies touch that struck each other in this instant.</summary>
+    internal bool AreStillTouching(int slot, int other, int piece, SimTime time, out ContactTime contact)
+    {
+        contact = ContactTime.At(time);
+        int last = timelines.Last(slot);
+        return timelines.Segment(piece).IsPresent && !(paths.IsHeld(last) && paths.IsHeld(piece))
+            && Gap(slot, last, other, piece, time) <= scene.Resolution
+            && (faults.Has(HealingFault.CollapsesWithWhoTouches) || strikes.Between(last, piece, time) > 0);
+    }
+
+    /// <summary>The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits whoever asks.</summary>
+    private double Gap(int slot, int piece, int other, int otherPiece, SimTime time) =>
+        scene.Box.Nearest(paths.PositionAt(piece, time) - paths.PositionAt(otherPiece, time)).Length - (bodies.Spec(slot).Radius + bodies.Spec(other).Radius);
+}

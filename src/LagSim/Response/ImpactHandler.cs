@@ -1,0 +1,76 @@
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Islands;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Response;
+
+/// <summary>Impacts: who takes part, and what comes of it.</summary>
+internal sealed class ImpactHandler(
+    Scene scene, BodyTable bodies, ContactGraph graph, Partners partners, IsolatedImpact isolated, ImpactGraphBuilder builder,
+    ImpactResolver resolver, IslandImpact island, ImpactNotifier notifier, ImpactSegments segments, SegmentJoiner joiner)
+{
+    /// <summary>
+    /// So many rounds of impacts in one instant are endless: elastic ones, for all others collapse. The longest that end, 3,141,592 impacts
+    /// of two balls and a wall, have a few in each.
+    /// </summary>
+    private const uint MostRounds = 1 << 16;
+
+    /// <summary>Opens the segments after an impact; the graph has whose they are. False if somebody has to be rewound first.</summary>
+    /// <exception cref="EndlessInstantException">The instant does not end.</exception>
+    internal bool TryHandle(int slot, in EventKey key)
+    {
+        if (isolated.TryHandle(slot, key))
+        {
+            return true;
+        }
+
+        if (key.Round >= MostRounds)
+        {
+            throw Endless(slot, key.Time);
+        }
+
+        if (!builder.TryBuild(slot, key, out double residual, out bool collapses))
+        {
+            return false;
+        }
+
+        resolver.SetTargets(collapses, key.Time);
+        partners.NearMisses.Clear();
+        EventKey canonical = graph.CanonicalKey(key);
+        ImpactOutcome outcome = graph.HasHand() ? island.Handle(canonical, residual, presses: true) : ImpactOutcome.GivesWay;
+        if (outcome == ImpactOutcome.GivesWay && island.Reaches())
+        {
+            outcome = island.Handle(canonical, residual, presses: false);
+        }
+
+        if (outcome == ImpactOutcome.NeedsRewind)
+        {
+            return false;
+        }
+
+        if (outcome == ImpactOutcome.GivesWay)
+        {
+            Solve(canonical, residual, collapses);
+        }
+
+        joiner.Join(canonical);
+        return true;
+    }
+
+    private void Solve(in EventKey key, double residual, bool collapses)
+    {
+        notifier.Tell(key);
+        resolver.Resolve(collapses);
+        for (int i = 0; i < graph.BodyCount; i++)
+        {
+            segments.Open(i, key, residual);
+        }
+    }
+
+    private EndlessInstantException Endless(int slot, SimTime time) => new(
+        $"At {time.ToShortString()} the impacts of {scene.Whose(bodies.Id(slot))} have no end: {MostRounds} in one instant. What is squeezed between others and loses no energy is struck for ever:"
+        + " give it, or what squeezes it, a restitution below 1, a mass that is less unlike, or room.", time);
+}

@@ -1,0 +1,34 @@
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Timelines;
+
+namespace LagSim.Response;
+
+/// <summary>Tells whoever wants to hear of them of the contacts of an impact.</summary>
+internal sealed class ImpactNotifier(BodyTable bodies, TimelineStore timelines, ContactGraph graph)
+{
+    /// <summary>Tells of the contacts of the graph that close, as they are before the impact is solved.</summary>
+    internal void Tell(in EventKey key)
+    {
+        if (timelines.Observer is not IImpactObserver observer)
+        {
+            return;
+        }
+
+        EventKey canonical = graph.CanonicalKey(key);
+        for (int i = 0; i < graph.ContactCount; i++)
+        {
+            ref readonly ContactPoint c = ref graph.Contacts[i];
+            double closing = -ImpactSolver.Opening(c, graph.Velocities);
+            if (c.IsStruck && closing > 0)
+            {
+                BodyId first = bodies.Id(graph.Slots[c.First]);
+                BodyId second = c.Second == ContactPoint.Static ? first : bodies.Id(graph.Slots[c.Second]);
+                Vector3D position = graph.Positions[c.First] - (c.Normal * bodies.Spec(graph.Slots[c.First]).Radius);
+                int surface = c.Second == ContactPoint.Static ? c.Surface : ImpactContact.NoSurface;
+                observer.OnContact(canonical, new ImpactContact(first, second, surface, position, closing));
+            }
+        }
+    }
+}

@@ -1,0 +1,131 @@
+using System;
+using LagSim.Contacts;
+using LagSim.Islands;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Response;
+
+/// <summary>Solves an impact that ends where it is struck: rebounds, friction, and the end of a collapse.</summary>
+internal sealed class ImpactResolver(
+    Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, CaptureRule capture, CollapseRule collapse)
+{
+    private readonly StaticSurfaces surfaces = scene.Surfaces;
+    private readonly ImpactSolver solver = new();
+    private readonly ImpactFriction friction = new();
+    private double[] coefficients = new double[8];
+
+    /// <summary>What each contact of the graph is to rebound with, and whether it lasts from here on.</summary>
+    internal void SetTargets(bool collapses, SimTime time)
+    {
+        for (int i = 0; i < graph.ContactCount; i++)
+        {
+            ref ContactPoint c = ref graph.Contacts[i];
+            c.Normal = graph.NormalOf(c);
+            double closing = Math.Max(0, -ImpactSolver.Opening(c, graph.Velocities));
+            double restitution = graph.RestitutionOf(c);
+            bool isLast = collapses && collapse.WasStruck(c, time);
+            double rebound = isLast ? 0 : restitution * closing;
+            c.Lasts = capture.IsLast(c, restitution, rebound, time) || (isLast && graph.HasMember(c));
+            c.Target = c.Lasts ? 0 : rebound;
+        }
+    }
+
+    /// <summary>Solves the impact of the graph, with what carries its bodies.</summary>
+    internal void Resolve(bool collapses)
+    {
+        int struck = graph.ContactCount;
+        AddSupports();
+        solver.Solve(graph.Contacts, graph.Masses, graph.Velocities);
+        if (!collapses)
+        {
+            SolveFriction(); // a collapse is only to end
+        }
+        else if (collapse.StillCloses())
+        {
+            collapse.GoOnTogether();
+        }
+
+        LimitSpeeds();
+        graph.KeepContacts(struck);
+    }
+
+    /// <summary>Solves the impact of bodies in free flight, which nothing carries.</summary>
+    internal void ResolveAlone()
+    {
+        solver.Solve(graph.Contacts, graph.Masses, graph.Velocities);
+        SolveFriction();
+        LimitSpeeds();
+    }
+
+    /// <summary>
+    /// What an impact would make faster than <see cref="Limits.MaxReboundSpeed"/> leaves it at that speed, in its direction: a rule of
+    /// the world, the same bits
+    /// on every peer. What is not finite stays as it is, and ends the simulation.
+    /// </summary>
+    internal void LimitSpeeds()
+    {
+        double limit = Limits.MaxReboundSpeed(scene.SmallestRadius);
+        Span<Vector3D> velocities = graph.Velocities;
+        for (int i = 0; i < velocities.Length; i++)
+        {
+            double speed = velocities[i].Length;
+            if (speed > limit && !double.IsPositiveInfinity(graph.Masses[i]))
+            {
+                velocities[i] *= limit / speed;
+            }
+        }
+    }
+
+    /// <summary>Friction in the impact at hand, if any of its parties has some.</summary>
+    private void SolveFriction()
+    {
+        bool rubs = false;
+        for (int i = 0; i < graph.BodyCount; i++)
+        {
+            rubs |= bodies.Spec(graph.Slots[i]).Friction > 0;
+        }
+
+        if (!rubs)
+        {
+            return;
+        }
+
+        if (graph.ContactCount > coefficients.Length)
+        {
+            coefficients = new double[graph.ContactCount * 2];
+        }
+
+        for (int i = 0; i < graph.ContactCount; i++)
+        {
+            coefficients[i] = graph.FrictionOf(graph.Contacts[i]);
+        }
+
+        friction.Solve(
+            graph.Contacts, coefficients.AsSpan(0, graph.ContactCount), graph.Masses, graph.Radii,
+            graph.Velocities, graph.Spins);
+    }
+
+    /// <summary>
+    /// A body that is carried stays carried while it is hit: its supports push back as far as they must, and give nothing.
+    /// </summary>
+    private void AddSupports()
+    {
+        for (int i = 0; i < graph.BodyCount; i++)
+        {
+            SupportSet supports = timelines.Segment(timelines.Last(graph.Slots[i])).Supports;
+            for (int k = 0; k < supports.Count; k++)
+            {
+                if (!graph.HasContact(i, supports[k]))
+                {
+                    graph.AddContact(new ContactPoint(i, ContactPoint.Static, supports[k], default)
+                    {
+                        Normal = surfaces.Plane(supports[k]).Normal,
+                    });
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,302 @@
+using System;
+using LagSim.Collisions;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Islands;
+using LagSim.Motion;
+using LagSim.Rollback;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+using LagSim.Trajectories;
+
+namespace LagSim.Response;
+
+/// <summary>Impacts that reach islands, or begin them: an impulse spreads over lasting contacts as far as it changes velocities.</summary>
+internal sealed class IslandImpact(
+    Scene scene, BodyTable bodies, TimelineStore timelines, RewindRequests rewinds, ContactGraph graph, ContactScale scale,
+    ImpactProblem impact, Partners partners, MemberContacts memberContacts, CaptureRule capture, SlipFactory friction,
+    ImpactNotifier notifier, IslandImpactSegments segments)
+{
+    /// <summary>
+    /// One sweep to and one fro, while an impact is still found to reach more: how far it goes shows in its first sweeps, and it is solved
+    /// to the end once it reaches nobody else.
+    /// </summary>
+    private const int GrowingSweeps = 2;
+
+    private readonly StaticSurfaces surfaces = scene.Surfaces;
+    private readonly Paths paths = new(timelines);
+
+    /// <summary>Whether the impact of the graph reaches an island, or begins one.</summary>
+    internal bool Reaches()
+    {
+        bool reaches = false;
+        for (int i = 0; i < graph.BodyCount && !reaches; i++)
+        {
+            reaches = paths.IsMember(timelines.Last(graph.Slots[i]));
+        }
+
+        for (int i = 0; i < graph.ContactCount && !reaches; i++)
+        {
+            reaches = graph.Contacts[i].Lasts || (graph.IsByHand(graph.Contacts[i]) && capture.IsBacked(graph.Contacts[i]));
+        }
+
+        return reaches;
+    }
+
+    /// <summary>Solves the impact of the graph with the lasting contacts that it reaches.</summary>
+    /// <param name="popped">The impact's key.</param>
+    /// <param name="residual">Seconds from the tick to the impact.</param>
+    /// <param name="presses">
+    /// Whether to press what a hand strikes against the static surfaces that are within the contact tolerance on its way: bounces with less
+    /// room than that are none.
+    /// </param>
+    internal ImpactOutcome Handle(in EventKey popped, double residual, bool presses)
+    {
+        EventKey key = graph.CanonicalKey(popped);
+        int struckBodies = graph.BodyCount;
+        Begin();
+        bool isNear = Spread(key, residual, presses);
+        if (!rewinds.AreNone)
+        {
+            return ImpactOutcome.NeedsRewind;
+        }
+
+        if (presses && !(isNear && IsSqueezed()))
+        {
+            for (int i = struckBodies; i < graph.BodyCount; i++)
+            {
+                partners.NearMisses.Add(graph.Slots[i]);
+            }
+
+            graph.KeepBodies(struckBodies);
+            return ImpactOutcome.GivesWay;
+        }
+
+        notifier.Tell(key);
+        impact.DropReboundsThatGain(scale.SweepSpeed);
+        KeepPressed(isNear);
+        segments.Open(key, residual);
+        return ImpactOutcome.Done;
+    }
+
+    /// <summary>What is struck, and what carries it, are where the impulse begins.</summary>
+    private void Begin()
+    {
+        impact.Clear();
+        for (int i = 0; i < graph.BodyCount; i++)
+        {
+            AddBody(i);
+        }
+
+        for (int i = 0; i < graph.ContactCount; i++)
+        {
+            ref readonly ContactPoint c = ref graph.Contacts[i];
+            ref SolverContact added = ref impact.Problem.AddContact(
+                c.First, c.Second, c.Surface, c.Normal, 0, graph.FrictionOf(c), graph.RollingLeverOf(c));
+            added.Target = c.Target;
+        }
+
+        AddSupports();
+    }
+
+    /// <summary>Solves again and again, as long as the impulse reaches more; whether it presses a body against a surface that is near.</summary>
+    private bool Spread(in EventKey key, double residual, bool presses)
+    {
+        double tolerance = scale.SweepSpeed;
+        double more = scale.Pull * scale.Step.ToSeconds();
+        impact.LimitHands(more);
+        impact.Solve(tolerance, GrowingSweeps, 0, 0);
+        bool isNear = false;
+        bool isSolved = false;
+        for (bool goesOn = true; goesOn && rewinds.AreNone;)
+        {
+            bool grows = false;
+            bool hasHand = graph.HasHand();
+            int known = graph.BodyCount;
+            int knownContacts = impact.Problem.ContactCount;
+            for (int i = 0; i < known; i++)
+            {
+                if (!impact.IsReached(i) && impact.ChangeOf(i).Length > scale.ReachSpeed)
+                {
+                    impact.Reach(i);
+                    grows |= TryReachOn(i, key, residual, presses);
+                }
+            }
+
+            for (int i = 0; i < known && rewinds.AreNone && hasHand; i++)
+            {
+                if (TryReachNear(i, key.Time, tolerance))
+                {
+                    isNear = true;
+                    grows = true;
+                }
+            }
+
+            goesOn = grows || !isSolved; // what it was solved to may reach others yet
+            if (goesOn && rewinds.AreNone)
+            {
+                impact.LimitHands(more);
+                impact.Solve(tolerance, grows ? GrowingSweeps : ContactStep.MostSweeps, known, knownContacts);
+                isSolved = !grows;
+            }
+        }
+
+        return isNear;
+    }
+
+    /// <summary>Whether what a hand strikes is pressed against a static surface.</summary>
+    private bool IsSqueezed()
+    {
+        bool isSqueezed = false;
+        for (int i = graph.ContactCount; i < impact.Problem.ContactCount && !isSqueezed; i++)
+        {
+            ref readonly SolverContact c = ref impact.Problem.Contacts[i];
+            isSqueezed = c.Impulse > 0 && c.Second == ContactPoint.Static;
+        }
+
+        return isSqueezed;
+    }
+
+    /// <summary>What a hand presses against something lasts, and what it presses it against too.</summary>
+    private void KeepPressed(bool presses)
+    {
+        for (int i = 0; i < graph.ContactCount; i++)
+        {
+            ref readonly SolverContact c = ref impact.Problem.Contacts[i];
+            graph.Contacts[i].Lasts |= graph.IsByHand(graph.Contacts[i]) && c.Impulse >= c.Most;
+        }
+
+        for (int i = graph.ContactCount; i < impact.Problem.ContactCount && presses; i++)
+        {
+            ref readonly SolverContact c = ref impact.Problem.Contacts[i];
+            if (c.Impulse > 0)
+            {
+                graph.AddContact(new ContactPoint(c.First, c.Second, c.Surface, default) { Normal = c.Normal, IsStruck = false, Lasts = true });
+            }
+        }
+    }
+
+    /// <summary>
+    /// Adds the static surfaces that a body is pushed towards and would reach within the contact tolerance. Not other bodies: that one is
+    /// near without being struck no rollback would find.
+    /// </summary>
+    private bool TryReachNear(int body, SimTime time, double tolerance)
+    {
+        Vector3D push = impact.ChangeOf(body);
+        if (double.IsPositiveInfinity(graph.Masses[body]) || push.Length <= tolerance)
+        {
+            return false;
+        }
+
+        double left = scale.TickFrom(time, double.PositiveInfinity).SecondsSince(time);
+        bool any = false;
+        for (int surface = 0; surface < surfaces.Count; surface++)
+        {
+            ContactPoint c = new(body, ContactPoint.Static, surface, default);
+            if (!impact.Has(c) && Vector3D.Dot(graph.NormalOf(c), push) < -tolerance && graph.GapOf(c) <= scale.Length)
+            {
+                AddContact(c, left);
+                any = true;
+            }
+        }
+
+        return any;
+    }
+
+    /// <summary>Adds the lasting contacts of a body whose velocity the impact has changed, and the bodies on their other sides.</summary>
+    private bool TryReachOn(int body, in EventKey key, double residual, bool presses)
+    {
+        int slot = graph.Slots[body];
+        int piece = timelines.Last(slot);
+        if (!paths.IsMember(piece))
+        {
+            return false;
+        }
+
+        bool any = false;
+        ref readonly MotionSegment path = ref timelines.Segment(piece);
+        SimTime end = path.Law == MotionLaw.Resting ? scale.TickFrom(key.Time, double.PositiveInfinity) : path.End;
+        double left = end.SecondsSince(key.Time);
+        for (int at = timelines.FirstContact(piece); at != TimelineStore.None; at = timelines.NextContact(at))
+        {
+            LastingContact contact = timelines.Contact(at);
+            if (!contact.Holds || (!presses && memberContacts.IsElastic(slot, contact)))
+            {
+                continue; // that there is room to close in is not used up yet, or an impact tells when
+            }
+
+            any |= contact.Surface != LastingContact.NoSurface
+                ? TryReachSurface(body, contact.Surface, left)
+                : TryReachPartner(body, contact.Partner, key, residual, left);
+        }
+
+        return any;
+    }
+
+    private bool TryReachSurface(int body, int surface, double left)
+    {
+        bool isNew = !graph.HasContact(body, surface);
+        if (isNew)
+        {
+            AddContact(new ContactPoint(body, ContactPoint.Static, surface, default), left);
+        }
+
+        return isNew;
+    }
+
+    private bool TryReachPartner(int body, BodyId partnerId, in EventKey key, double residual, double left)
+    {
+        BodyId id = bodies.Id(graph.Slots[body]);
+        if (!partners.TryFind(id, partnerId, key, out int partner))
+        {
+            return false;
+        }
+
+        int other = graph.IndexOf(partner);
+        if (other >= 0 && ((impact.IsReached(other) && !double.IsPositiveInfinity(graph.Masses[other])) || graph.HasPair(body, other)))
+        {
+            return false; // it has added the contact, or the two were struck
+        }
+
+        if (other < 0)
+        {
+            other = graph.AddBody(partner);
+            graph.Evaluate(other, key.Time, residual);
+            AddBody(other);
+        }
+
+        bool ordered = id < partnerId;
+        AddContact(new ContactPoint(ordered ? body : other, ordered ? other : body, -1, default), left);
+        return true;
+    }
+
+    private void AddBody(int body) => impact.AddBody(graph.Masses[body], graph.Radii[body], graph.Velocities[body], graph.Spins[body]);
+
+    /// <summary>What carries a body by a closed form holds it up while it is struck.</summary>
+    private void AddSupports()
+    {
+        for (int i = 0; i < graph.BodyCount; i++)
+        {
+            SupportSet supports = timelines.Segment(timelines.Last(graph.Slots[i])).Supports;
+            for (int k = 0; k < supports.Count; k++)
+            {
+                if (!graph.HasContact(i, supports[k]))
+                {
+                    double coefficient = friction.On(graph.Slots[i], supports[k]);
+                    double lever = Math.Min(bodies.Spec(graph.Slots[i]).RollingResistance, coefficient) * graph.Radii[i];
+                    impact.Problem.AddContact(i, ContactPoint.Static, supports[k], surfaces.Plane(supports[k]).Normal, 0, coefficient, lever);
+                }
+            }
+        }
+    }
+
+    private void AddContact(ContactPoint c, double left)
+    {
+        c.Normal = graph.NormalOf(c);
+        double gap = graph.GapOf(c);
+        ref SolverContact added = ref impact.Problem.AddContact(
+            c.First, c.Second, c.Surface, c.Normal, gap, graph.FrictionOf(c), graph.RollingLeverOf(c));
+        added.Target = gap > 0 && left > 0 ? -gap / left : 0;
+    }
+}

@@ -1,0 +1,113 @@
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Islands;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+using LagSim.Trajectories;
+
+namespace LagSim.Response;
+
+/// <summary>Opens the segments on which bodies leave an impact that has reached an island, with the contacts that last from there on.</summary>
+internal sealed class IslandImpactSegments(
+    BodyTable bodies, TimelineStore timelines, ContactGraph graph, ImpactProblem impact, MemberFactory members,
+    TrajectoryFactory trajectories, ImpactResolver resolver, ImpactSegments alone)
+{
+    private readonly Paths paths = new(timelines);
+
+    /// <summary>Opens those of all bodies of the graph, whose impact is solved.</summary>
+    /// <param name="key">The impact.</param>
+    /// <param name="residual">Seconds from the tick to the impact.</param>
+    internal void Open(in EventKey key, double residual)
+    {
+        SimTime end = SimTime.MaxValue; // of the step in which the island is
+        for (int i = 0; i < graph.BodyCount; i++)
+        {
+            ref readonly MotionSegment path = ref timelines.Segment(timelines.Last(graph.Slots[i]));
+            end = path.Law == MotionLaw.Constrained ? SimTime.Min(end, path.End) : end;
+            graph.Velocities[i] = impact.Problem.Bodies[i].Velocity;
+            graph.Spins[i] = impact.Problem.Bodies[i].Spin;
+        }
+
+        resolver.LimitSpeeds();
+        for (int i = 0; i < graph.BodyCount; i++)
+        {
+            int before = timelines.Last(graph.Slots[i]);
+            if (paths.IsHeld(before))
+            {
+                trajectories.Hands.GoOn(graph.Slots[i], key);
+            }
+            else if (!paths.IsMember(before) && !HasLasting(i))
+            {
+                alone.Open(i, key, residual);
+            }
+            else
+            {
+                OpenMember(i, key, graph.Positions[i] - (graph.Velocities[i] * residual), end);
+            }
+        }
+    }
+
+    private void OpenMember(int body, in EventKey key, in Vector3D position, SimTime end)
+    {
+        int slot = graph.Slots[body];
+        int before = timelines.Last(slot);
+        if (paths.IsMember(before))
+        {
+            bool hasChanged = HasLasting(body) || impact.HasChanged(body, graph.Velocities[body], graph.Spins[body]);
+            members.GoOn(slot, key, position, graph.Velocities[body], graph.Spins[body], hasChanged);
+        }
+        else
+        {
+            SupportSet supports = timelines.Segment(before).Supports;
+            SimTime tick = members.NextTick(slot, key.Time, members.StepWanted(slot, key.Time, position, graph.Velocities[body], graph.Spins[body]));
+            SimTime until = end == SimTime.MaxValue ? tick : SimTime.Min(end, tick > key.Time ? tick : end);
+            members.OpenChord(slot, key, until, position, graph.Velocities[body], graph.Spins[body]);
+            timelines.BeginMember(timelines.Last(slot), key.Time, key.Time);
+            for (int k = 0; k < supports.Count; k++)
+            {
+                timelines.AddContact(timelines.Last(slot), new LastingContact(bodies.Id(slot), supports[k], holds: true));
+            }
+        }
+
+        AddLasting(body, timelines.Last(slot));
+        timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
+    }
+
+    private bool HasLasting(int body)
+    {
+        bool has = false;
+        for (int i = 0; i < graph.ContactCount && !has; i++)
+        {
+            has = graph.Contacts[i].Lasts && (graph.Contacts[i].First == body || graph.Contacts[i].Second == body);
+        }
+
+        return has;
+    }
+
+    /// <summary>A member's new segment carries the contacts of the impact that last from here on; those that bounced off without a loss hold no more.</summary>
+    private void AddLasting(int body, int piece)
+    {
+        for (int i = 0; i < graph.ContactCount; i++)
+        {
+            ref readonly ContactPoint c = ref graph.Contacts[i];
+            bool isPair = c.Second != ContactPoint.Static;
+            if ((c.First != body && c.Second != body) || (!c.Lasts && !(c.IsStruck && graph.RestitutionOf(c) >= 1)))
+            {
+                continue;
+            }
+
+            BodyId partner = bodies.Id(graph.Slots[isPair && c.First == body ? c.Second : c.First]);
+            int known = isPair ? timelines.ContactWith(piece, partner) : timelines.ContactWith(piece, c.Surface);
+            if (known != TimelineStore.None)
+            {
+                timelines.Hold(known, c.Lasts);
+            }
+            else if (c.Lasts)
+            {
+                timelines.AddContact(piece, new LastingContact(partner, isPair ? LastingContact.NoSurface : c.Surface, holds: true));
+            }
+        }
+    }
+}

@@ -1,0 +1,117 @@
+using System;
+using LagSim.Collisions;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Response;
+
+/// <summary>
+/// The impact of two bodies in free flight with nobody near, or of one with a surface: what nearly all impacts of a gas are, and of a ball
+/// that bounces. No contact graph has to be searched for it.
+/// </summary>
+internal sealed class IsolatedImpact(
+    Scene scene, BodyTable bodies, TimelineStore timelines, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
+    ContactGraph graph, ImpactResolver resolver, ImpactNotifier notifier, ImpactSegments segments, TestFaults faults)
+{
+    private const int NoPartner = PendingContact.NoPartner;
+
+    private readonly StaticSurfaces surfaces = scene.Surfaces;
+
+    /// <summary>How many impacts were of two alone, or of one and a surface alone.</summary>
+    internal long Count { get; private set; }
+
+    /// <summary>How many impacts were of two alone.</summary>
+    internal long PairCount { get; private set; }
+
+    /// <summary>
+    /// What the general way makes of such an impact, to the bit, by the same rules. False, and nothing is done, if it is of others too, or
+    /// if the two part so slowly that lasting contact may come of it: then who else is in touch counts.
+    /// </summary>
+    internal bool TryHandle(int slot, in EventKey key)
+    {
+        if (!IsIsolated(slot, key))
+        {
+            return false;
+        }
+
+        double residual = scheduler.Contact(slot).Residual;
+        Fill(slot, key.Time, residual);
+        resolver.SetTargets(collapses: false, key.Time);
+        if (graph.Contacts[0].Lasts)
+        {
+            return false;
+        }
+
+        notifier.Tell(key);
+        resolver.ResolveAlone();
+        for (int i = 0; i < graph.BodyCount; i++)
+        {
+            segments.OpenIsolated(i, key, residual);
+        }
+
+        timelines.Join(graph.Slots);
+        Count++;
+        PairCount += graph.BodyCount - 1;
+        return true;
+    }
+
+    /// <summary>
+    /// Whether the impact is surely of two bodies, or of one and a surface, and nothing else. Whoever else is struck at that tick has an
+    /// event pending then, for nobody's pending event is later than its next contact; or it, or another surface, was seen when one of the
+    /// two was predicted, which then is tied. So if there is none and neither is tied, nobody is, but by a surface the one of two that did
+    /// not find the other, which has none pending.
+    /// </summary>
+    private bool IsIsolated(int slot, in EventKey key)
+    {
+        bool isPlain = !rollback.IsActive && !CollapseRule.MayBeStruckAgain(key)
+            && (!scheduler.Contact(slot).IsTied || faults.IgnoresTies) && flights.IsFree(slot) && !faults.TakesNoShortcut && !faults.SwapsOperands;
+        int other = scheduler.Contact(slot).Partner;
+        return isPlain && (other == NoPartner
+            ? scheduler.IsLeastAloneWith(slot, key)
+            : scheduler.Contact(other).Partner == slot && (!scheduler.Contact(other).IsTied || faults.IgnoresTies) && flights.IsFree(other)
+                && scheduler.IsLeastAloneWith(other, key) && TouchesNoSurface(slot, key.Time) && TouchesNoSurface(other, key.Time));
+    }
+
+    private bool TouchesNoSurface(int slot, SimTime time)
+    {
+        bool misses = scene.SphereArray.Length == 0;
+        for (int plane = 0; plane < scene.PlaneArray.Length && misses; plane++)
+        {
+            misses = flights.Misses(slot, surfaces.Plane(plane), time, time);
+        }
+
+        return misses;
+    }
+
+    private void Fill(int slot, SimTime time, double residual)
+    {
+        int other = scheduler.Contact(slot).Partner;
+        graph.Clear();
+        if (other == NoPartner)
+        {
+            graph.AddBody(slot);
+            graph.AddContact(new ContactPoint(0, ContactPoint.Static, scheduler.Contact(slot).Surface, default));
+        }
+        else
+        {
+            bool ordered = bodies.Id(slot) < bodies.Id(other);
+            graph.AddBody(ordered ? slot : other);
+            graph.AddBody(ordered ? other : slot);
+            graph.AddContact(new ContactPoint(0, 1, -1, default));
+        }
+
+        Span<int> slots = graph.Slots;
+        for (int i = 0; i < slots.Length; i++)
+        {
+            ref readonly BodySpec spec = ref bodies.Spec(slots[i]);
+            graph.Masses[i] = spec.Mass;
+            graph.Radii[i] = spec.Radius;
+            graph.Accelerations[i] = scene.Gravity;
+            graph.Spins[i] = timelines.SpinOf(timelines.Last(slots[i])).AtEpoch; // in flight it stays
+            flights.StateAt(slots[i], time, residual, out graph.Positions[i], out graph.Velocities[i]);
+        }
+    }
+}

@@ -1,0 +1,97 @@
+using LagSim.BroadPhase;
+using LagSim.Collisions;
+using LagSim.Events;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Rollback;
+
+/// <summary>
+/// Whether the re-simulated paths are again those that they replaced: then what was simulated from there on is right, and is put back.
+/// </summary>
+internal sealed class Reconvergence(
+    BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, Progress progress, RollbackState rollback,
+    AdaptiveBroadPhase broadPhase, EventPredictor predictor, TestFaults faults)
+{
+    private readonly CutPaths cut = new();
+    private readonly HeldBackImpacts heldBack = new();
+
+    /// <summary>Who is told of impacts made and cut; null, the default, for nobody.</summary>
+    internal IImpactObserver? Observer
+    {
+        get => heldBack.Listener;
+        set
+        {
+            heldBack.Listener = value;
+            timelines.Observer = value is null ? null : heldBack;
+        }
+    }
+
+    /// <summary>A rollback begins: from now on what it cuts is kept.</summary>
+    internal void Begin()
+    {
+        cut.Begin(timelines.LastSerial);
+        heldBack.Hold();
+    }
+
+    /// <summary>The rollback touches a body that it had not touched.</summary>
+    internal void Touch(int slot) => cut.Touch(slot);
+
+    /// <summary>Of a body that was touched the newest segment is about to be cut.</summary>
+    internal void Keep(int slot, int segment) => cut.Keep(timelines, slot, segment);
+
+    /// <summary>Nothing will be put back of what the rollback at hand cuts.</summary>
+    internal void GiveUp()
+    {
+        cut.GiveUp();
+        heldBack.Release(SimTime.MaxValue);
+    }
+
+    /// <summary>Whether at an instant, of which the rollback has done all, each body that it has touched is on the path that it was on before.</summary>
+    /// <param name="at">The instant.</param>
+    /// <param name="until">How far the world is to be advanced: less than the rollback horizon means that it may not jump there yet.</param>
+    internal bool IsReached(SimTime at, SimTime until)
+    {
+        bool mayBe = rollback.IsActive && at < rollback.Horizon && at >= rollback.Cursor.Time && until >= rollback.Horizon;
+        if (mayBe && !cut.IsWhole)
+        {
+            GiveUp();
+            return false;
+        }
+
+        return mayBe && cut.AreMet(timelines, at, faults.Healing);
+    }
+
+    /// <summary>Puts back what was cut after an instant at which it is reached: the world is simulated to the rollback horizon again.</summary>
+    internal void PutBack(SimTime at)
+    {
+        SimTime to = rollback.Horizon;
+        SimTime next = to + SimDuration.OneTick;
+        for (int n = 0; n < cut.BodyCount; n++)
+        {
+            log.SetDueFrom(cut.SlotAt(n), EventKey.Before(next));
+        }
+
+        timelines.Openings = null;
+        cut.PutBack(timelines, at, bodies);
+        for (int n = 0; n < cut.BodyCount; n++)
+        {
+            broadPhase.List(cut.SlotAt(n), at, next);
+        }
+
+        progress.SimulatedTo = to;
+        rollback.End(); // nobody is ahead of anybody
+        rollback.Cursor = EventKey.Before(next);
+        for (int n = 0; n < cut.BodyCount; n++)
+        {
+            predictor.Predict(cut.SlotAt(n));
+        }
+
+        while (scheduler.Count > 0 && scheduler.LeastKey.Time <= to)
+        {
+            predictor.Predict(scheduler.LeastSlot); // its next was to be with a path that did not last
+        }
+
+        heldBack.Release(at);
+    }
+}

@@ -1,0 +1,264 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Collisions;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Rollback;
+
+/// <summary>
+/// Cuts the paths that a late event can have touched, as it comes to light whose they are, so that the event loop simulates them again.
+/// </summary>
+/// <remarks>It simulates nothing itself: it cuts, has who was cut predicted anew, and moves back how far the world is simulated.</remarks>
+internal sealed class Rewinder : IOpeningObserver
+{
+    /// <summary>
+    /// The causal cones of so many late events, each in a place of its own, may take up an eighth of all bodies each; more share that half,
+    /// where a cone is about as dear as a full rollback.
+    /// </summary>
+    private const int MostConesApart = 4;
+
+    private readonly BodyTable bodies;
+    private readonly TimelineStore timelines;
+    private readonly EventLog log;
+    private readonly EventScheduler scheduler;
+    private readonly Progress progress;
+    private readonly RollbackState rollback;
+    private readonly Reconvergence reconvergence;
+    private readonly EventPredictor predictor;
+    private readonly TestFaults faults;
+    private readonly HealingMode mode;
+    private readonly Stack<(int Slot, EventKey Key)> cuts = new();
+    private readonly List<int> cut = new(); // who was cut since anything was predicted anew
+    private HealReport report; // what the rollback at hand began with
+
+    internal Rewinder(
+        BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, Progress progress, RollbackState rollback,
+        Reconvergence reconvergence, EventPredictor predictor, TestFaults faults, HealingMode mode)
+    {
+        this.bodies = bodies;
+        this.timelines = timelines;
+        this.log = log;
+        this.scheduler = scheduler;
+        this.progress = progress;
+        this.rollback = rollback;
+        this.reconvergence = reconvergence;
+        this.predictor = predictor;
+        this.faults = faults;
+        this.mode = mode;
+    }
+
+    /// <summary>Raised once per rollback, when the world is again where it was.</summary>
+    internal event Action<HealReport>? Healed;
+
+    /// <summary>
+    /// With so few bodies or less a rollback never rewinds all that it has not touched; an eighth of all for each late event is the limit
+    /// with more.
+    /// </summary>
+    internal int FewHealed { get; set; } = 32;
+
+    /// <summary>Up to when what bodies do is known of some, and so would have to be rewound.</summary>
+    internal SimTime KnownTo => mode == HealingMode.FullRollback ? progress.SimulatedTo : SimTime.Max(progress.SimulatedTo, rollback.Horizon);
+
+    /// <summary>
+    /// Whether what bodies do at a key is known of some. Of the instant to which a full rollback has gone back, what lies before the key of
+    /// the late event still stands.
+    /// </summary>
+    internal bool IsKnown(in EventKey key) =>
+        key.Time <= KnownTo || (mode == HealingMode.FullRollback && EventKey.Compare(key, rollback.Cursor) < 0);
+
+    void IOpeningObserver.OnOpened(int slot, in EventKey key)
+    {
+        if (key.Time <= rollback.Horizon && key.Kind != EventKind.None) // not of whom nobody has heard yet
+        {
+            Touch(slot); // also who had nothing to be cut, because what struck it now comes after all it did
+        }
+    }
+
+    /// <summary>
+    /// A body's path is known beyond a key at which something has changed: it is cut there, and the world is simulated no further than to
+    /// before the key.
+    /// </summary>
+    internal void Mark(int slot, in EventKey key)
+    {
+        if (faults.Has(HealingFault.LeavesWhoRests) && timelines.Segment(timelines.Last(slot)).Law == MotionLaw.Resting)
+        {
+            return;
+        }
+
+        Begin(key.Time);
+        if (mode == HealingMode.FullRollback)
+        {
+            progress.SimulatedTo = key.Time - SimDuration.OneTick;
+            RewindAll(key);
+            return;
+        }
+
+        if (key.Time <= progress.SimulatedTo)
+        {
+            rollback.Cursor = key;
+            rollback.LastOld = timelines.LastSerial; // segments that an unfinished rollback has remade may lie beyond this one
+            progress.SimulatedTo = key.Time - SimDuration.OneTick;
+        }
+        else
+        {
+            rollback.Cursor = EventKey.Before(progress.SimulatedTo + SimDuration.OneTick);
+        }
+
+        Rewind(slot, key);
+    }
+
+    /// <summary>
+    /// Cuts a body at the key; whoever shared an event that is gone is cut there too. All of them are predicted anew. If the rollback has
+    /// grown to so many bodies that it will grow to nearly all, all are rewound to the event at hand.
+    /// </summary>
+    internal void Rewind(int slot, in EventKey key)
+    {
+        Cut(slot, key);
+        if (IsNearlyFull())
+        {
+            reconvergence.GiveUp();
+            RewindAll(rollback.Cursor.Kind == EventKind.Impact ? EventKey.BeforeImpacts(rollback.Cursor.Time, rollback.Cursor.Round) : rollback.Cursor);
+            return;
+        }
+
+        foreach (int body in cut)
+        {
+            predictor.Predict(body);
+        }
+    }
+
+    /// <summary>Cuts all that has happened in an instant, for good.</summary>
+    internal void RewindInstant(SimTime instant)
+    {
+        reconvergence.GiveUp();
+        RewindAll(EventKey.Before(instant));
+    }
+
+    /// <summary>At an instant, of which all is done, the rollback ends if the paths have reconverged; false if not.</summary>
+    /// <param name="at">The instant.</param>
+    /// <param name="until">How far the world is to be advanced.</param>
+    internal bool TryReconverge(SimTime at, SimTime until)
+    {
+        if (!reconvergence.IsReached(at, until))
+        {
+            return false;
+        }
+
+        SimTime met = rollback.Cursor.Time;
+        reconvergence.PutBack(at);
+        End(met);
+        return true;
+    }
+
+    /// <summary>Ends the rollback if the world is simulated as far as before it.</summary>
+    internal void EndIfDone()
+    {
+        if (rollback.IsActive && progress.SimulatedTo >= rollback.Horizon)
+        {
+            End(null);
+        }
+    }
+
+    private void Begin(SimTime time)
+    {
+        rollback.CountLate();
+        if (!rollback.IsActive)
+        {
+            rollback.Begin(progress.SimulatedTo);
+            timelines.Openings = this;
+            report = new HealReport(time, rollback.Horizon, 1, 0, rollback.SegmentsCut, progress.EventsProcessed);
+            if (mode != HealingMode.FullRollback)
+            {
+                reconvergence.Begin();
+            }
+        }
+        else
+        {
+            reconvergence.GiveUp(); // what stood before is no longer to be told from what the rollback has made
+            report = new HealReport(SimTime.Min(report.From, time), report.To, report.News + 1, 0, report.SegmentsCut, report.Events);
+        }
+    }
+
+    private void End(SimTime? met)
+    {
+        reconvergence.GiveUp();
+        rollback.End();
+        timelines.Openings = null;
+        Healed?.Invoke(new HealReport(
+            report.From, report.To, report.News, rollback.BodyCount, rollback.SegmentsCut - report.SegmentsCut,
+            progress.EventsProcessed - report.Events, met));
+    }
+
+    private void Touch(int slot)
+    {
+        if (rollback.Touch(slot))
+        {
+            reconvergence.Touch(slot);
+        }
+    }
+
+    private void Cut(int slot, in EventKey key)
+    {
+        cut.Clear();
+        bool cutsByTime = faults.Has(HealingFault.CutsByTime) && key == rollback.Cursor && key.Time > progress.HistoryEdge;
+        cuts.Push((slot, cutsByTime ? EventKey.Before(key.Time) : key));
+        log.AddDueFrom(slot, key);
+        cut.Add(slot);
+        Touch(slot);
+        while (cuts.Count > 0)
+        {
+            (int body, EventKey from) = cuts.Pop();
+            bool any = false;
+            for (int at = timelines.Last(body); at != TimelineStore.None && EventKey.Compare(timelines.Key(at), from) >= 0; at = timelines.Last(body))
+            {
+                for (int other = timelines.Together(at); other != at; other = timelines.Together(other))
+                {
+                    cuts.Push((timelines.Owner(other), timelines.Key(other)));
+                }
+
+                Touch(body);
+                reconvergence.Keep(body, at);
+                timelines.CutLast(body, bodies.Id(body));
+                rollback.SegmentsCut++;
+                any = true;
+            }
+
+            if (any)
+            {
+                if (!faults.Has(HealingFault.DropsEvents) && !cutsByTime)
+                {
+                    log.AddDueFrom(body, from);
+                }
+
+                cut.Add(body);
+            }
+        }
+    }
+
+    /// <summary>Whether to simulate everybody again costs less than to ask at every step who is ahead, and what it did there.</summary>
+    private bool IsNearlyFull() =>
+        rollback.LastOld >= 0 && rollback.BodyCount > Math.Max(FewHealed, bodies.Count / 8 * Math.Min(report.News, MostConesApart));
+
+    /// <summary>Cuts every timeline at the key, not at its time, and has everybody predicted again.</summary>
+    private void RewindAll(in EventKey key)
+    {
+        rollback.Cursor = key;
+        rollback.LastOld = -1; // nobody is ahead of anybody
+        EventKey from = faults.CutsByTime ? new EventKey(key.Time, 0, EventKind.Spawn, default, default, 0, 0) : key;
+        for (int slot = 0; slot < bodies.SlotCount; slot++)
+        {
+            rollback.SegmentsCut += timelines.CutFrom(slot, bodies.Id(slot), from);
+            log.SetDueFrom(slot, key);
+            scheduler.Remove(slot);
+        }
+
+        for (int slot = 0; slot < bodies.SlotCount; slot++)
+        {
+            Touch(slot);
+            predictor.Predict(slot);
+        }
+    }
+}

@@ -1,0 +1,185 @@
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <summary>What a snapshot must satisfy to be of a world of a scene; it may come from anywhere.</summary>
+/// <remarks>It says what can be told of each body alone. Whether bodies overlap, or a path is one that this world would have taken, it does not ask.</remarks>
+internal static class SnapshotCheck
+{
+    /// <summary>Furthest from the origin that an instant may lie: that of a start and the longest run.</summary>
+    private const long MaxTicks = 3L << 61;
+
+    internal static void Throw(WorldSnapshot snapshot, Scene scene)
+    {
+        if (snapshot.Start.Ticks < -MaxTicks || snapshot.Time.Ticks > MaxTicks || snapshot.Time <= snapshot.Start)
+        {
+            throw new SceneException(
+                $"The snapshot is of {snapshot.Time.ToShortString()} in a world that began at {snapshot.Start.ToShortString()}; neither may be further than 72"
+                + " days from the origin, and the first comes after the second.");
+        }
+
+        BodySnapshot[] bodies = snapshot.BodyArray;
+        for (int i = 0; i < bodies.Length; i++)
+        {
+            if (i > 0 && bodies[i].Id <= bodies[i - 1].Id)
+            {
+                throw new SceneException($"In the snapshot body {bodies[i].Id} follows body {bodies[i - 1].Id}; identities must ascend.");
+            }
+
+            CheckBody(bodies[i], snapshot, scene);
+        }
+    }
+
+    private static void CheckBody(in BodySnapshot body, WorldSnapshot snapshot, Scene scene)
+    {
+        string whose = $"body {body.Id} in the snapshot";
+        Limits.CheckSpec(body.Spec, whose, scene.Gravity, scene.ForceArray);
+        if (body.Spec.Radius < scene.SmallestRadius)
+        {
+            throw new SceneException(
+                $"The radius of {whose} is {Limits.Text(body.Spec.Radius)} m; the scene promises none below {Limits.Text(scene.SmallestRadius)} m.");
+        }
+
+        CheckTimes(body, snapshot, whose);
+        if (scene.Box.Exists)
+        {
+            Limits.CheckInBox(body.Spec, body.Position, scene.Box, whose);
+            if (body.Law != MotionLaw.Ballistic)
+            {
+                throw new SceneException($"The motion of {whose} is {body.Law}; in a periodic box it is Ballistic.");
+            }
+        }
+
+        Limits.Components(body.Position, double.MaxValue, whose, "position", "m");
+        Limits.Components(body.Velocity, Limits.MaxSpeed(scene.SmallestRadius), whose, "velocity", "m/s");
+        Limits.Components(body.Acceleration, double.MaxValue, whose, "acceleration", "m/s^2");
+        Limits.Components(body.Cubic, double.MaxValue, whose, "cubic coefficient", "m/s^3");
+        Limits.Components(body.Quartic, double.MaxValue, whose, "quartic coefficient", "m/s^4");
+        Limits.Components(body.Quintic, double.MaxValue, whose, "quintic coefficient", "m/s^5");
+        if (body.Law != body.Spec.Flight
+            && body.Law is not (MotionLaw.Sliding or MotionLaw.Rolling or MotionLaw.Resting or MotionLaw.Held or MotionLaw.Constrained))
+        {
+            throw new SceneException(
+                $"The motion of {whose} is {body.Law}; it must be Sliding, Rolling, Resting, Held, Constrained, or its law of flight, {body.Spec.Flight}.");
+        }
+
+        Limits.Components(body.Spin, double.MaxValue, whose, "spin", "rad/s");
+        Limits.Components(body.SpinRate, double.MaxValue, whose, "rate of spin", "rad/s^2");
+        if (body.NextStep != SimDuration.Zero && (body.NextStep < StepSize.Shortest || body.NextStep > StepSize.Longest))
+        {
+            throw new SceneException(
+                $"The next step of {whose} is {body.NextStep.ToShortString()}; it must lie between {StepSize.Shortest.ToShortString()} and"
+                + $" {StepSize.Longest.ToShortString()}, or be 0.");
+        }
+
+        bool isCarried = body.Law is MotionLaw.Sliding or MotionLaw.Rolling;
+        if (isCarried != body.SupportCount > 0 && body.Law != MotionLaw.Resting)
+        {
+            throw new SceneException(
+                $"{Limits.Count(body.SupportCount, "plane carries", "planes carry")} {whose}, which is {body.Law}; what slides or rolls is carried, what"
+                    + " rests may be, and nothing else is.");
+        }
+
+        if (body.Law == MotionLaw.Resting && body.End != SimTime.MaxValue)
+        {
+            throw new SceneException(
+                $"The rest of {whose} ends at {body.End.ToShortString()}; it lasts until something else happens, so its end must be"
+                + $" {SimTime.MaxValue.ToShortString()}.");
+        }
+
+        CheckContacts(body, scene, whose);
+        for (int n = 0; n < body.SupportCount; n++)
+        {
+            int plane = body.Support(n);
+            if (plane < (n == 0 ? 0 : body.Support(n - 1) + 1) || plane >= scene.Planes.Count)
+            {
+                throw new SceneException($"Plane {plane} carries {whose}; planes are numbered 0 to {scene.Planes.Count - 1} and named in ascending order.");
+            }
+        }
+
+        CheckHold(body, snapshot, whose);
+    }
+
+    private static void CheckContacts(in BodySnapshot body, Scene scene, string whose)
+    {
+        bool isMember = body.Segment.IsOfIsland;
+        if (!isMember && (body.Contacts.Length > 0 || body.Centre != default || body.StillSince != default))
+        {
+            throw new SceneException($"The motion of {whose} is {body.Law}; only what is Constrained, or rests and no plane carries it, has lasting contacts.");
+        }
+
+        SimDuration longest = new ContactScale(scene.ContactTolerance, scene.Gravity, default).Step;
+        bool isStep = body.Law == MotionLaw.Constrained;
+        if (isStep && (body.Epoch != body.Opened.Time || body.End < body.Epoch || body.End - body.Epoch > longest))
+        {
+            throw new SceneException(
+                $"The step of {whose}, which is Constrained, lasts from {body.Epoch.ToShortString()} to {body.End.ToShortString()} and was opened at"
+                + $" {body.Opened.Time.ToShortString()}; it must begin where it was opened and last at most {longest.ToShortString()}.");
+        }
+
+        if (isMember && (body.StillSince > body.Opened.Time || body.Centre > body.Opened.Time + longest || (isStep && body.Centre < body.Opened.Time - longest)))
+        {
+            throw new SceneException(
+                $"The velocity of {whose} is of {body.Centre.ToShortString()}, and it is still since {body.StillSince.ToShortString()}; the first must lie within a"
+                + $" step, {longest.ToShortString()}, of {body.Opened.Time.ToShortString()}, when its path was opened, and the second not after.");
+        }
+
+        int surfaces = scene.PlaneArray.Length + scene.SphereArray.Length;
+        foreach (LastingContact contact in body.ContactArray)
+        {
+            bool isPair = contact.Surface == LastingContact.NoSurface;
+            if (contact.Surface < LastingContact.NoSurface || contact.Surface >= surfaces || isPair == (contact.Partner == body.Id))
+            {
+                throw new SceneException(
+                    $"A contact of {whose} is with surface {contact.Surface} and body {contact.Partner}; a surface is numbered 0 to {surfaces - 1} and goes with"
+                    + $" the body itself, and {LastingContact.NoSurface} goes with another.");
+            }
+
+            Limits.Components(contact.Push, double.MaxValue, whose, "impulse of a contact", "N s");
+            Limits.Components(contact.Turn, double.MaxValue, whose, "angular impulse of a contact", "N m s");
+        }
+    }
+
+    private static void CheckHold(in BodySnapshot body, WorldSnapshot snapshot, string whose)
+    {
+        Hold hold = body.Hold;
+        if (body.Law != MotionLaw.Held)
+        {
+            return;
+        }
+
+        Limits.Components(hold.Offset, Limits.MaxCoordinate, whose, "offset of the hand", "m");
+        bool isPast = hold.Knot >= snapshot.Start && hold.Knot <= body.Epoch;
+        if (!isPast || (body.End != hold.Knot + HandPath.Settles && body.End != hold.Knot + HandPath.Stops && body.End != hold.Knot + HandPath.Lasts))
+        {
+            throw new SceneException(
+                $"The hand that holds {whose} last told where it is at {hold.Knot}, and this piece of its path lasts from {body.Epoch.ToShortString()} to"
+                + $" {body.End.ToShortString()}; it must not begin before, and end {HandPath.Settles}, {HandPath.Stops} or {HandPath.Lasts} after.");
+        }
+    }
+
+    private static void CheckTimes(in BodySnapshot body, WorldSnapshot snapshot, string whose)
+    {
+        EventKey opened = body.Opened;
+        bool isKnown = opened.Kind is EventKind.Start or EventKind.Impact or EventKind.StepEnd
+            or (>= EventKind.Spawn and <= EventKind.Release) || (opened.Kind == EventKind.Remove && opened.Body != body.Id); // what it lay on is gone
+        if (!isKnown || opened.Time < snapshot.Start || opened.Time >= snapshot.Time)
+        {
+            throw new SceneException(
+                $"The path of {whose} was opened by {opened}; it must be an event that opens one, from {snapshot.Start.ToShortString()} on and before"
+                + $" {snapshot.Time.ToShortString()}.");
+        }
+
+        if (body.Epoch < snapshot.Start || body.Epoch > opened.Time || body.End < snapshot.Time)
+        {
+            throw new SceneException(
+                $"The path of {whose} counts from {body.Epoch.ToShortString()} and ends at {body.End.ToShortString()}; it must count from between"
+                + $" {snapshot.Start.ToShortString()} and {opened.Time.ToShortString()}, and last to {snapshot.Time.ToShortString()}.");
+        }
+    }
+}

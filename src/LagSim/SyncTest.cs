@@ -1,0 +1,55 @@
+using LagSim.Events;
+using LagSim.Time;
+
+namespace LagSim;
+
+/// <summary>A simulation's twin, in which every late event rolls everything back: after each heal the two are held against each other.</summary>
+internal sealed class SyncTest
+{
+    private readonly Engine healed;
+    private readonly Simulation twin;
+    private bool isDue;
+
+    /// <summary>Begins with two worlds that are the same.</summary>
+    /// <param name="healed">The world that heals.</param>
+    /// <param name="twin">The one that rolls everything back.</param>
+    internal SyncTest(Engine healed, Simulation twin)
+    {
+        this.healed = healed;
+        this.twin = twin;
+        healed.Rewinder.Healed += _ => isDue = true;
+    }
+
+    /// <summary>What is submitted to the one is submitted to the other.</summary>
+    internal void Submit(in ExternalEvent external) => twin.Submit(external);
+
+    /// <inheritdoc cref="Submit"/>
+    internal void SubmitForwarded(in ExternalEvent external, SimTime arrival) => twin.SubmitForwarded(external, arrival);
+
+    /// <summary>What is taken back of the one is taken back of the other.</summary>
+    internal void Retract(in ExternalEvent external) => twin.Retract(external);
+
+    /// <summary>What the one forgets the other does.</summary>
+    internal void DropHistoryBefore(SimTime time) => twin.DropHistoryBefore(time);
+
+    /// <summary>Brings the twin to where the world is and, if something was healed, compares the two.</summary>
+    /// <exception cref="SimulationException">They differ.</exception>
+    internal void Follow()
+    {
+        SimTime simulatedTo = healed.Progress.SimulatedTo;
+        if (twin.SimulatedTo < simulatedTo)
+        {
+            twin.AdvanceTo(simulatedTo);
+        }
+
+        if (isDue && !healed.Rollback.IsActive && twin.SimulatedTo == simulatedTo)
+        {
+            isDue = false;
+            if (TimelineComparison.FirstDifference(twin.Engine, healed) is string difference)
+            {
+                throw healed.Loop.Fail(new SimulationException(
+                    $"The sync test failed: the world as healed and the world as fully rolled back differ. {difference}"));
+            }
+        }
+    }
+}
