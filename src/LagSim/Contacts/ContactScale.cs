@@ -11,7 +11,7 @@ namespace LagSim.Contacts;
 /// most d / 4, and the second at most the speed from which a body rises by d. So all of these are one length, seen as a time, a speed and a place.</para>
 /// <para>Immutable; the same on every peer.</para>
 /// </remarks>
-internal readonly struct ContactScale
+internal sealed class ContactScale
 {
     /// <summary>No step is longer: a picture a frame of an old screen, so that what moves in a heap is seen to.</summary>
     private const long LongestTicks = SimDuration.TicksPerSecond / 64;

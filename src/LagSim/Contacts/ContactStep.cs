@@ -32,7 +32,7 @@ internal sealed class ContactStep
     private int nearCount;
     private double fastest; // that the near ones were found for
 
-    internal ContactStep(Scene scene, in ContactScale scale)
+    internal ContactStep(Scene scene, ContactScale scale)
     {
         surfaces = scene.Surfaces;
         Scale = scale;
