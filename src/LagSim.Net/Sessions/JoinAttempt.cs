@@ -51,6 +51,9 @@ internal sealed class JoinAttempt
     /// <summary>Whether the host has welcomed it.</summary>
     internal bool IsWelcome { get; private set; }
 
+    /// <summary>How many lines of the log are in the copy.</summary>
+    internal uint LogStart { get; private set; }
+
     /// <summary>What the copy's hash is to be.</summary>
     internal ulong CopyHash { get; private set; }
 
@@ -99,6 +102,7 @@ internal sealed class JoinAttempt
     {
         IsWelcome = true;
         Took = now - Challenged;
+        LogStart = welcome.LogIndex;
         CopyHash = welcome.CopyHash;
         Fetch = new CopyFetch(welcome.CopyLength, now);
     }

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using LagSim.Events;
 using LagSim.Net.Wire;
 
 namespace LagSim.Net.Sessions;
@@ -40,6 +41,11 @@ internal sealed class SendWindow
 
     /// <summary>The greatest number that was sent, or acknowledged.</summary>
     internal uint Sent => sent;
+
+    /// <summary>
+    /// Whether the next of its kind carries what this one would have, if it is lost: it waits for its acknowledgement, and need not be sent again and again.
+    /// </summary>
+    internal static bool IsMadeUpFor(in ExternalEvent external) => external.Kind == EventKind.HoldKnot;
 
     /// <summary>Notes that the other has the entries up to a number; a lower one than before says nothing.</summary>
     internal void Acknowledge(uint number)
@@ -208,7 +214,7 @@ internal sealed class SendWindow
         for (uint number = Acknowledged; number < last; number++) // the last may be the greatest number there is
         {
             UpdateEntry entry = source[number + 1];
-            if (entry.IsOwn || !Session.IsMadeUpFor(entry.Event))
+            if (entry.IsOwn || !IsMadeUpFor(entry.Event))
             {
                 return false;
             }

@@ -103,6 +103,13 @@ public sealed class SessionCounters
     /// <remarks>Cheap, however much was counted.</remarks>
     public SessionCounters Copy() => new(this);
 
+    /// <summary>Counts a datagram that could not be decoded; whether it could.</summary>
+    internal bool IsWellFormed(bool decoded)
+    {
+        DatagramsMalformed += decoded ? 0 : 1;
+        return decoded;
+    }
+
     internal void Count(bool agrees, SimTime time)
     {
         StatesAgreed += agrees ? 1 : 0;
