@@ -66,7 +66,7 @@ internal sealed class HostConnection
         FirstSequence = LastUrgent = lastSequence;
         Unjudged = new OwnEvents(lastSequence);
         link.Self = number;
-        link.StartAfter(lastSequence);
+        link.Outgoing.StartAfter(lastSequence);
     }
 
     /// <summary>Sees to it that the host hears of an own event.</summary>

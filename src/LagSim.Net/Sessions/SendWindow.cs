@@ -42,6 +42,14 @@ internal sealed class SendWindow
     /// <summary>The greatest number that was sent, or acknowledged.</summary>
     internal uint Sent => sent;
 
+    /// <summary>Begins anew with entries after that number, before any was sent.</summary>
+    internal void StartAfter(uint acknowledged)
+    {
+        Acknowledged = sent = acknowledged;
+        lostUpTo = 0;
+        lost.Clear();
+    }
+
     /// <summary>
     /// Whether the next of its kind carries what this one would have, if it is lost: it waits for its acknowledgement, and need not be sent again and again.
     /// </summary>

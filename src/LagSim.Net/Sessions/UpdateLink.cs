@@ -19,54 +19,21 @@ internal sealed class UpdateLink
     /// <summary>What an update has beside its entries, in bytes: header, state hash, UDP and IP.</summary>
     private const int OwnBytes = WireFormat.EmptyUpdateBytes + WireFormat.StateHashBytes + CongestionControl.DatagramOverhead;
 
-    /// <summary>The longest wait for an answer doubles no more often than this.</summary>
-    private const int MostDoublings = 3;
-
-    /// <summary>So many times in a row nothing is answered before the link counts as another one.</summary>
-    private const int Silent = 3;
-
-    /// <summary>Who writes more often is not answered more often than this, in the mean.</summary>
-    private static readonly SimDuration LeastDistance = SimDuration.FromMilliseconds(1);
-
-    /// <summary>
-    /// By so many of its distances may what is hastened be ahead: after a pause three go out at once. What one player does then does not wait because an answer to what
-    /// another did has just gone.
-    /// </summary>
-    private const int MostAhead = 2;
-
     /// <summary>A window's worth of datagrams goes out in four fifths of a round trip, so that it does not overflow a short queue at once (RFC 9002, 7.7).</summary>
     private const double PaceGain = 1.25;
 
-    /// <summary>How long an answer is waited for before a round trip has been measured.</summary>
-    private static readonly SimDuration FirstPatience = SimDuration.FromMilliseconds(300);
-
     private readonly SimDuration interval;
-    private readonly UpdateDatagram outgoing;
-    private readonly byte[] buffer;
-    private readonly SessionFault fault;
-    private readonly SeenNumbers seen = new();
-    private readonly SentDatagrams sent = new();
-    private readonly CongestionControl congestion;
+    private readonly LinkEnds ends;
+    private readonly UpdateComposer composer;
+    private readonly LinkHearing hearing;
+    private readonly LinkFlight flight;
+    private readonly AnswerTimer answers;
     private readonly SpareRate spare;
-    private readonly RoundTrips trips = new();
-    private uint lastSent;
-    private SimTime echoReceived = SimTime.MinValue;
-    private SimDuration unheard;
-    private SimTime paced = SimTime.MinValue; // when the next update would be due if all kept their distance
-    private SimDuration distance = LeastDistance; // of the last
-    private SimTime latest = SimTime.MinValue; // when the last update was sent
-    private int atOnce; // how many were sent then
-    private SimTime newsSince = SimTime.MaxValue; // since when something new waits
-    private int newsBytes; // how much, in entries
-    private int unanswered; // how many times in a row answers were overdue
-    private SimTime answered; // when something was answered, or began to be waited for
-    private uint echoed; // the newest number that a round trip was taken of
+    private readonly SendPacer pacer;
+    private readonly LinkTrafficCounter traffic = new();
+    private readonly UnsentNews news = new();
     private bool isProbe; // the next update goes whatever the window
     private bool isHeldBack; // something has to go and may not yet
-    private long datagramsSent;
-    private long bytesSent;
-    private long datagramsReceived;
-    private long bytesReceived;
 
     /// <param name="sessionId">What every datagram of this link bears.</param>
     /// <param name="self">This peer's number.</param>
@@ -82,50 +49,53 @@ internal sealed class UpdateLink
         ulong sessionId, byte self, byte peer, PeerAddress other, uint acknowledged, SimDuration interval, UpdateDatagram outgoing, byte[] buffer, SimTime now,
         SessionFault fault = SessionFault.None)
     {
-        this.outgoing = outgoing;
-        this.buffer = buffer;
-        SessionId = sessionId;
-        Self = self;
-        Peer = peer;
-        Other = other;
-        this.fault = fault;
-        Outgoing = new SendWindow(acknowledged, fault);
-        congestion = new CongestionControl(fault);
-        spare = new SpareRate(fault);
         this.interval = interval;
-        Heard = now;
-        Due = now;
+        ends = new LinkEnds(sessionId, self, peer, other);
+        composer = new UpdateComposer(outgoing, buffer);
+        hearing = new LinkHearing(now, fault);
+        pacer = new SendPacer(now);
+        spare = new SpareRate(fault);
+        SentDatagrams sent = new();
+        answers = new AnswerTimer(Trips, sent, MostAckDelay + interval);
+        flight = new LinkFlight(new SendWindow(acknowledged, fault), sent, new CongestionControl(fault), Trips, spare, answers);
     }
 
-    internal ulong SessionId { get; }
+    internal ulong SessionId => ends.SessionId;
 
     /// <summary>This peer's number; 0 also for a joiner that has none yet.</summary>
-    internal byte Self { get; set; }
+    internal byte Self
+    {
+        get => ends.Self;
+        set => ends.Self = value;
+    }
 
     /// <summary>The other's number; 0 also for a joiner that has none yet.</summary>
-    internal byte Peer { get; set; }
+    internal byte Peer
+    {
+        get => ends.Peer;
+        set => ends.Peer = value;
+    }
 
     /// <summary>Where the other is.</summary>
-    internal PeerAddress Other { get; set; }
+    internal PeerAddress Other
+    {
+        get => ends.Other;
+        set => ends.Other = value;
+    }
 
     /// <summary>What of this peer's entries goes out next.</summary>
-    internal SendWindow Outgoing { get; private set; }
+    internal SendWindow Outgoing => flight.Window;
 
-    internal LinkTraffic Traffic => new(Peer, Other, datagramsSent, bytesSent, datagramsReceived, bytesReceived, trips.Newest, trips.HasQueue ? trips.Queueing : SimDuration.Zero);
+    internal LinkTraffic Traffic => traffic.Of(Peer, Other, Trips);
 
     /// <summary>What is known of the round trips.</summary>
-    internal RoundTrips Trips => trips;
+    internal RoundTrips Trips { get; } = new();
 
     /// <summary>When the last update came, by the own clock.</summary>
-    internal SimTime Heard { get; private set; }
+    internal SimTime Heard => hearing.Heard;
 
     /// <summary>When the next update is due, by the own clock.</summary>
-    internal SimTime Due { get; private set; }
-
-    /// <summary>How long an answer is waited for.</summary>
-    private SimDuration Patience => (trips.IsMeasured ? trips.Patience : FirstPatience) + MostAckDelay + interval;
-
-    private SimDuration LongestTrip => trips.Mean > trips.Newest ? trips.Mean : trips.Newest;
+    internal SimTime Due => pacer.Due;
 
     /// <summary>
     /// How long something new waits for more at most, where it may not hurry: no longer than an answer takes, and no longer than the queue itself has it wait, but
@@ -135,19 +105,16 @@ internal sealed class UpdateLink
     {
         get
         {
-            SimDuration most = trips.Queueing / 2 > MostAckDelay ? trips.Queueing / 2 : MostAckDelay;
-            return trips.Mean < most ? trips.Mean : most;
+            SimDuration most = Trips.Queueing / 2 > MostAckDelay ? Trips.Queueing / 2 : MostAckDelay;
+            return Trips.Mean < most ? Trips.Mean : most;
         }
     }
 
     /// <summary>The longer of two silences: for how long nothing came, and for how long the other said, when it last wrote, that nothing came there.</summary>
-    internal SimDuration Silence(SimTime now) => now - Heard > unheard ? now - Heard : unheard;
-
-    /// <summary>Begins anew with entries after that number, before any was sent.</summary>
-    internal void StartAfter(uint acknowledged) => Outgoing = new SendWindow(acknowledged, fault);
+    internal SimDuration Silence(SimTime now) => hearing.Silence(now);
 
     /// <summary>When an update was sent that the other says it has; false for one that was not, or long ago.</summary>
-    internal bool TryGetSent(uint number, out SimTime at) => sent.TryGetTime(number, out at);
+    internal bool TryGetSent(uint number, out SimTime at) => flight.Sent.TryGetTime(number, out at);
 
     /// <summary>Notes an update that came.</summary>
     /// <param name="update">The update.</param>
@@ -156,52 +123,35 @@ internal sealed class UpdateLink
     /// <returns>False for one that came before, or is so old that it may have.</returns>
     internal bool Note(UpdateDatagram update, SimTime now, out bool isNewest)
     {
-        isNewest = update.Number > seen.Newest;
-        if (!seen.Add(update.Number))
+        if (!hearing.Note(update, now, flight.Sent, Trips, out isNewest))
         {
-            return false; // perhaps somebody plays it again: it does not even show that the other is there
+            return false;
         }
 
-        if (isNewest)
+        flight.TakeAcknowledgements(update, now);
+        if (Outgoing.HasToGoAgain || (isHeldBack && flight.Congestion.HasRoom))
         {
-            Heard = now;
-            echoReceived = now;
-            SimDuration held = update.EchoNumber == 0 ? SimDuration.Zero : update.Sent - update.EchoReceived; // both by its own clock
-            unheard = held;
-            bool isNewTrip = update.EchoNumber > echoed || (fault & SessionFault.CountsTripsAgain) != 0; // else its way there has counted
-            if (isNewTrip && sent.TryGetTime(update.EchoNumber, out SimTime at)
-                && held >= SimDuration.Zero && held <= now - at) // else it is made up
-            {
-                trips.Add(now - at - held, now);
-                echoed = update.EchoNumber;
-            }
+            Hasten(now);
         }
 
-        TakeAcknowledgements(update, now);
         return true;
     }
 
     /// <summary>Notes that the other has this peer's entries up to a number.</summary>
     internal void Acknowledge(uint number, SimTime now)
     {
-        Outgoing.Acknowledge(number);
-        while (sent.TryTakeCovered(Outgoing.Acknowledged, out SentDatagrams.Datagram covered))
-        {
-            congestion.OnAcknowledged(covered.Bytes, trips.HasQueue);
-            (unanswered, answered) = (0, now);
-        }
-
-        if (isHeldBack && congestion.HasRoom)
+        flight.Acknowledge(number, now);
+        if (isHeldBack && flight.Congestion.HasRoom)
         {
             Hasten(now);
         }
     }
 
     /// <summary>Notes something else that only the other can have sent, and only now.</summary>
-    internal void NoteHeard(SimTime now) => Heard = now;
+    internal void NoteHeard(SimTime now) => hearing.NoteHeard(now);
 
     /// <summary>Has the next update sent no later than this, unless so many went out just now that the least distance would not be kept in the mean.</summary>
-    internal void Hasten(SimTime by) => Due = SimTime.Min(Due, SimTime.Max(by, paced == SimTime.MinValue ? by : paced - (distance * MostAhead)));
+    internal void Hasten(SimTime by) => pacer.Hasten(by);
 
     /// <summary>Has the other answered: at once, or where that is too much together with what else there is to say soon.</summary>
     internal void Answer(SimTime now) => Hasten(MayHurry(now) ? now : now + MostAckDelay);
@@ -209,27 +159,18 @@ internal sealed class UpdateLink
     /// <summary>Notes that there is something new for the other, of that many bytes.</summary>
     internal void NoteNews(int bytes, SimTime now)
     {
-        newsBytes += bytes;
-        newsSince = SimTime.Min(newsSince, now);
-        if (congestion.HasRoom) // else it goes with what is acknowledged, or lost, next
+        news.Note(bytes, now);
+        if (flight.Congestion.HasRoom) // else it goes with what is acknowledged, or lost, next
         {
-            Hasten(newsBytes >= 2 * OwnBytes || MayHurry(now) ? now : newsSince + MergeTime);
+            Hasten(news.Bytes >= 2 * OwnBytes || MayHurry(now) ? now : news.Since + MergeTime);
         }
 
-        isHeldBack |= !congestion.HasRoom;
+        isHeldBack |= !flight.Congestion.HasRoom;
     }
 
-    internal void CountReceived(int bytes)
-    {
-        datagramsReceived++;
-        bytesReceived += bytes;
-    }
+    internal void CountReceived(int bytes) => traffic.CountReceived(bytes);
 
-    internal void CountSent(int bytes)
-    {
-        datagramsSent++;
-        bytesSent += bytes;
-    }
+    internal void CountSent(int bytes) => traffic.CountSent(bytes);
 
     /// <summary>Whether an update is due; what was not answered for too long counts as lost from now on.</summary>
     internal bool IsDue(SimTime now)
@@ -239,61 +180,35 @@ internal sealed class UpdateLink
             return false;
         }
 
-        TakeLost(now);
-        if (sent.Waited > 0 && now >= AnswerDue(now))
+        flight.TakeLost(now);
+        if (flight.Sent.Waited > 0 && now >= answers.Due(now))
         {
-            unanswered = Math.Min(unanswered + 1, MostDoublings + Silent);
-            if (unanswered == Silent && trips.HasQueue)
-            {
-                congestion.OnSilence(now);
-            }
-
-            // With a queue on the way the answer is more likely late than lost. So twice only the oldest goes again, as a probe that the window does not hold back
-            // (RFC 9002, 6.2.4 and 7.5); then all that is overdue is lost, and what goes is what the least window lets (7.6).
-            SimTime before = now - Patience;
-            isProbe = trips.HasQueue && unanswered < Silent;
-            while (sent.TryPeekOldest(out SimTime at) && at <= before && sent.TryTakeOldest(out SentDatagrams.Datagram oldest))
-            {
-                Lose(oldest, now, hasQueue: false);
-                if (isProbe)
-                {
-                    break;
-                }
-            }
+            isProbe = flight.TakeOverdue(now);
         }
 
         return true;
     }
 
     /// <summary>An update with everything that this type knows filled in; the rest is the caller's. Then <see cref="Fill"/>, and send it with <see cref="Seal"/>.</summary>
-    internal UpdateDatagram Compose(SimTime now)
-    {
-        outgoing.Clear();
-        outgoing.SessionId = SessionId;
-        outgoing.Peer = Self;
-        outgoing.Number = ++lastSent;
-        outgoing.Sent = now;
-        outgoing.EchoNumber = seen.Newest;
-        outgoing.EchoBits = seen.BitsBefore(seen.Newest);
-        outgoing.EchoReceived = echoReceived;
-        return outgoing;
-    }
+    internal UpdateDatagram Compose(SimTime now) => composer.Next(SessionId, Self, hearing, now);
 
     /// <summary>Puts entries into the composed update.</summary>
     internal void Fill(IEntrySource source, SimTime now)
     {
-        spare.Advance(now, trips, unanswered > 0, Doublings(now));
+        UpdateDatagram update = composer.Update;
+        CongestionControl congestion = flight.Congestion;
+        spare.Advance(now, Trips, answers.IsOverdue, answers.Doublings(now));
         if (!congestion.HasRoom && !isProbe)
         {
-            outgoing.FirstIndex = Outgoing.Sent + 1;
+            update.FirstIndex = Outgoing.Sent + 1;
             return;
         }
 
         isProbe = false;
 
         // What has to go finds the window half empty. An update that is worth its own bytes is none that could have waited.
-        int repeated = Outgoing.Fill(outgoing, source, congestion.IsHalfFull ? 0 : spare.Bytes, OwnBytes, congestion.DatagramBytes - OwnBytes);
-        int needed = outgoing.EncodedLength - WireFormat.EmptyUpdateBytes - repeated;
+        int repeated = Outgoing.Fill(update, source, congestion.IsHalfFull ? 0 : spare.Bytes, OwnBytes, congestion.DatagramBytes - OwnBytes);
+        int needed = update.EncodedLength - WireFormat.EmptyUpdateBytes - repeated;
         spare.Spend(repeated + Math.Max(0, OwnBytes - (Math.Max(0, needed) / 2)));
     }
 
@@ -304,128 +219,62 @@ internal sealed class UpdateLink
     /// <param name="isUrgent">Whether something is not acknowledged that nothing later makes up for.</param>
     internal ReadOnlySpan<byte> Seal(IEntrySource source, SimTime now, SimDuration rest, bool isUrgent)
     {
-        int length = outgoing.Encode(buffer);
-        answered = sent.Waited == 0 && unanswered == 0 ? now : answered;
-        uint last = outgoing.FirstIndex + (uint)outgoing.Held.Length - 1;
-        if (sent.Add(lastSent, now, length + CongestionControl.DatagramOverhead, outgoing.FirstIndex, last) is SentDatagrams.Datagram forgotten)
-        {
-            Lose(forgotten, now, trips.HasQueue);
-        }
-
-        if (outgoing.Held.Length > 0)
-        {
-            congestion.OnSent(length + CongestionControl.DatagramOverhead);
-        }
-
+        UpdateDatagram update = composer.Update;
+        ReadOnlySpan<byte> bytes = composer.Encode();
+        flight.NoteSent(update, bytes.Length, now);
         bool hasNeeded = Outgoing.HasNeeded(source);
-        isHeldBack = hasNeeded && !congestion.HasRoom;
+        isHeldBack = hasNeeded && !flight.Congestion.HasRoom;
         if (!hasNeeded)
         {
-            (newsBytes, newsSince) = (0, SimTime.MaxValue);
+            news.Clear();
         }
 
-        distance = outgoing.Held.Length > 0 ? Distance(length) : LeastDistance;
-        bool isPaced = distance > LeastDistance;
-        paced = now == latest && !isPaced ? paced : SimTime.Max(paced, now) + distance; // those of one moment count as one, where there is room
-        atOnce = now == latest ? atOnce + 1 : 1;
-        latest = now;
-        Due = !hasNeeded || isHeldBack ? now + (rest > LeastDistance ? rest : LeastDistance)
-            : isPaced ? SimTime.Max(now, paced - (distance * MostAhead))
-            : atOnce < SendWindow.MaxDatagramsAtOnce ? now
-            : now + LeastDistance;
-        if (sent.Waited > 0)
+        pacer.NoteSent(now, update.Held.Length > 0 ? Distance(bytes.Length) : SendPacer.LeastDistance);
+        if (hasNeeded && !isHeldBack)
         {
-            Hasten(AnswerDue(now));
-            if (sent.TryGetOvertaken(out SimTime at))
-            {
-                Hasten(at + LongestTrip + (LongestTrip / 8));
-            }
-
-            if ((isUrgent || Outgoing.HasLost) && !congestion.IsHalfFull)
-            {
-                SimDuration affordable = spare.WaitFor(OwnBytes + Outgoing.RepetitionBytes(source));
-                Hasten(now + (interval > affordable ? interval : affordable));
-            }
+            pacer.GoOn(now);
+        }
+        else
+        {
+            pacer.Rest(now, rest);
         }
 
-        return buffer.AsSpan(0, length);
+        if (flight.Sent.Waited > 0)
+        {
+            HastenForAnswers(source, now, isUrgent);
+        }
+
+        return bytes;
+    }
+
+    /// <summary>Has the next update sent when an answer is overdue, something counts as lost, or what is urgent may be repeated.</summary>
+    private void HastenForAnswers(IEntrySource source, SimTime now, bool isUrgent)
+    {
+        Hasten(answers.Due(now));
+        if (flight.Sent.TryGetOvertaken(out SimTime at))
+        {
+            Hasten(at + flight.LongestTrip + (flight.LongestTrip / 8));
+        }
+
+        if ((isUrgent || Outgoing.HasLost) && !flight.Congestion.IsHalfFull)
+        {
+            SimDuration affordable = spare.WaitFor(OwnBytes + Outgoing.RepetitionBytes(source));
+            Hasten(now + (interval > affordable ? interval : affordable));
+        }
     }
 
     /// <summary>How far apart updates with entries go in the mean, by their length.</summary>
     private SimDuration Distance(int length)
     {
-        SimDuration even = SimDuration.FromSeconds(trips.Mean.ToSeconds() * (length + CongestionControl.DatagramOverhead) / (PaceGain * congestion.Window));
-        return trips.IsMeasured && even > LeastDistance ? even : LeastDistance;
-    }
-
-    /// <summary>When the answer to what was sent is overdue.</summary>
-    private SimTime AnswerDue(SimTime now) => sent.TryPeekOldest(out SimTime at) ? at + (Patience * (1L << Doublings(now))) : SimTime.MaxValue;
-
-    /// <summary>
-    /// How many times the wait for an answer has doubled. Where there is a queue it doubles each time that an answer was overdue. Where there is none it first does
-    /// after eight times the wait, since a link that loses several datagrams in a row is lost for longer the fewer are sent; by then nobody may be there.
-    /// </summary>
-    private int Doublings(SimTime now)
-    {
-        int doublings = 0;
-        while (doublings < MostDoublings && doublings < unanswered && (trips.HasQueue || now - answered > Patience * (8L << doublings)))
-        {
-            doublings++;
-        }
-
-        return doublings;
+        SimDuration even = SimDuration.FromSeconds(
+            Trips.Mean.ToSeconds() * (length + CongestionControl.DatagramOverhead) / (PaceGain * flight.Congestion.Window));
+        return Trips.IsMeasured && even > SendPacer.LeastDistance ? even : SendPacer.LeastDistance;
     }
 
     /// <summary>Whether an update may go for little.</summary>
     private bool MayHurry(SimTime now)
     {
-        spare.Advance(now, trips, unanswered > 0, Doublings(now));
+        spare.Advance(now, Trips, answers.IsOverdue, answers.Doublings(now));
         return spare.WaitFor(OwnBytes) == SimDuration.Zero;
-    }
-
-    private void TakeAcknowledgements(UpdateDatagram update, SimTime now)
-    {
-        AcknowledgeUpdate(update.EchoNumber, now);
-        for (int n = 0; n < 32 && update.EchoBits >> n != 0; n++)
-        {
-            if ((update.EchoBits >> n & 1) != 0)
-            {
-                AcknowledgeUpdate(update.EchoNumber - 1 - (uint)n, now);
-            }
-        }
-
-        TakeLost(now);
-        if (Outgoing.HasToGoAgain || (isHeldBack && congestion.HasRoom))
-        {
-            Hasten(now);
-        }
-    }
-
-    private void AcknowledgeUpdate(uint number, SimTime now)
-    {
-        if (sent.TryAcknowledge(number, out SentDatagrams.Datagram came))
-        {
-            congestion.OnAcknowledged(came.Bytes, trips.HasQueue);
-            (unanswered, answered) = (0, now);
-        }
-    }
-
-    private void TakeLost(SimTime now)
-    {
-        while (sent.TryTakeLost(now, LongestTrip, out SentDatagrams.Datagram datagram))
-        {
-            Lose(datagram, now, trips.HasQueue);
-        }
-    }
-
-    private void Lose(in SentDatagrams.Datagram datagram, SimTime now, bool hasQueue)
-    {
-        if (congestion.OnLost(datagram.Bytes, datagram.At, now, hasQueue) && trips.HasQueue)
-        {
-            spare.Cut(); // where none shows, repetition is what hides losses
-        }
-
-        sent.NoteLost(datagram);
-        Outgoing.Lose(datagram.First, datagram.Last, isOnItsWay: sent.IsCarriedLater(datagram, datagram.First, datagram.Last));
     }
 }
