@@ -9,7 +9,7 @@ namespace LagSim.Net.Sessions;
 /// used, at most once a round trip, when datagrams are lost. It grows only while it is used. A loss counts as congestion where there is a queue, or where a larger
 /// share is lost than by a bad radio link: drop-tail queues lose when they are full, and one that was full when this link began shows by nothing else.
 /// </remarks>
-internal sealed class CongestionControl
+internal class CongestionControl
 {
     /// <summary>What IPv4 and UDP add to each datagram, in bytes.</summary>
     internal const int DatagramOverhead = 28;
@@ -45,15 +45,11 @@ internal sealed class CongestionControl
 
     private const double LossMemory = 1.0 / 128;
 
-    private readonly bool neverBacksOff;
     private double window = InitialWindow;
     private double threshold = double.PositiveInfinity; // below it the window doubles a round trip: what it was last cut to
     private int peak; // the most that was on its way since the window was last cut: what of the window was used (RFC 7661)
     private double lossShare;
     private SimTime cut = SimTime.MinValue; // what was sent before that is not counted against the window again
-
-    /// <param name="fault">What is done wrong on purpose.</param>
-    internal CongestionControl(SessionFault fault = SessionFault.None) => neverBacksOff = (fault & SessionFault.NeverBacksOff) != 0;
 
     /// <summary>How many bytes are on their way: sent, and neither acknowledged nor lost.</summary>
     internal int InFlight { get; private set; }
@@ -94,7 +90,7 @@ internal sealed class CongestionControl
     {
         InFlight -= bytes;
         lossShare += (1 - lossShare) * LossMemory;
-        if (!(hasQueue || lossShare > BearableLoss) || sent <= cut || neverBacksOff)
+        if (!IsCutFor(sent, hasQueue))
         {
             return false;
         }
@@ -106,9 +102,12 @@ internal sealed class CongestionControl
     }
 
     /// <summary>Nothing was answered, again and again: the link may have become another one (RFC 9002, 7.6).</summary>
-    internal void OnSilence(SimTime now)
+    internal virtual void OnSilence(SimTime now)
     {
-        window = neverBacksOff ? window : LeastWindow;
+        window = LeastWindow;
         cut = now;
     }
+
+    /// <summary>Whether the window is cut for a loss: one that a queue explains, or one of too many; once for all that was on its way.</summary>
+    internal virtual bool IsCutFor(SimTime sent, bool hasQueue) => (hasQueue || lossShare > BearableLoss) && sent > cut;
 }

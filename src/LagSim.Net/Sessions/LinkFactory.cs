@@ -13,8 +13,8 @@ internal sealed class LinkFactory
 
     internal LinkFactory(SimDuration resendInterval) => this.resendInterval = resendInterval;
 
-    /// <summary>What links that are made from now on do wrong on purpose.</summary>
-    internal SessionFault Fault { get; set; }
+    /// <summary>What makes the parts of the links that are made from now on.</summary>
+    internal LinkParts Parts { get; set; } = new();
 
     /// <summary>A link to a peer that has no number yet.</summary>
     /// <param name="other">Where it is.</param>
@@ -22,5 +22,5 @@ internal sealed class LinkFactory
     /// <param name="acknowledged">The other has this peer's entries up to this one.</param>
     /// <param name="now">By the own clock.</param>
     internal UpdateLink To(PeerAddress other, ulong sessionId, uint acknowledged, SimTime now) =>
-        new(sessionId, 0, 0, other, acknowledged, resendInterval, outgoing, buffer, now, Fault);
+        new(sessionId, 0, 0, other, acknowledged, resendInterval, outgoing, buffer, now, Parts);
 }

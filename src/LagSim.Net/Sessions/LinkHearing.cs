@@ -4,20 +4,14 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions;
 
 /// <summary>What was heard of the other end of a link: which of its updates came, when it was last heard, and the round trips that its answers show.</summary>
-internal sealed class LinkHearing
+internal class LinkHearing
 {
     private readonly SeenNumbers seen = new();
-    private readonly bool countsTripsAgain;
     private SimDuration unheard;
     private uint echoed; // the newest number that a round trip was taken of
 
     /// <param name="now">By the own clock.</param>
-    /// <param name="fault">What is done wrong on purpose.</param>
-    internal LinkHearing(SimTime now, SessionFault fault = SessionFault.None)
-    {
-        Heard = now;
-        countsTripsAgain = (fault & SessionFault.CountsTripsAgain) != 0;
-    }
+    internal LinkHearing(SimTime now) => Heard = now;
 
     /// <summary>When the last update came, by the own clock.</summary>
     internal SimTime Heard { get; private set; }
@@ -58,8 +52,7 @@ internal sealed class LinkHearing
             NewestCame = now;
             SimDuration held = update.EchoNumber == 0 ? SimDuration.Zero : update.Sent - update.EchoReceived; // both by its own clock
             unheard = held;
-            bool isNewTrip = update.EchoNumber > echoed || countsTripsAgain; // else its way there has counted
-            if (isNewTrip && sent.TryGetTime(update.EchoNumber, out SimTime at)
+            if (IsNewTrip(update.EchoNumber, echoed) && sent.TryGetTime(update.EchoNumber, out SimTime at)
                 && held >= SimDuration.Zero && held <= now - at) // else it is made up
             {
                 trips.Add(now - at - held, now);
@@ -69,4 +62,9 @@ internal sealed class LinkHearing
 
         return true;
     }
+
+    /// <summary>Whether the round trip of an update that is answered has not been counted.</summary>
+    /// <param name="answered">The number of the update.</param>
+    /// <param name="counted">The newest one of which it has.</param>
+    internal virtual bool IsNewTrip(uint answered, uint counted) => answered > counted;
 }

@@ -11,7 +11,7 @@ namespace LagSim.Net.Sessions;
 /// link is like. Repetition of what is on its way hides losses before they are known, and is for links with room.</para>
 /// <para>At most <see cref="MaxEntries"/> are under way. Knots are made up for by later ones, so they are repeated once, with the next.</para>
 /// </remarks>
-internal sealed class SendWindow
+internal class SendWindow
 {
     /// <summary>So many entries beyond the acknowledged ones are sent at most; a receiver keeps as many that came before their turn.</summary>
     internal const int MaxEntries = 4096;
@@ -26,21 +26,17 @@ internal sealed class SendWindow
     private uint sent;
     private uint lostUpTo; // the greatest number that was ever sent in vain
 
-    private readonly bool dropsWhenMerging;
-
     /// <param name="acknowledged">The other has the entries up to this one.</param>
-    /// <param name="fault">What is done wrong on purpose.</param>
-    internal SendWindow(uint acknowledged, SessionFault fault = SessionFault.None)
-    {
-        Acknowledged = sent = acknowledged;
-        dropsWhenMerging = (fault & SessionFault.DropsWhenMerging) != 0;
-    }
+    internal SendWindow(uint acknowledged) => Acknowledged = sent = acknowledged;
 
     /// <summary>The other has the entries up to this one.</summary>
     internal uint Acknowledged { get; private set; }
 
     /// <summary>The greatest number that was sent, or acknowledged.</summary>
     internal uint Sent => sent;
+
+    /// <summary>The number up to which entries are in the update, once one more was put in: that one's.</summary>
+    internal virtual uint After(uint added, uint first, uint last) => added;
 
     /// <summary>Begins anew with entries after that number, before any was sent.</summary>
     internal void StartAfter(uint acknowledged)
@@ -261,8 +257,7 @@ internal sealed class SendWindow
         uint held = first - 1;
         while (held < last && (most -= UpdateDatagram.LengthOf(source[held + 1])) >= 0 && update.TryAdd(source[held + 1]))
         {
-            held++;
-            held += dropsWhenMerging && held == first && held < last ? 1u : 0u;
+            held = After(held + 1, first, last);
         }
 
         return held;

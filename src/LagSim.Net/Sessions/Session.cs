@@ -143,16 +143,8 @@ public abstract class Session
     /// <summary>The strategy that a thread warms up for before it steps this session; null for none.</summary>
     internal string? WarmsUpFor => parts.Options.Warmup ? parts.Options.Strategy : null;
 
-    /// <summary>What is done wrong on purpose; set before the first step.</summary>
-    internal SessionFault Fault
-    {
-        set
-        {
-            parts.Links.Fault = value;
-            parts.Commits.WatermarkRule = (value & SessionFault.ForgetsTooEarly) == 0 ? null
-                : watermark => SimTime.Max(watermark, parts.SharedTime.Now - parts.Options.Window.History);
-        }
-    }
+    /// <summary>What the session is put together of.</summary>
+    internal SessionParts Parts => parts;
 
     /// <summary>A number that nobody can guess, for a host's session or a joiner's nonce. From any thread.</summary>
     public static ulong DrawNumber()

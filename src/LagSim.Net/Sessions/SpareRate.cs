@@ -10,7 +10,7 @@ namespace LagSim.Net.Sessions;
 /// is answered any more it goes on at the rate it had for a while, since a link that loses many datagrams in a row is lost for longer the fewer are sent; then the
 /// rate is halved step by step.
 /// </remarks>
-internal sealed class SpareRate
+internal class SpareRate
 {
     private const int Full = CongestionControl.FullDatagramBytes;
     private const double CutTo = 0.7;
@@ -31,16 +31,12 @@ internal sealed class SpareRate
     /// <summary>So often the rate is looked at, or each round trip if that is longer: in so long a queue comes and goes.</summary>
     private static readonly SimDuration LookInterval = SimDuration.FromMilliseconds(100);
 
-    private readonly bool neverBacksOff;
     private double rate = First;
     private double filling = First; // by what is known now: the rate, or less
     private double tokens = Full;
     private bool isUsedUp; // since the rate was last looked at
     private SimTime counted = SimTime.MinValue;
     private SimTime looked = SimTime.MinValue;
-
-    /// <param name="fault">What is done wrong on purpose.</param>
-    internal SpareRate(SessionFault fault = SessionFault.None) => neverBacksOff = (fault & SessionFault.NeverBacksOff) != 0;
 
     /// <summary>How many bytes may go, as of the last <see cref="Advance"/>.</summary>
     internal int Bytes => (int)tokens;
@@ -61,7 +57,7 @@ internal sealed class SpareRate
         if (now - looked >= interval)
         {
             rate = isSilent || !trips.IsMeasured ? rate // nothing new is known
-                : trips.HasQueue && !neverBacksOff ? Math.Max(Least, rate * CutTo)
+                : HasQueue(trips) ? Math.Max(Least, rate * CutTo)
                 : isUsedUp ? Math.Min(Most, rate * Growth)
                 : Math.Max(rate, Math.Min(First, rate * Math.Pow(Growth, (now - looked).ToSeconds() / interval.ToSeconds())));
             looked = now;
@@ -69,7 +65,7 @@ internal sealed class SpareRate
         }
 
         tokens = Math.Min(Full, tokens + ((now - counted).ToSeconds() * filling));
-        filling = trips.HasQueue && !neverBacksOff ? Least : isSilent ? Math.Max(rate, First) / (1 << halvings) : rate;
+        filling = HasQueue(trips) ? Least : isSilent ? Math.Max(rate, First) / (1 << halvings) : rate;
         counted = now;
     }
 
@@ -85,5 +81,8 @@ internal sealed class SpareRate
     internal void Spend(int bytes) => tokens = Math.Max(-Full, tokens - bytes);
 
     /// <summary>The window was cut: what could be left out goes first.</summary>
-    internal void Cut() => rate = neverBacksOff ? rate : Math.Max(Least, rate * CutTo);
+    internal virtual void Cut() => rate = Math.Max(Least, rate * CutTo);
+
+    /// <summary>Whether there is a queue on the way, which is reason to repeat less.</summary>
+    internal virtual bool HasQueue(RoundTrips trips) => trips.HasQueue;
 }

@@ -44,20 +44,21 @@ internal sealed class UpdateLink
     /// <param name="outgoing">What updates are composed in, one after the other; all links of a session share it.</param>
     /// <param name="buffer">Where their bytes go; likewise.</param>
     /// <param name="now">By the own clock.</param>
-    /// <param name="fault">What is done wrong on purpose.</param>
+    /// <param name="parts">What its parts are made by; null for the usual ones.</param>
     internal UpdateLink(
         ulong sessionId, byte self, byte peer, PeerAddress other, uint acknowledged, SimDuration interval, UpdateDatagram outgoing, byte[] buffer, SimTime now,
-        SessionFault fault = SessionFault.None)
+        LinkParts? parts = null)
     {
         this.interval = interval;
+        parts ??= new LinkParts();
         ends = new LinkEnds(sessionId, self, peer, other);
         composer = new UpdateComposer(outgoing, buffer);
-        hearing = new LinkHearing(now, fault);
+        hearing = parts.Hearing(now);
         pacer = new SendPacer(now);
-        spare = new SpareRate(fault);
+        spare = parts.Spare();
         SentDatagrams sent = new();
         answers = new AnswerTimer(Trips, sent, MostAckDelay + interval);
-        flight = new LinkFlight(new SendWindow(acknowledged, fault), sent, new CongestionControl(fault), Trips, spare, answers);
+        flight = new LinkFlight(parts.Window(acknowledged), sent, parts.Congestion(), Trips, spare, answers);
     }
 
     internal ulong SessionId => ends.SessionId;

@@ -1,6 +1,6 @@
 using System.Linq;
 using LagSim.Harness.Check;
-using LagSim.Net.Sessions;
+using LagSim.Tests.Sessions;
 using Xunit;
 
 namespace LagSim.Tests.Checks;
@@ -17,7 +17,7 @@ public sealed class SessionFaultTests
     [InlineData(SessionFault.NeverBacksOff, 2971u)]
     internal void Run_KeptTogetherInAWayKnownToBeWrong_IsCaught(SessionFault fault, uint seed)
     {
-        CheckOptions options = new() { Sessions = 1, Seed = seed, ShrinkingPlays = 0, PrepareSession = (_, session) => session.Fault = fault };
+        CheckOptions options = new() { Sessions = 1, Seed = seed, ShrinkingPlays = 0, PrepareSession = (_, session) => session.Put(fault) };
         string? failure = Assert.Single(Run(options).Failures).Whole.Failure;
         string[] signs = fault == SessionFault.NeverBacksOff ? ["Not all had heard", "heard nothing"] : ["differ", "was not the host's", "lost"]; // by what it is there for
         Assert.True(signs.Any(failure!.Contains), failure);

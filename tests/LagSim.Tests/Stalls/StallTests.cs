@@ -1,7 +1,7 @@
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Harness.Stalls;
-using LagSim.Net.Sessions;
+using LagSim.Tests.Sessions;
 using Xunit;
 
 namespace LagSim.Tests.Stalls;
@@ -40,7 +40,7 @@ public sealed class StallTests
     [Fact]
     public void Run_ClientsThatForgetTooEarly_AreFoundToLoseEvents()
     {
-        StallOptions options = new() { Sessions = 6, Seed = 1000, PrepareClient = session => session.Fault = SessionFault.ForgetsTooEarly };
+        StallOptions options = new() { Sessions = 6, Seed = 1000, PrepareClient = session => session.Put(SessionFault.ForgetsTooEarly) };
         Assert.Contains(Play(options), o => o.Lost > 0 && !o.IsGood);
         Assert.All(Play(options with { PrepareClient = null }), o => Assert.Equal(0, o.Lost));
     }

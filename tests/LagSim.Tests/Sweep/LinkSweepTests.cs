@@ -1,7 +1,7 @@
 using System;
 using System.Linq;
 using LagSim.Harness.Sweep;
-using LagSim.Net.Sessions;
+using LagSim.Tests.Sessions;
 using Xunit;
 
 namespace LagSim.Tests.Sweep;
@@ -25,7 +25,7 @@ public sealed class LinkSweepTests
     [Fact]
     public void Play_ControllerThatNeverBacksOff_IsSeenByTheRoundTrip()
     {
-        SweepOutcome outcome = Play(Usual with { IsShared = true, Prepare = static (_, session) => session.Fault = SessionFault.NeverBacksOff });
+        SweepOutcome outcome = Play(Usual with { IsShared = true, Prepare = static (_, session) => session.Put(SessionFault.NeverBacksOff) });
 
         Assert.True(outcome.RoundTripP50Ms > 2 * outcome.IdleRoundTripMs, Text(outcome));
     }
@@ -43,7 +43,7 @@ public sealed class LinkSweepTests
     {
         SweepOptions full = Usual with { Clients = [8], EventsPerSecond = [20], KilobitsPerSecond = [64] };
         SweepOutcome outcome = Play(full);
-        SweepOutcome pushed = Play(full with { Prepare = static (_, session) => session.Fault = SessionFault.NeverBacksOff });
+        SweepOutcome pushed = Play(full with { Prepare = static (_, session) => session.Put(SessionFault.NeverBacksOff) });
 
         Assert.True(outcome.QueuedSeconds > 20, Text(outcome));
         Assert.True(outcome.SentPerNeededByteWhileQueued <= 1.5, Text(outcome));
@@ -55,7 +55,7 @@ public sealed class LinkSweepTests
     {
         SweepOptions tooMuch = Usual with { Clients = [3], EventsPerSecond = [40], KilobitsPerSecond = [64], RestSeconds = 60 };
         SweepOutcome outcome = Play(tooMuch, hasDips: true);
-        SweepOutcome forgetful = Play(tooMuch with { Prepare = static (_, session) => session.Fault = SessionFault.ForgetsTooEarly }, hasDips: true);
+        SweepOutcome forgetful = Play(tooMuch with { Prepare = static (_, session) => session.Put(SessionFault.ForgetsTooEarly) }, hasDips: true);
 
         Assert.True(outcome.IsGood && outcome.Lost == 0 && outcome.Differed == 0, Text(outcome));
         Assert.True(forgetful.Lost + forgetful.Differed > 0, Text(forgetful));

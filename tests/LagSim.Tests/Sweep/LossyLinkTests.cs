@@ -49,7 +49,7 @@ public sealed class LossyLinkTests(ITestOutputHelper output)
             });
             foreach (Session session in group.Sessions)
             {
-                session.Fault = fault;
+                session.Put(fault);
             }
 
             group.Host.Logged += entry => late.Add((group.Host.SharedTime.Now - entry.Event.Time).ToSeconds());

@@ -9,6 +9,7 @@ using LagSim.Harness.Sweep;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Tests.Sessions;
 using LagSim.Time;
 using Xunit;
 
@@ -142,7 +143,7 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
             Session session = host < 0
                 ? new HostSession(BuiltInScenes.Billiards(), port, clock, options, seed)
                 : new JoinerSession(null, port, clock, options, PeerAddress.Virtual(host), seed + (ulong)number);
-            session.Fault = faultOfIt;
+            session.Put(faultOfIt);
             steps.Add(session, port);
             return session;
         }

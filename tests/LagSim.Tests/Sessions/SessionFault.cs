@@ -1,8 +1,8 @@
 using System;
 
-namespace LagSim.Net.Sessions;
+namespace LagSim.Tests.Sessions;
 
-/// <summary>Ways to keep a session together that are known to be wrong: negative controls, which only a test sets.</summary>
+/// <summary>Ways to keep a session together that are known to be wrong: negative controls.</summary>
 [Flags]
 internal enum SessionFault
 {
