@@ -1,0 +1,42 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>What comes is told by its kind, and what is none is counted and goes no further.</summary>
+public sealed class DatagramIntakeTests : IDatagramHandler
+{
+    private readonly SessionCounters counters = new();
+    private readonly List<string> taken = [];
+
+    [Fact]
+    public void Take_EachKind_GoesWhereItBelongs()
+    {
+        DatagramIntake intake = new(counters, this);
+        byte[] knock = new byte[WireFormat.KnockBytes];
+        new KnockDatagram(1).Encode(knock);
+        byte[] other = (byte[])knock.Clone();
+        other[2]++;
+        UpdateLink link = new(1, 0, 1, PeerAddress.Virtual(1), 0, SimDuration.FromMilliseconds(30), new UpdateDatagram(), new byte[WireFormat.MaxBytes], SimTime.Zero);
+        link.Compose(SimTime.FromSeconds(1));
+        ReadOnlySpan<byte> update = link.Seal(new OwnEvents(0), SimTime.FromSeconds(1), SimDuration.FromSeconds(1), isUrgent: false);
+        intake.Take(knock, PeerAddress.Virtual(1));
+        intake.Take(other, PeerAddress.Virtual(1));
+        intake.Take(update, PeerAddress.Virtual(1));
+        intake.Take(update.Slice(0, update.Length - 1), PeerAddress.Virtual(1));
+        intake.Take([1, 2, 3], PeerAddress.Virtual(1));
+        Assert.Equal(["Knock", "other version", "update 1"], taken);
+        Assert.Equal((5L, 3L), (counters.DatagramsReceived, counters.DatagramsMalformed));
+    }
+
+    void IDatagramHandler.OnUpdate(UpdateDatagram update, PeerAddress from) => taken.Add($"update {update.Number}");
+
+    void IDatagramHandler.OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from) => taken.Add(type.ToString());
+
+    void IDatagramHandler.OnOtherVersion(ReadOnlySpan<byte> datagram, PeerAddress from) => taken.Add("other version");
+}

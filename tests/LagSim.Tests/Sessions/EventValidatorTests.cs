@@ -1,0 +1,68 @@
+using LagSim.Events;
+using LagSim.Harness.Links;
+using LagSim.Harness.Scenes;
+using LagSim.Net.Clocks;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+using Xunit;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>The host's verdict on an event, with a world and no session.</summary>
+public sealed class EventValidatorTests
+{
+    private static readonly BodyId Body = BodyId.OfScene(0);
+
+    private readonly VirtualClock clock = new(SimTime.FromSeconds(100));
+    private readonly SessionOptions options = new();
+    private readonly SharedWorld world;
+    private readonly EventValidator validator;
+
+    public EventValidatorTests()
+    {
+        SharedClock sharedTime = new(clock);
+        sharedTime.Adjust(SimDuration.Zero);
+        world = new SharedWorld(BuiltInScenes.Billiards(), options, clock, sharedTime, new SessionCounters());
+        SimDuration history = options.Window.History;
+        validator = new EventValidator(world, sharedTime, new Watermark(sharedTime, world, history), new WorkBudget(world, sharedTime, null), history);
+    }
+
+    [Fact]
+    public void Judge_BeforeThereIsAWorld_IsInvalid() => Assert.Equal(Verdict.Invalid, Judge(0));
+
+    [Theory]
+    [InlineData(0, Verdict.Accepted)]
+    [InlineData(-0.001, Verdict.Accepted)]
+    [InlineData(-1000, Verdict.TooLate)]
+    [InlineData(1000, Verdict.TooEarly)]
+    public void Judge_ByItsTime(double seconds, Verdict verdict)
+    {
+        world.Begin(SimTime.FromSeconds(99));
+        world.Step(clock.Now);
+        Assert.Equal(verdict, Judge(seconds));
+    }
+
+    [Fact]
+    public void Judge_BeforeTheStart_IsTooLate()
+    {
+        world.Begin(clock.Now);
+        Assert.Equal(Verdict.TooLate, Judge(-0.001));
+    }
+
+    [Fact]
+    public void Judge_FasterThanAPlayerMayGive_IsInvalid()
+    {
+        world.Begin(SimTime.FromSeconds(99));
+        world.Step(clock.Now);
+        Assert.Equal(Verdict.Invalid, Judge(0, options.MaxGivenSpeed + 1));
+        Assert.Equal(Verdict.Accepted, Judge(0, options.MaxGivenSpeed));
+    }
+
+    private Verdict Judge(double seconds, double speed = 1)
+    {
+        ExternalEvent external = PlayerAction.SetVelocity(Body, new Vector3D(speed, 0, 0)).Stamp(clock.Now + SimDuration.FromSeconds(seconds), 1, 1);
+        return validator.Judge(external);
+    }
+}
