@@ -4,6 +4,7 @@ using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;

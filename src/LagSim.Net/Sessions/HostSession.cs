@@ -3,6 +3,8 @@ using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Sessions.Hosts;
 using LagSim.Scenes;
 using LagSim.Time;
 

@@ -1,6 +1,8 @@
 using System;
 using LagSim.Net.Carriers;
 using LagSim.Net.Clocks;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Sessions.Joiners;
 using LagSim.Scenes;
 using LagSim.Time;
 

@@ -6,6 +6,7 @@ using System.Threading;
 using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Clocks;
+using LagSim.Net.Sessions.Core;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;

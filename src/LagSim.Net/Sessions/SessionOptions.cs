@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Threading;
 using LagSim.Hosting;
+using LagSim.Net.Sessions.Hosts;
 using LagSim.Net.Strategies;
 using LagSim.Net.Wire;
 using LagSim.Scenes;

@@ -1,6 +1,8 @@
 using System;
+using System.Buffers.Binary;
 using System.Collections.Generic;
 using System.Diagnostics.CodeAnalysis;
+using System.Security.Cryptography;
 using LagSim.Scenes;
 using LagSim.Timelines;
 
@@ -46,6 +48,16 @@ public sealed class WorldCopy
         }
 
         return bytes;
+    }
+
+    /// <summary>What tells a copy that arrived whole: the first eight bytes of its SHA-256.</summary>
+    internal static ulong HashOf(ReadOnlySpan<byte> copy)
+    {
+        using SHA256 hash = SHA256.Create();
+        Span<byte> bytes = stackalloc byte[32];
+        return hash.TryComputeHash(copy, bytes, out _)
+            ? BinaryPrimitives.ReadUInt64LittleEndian(bytes)
+            : throw new InvalidOperationException("SHA-256 gave more than 32 bytes.");
     }
 
     /// <summary>Reads a copy; never throws.</summary>

@@ -1,4 +1,4 @@
-using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Hosts;
 using LagSim.Time;
 using Xunit;
 

@@ -1,6 +1,6 @@
 using System;
 using System.Collections.Generic;
-using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Links;
 using LagSim.Time;
 using Xunit;
 

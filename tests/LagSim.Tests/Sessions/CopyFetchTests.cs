@@ -2,7 +2,8 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using System.Numerics;
-using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Joiners;
+using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
 using LagSim.Time;
 using Xunit;
@@ -55,7 +56,7 @@ public sealed class CopyFetchTests
             }
 
             Assert.True(copy.AsSpan().SequenceEqual(fetch.Bytes), $"seed {seed}");
-            Assert.Equal(CopyFetch.HashOf(copy), CopyFetch.HashOf(fetch.Bytes));
+            Assert.Equal(WorldCopy.HashOf(copy), WorldCopy.HashOf(fetch.Bytes));
             Assert.Equal(SimTime.MaxValue, fetch.Due);
         }
 

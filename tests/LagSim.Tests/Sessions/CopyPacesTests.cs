@@ -1,6 +1,6 @@
 using System.Net;
 using LagSim.Net.Carriers;
-using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Hosts;
 using LagSim.Time;
 using Xunit;
 

@@ -5,6 +5,8 @@ using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Sessions.Joiners;
 using LagSim.Net.Wire;
 using LagSim.Time;
 using LagSim.Timelines;

@@ -3,6 +3,8 @@ using LagSim.Harness.Links;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Clocks;
 using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Sessions.Hosts;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;

@@ -6,6 +6,7 @@ using LagSim.Harness.Links;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;

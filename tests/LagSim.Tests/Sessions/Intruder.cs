@@ -1,7 +1,7 @@
 using System;
 using LagSim.Harness.Links;
 using LagSim.Net.Carriers;
-using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
 using LagSim.Time;
 

@@ -1,5 +1,5 @@
 using System.Collections.Generic;
-using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Joiners;
 using LagSim.Time;
 using Xunit;
 

@@ -4,6 +4,7 @@ using System.Linq;
 using LagSim.Harness.Links;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Hosts;
 using LagSim.Net.Wire;
 using LagSim.Time;
 using Xunit;

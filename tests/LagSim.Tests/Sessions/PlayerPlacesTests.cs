@@ -3,6 +3,8 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Sessions.Hosts;
 using LagSim.Net.Wire;
 using LagSim.Time;
 using Xunit;

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Net.Carriers;
-using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
 using LagSim.Time;
 using Xunit;

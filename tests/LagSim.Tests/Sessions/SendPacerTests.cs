@@ -1,4 +1,4 @@
-using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Links;
 using LagSim.Time;
 using Xunit;
 

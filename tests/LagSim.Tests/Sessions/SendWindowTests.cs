@@ -1,7 +1,7 @@
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;

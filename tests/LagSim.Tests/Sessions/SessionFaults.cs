@@ -1,4 +1,6 @@
 using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Sessions.Links;
 using LagSim.Time;
 
 namespace LagSim.Tests.Sessions;

@@ -1,4 +1,5 @@
 using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Core;
 using Xunit;
 
 namespace LagSim.Tests.Sessions;

@@ -1,5 +1,5 @@
 using LagSim.Net.Carriers;
-using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Hosts;
 using LagSim.Time;
 using Xunit;
 

@@ -1,5 +1,5 @@
 using System;
-using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Links;
 using LagSim.Time;
 using Xunit;
 

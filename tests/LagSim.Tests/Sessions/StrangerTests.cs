@@ -3,6 +3,7 @@ using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Links;
 using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
 using Xunit;
 using static LagSim.Tests.TestWorlds;

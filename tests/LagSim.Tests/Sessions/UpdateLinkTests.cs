@@ -2,7 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Net.Carriers;
-using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
 using LagSim.Time;
 using Xunit;

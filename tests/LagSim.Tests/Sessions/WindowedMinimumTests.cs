@@ -1,7 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Links;
 using LagSim.Time;
 using Xunit;
 

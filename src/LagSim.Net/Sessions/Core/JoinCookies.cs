@@ -1,0 +1,98 @@
+using System;
+using System.Buffers.Binary;
+using System.Security.Cryptography;
+using System.Text;
+using LagSim.Net.Carriers;
+using LagSim.Net.Wire;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Core;
+
+/// <summary>How a host knows, without keeping anything, that who wants to join is at the address it gives and has the connect key.</summary>
+/// <remarks>
+/// A cookie is HMAC-SHA-256 over address, nonce and half minute with a secret of this host; it is good for half a minute to a minute. The
+/// proof of a key is HMAC-SHA-256 over nonce and cookie with the key. Both are cut to 128 bits. A session id is HMAC-SHA-256 with the secret too, so
+/// who has one cannot tell another's. For one thread.
+/// </remarks>
+internal sealed class JoinCookies : IDisposable
+{
+    private const int HashBytes = 32;
+    private static readonly SimDuration Age = SimDuration.FromSeconds(30);
+
+    private readonly HMACSHA256 maker;
+
+    internal JoinCookies()
+    {
+        byte[] secret = new byte[HashBytes];
+        RandomNumberGenerator.Fill(secret); // no run depends on it: a cookie, or a session id, is right or wrong whatever its bits
+        maker = new HMACSHA256(secret);
+    }
+
+    public void Dispose() => maker.Dispose();
+
+    /// <summary>What shows that one has the key.</summary>
+    internal static Token128 Prove(string connectKey, ulong nonce, Token128 cookie)
+    {
+        using HMACSHA256 prover = new(Encoding.UTF8.GetBytes(connectKey));
+        return Prove(prover, nonce, cookie);
+    }
+
+    internal Token128 Make(PeerAddress address, ulong nonce, SimTime now) => Make(address, nonce, Epoch(now));
+
+    internal bool IsGood(PeerAddress address, ulong nonce, Token128 cookie, SimTime now)
+    {
+        long epoch = Epoch(now);
+        return cookie == Make(address, nonce, epoch) || cookie == Make(address, nonce, epoch - 1);
+    }
+
+    internal static bool IsProof(string key, in JoinDatagram join) => join.Proof == Prove(key, join.Nonce, join.Cookie);
+
+    /// <summary>What shows that one has a player's pass.</summary>
+    internal static Token128 Prove(Token128 pass, ulong nonce, Token128 cookie)
+    {
+        byte[] key = new byte[Token128.Bytes];
+        BinaryPrimitives.WriteUInt64LittleEndian(key, pass.First);
+        BinaryPrimitives.WriteUInt64LittleEndian(key.AsSpan(sizeof(ulong)), pass.Second);
+        using HMACSHA256 prover = new(key);
+        return Prove(prover, nonce, cookie);
+    }
+
+    internal static bool IsProof(Token128 pass, in JoinDatagram join) => join.PlayerProof == Prove(pass, join.Nonce, join.Cookie);
+
+    /// <summary>The session id of the n-th join of a session.</summary>
+    internal ulong SessionId(ulong session, ulong join)
+    {
+        Span<byte> bytes = stackalloc byte[2 * sizeof(ulong)];
+        BinaryPrimitives.WriteUInt64LittleEndian(bytes, session);
+        BinaryPrimitives.WriteUInt64LittleEndian(bytes.Slice(sizeof(ulong)), join);
+        return Hash(maker, bytes).First;
+    }
+
+    private static long Epoch(SimTime now) => now.Ticks / Age.Ticks;
+
+    private static Token128 Prove(HMACSHA256 prover, ulong nonce, Token128 cookie)
+    {
+        Span<byte> bytes = stackalloc byte[sizeof(ulong) + Token128.Bytes];
+        WireWriter writer = new(bytes);
+        writer.WriteUInt64(nonce);
+        cookie.Write(ref writer);
+        return Hash(prover, bytes);
+    }
+
+    private static Token128 Hash(HMACSHA256 hmac, ReadOnlySpan<byte> bytes)
+    {
+        Span<byte> hash = stackalloc byte[HashBytes];
+        return hmac.TryComputeHash(bytes, hash, out _)
+            ? new Token128(hash)
+            : throw new InvalidOperationException($"SHA-256 gave more than {HashBytes} bytes.");
+    }
+
+    private Token128 Make(PeerAddress address, ulong nonce, long epoch)
+    {
+        Span<byte> bytes = stackalloc byte[PeerAddress.Bytes + (2 * sizeof(ulong))];
+        address.Write(bytes);
+        BinaryPrimitives.WriteUInt64LittleEndian(bytes.Slice(PeerAddress.Bytes), nonce);
+        BinaryPrimitives.WriteInt64LittleEndian(bytes.Slice(PeerAddress.Bytes + sizeof(ulong)), epoch);
+        return Hash(maker, bytes);
+    }
+}

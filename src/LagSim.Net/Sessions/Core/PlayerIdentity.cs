@@ -1,0 +1,17 @@
+namespace LagSim.Net.Sessions.Core;
+
+/// <summary>Who this peer is in the session: its number, and the number of the newest event that it did under it.</summary>
+internal sealed class PlayerIdentity
+{
+    /// <summary>The peer's number; 0 for the host, and for a joiner that has none yet.</summary>
+    internal byte Number { get; private set; }
+
+    /// <summary>The number of the newest event; those of former holders of the number count.</summary>
+    internal uint LastSequence { get; private set; }
+
+    /// <summary>Takes the number that the host gave.</summary>
+    internal void Take(byte number, uint lastSequence) => (Number, LastSequence) = (number, lastSequence);
+
+    /// <summary>Notes an event.</summary>
+    internal void NoteEvent() => LastSequence++;
+}

@@ -1,0 +1,175 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Motion;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Core;
+
+/// <summary>What one player may ask of a world at most: how fast, and how many bodies. The host's verdict; a joiner asks it of what it does itself.</summary>
+/// <remarks>No rule of the world: what was accepted once happens everywhere, whatever others would have said to it.</remarks>
+internal sealed class PlayerLimits
+{
+    private readonly SessionOptions options;
+    private readonly Dictionary<BodyId, Birth> spawned = new(); // those that are there or went lately
+
+    internal PlayerLimits(SessionOptions options) => this.options = options;
+
+    /// <summary>Whether it keeps to the limits; if not, with which verdict and in which words.</summary>
+    internal Verdict WhyNot(in ExternalEvent external, Simulation world, SimTime now, out string sentence)
+    {
+        sentence = "";
+        if (external.Kind == EventKind.Spawn && external.Velocity.Length <= options.MaxGivenSpeed && SurfaceSpeed(external) <= options.MaxGivenSpeed)
+        {
+            ForgetBefore(now - options.Window.History);
+            if (spawned.Count < options.MaxSpawned || CountOf(external.Peer, now) < options.MaxSpawned)
+            {
+                return Verdict.Accepted;
+            }
+
+            sentence = $"Peer {external.Peer} has spawned {options.MaxSpawned} {(options.MaxSpawned == 1 ? "body that is" : "bodies that are")} still there, and no"
+                + " player may have more at a time; some have to be"
+                + " removed first.";
+            return Verdict.NoRight;
+        }
+
+        bool turns = external.Kind == EventKind.Spawn && SurfaceSpeed(external) > external.Velocity.Length;
+        double before = 0;
+        double speed = turns ? SurfaceSpeed(external) : SpeedAfter(external, world, out before);
+        if (speed <= options.MaxGivenSpeed || speed <= before)
+        {
+            return Verdict.Accepted;
+        }
+
+        sentence = FormattableString.Invariant(
+            $"The {external.Kind} gives {(turns ? "the surface of body" : "body")} {external.Body} a speed of {speed:R} m/s;")
+            + FormattableString.Invariant($" in this session a player may give {options.MaxGivenSpeed:R} m/s at most.");
+        return Verdict.Invalid;
+    }
+
+    /// <summary>How many bodies that a player has spawned are there. By itself, for what a lambda needs is allocated where its method begins.</summary>
+    private int CountOf(byte player, SimTime now) => spawned.Count(s => s.Key.Peer == player && s.Value.Removed > now);
+
+    /// <summary>
+    /// The bodies that a player spawned and that nobody removed, those included whose spawn is still to come, each with when it is spawned, by identity; or of some that are named
+    /// those of any player.
+    /// </summary>
+    internal List<(BodyId Body, SimTime Since)> Spawned(byte player, ICollection<BodyId>? named = null) => spawned
+        .Where(s => s.Value.Removed == SimTime.MaxValue && (named?.Contains(s.Key) ?? s.Key.Peer == player))
+        .OrderBy(s => s.Key)
+        .Select(s => (s.Key, s.Value.Since))
+        .ToList();
+
+    /// <summary>Keeps what was accepted, or done here and not refused yet.</summary>
+    internal void Note(in ExternalEvent external)
+    {
+        if (external.Kind == EventKind.Spawn)
+        {
+            spawned[external.Body] = new Birth(external.Spec.Mass, external.Time);
+        }
+        else if (external.Kind == EventKind.Remove && spawned.TryGetValue(external.Body, out Birth? body) && external.Time >= body.Since)
+        {
+            body.Removed = SimTime.Min(body.Removed, external.Time); // before it was there nothing was removed
+        }
+    }
+
+    /// <summary>What was done here was refused.</summary>
+    internal void TakeBack(in ExternalEvent external)
+    {
+        if (external.Kind == EventKind.Spawn)
+        {
+            spawned.Remove(external.Body);
+        }
+        else if (external.Kind == EventKind.Remove && spawned.TryGetValue(external.Body, out Birth? body) && body.Removed == external.Time)
+        {
+            body.Removed = SimTime.MaxValue;
+        }
+    }
+
+    /// <summary>How fast the spin of a spawn moves its surface: friction makes speed of it.</summary>
+    private static double SurfaceSpeed(in ExternalEvent spawn) => spawn.Spin.Length * spawn.Spec.Radius;
+
+    /// <summary>
+    /// How fast the event leaves its body, and how fast that was; an impulse, and the way a hand has to make up for, are judged by the world as it is known
+    /// now.
+    /// </summary>
+    private double SpeedAfter(in ExternalEvent external, Simulation world, out double before)
+    {
+        before = 0;
+        if (external.Kind == EventKind.HoldKnot)
+        {
+            return Math.Max(external.Velocity.Length, SpeedOfCatchingUp(external, world));
+        }
+
+        if (external.Kind != EventKind.Impulse)
+        {
+            return external.Kind == EventKind.Remove ? 0 : external.Velocity.Length;
+        }
+
+        if (external.Body.Peer == external.Peer && external.Body.Sequence > external.Sequence)
+        {
+            return double.PositiveInfinity; // on what it will spawn itself, of any mass
+        }
+
+        BodyState state = default;
+        if (external.Time >= world.HistoryEdge && external.Time <= world.Horizon)
+        {
+            world.TryRead(external.Body, external.Time, out state);
+        }
+
+        before = state.Velocity.Length;
+        return (state.Velocity + (external.Velocity / MassOf(external.Body, world))).Length;
+    }
+
+    /// <summary>With what speed a held body gets to where the hand is now, in the mean; none if this peer does not hold it.</summary>
+    private static double SpeedOfCatchingUp(in ExternalEvent external, Simulation world)
+    {
+        bool isKnown = external.Time >= world.HistoryEdge && external.Time <= world.Horizon;
+        return isKnown && world.TryReadHold(external.Body, external.Time, out Hold hold) && hold.Peer == external.Peer
+            && world.TryRead(external.Body, external.Time, out BodyState state)
+            ? (external.Position - hold.Offset - state.Position).Length / HandPath.Settles.ToSeconds()
+            : 0;
+    }
+
+    /// <summary>In kg; of a body that nobody here has heard of, as one that acts faster than its spawner is heard may mean, as if it were 1 kg.</summary>
+    private double MassOf(BodyId body, Simulation world)
+    {
+        if (body.Peer == 0 && body.Sequence == 0 && body.Index < world.Scene.Bodies.Count)
+        {
+            return world.Scene.Bodies[body.Index].Spec.Mass;
+        }
+
+        double mass = spawned.TryGetValue(body, out Birth? known) ? known.Mass : world.SpecOf(body).Mass;
+        return mass > 0 ? mass : 1;
+    }
+
+    /// <summary>Forgets what went before that time: nothing that is still accepted finds it there.</summary>
+    private void ForgetBefore(SimTime time)
+    {
+        if (spawned.Count >= options.MaxSpawned)
+        {
+            foreach (BodyId gone in spawned.Where(s => s.Value.Removed < time).Select(s => s.Key).ToList())
+            {
+                spawned.Remove(gone);
+            }
+        }
+    }
+
+    private sealed class Birth
+    {
+        internal Birth(double mass, SimTime since)
+        {
+            Mass = mass;
+            Since = since;
+        }
+
+        internal double Mass { get; }
+
+        internal SimTime Since { get; }
+
+        internal SimTime Removed { get; set; } = SimTime.MaxValue;
+    }
+}

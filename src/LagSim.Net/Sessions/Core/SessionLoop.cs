@@ -1,0 +1,125 @@
+using System;
+using System.Threading;
+using LagSim.Net.Carriers;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Core;
+
+/// <summary>One step of a session after the other: what has come in, what is due, and the world.</summary>
+internal sealed class SessionLoop
+{
+    /// <summary>As many datagrams are taken in at a time at most: whoever floods this peer does not keep it from its own work.</summary>
+    private const int MaxDatagramsAStep = 256;
+
+    private readonly byte[] buffer = new byte[IDatagramPort.MaxDatagramBytes];
+    private readonly SessionParts parts;
+    private readonly ISessionProtocol protocol;
+    private readonly DatagramIntake intake;
+    private readonly CancellationToken cancellation;
+
+    internal SessionLoop(SessionParts parts, ISessionProtocol protocol)
+    {
+        this.parts = parts;
+        this.protocol = protocol;
+        intake = new DatagramIntake(parts.Counters, protocol);
+        cancellation = parts.Options.Cancellation;
+    }
+
+    /// <summary>See <see cref="Session.Step"/>.</summary>
+    internal SimDuration Step()
+    {
+        try
+        {
+            return StepOnce();
+        }
+        catch (SimulationException failure)
+        {
+            EndWorld(failure);
+            return SimDuration.MaxValue;
+        }
+    }
+
+    /// <summary>Nothing is to be read from a world that failed; the pictures that were published still can be.</summary>
+    internal void EndWorld(SimulationException failure)
+    {
+        bool isFull = failure is TimelinesFullException;
+        if (isFull && protocol.TryRenew(SessionEnd.TimelinesFull, $"This peer had no more room for what may still change. {failure.Message}"))
+        {
+            return;
+        }
+
+        if (parts.Status.HasEnded)
+        {
+            return; // a fresh copy would be of no use: said already
+        }
+
+        protocol.Farewell();
+        parts.Status.End(
+            isFull ? SessionEnd.TimelinesFull : SessionEnd.Failed,
+            isFull ? $"This peer has no more room for what may still change, and left; it can join again. {failure.Message}"
+                : $"The world cannot be simulated any further. {failure.Message}");
+    }
+
+    private SimDuration StepOnce()
+    {
+        if (!parts.Status.HasEnded)
+        {
+            cancellation.ThrowIfCancellationRequested();
+        }
+
+        int taken = 0;
+        while (taken < MaxDatagramsAStep && parts.Port.TryReceive(buffer, out int length, out PeerAddress from))
+        {
+            taken++;
+            intake.Take(buffer.AsSpan(0, length), from);
+        }
+
+        SimTime now = parts.Clock.Now;
+        if (!parts.Status.HasEnded)
+        {
+            protocol.Tend(now);
+        }
+
+        SimTime due = parts.Status.HasEnded ? SimTime.MaxValue : protocol.NextDue(now);
+        if (parts.World.Live is not null && !parts.Status.HasEnded && !parts.Status.IsRejoining)
+        {
+            due = StepWorld(now, due);
+        }
+
+        if (taken == MaxDatagramsAStep)
+        {
+            return SimDuration.Zero; // there may be more
+        }
+
+        return due == SimTime.MaxValue ? SimDuration.MaxValue : due - parts.Clock.Now; // what the step itself took is not waited again
+    }
+
+    /// <summary>Brings the world ahead.</summary>
+    /// <param name="now">By the own clock.</param>
+    /// <param name="due">When something else is due.</param>
+    /// <returns>When something is due, by the own clock.</returns>
+    private SimTime StepWorld(SimTime now, SimTime due)
+    {
+        SimTime shared = parts.SharedTime.Now;
+        SimTime worldDue = parts.World.Step(shared);
+        if (parts.World.Live!.IsBehind)
+        {
+            parts.Commits.ForgetWhileBehind();
+        }
+
+        if (worldDue != SimTime.MaxValue)
+        {
+            // A shared clock that is behind is bent to run up to 5 % fast: by the own clock the time then comes that much sooner.
+            SimDuration left = worldDue - shared;
+            due = SimTime.Min(due, now + (parts.SharedTime.Remaining > SimDuration.Zero ? left - (left / 20) : left));
+        }
+
+        if (parts.World.HasBegunBy(shared))
+        {
+            parts.Status.BeginRunning();
+        }
+
+        due = protocol.TendWorld(now) ? now : due;
+        return parts.Status.State == SessionState.Running ? due : SimTime.Min(due, now + (parts.World.Live.Simulation.Start - shared));
+    }
+}

@@ -1,0 +1,65 @@
+using System;
+
+namespace LagSim.Net.Sessions.Core;
+
+/// <summary>Where a session stands, and why it ended or was interrupted.</summary>
+/// <remarks>Changed on the session's thread; read from any thread, but <see cref="RejoiningBecause"/>.</remarks>
+internal sealed class SessionStatus
+{
+    private volatile SessionState state;
+    private volatile string? endReason;
+    private volatile SessionEnd endedBy;
+
+    internal SessionStatus(SessionState first) => state = first;
+
+    /// <summary>Raised once, on the thread that ended the session.</summary>
+    internal event Action? Ended;
+
+    internal SessionState State
+    {
+        get => state;
+        set => state = value;
+    }
+
+    internal bool HasEnded => state == SessionState.Ended;
+
+    internal bool IsRejoining => state == SessionState.Rejoining;
+
+    /// <summary>Why the session ended, as a sentence; null while it goes on.</summary>
+    internal string? EndReason => endReason;
+
+    internal SessionEnd EndedBy => endedBy;
+
+    /// <summary>Why this peer asks to be let in again, or did the last time.</summary>
+    internal string RejoiningBecause { get; private set; } = "";
+
+    /// <summary>Notes that this peer asks to be let in again.</summary>
+    internal void Rejoin(string why)
+    {
+        RejoiningBecause = why;
+        state = SessionState.Rejoining;
+    }
+
+    /// <summary>Notes that the world has begun.</summary>
+    internal void BeginRunning()
+    {
+        if (state is not (SessionState.Ended or SessionState.Rejoining))
+        {
+            state = SessionState.Running;
+        }
+    }
+
+    /// <summary>Ends the session, once; later calls do nothing.</summary>
+    internal void End(SessionEnd by, string reason)
+    {
+        if (HasEnded)
+        {
+            return;
+        }
+
+        endedBy = by;
+        endReason = reason; // first: who reads that it ended reads why
+        state = SessionState.Ended;
+        Ended?.Invoke();
+    }
+}

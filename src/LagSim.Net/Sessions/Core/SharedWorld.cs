@@ -1,0 +1,210 @@
+using System;
+using System.Threading;
+using LagSim.Events;
+using LagSim.Hosting;
+using LagSim.Net.Clocks;
+using LagSim.Net.Strategies;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Net.Sessions.Core;
+
+/// <summary>This peer's copy of the shared world: how it is made, how events enter it, and how it is brought ahead of the shared time.</summary>
+/// <remarks>For the session's thread; which world, its scene and <see cref="DisplayTime"/> from any thread.</remarks>
+internal sealed class SharedWorld
+{
+    private readonly SessionOptions options;
+    private readonly IClock clock;
+    private readonly SharedClock sharedTime;
+    private readonly SessionCounters counters;
+    private readonly ILateEventStrategy strategy;
+    private readonly CancellationTokenSource interruption = new();
+    private bool hasUnshown;
+    private SimTime begunAt = SimTime.MaxValue; // the earliest instant of the world; there before the world is
+    private volatile LiveWorld? live;
+    private volatile Scene? scene;
+
+    /// <param name="scene">The scene that all peers share; null if it is not known yet.</param>
+    /// <param name="options">How the session takes part.</param>
+    /// <param name="clock">The own clock, which work is measured by.</param>
+    /// <param name="sharedTime">The session's time.</param>
+    /// <param name="counters">What is counted.</param>
+    /// <exception cref="ArgumentException">There is no such strategy, or a sync test is asked of one that does not heal.</exception>
+    internal SharedWorld(Scene? scene, SessionOptions options, IClock clock, SharedClock sharedTime, SessionCounters counters)
+    {
+        this.scene = scene;
+        this.options = options;
+        this.clock = clock;
+        this.sharedTime = sharedTime;
+        this.counters = counters;
+        Limits = new PlayerLimits(options);
+        strategy = LateEventStrategies.Create(options.Strategy, options.DisplayDelay);
+        if (options.SyncTest && !(strategy.RewritesPast && strategy.Mode == HealingMode.CausalCone))
+        {
+            throw new ArgumentException(
+                $"The strategy is '{options.Strategy}', which does not heal; a sync test is for one that does: healing or interpolation.", nameof(options));
+        }
+    }
+
+    internal Scene? Scene
+    {
+        get => scene;
+        set => scene = value;
+    }
+
+    /// <summary>The world; null before its start is known.</summary>
+    internal LiveWorld? Live => live;
+
+    /// <summary>The committed state that it went on from; null where it began with the scene.</summary>
+    internal WorldSnapshot? BegunFrom { get; private set; }
+
+    /// <summary>Earlier events are in what the world went on from.</summary>
+    internal SimTime From => BegunFrom?.Time ?? SimTime.MinValue;
+
+    /// <summary>What players may do in it at most.</summary>
+    internal PlayerLimits Limits { get; private set; }
+
+    internal bool PromisesAgreement => strategy.PromisesAgreement;
+
+    internal SimDuration DisplayDelay => strategy.DisplayDelay;
+
+    internal SimTime DisplayTime
+    {
+        get
+        {
+            SimTime shared = sharedTime.Now;
+            return SimTime.Max(shared - DisplayDelay, SimTime.Min(shared, begunAt));
+        }
+    }
+
+    /// <summary>Has a step that is simulating end soon; from any thread. The world stands still from then on.</summary>
+    internal void Interrupt() => interruption.Cancel();
+
+    /// <summary>Makes the world as the scene has it at its start, in place of the one before.</summary>
+    internal void Begin(SimTime start)
+    {
+        live?.Retire();
+        begunAt = start;
+        LiveWorld made = new(Scene!, WorldOptions(start), options.Window.LookAhead, options.PicturePast + DisplayDelay, options.Contacts)
+        {
+            Work = new WorkLedger(clock),
+            WaitsForLateEvents = true,
+        };
+        Take(made, null);
+    }
+
+    /// <summary>Makes the world from what it was committed to be, in place of the one before.</summary>
+    /// <exception cref="SceneException">It is no world of the scene.</exception>
+    internal void Begin(WorldSnapshot snapshot)
+    {
+        live?.Retire();
+        LiveWorld copied = new(Scene!, snapshot, WorldOptions(snapshot.Start), options.Window.LookAhead, options.PicturePast + DisplayDelay, options.Contacts)
+        {
+            Work = new WorkLedger(clock),
+            WaitsForLateEvents = true,
+        };
+        begunAt = copied.Simulation.HistoryEdge;
+        Take(copied, snapshot);
+    }
+
+    /// <summary>Whether there is a world and its start has come.</summary>
+    internal bool HasBegunBy(SimTime shared) => live is LiveWorld world && shared >= world.Simulation.Start;
+
+    /// <summary>Whether an event may enter this world at all; what others send is not trusted to be checked.</summary>
+    internal bool MayEnter(in ExternalEvent external)
+    {
+        try
+        {
+            ExternalEventCheck.Throw(external, Scene!);
+            return true;
+        }
+        catch (SceneException)
+        {
+            return false;
+        }
+    }
+
+    /// <summary>Brings an event of this peer into the world, which is there.</summary>
+    /// <exception cref="InvalidOperationException">Its time is committed already.</exception>
+    /// <exception cref="SimulationException">The world cannot be simulated with it.</exception>
+    internal void Submit(in ExternalEvent external)
+    {
+        LiveWorld world = live!;
+        world.NoteNews(external.Peer);
+        if (world.Submit(external) == SubmitResult.TooOld)
+        {
+            throw new InvalidOperationException(
+                $"Nothing can be done yet: the shared time is {external.Time.ToShortString()}, and what lies before"
+                + $" {world.Simulation.HistoryEdge.ToShortString()} is committed.");
+        }
+
+        hasUnshown = true;
+        Limits.Note(external);
+    }
+
+    /// <summary>Brings another peer's accepted event into the world.</summary>
+    /// <returns>False if it came too late for the history that is still here, and has no effect.</returns>
+    internal bool Apply(in ExternalEvent external)
+    {
+        LiveWorld world = live ?? throw new InvalidOperationException("An event cannot be accepted before there is a world.");
+        hasUnshown = true;
+        SimTime now = sharedTime.Now;
+        counters.AddLateness(now - external.Time);
+        world.NoteNews(external.Peer);
+        world.Advance(now); // what was shown up to now is simulated, so what changes it counts as changed
+        SubmitResult result = strategy.Apply(world, external, now);
+        if (result == SubmitResult.RolledBack && strategy.RewritesPast && external.Time < now)
+        {
+            counters.Heals++;
+        }
+
+        counters.EventsLost += result == SubmitResult.TooOld ? 1 : 0;
+        return result != SubmitResult.TooOld;
+    }
+
+    /// <summary>Takes back an event of this peer that the host refused.</summary>
+    internal void Retract(in ExternalEvent external)
+    {
+        counters.EventsLost += live!.Retract(external) ? 0 : 1;
+        Limits.TakeBack(external);
+    }
+
+    /// <summary>Brings the world, which is there, ahead of the shared time by a bounded number of events.</summary>
+    /// <returns>When it is to be brought on, in shared time.</returns>
+    /// <exception cref="SimulationException">It cannot be simulated any further.</exception>
+    internal SimTime Step(SimTime shared)
+    {
+        LiveWorld world = live!;
+        SimTime due = world.Step(shared);
+        if (world.BlockedAt < SimTime.MaxValue && shared - world.BlockedAt > options.Window.History)
+        {
+            throw new SimulationException(world.BlockedBecause); // the cause is older than the history by now, and cannot be removed
+        }
+
+        if (hasUnshown && !world.IsBehind)
+        {
+            counters.LastShown = sharedTime.Now;
+            hasUnshown = false;
+        }
+
+        return due;
+    }
+
+    private void Take(LiveWorld made, WorldSnapshot? from)
+    {
+        if (live is not null)
+        {
+            Limits = new PlayerLimits(options);
+            hasUnshown = false;
+        }
+
+        live = made;
+        BegunFrom = from;
+    }
+
+    // The session itself decides what is forgotten, by the watermark; the simulation's own limit would go by its look-ahead.
+    private SimulationOptions WorldOptions(SimTime start) =>
+        new(
+            start, SimDuration.MaxValue, options.MaxSegments, interruption.Token, options.SyncTest ? HealingMode.SyncTest : strategy.Mode, options.Threads);
+}

@@ -1,0 +1,61 @@
+using System;
+using LagSim.Events;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Sessions.Links;
+using LagSim.Net.Wire;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Hosts;
+
+/// <summary>The host's log as the session keeps it: each event is recorded once with its verdict, and settled once nobody who joins needs it.</summary>
+internal sealed class AuthoritativeLog
+{
+    private readonly SharedWorld world;
+    private readonly Watermark watermark;
+    private readonly EventJournal journal;
+    private readonly SessionCounters counters;
+    private readonly IClock clock;
+
+    internal AuthoritativeLog(SharedWorld world, Watermark watermark, EventJournal journal, SessionCounters counters, IClock clock)
+    {
+        this.world = world;
+        this.watermark = watermark;
+        this.journal = journal;
+        this.counters = counters;
+        this.clock = clock;
+    }
+
+    /// <summary>Raised for every event that was recorded, after it was told here: the others are to hear of it.</summary>
+    internal event Action<ExternalEvent>? Recorded;
+
+    /// <summary>The lines.</summary>
+    internal VerdictLog Lines { get; } = new();
+
+    /// <summary>The newest line that nothing later makes up for.</summary>
+    internal uint LastUrgent { get; private set; }
+
+    /// <summary>Up to where nobody who joins from now on needs an event: what the watermark and the world have both passed.</summary>
+    internal SimTime SettledTo { get; private set; } = SimTime.MinValue;
+
+    /// <param name="external">The event.</param>
+    /// <param name="verdict">What the host says.</param>
+    /// <param name="hasEffect">Whether it is in this host's world.</param>
+    internal void Record(in ExternalEvent external, Verdict verdict, bool hasEffect)
+    {
+        bool isAccepted = verdict == Verdict.Accepted;
+        counters.EventsAccepted += isAccepted ? 1 : 0;
+        counters.EventsRefused += isAccepted ? 0 : 1;
+        Lines.Add(external, verdict, SimTime.Min(watermark.Now, external.Time), clock.Now); // it was judged, or done, a little earlier
+        LastUrgent = isAccepted && SendWindow.IsMadeUpFor(external) ? LastUrgent : Lines.Count;
+        journal.Tell(Lines[Lines.Count], isAccepted && hasEffect);
+        Recorded?.Invoke(external);
+    }
+
+    /// <summary>Moves on what is settled.</summary>
+    internal void Settle()
+    {
+        SimTime now = watermark.Now;
+        SettledTo = SimTime.Max(SettledTo, world.Live is null ? now : SimTime.Min(now, world.Live.Simulation.SimulatedTo));
+        Lines.Settle(SettledTo);
+    }
+}

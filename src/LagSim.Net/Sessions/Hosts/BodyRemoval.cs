@@ -1,0 +1,35 @@
+using System.Collections.Generic;
+using LagSim.Events;
+using LagSim.Net.Sessions.Core;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Hosts;
+
+/// <summary>Removes bodies that players spawned, by events of the host.</summary>
+internal sealed class BodyRemoval
+{
+    private readonly SharedWorld world;
+    private readonly HostActions actions;
+
+    internal BodyRemoval(SharedWorld world, HostActions actions)
+    {
+        this.world = world;
+        this.actions = actions;
+    }
+
+    /// <summary>Removes bodies that a player spawned, all if none are named, as of an instant, and those that are spawned later as they are.</summary>
+    /// <returns>How many.</returns>
+    internal int RemoveSpawned(IEnumerable<BodyId>? some, byte player, SimTime from)
+    {
+        HashSet<BodyId>? named = some is null ? null : [.. some];
+        int removed = 0;
+        foreach ((BodyId body, SimTime since) in world.Limits.Spawned(player, named))
+        {
+            actions.Do(PlayerAction.Remove(body), SimTime.Max(from, since));
+            removed++;
+        }
+
+        return removed;
+    }
+}

@@ -1,0 +1,105 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Net.Sessions.Core;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Hosts;
+
+/// <summary>Sends away who has used up its budget, removes its bodies, and stops what else it moved.</summary>
+internal sealed class BudgetEnforcer
+{
+    private const int MostStops = 1024;
+
+    private readonly WorkBudget budget;
+    private readonly ForeignActs acts;
+    private readonly JoinerRoster roster;
+    private readonly ShutOuts shutOuts;
+    private readonly BodyRemoval removal;
+    private readonly HostActions actions;
+    private readonly SharedWorld world;
+    private readonly Watermark watermark;
+    private readonly SessionStatus status;
+
+    internal BudgetEnforcer(
+        WorkBudget budget, ForeignActs acts, JoinerRoster roster, ShutOuts shutOuts, BodyRemoval removal, HostActions actions, SharedWorld world,
+        Watermark watermark, SessionStatus status)
+    {
+        this.budget = budget;
+        this.acts = acts;
+        this.roster = roster;
+        this.shutOuts = shutOuts;
+        this.removal = removal;
+        this.actions = actions;
+        this.world = world;
+        this.watermark = watermark;
+        this.status = status;
+    }
+
+    /// <summary>Raised when a player is sent away, with why, and what was removed.</summary>
+    internal event Action<PlayerExpulsion>? Expelled;
+
+    /// <summary>Counts what the world's last step cost; true if somebody had to go for it, which changed the world.</summary>
+    internal bool Tend(SimTime now)
+    {
+        if (!budget.IsInForce)
+        {
+            return false;
+        }
+
+        budget.Count(now);
+        acts.Forget(watermark.Now);
+        byte worst = budget.Overdrawn();
+        if (worst == 0 || status.State != SessionState.Running)
+        {
+            return false;
+        }
+
+        Expel(budget.Culprit(worst), now);
+        return true;
+    }
+
+    private void Expel(byte player, SimTime now)
+    {
+        Simulation simulation = world.Live!.Simulation;
+        SimTime from = SimTime.Max(
+            SimTime.Max(watermark.Now, simulation.HistoryEdge), SimTime.Min(budget.ChargedSince(player), simulation.SimulatedTo));
+        (double work, double seconds) = budget.SpentBy(player);
+        if (roster.Seated(player) is Joiner joiner)
+        {
+            shutOuts.ShutOutForAWhile(joiner.Link.Other.Machine, now);
+        }
+
+        bool wasThere = roster.SendAway(j => j.Peer == player) > 0;
+        IReadOnlyList<BodyId> costly = budget.CostlyBodiesOf(player);
+        int removed = removal.RemoveSpawned(player == WorkBudget.Departed ? costly.Where(body => body.Sequence > 0) : null, player, from);
+        int stopped = Stop(player, costly, from);
+        budget.StartAnew(now);
+        Expelled?.Invoke(new PlayerExpulsion(player == WorkBudget.Departed ? (byte)0 : player, wasThere, work, seconds, removed, stopped, from));
+    }
+
+    /// <summary>Stops the bodies that a player moved, and that are not its own; how many.</summary>
+    private int Stop(byte player, IReadOnlyList<BodyId> costly, SimTime from)
+    {
+        ILookup<BodyId, SimTime> touched = acts.Of(player, from);
+        int stopped = 0;
+        int stops = 0;
+        foreach (BodyId body in costly.Concat(touched.Select(act => act.Key)).Distinct().Where(MayBeStopped))
+        {
+            // Before what the player did to it, and right after each thing that it did.
+            SimTime[] times = [from, .. touched[body].Distinct().OrderBy(time => time).Select(time => time + SimDuration.OneTick)];
+            for (int n = 0; n < times.Length && stops < MostStops; n++, stops++)
+            {
+                actions.Do(PlayerAction.SetVelocity(body, Vector3D.Zero), times[n]);
+            }
+
+            stopped++;
+        }
+
+        return stopped;
+
+        bool MayBeStopped(BodyId body) => body.Peer != player && (player != WorkBudget.Departed || body.Sequence == 0);
+    }
+}

@@ -1,0 +1,37 @@
+using LagSim.Events;
+using LagSim.Net.Clocks;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Wire;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Hosts;
+
+/// <summary>The host's verdict on an event of a joiner; it changes nothing.</summary>
+internal sealed class EventValidator
+{
+    private readonly SharedWorld world;
+    private readonly SharedClock sharedTime;
+    private readonly Watermark watermark;
+    private readonly WorkBudget budget;
+    private readonly SimDuration history;
+
+    internal EventValidator(SharedWorld world, SharedClock sharedTime, Watermark watermark, WorkBudget budget, SimDuration history)
+    {
+        this.world = world;
+        this.sharedTime = sharedTime;
+        this.watermark = watermark;
+        this.budget = budget;
+        this.history = history;
+    }
+
+    internal Verdict Judge(in ExternalEvent external)
+    {
+        SimTime now = sharedTime.Now;
+        return world.Live is null || !world.MayEnter(external) ? Verdict.Invalid
+            : !EventRights.Has(external, world.Scene!) ? Verdict.NoRight
+            : external.Time < watermark.Now || external.Time < world.Live.Simulation.Start ? Verdict.TooLate
+            : external.Time > now + history ? Verdict.TooEarly
+            : budget.IsShort(external) ? Verdict.NoRight
+            : world.Limits.WhyNot(external, world.Live.Simulation, now, out _);
+    }
+}

@@ -1,0 +1,92 @@
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Hosts;
+
+/// <summary>All that a host has to do with those who are not in yet, or come from another address: challenge, join, copy, number.</summary>
+internal sealed class FrontDoor
+{
+    private readonly JoinerRoster roster;
+    private readonly JoinCookies cookies = new();
+    private readonly AddressChallenge challenge;
+    private readonly Admission admission;
+    private readonly SnapshotServer snapshots;
+    private readonly SessionCounters counters;
+    private readonly IClock clock;
+
+    /// <param name="parts">What every session has.</param>
+    /// <param name="sessionId">The number that session ids of links are made of.</param>
+    /// <param name="roster">The joiners.</param>
+    /// <param name="places">The numbers.</param>
+    /// <param name="log">The log, which goes on where a copy ends.</param>
+    /// <param name="budget">Where who gets a number begins an account.</param>
+    /// <param name="timeouts">How long one may take to come in.</param>
+    /// <exception cref="SceneException">The scene is too large to be shared.</exception>
+    internal FrontDoor(
+        SessionParts parts, ulong sessionId, JoinerRoster roster, PlayerPlaces places, AuthoritativeLog log, WorkBudget budget, JoinerTimeouts timeouts)
+    {
+        this.roster = roster;
+        counters = parts.Counters;
+        clock = parts.Clock;
+        SessionOptions options = parts.Options;
+        challenge = new AddressChallenge(cookies, parts.Sender, clock);
+        Seating = new Seating(roster, places, budget, parts.Sender, options.MaxJoinersPerAddress);
+        Copies = new JoinCopies(roster, log, parts.World, options.Door, options.Timeout);
+        snapshots = new SnapshotServer(roster, new CopyPaces(options.Door), challenge, parts.Sender, counters, clock);
+        JoinRules rules = new(options, parts.World.Scene!.Hash, ShutOuts, Seating);
+        WaitingRoom room = new(roster, Copies, options.Door);
+        admission = new Admission(
+            sessionId, options.Window.History, cookies, challenge, rules, places, roster, room, Copies, timeouts, parts.Links, parts.Sender, counters, clock);
+    }
+
+    /// <summary>The machines from which nobody is let in.</summary>
+    internal ShutOuts ShutOuts { get; } = new();
+
+    /// <summary>What those who come in fetch.</summary>
+    internal JoinCopies Copies { get; }
+
+    /// <summary>What gives them their numbers.</summary>
+    internal Seating Seating { get; }
+
+    /// <summary>Has somebody show that it is where it says, before it is answered.</summary>
+    internal void Challenge(ulong nonce, PeerAddress from) => challenge.Send(nonce, from);
+
+    internal void OnJoin(in JoinDatagram join, PeerAddress from) => admission.OnJoin(join, from);
+
+    internal void OnFetch(in FetchDatagram fetch, PeerAddress from) => snapshots.OnFetch(fetch, from);
+
+    /// <summary>Somebody shows that it is at another address now.</summary>
+    internal void OnMove(in MoveDatagram move, PeerAddress from)
+    {
+        if (roster.Of(move.SessionId) is Joiner joiner && (joiner.Peer == move.Peer || move.Peer == 0) && challenge.IsMet(from, move.SessionId, move.Cookie))
+        {
+            SimTime now = clock.Now;
+            joiner.Link.Other = from;
+            joiner.Link.CountReceived(WireFormat.MoveBytes);
+            joiner.Link.NoteHeard(now);
+            joiner.Link.Hasten(now);
+        }
+        else
+        {
+            counters.DatagramsIgnored++;
+        }
+    }
+
+    /// <summary>Somebody speaks another version of the protocol.</summary>
+    internal void OnOtherVersion(ulong nonce, PeerAddress from) => admission.Refuse(nonce, RefusalReason.VersionDiffers, from);
+
+    /// <summary>Gives one that has its copy and its clock a number; false if there is none, and it was told so.</summary>
+    internal bool TrySeat(Joiner joiner, SimTime now)
+    {
+        if (Seating.TrySeat(joiner, now) is RefusalReason reason)
+        {
+            admission.Refuse(joiner.Claim.Nonce, reason, joiner.Link.Other);
+            return false;
+        }
+
+        return true;
+    }
+}

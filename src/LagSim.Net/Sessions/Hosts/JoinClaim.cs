@@ -1,0 +1,40 @@
+using LagSim.Net.Wire;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Hosts;
+
+/// <summary>As whom somebody was welcomed: by which join, which number its key gives, and which player it showed that it was.</summary>
+internal sealed class JoinClaim
+{
+    /// <param name="join">How it asked.</param>
+    /// <param name="keyed">The number that its key gives; 0 for none.</param>
+    /// <param name="claimed">The place of the player that it shows it was; null for none.</param>
+    /// <param name="until">When it is given up if it has no number by then.</param>
+    internal JoinClaim(in JoinDatagram join, byte keyed, PlayerPlaces.Place? claimed, SimTime until)
+    {
+        Nonce = join.Nonce;
+        Wanted = join.Player;
+        Keyed = keyed;
+        Claimed = claimed;
+        ClaimedPass = claimed?.Pass;
+        Until = until;
+    }
+
+    internal ulong Nonce { get; }
+
+    /// <summary>The number that it says it had; 0 for none.</summary>
+    internal byte Wanted { get; }
+
+    /// <summary>The number that its key gives it; 0 for none.</summary>
+    internal byte Keyed { get; }
+
+    /// <summary>The place of the player that it was before, if nobody else got it since; null for none.</summary>
+    internal PlayerPlaces.Place? Former => Claimed is not null && Claimed.Pass == ClaimedPass ? Claimed : null;
+
+    /// <summary>When it is given up if it has no number by then.</summary>
+    internal SimTime Until { get; }
+
+    private PlayerPlaces.Place? Claimed { get; }
+
+    private Token128? ClaimedPass { get; }
+}

@@ -1,0 +1,77 @@
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Wire;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Hosts;
+
+/// <summary>Lets go of joiners that fell silent, did not come in, or fell so far behind that a fresh copy is sooner there.</summary>
+internal sealed class JoinerTimeouts
+{
+    /// <summary>A joiner that has not taken in so many lines of the log is told to go.</summary>
+    private const int MaxUnacknowledged = 1 << 16;
+
+    /// <summary>Who was welcomed is given up after this long, or the timeout if that is shorter, if it then says nothing.</summary>
+    private static readonly SimDuration SilentPlace = SimDuration.FromSeconds(5);
+
+    private readonly JoinerRoster roster;
+    private readonly VerdictLog log;
+    private readonly SimDuration timeout;
+    private readonly double slowestCopy;
+    private readonly SleepDetector sleep;
+
+    /// <param name="roster">The joiners.</param>
+    /// <param name="log">What they are to take in.</param>
+    /// <param name="timeout">After how much silence a joiner is given up.</param>
+    /// <param name="slowestCopy">So many bytes of its copy a second gets who comes in on the slowest link.</param>
+    /// <param name="now">By the own clock.</param>
+    internal JoinerTimeouts(JoinerRoster roster, VerdictLog log, SimDuration timeout, double slowestCopy, SimTime now)
+    {
+        this.roster = roster;
+        this.log = log;
+        this.timeout = timeout;
+        this.slowestCopy = slowestCopy;
+        sleep = new SleepDetector(timeout / 2, now);
+    }
+
+    /// <summary>Whether a joiner has been silent for so long that it does not count as one that falls behind.</summary>
+    internal bool IsSilent(Joiner joiner, SimTime now) => now - joiner.Link.Heard > timeout / 2;
+
+    /// <summary>How long one that is coming in may take, by what it has to fetch.</summary>
+    internal SimDuration PatienceWithCopy(JoinCopy copy) => timeout + SilentPlace + SimDuration.FromSeconds(copy.Bytes.Length / slowestCopy);
+
+    /// <summary>When a joiner that never wrote is given up.</summary>
+    internal SimTime GivenUpAt(Joiner joiner) => joiner.Link.Heard + PatienceWith(joiner) + SimDuration.OneTick;
+
+    internal void Tend(SimTime now)
+    {
+        bool hasSlept = sleep.Look(now) > SimDuration.Zero; // it was this machine that slept: who was not listened to was not silent
+        for (int i = roster.All.Count - 1; i >= 0; i--)
+        {
+            Joiner joiner = roster.All[i];
+            if (hasSlept)
+            {
+                joiner.NoteSilence();
+                joiner.Link.NoteHeard(now);
+            }
+
+            bool isSilent = now - joiner.Link.Heard > PatienceWith(joiner) || (joiner.Peer == 0 && now > joiner.Claim.Until);
+            if (isSilent || HasFallenBehind(joiner, now))
+            {
+                roster.Dismiss(joiner, isSilent ? LeaveReason.TimedOut : LeaveReason.FellBehind);
+            }
+        }
+    }
+
+    private SimDuration PatienceWith(Joiner joiner) => joiner.HasWritten || timeout < SilentPlace ? timeout : SilentPlace;
+
+    /// <summary>Whether a joiner is so far behind, and comes no nearer, that a fresh copy is sooner there.</summary>
+    /// <remarks>
+    /// By time only while it is heard: one that stands still is silent, and not behind a link that is too slow. One that came in with a large copy starts far behind, and catches up.
+    /// </remarks>
+    private bool HasFallenBehind(Joiner joiner, SimTime now)
+    {
+        SimDuration lag = joiner.Acknowledged < log.Count ? now - log.AddedAt(joiner.Acknowledged + 1) : SimDuration.Zero;
+        bool isHeard = joiner.Peer > 0 && !IsSilent(joiner, now);
+        return log.Count - joiner.Acknowledged > MaxUnacknowledged || (isHeard && joiner.CatchingUp.HasFailed(lag, now, timeout));
+    }
+}

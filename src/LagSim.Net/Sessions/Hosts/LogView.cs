@@ -1,0 +1,26 @@
+using LagSim.Net.Sessions.Links;
+using LagSim.Net.Wire;
+
+namespace LagSim.Net.Sessions.Hosts;
+
+/// <summary>The log as one joiner gets it: of what it did itself only the number travels back; a former one of its number is another.</summary>
+internal sealed class LogView : IEntrySource
+{
+    private readonly VerdictLog log;
+
+    internal LogView(VerdictLog log) => this.log = log;
+
+    internal Joiner? Reader { get; set; }
+
+    public uint Last => Reader!.IsReady ? log.Count : Reader.Acknowledged;
+
+    public UpdateEntry this[uint number] => EntryFor(Reader!, number);
+
+    internal UpdateEntry EntryFor(Joiner reader, uint number)
+    {
+        LogEntry entry = log[number];
+        return entry.Event.Peer == reader.Peer && entry.Event.Sequence > reader.FirstSequence
+            ? new UpdateEntry(entry.Verdict, entry.Event.Sequence)
+            : new UpdateEntry(entry.Verdict, entry.Event);
+    }
+}

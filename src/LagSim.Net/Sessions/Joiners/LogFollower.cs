@@ -1,0 +1,119 @@
+using LagSim.Events;
+using LagSim.Net.Clocks;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Sessions.Links;
+using LagSim.Net.Wire;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Joiners;
+
+/// <summary>Follows the host's log at a joiner: takes its lines in order, has others' accepted events happen and own refused ones not have happened, and commits.</summary>
+internal sealed class LogFollower
+{
+    private readonly HostConnection connection;
+    private readonly SharedWorld world;
+    private readonly CommitTracker commits;
+    private readonly EventJournal journal;
+    private readonly PlayerIdentity self;
+    private readonly SharedClock sharedTime;
+    private readonly SessionCounters counters;
+    private readonly IClock clock;
+
+    internal LogFollower(
+        HostConnection connection, SharedWorld world, CommitTracker commits, EventJournal journal, PlayerIdentity self, SharedClock sharedTime,
+        SessionCounters counters, IClock clock)
+    {
+        this.connection = connection;
+        this.world = world;
+        this.commits = commits;
+        this.journal = journal;
+        this.self = self;
+        this.sharedTime = sharedTime;
+        this.counters = counters;
+        this.clock = clock;
+    }
+
+    /// <summary>Keeps what an update brought until its turn comes.</summary>
+    internal void Keep(UpdateDatagram update)
+    {
+        uint number = update.FirstIndex;
+        foreach (UpdateEntry entry in update.Held)
+        {
+            connection.Log.Put(number++, entry); // what is too far ahead comes again
+        }
+
+        if (update.Watermark != SimTime.MinValue && number > 0)
+        {
+            connection.Log.Promise(number - 1, update.Watermark);
+        }
+    }
+
+    /// <summary>Takes what has come, in order; false if there is nothing.</summary>
+    internal bool TakeEntries(SimTime now)
+    {
+        ReceiveWindow incoming = connection.Log;
+        bool any = incoming.HasNext;
+        bool isUrgent = false;
+        while (incoming.HasNext)
+        {
+            UpdateEntry entry = incoming.Take();
+            isUrgent |= entry.IsOwn ? entry.Sequence <= connection.LastUrgent || entry.Verdict != Verdict.Accepted : !SendWindow.IsMadeUpFor(entry.Event);
+            Take(entry, incoming.Received);
+        }
+
+        if (incoming.Promised != SimTime.MinValue)
+        {
+            // What is not judged yet, or still to be done, may have to be taken back, and for that its history must be there. Own stamps
+            // never go back. That the host has an event is not enough: an older update may come between that and its verdict.
+            SimTime needed = connection.Unjudged.Count > 0 ? connection.Unjudged.Oldest.Time : sharedTime.Now;
+            commits.Commit(SimTime.Min(incoming.Promised, needed));
+        }
+
+        if (!any || connection.Link is not UpdateLink link) // what was committed may have differed: then this peer has left the link for a fresh copy
+        {
+            return any;
+        }
+
+        if (isUrgent)
+        {
+            link.Answer(now);
+        }
+        else
+        {
+            link.Hasten(now + UpdateLink.MostAckDelay);
+        }
+
+        return true;
+    }
+
+    private void Take(in UpdateEntry entry, uint number)
+    {
+        bool own = entry.IsOwn;
+        ExternalEvent external = entry.Event;
+        OwnEvents unjudged = connection.Unjudged;
+        bool isAnothers = !own && (external.Peer != self.Number || external.Sequence <= connection.FirstSequence);
+        bool isNextOwn = own && unjudged.Count > 0 && unjudged.Oldest.Sequence == entry.Sequence;
+        if (!isAnothers && !isNextOwn)
+        {
+            counters.EventsForged++; // a host that judges what this peer did not do, or not in order, is none of ours
+            return;
+        }
+
+        external = own ? connection.TakeJudged(clock.Now) : external;
+        bool accepted = entry.Verdict == Verdict.Accepted && (own || world.MayEnter(external));
+        bool hasEffect = accepted;
+        counters.EventsAccepted += accepted ? 1 : 0;
+        counters.EventsRefused += accepted ? 0 : 1;
+        if (own && !accepted)
+        {
+            world.Retract(external);
+        }
+        else if (!own && accepted && external.Time >= world.From)
+        {
+            world.Limits.Note(external);
+            hasEffect = world.Apply(external);
+        }
+
+        journal.Tell(new LogEntry(number, entry.Verdict, external), hasEffect);
+    }
+}

@@ -1,0 +1,93 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Sessions.Links;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Joiners;
+
+/// <summary>Fetches the copy of scene and world that a host gives a joiner, piece by piece, and makes sure that it is the one that was announced.</summary>
+internal sealed class SnapshotClient
+{
+    /// <summary>The longest round trip that is assumed before one is measured.</summary>
+    private static readonly SimDuration MostGuessed = SimDuration.FromMilliseconds(400);
+
+    private readonly JoinAttempts attempts;
+    private readonly HostConnection connection;
+    private readonly SharedWorld world;
+    private readonly SessionStatus status;
+    private readonly DatagramSender sender;
+    private readonly SessionCounters counters;
+    private readonly IClock clock;
+    private readonly IReadOnlyList<IAcceleration>? accelerations;
+
+    internal SnapshotClient(
+        JoinAttempts attempts, HostConnection connection, SharedWorld world, SessionStatus status, DatagramSender sender, SessionCounters counters,
+        IClock clock, IReadOnlyList<IAcceleration>? accelerations)
+    {
+        this.attempts = attempts;
+        this.connection = connection;
+        this.world = world;
+        this.status = status;
+        this.sender = sender;
+        this.counters = counters;
+        this.clock = clock;
+        this.accelerations = accelerations;
+    }
+
+    /// <summary>When pieces are to be asked for next.</summary>
+    internal SimTime Due => attempts.Current?.Fetch?.Due ?? SimTime.MaxValue;
+
+    /// <summary>Asks for pieces if it is time to.</summary>
+    internal void Tend(SimTime now)
+    {
+        if (attempts.Current is not JoinAttempt { Fetch: CopyFetch fetch } attempt || fetch.Due > now)
+        {
+            return;
+        }
+
+        UpdateLink link = connection.Link!;
+        SimDuration guessed = attempt.Took < MostGuessed ? attempt.Took : MostGuessed;
+        Span<byte> bytes = stackalloc byte[WireFormat.FetchBytes];
+        sender.Send(bytes.Slice(0, fetch.Ask(link.SessionId, link.Self, now, link.Trips, guessed).Encode(bytes)), link);
+    }
+
+    internal void OnChunk(in ChunkDatagram chunk, int length)
+    {
+        SimTime now = clock.Now;
+        if (connection.Link is not UpdateLink link || attempts.Current is not JoinAttempt { Fetch: CopyFetch fetch } attempt
+            || chunk.SessionId != link.SessionId || !fetch.Take(chunk, now))
+        {
+            counters.DatagramsIgnored++;
+            return;
+        }
+
+        link.NoteHeard(now);
+        link.CountReceived(length);
+        if (!fetch.IsComplete)
+        {
+            return;
+        }
+
+        string? error = null;
+        if (WorldCopy.HashOf(fetch.Bytes) != attempt.CopyHash)
+        {
+            error = "its hash is another one than was announced.";
+        }
+        else if (WorldCopy.TryDecode(fetch.Bytes, accelerations, world.Scene, out WorldCopy? copy, out error))
+        {
+            attempt.Copy = copy;
+            world.Scene = copy.Scene;
+            link.Hasten(now);
+        }
+
+        attempt.Fetch = null;
+        if (error is not null)
+        {
+            connection.Farewell();
+            status.End(SessionEnd.Failed, $"The copy of the world that the host at {connection.Host} sent cannot be used: {error}");
+        }
+    }
+}

@@ -1,0 +1,73 @@
+using System;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Links;
+
+/// <summary>How long a link waits for the answer to what it sent, and how often in a row none came.</summary>
+internal sealed class AnswerTimer
+{
+    /// <summary>The longest wait for an answer doubles no more often than this.</summary>
+    private const int MostDoublings = 3;
+
+    /// <summary>So many times in a row nothing is answered before the link counts as another one.</summary>
+    private const int Silent = 3;
+
+    /// <summary>How long an answer is waited for before a round trip has been measured.</summary>
+    private static readonly SimDuration FirstPatience = SimDuration.FromMilliseconds(300);
+
+    private readonly RoundTrips trips;
+    private readonly SentDatagrams sent;
+    private readonly SimDuration longestDelay;
+    private int unanswered; // how many times in a row answers were overdue
+    private SimTime answered; // when something was answered, or began to be waited for
+
+    /// <param name="trips">The link's round trips.</param>
+    /// <param name="sent">What was sent.</param>
+    /// <param name="longestDelay">How long the other end may take until it answers.</param>
+    internal AnswerTimer(RoundTrips trips, SentDatagrams sent, SimDuration longestDelay)
+    {
+        this.trips = trips;
+        this.sent = sent;
+        this.longestDelay = longestDelay;
+    }
+
+    /// <summary>How long an answer is waited for.</summary>
+    internal SimDuration Patience => (trips.IsMeasured ? trips.Patience : FirstPatience) + longestDelay;
+
+    /// <summary>Whether the last answer that was waited for did not come in time.</summary>
+    internal bool IsOverdue => unanswered > 0;
+
+    /// <summary>Whether the link is still taken for the one that was measured.</summary>
+    internal bool MayBeLate => unanswered < Silent;
+
+    /// <summary>Notes that something was answered.</summary>
+    internal void NoteAnswer(SimTime now) => (unanswered, answered) = (0, now);
+
+    /// <summary>Notes that something is about to be sent: if no answer is waited for, the wait begins.</summary>
+    internal void NoteSending(SimTime now) => answered = sent.Waited == 0 && unanswered == 0 ? now : answered;
+
+    /// <summary>Notes that an answer was overdue; true the moment that it has been for so long that the link counts as another one.</summary>
+    internal bool NoteOverdue()
+    {
+        unanswered = Math.Min(unanswered + 1, MostDoublings + Silent);
+        return unanswered == Silent;
+    }
+
+    /// <summary>When the answer to what was sent is overdue.</summary>
+    internal SimTime Due(SimTime now) => sent.TryPeekOldest(out SimTime at) ? at + (Patience * (1L << Doublings(now))) : SimTime.MaxValue;
+
+    /// <summary>
+    /// How many times the wait for an answer has doubled. Where there is a queue it doubles each time that an answer was overdue. Where there is none it first does
+    /// after eight times the wait, since a link that loses several datagrams in a row is lost for longer the fewer are sent; by then nobody may be there.
+    /// </summary>
+    internal int Doublings(SimTime now)
+    {
+        int doublings = 0;
+        while (doublings < MostDoublings && doublings < unanswered && (trips.HasQueue || now - answered > Patience * (8L << doublings)))
+        {
+            doublings++;
+        }
+
+        return doublings;
+    }
+}

@@ -1,0 +1,46 @@
+using System;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Links;
+
+/// <summary>How often something may be done: so many times a second, and after a pause so many at once.</summary>
+internal sealed class RateLimit
+{
+    private readonly double perSecond;
+    private readonly double most;
+    private double left;
+    private SimTime counted;
+
+    internal RateLimit(double perSecond, double atOnce, SimTime now)
+    {
+        this.perSecond = perSecond;
+        most = atOnce;
+        left = atOnce;
+        counted = now;
+    }
+
+    /// <summary>Whether nothing of it is spent: it is as a new one.</summary>
+    internal bool IsWhole(SimTime now)
+    {
+        Count(now);
+        return left >= most;
+    }
+
+    internal bool TrySpend(SimTime now)
+    {
+        Count(now);
+        if (left < 1)
+        {
+            return false;
+        }
+
+        left--;
+        return true;
+    }
+
+    private void Count(SimTime now)
+    {
+        left = Math.Min(most, left + ((now - counted).ToSeconds() * perSecond));
+        counted = now;
+    }
+}

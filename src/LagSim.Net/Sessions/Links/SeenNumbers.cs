@@ -1,0 +1,64 @@
+using System;
+
+namespace LagSim.Net.Sessions.Links;
+
+/// <summary>Which of the newest numbered datagrams have come, so that each counts once, however often it comes and whatever overtook it.</summary>
+internal sealed class SeenNumbers
+{
+    /// <summary>What is so much older than the newest counts as seen.</summary>
+    internal const int Span = 1024;
+
+    private const int WordBits = 64;
+
+    private readonly ulong[] seen = new ulong[Span / WordBits];
+
+    /// <summary>The highest number that has come; 0 before there is one.</summary>
+    internal uint Newest { get; private set; }
+
+    /// <summary>Notes a number, 1 or more; false if it has come before, or is so old that nobody knows.</summary>
+    internal bool Add(uint number)
+    {
+        if (number > Newest)
+        {
+            if (number - Newest >= Span)
+            {
+                Array.Clear(seen, 0, seen.Length);
+            }
+            else
+            {
+                for (uint n = Newest + 1; n < number; n++)
+                {
+                    seen[Word(n)] &= ~Bit(n);
+                }
+            }
+
+            Newest = number;
+            seen[Word(number)] |= Bit(number);
+            return true;
+        }
+
+        if (number == 0 || Newest - number >= Span || (seen[Word(number)] & Bit(number)) != 0)
+        {
+            return false;
+        }
+
+        seen[Word(number)] |= Bit(number);
+        return true;
+    }
+
+    /// <summary>Which of the 32 numbers before one that is not above <see cref="Newest"/> have come: bit n for number - 1 - n.</summary>
+    internal uint BitsBefore(uint number)
+    {
+        uint bits = 0;
+        for (uint n = 1; n <= 32 && n < number; n++)
+        {
+            bits |= (seen[Word(number - n)] & Bit(number - n)) != 0 ? 1u << (int)(n - 1) : 0;
+        }
+
+        return bits;
+    }
+
+    private static int Word(uint number) => (int)(number % Span / WordBits);
+
+    private static ulong Bit(uint number) => 1UL << (int)(number % WordBits);
+}
