@@ -10,9 +10,12 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>The peer that others join. It alone says yes or no to each event, once, and keeps the log in which all verdicts stand in order.</summary>
+/// <summary>
+/// The peer that others join. It alone says yes or no to each event, once, and keeps the log in which all verdicts stand in order.
+/// </summary>
 /// <remarks>
-/// Its clock is the session's. The watermark, before which it accepts nothing, follows that clock, so a silent joiner stalls nobody. It plays
+/// Its clock is the session's. The watermark, before which it accepts nothing, follows that clock, so a silent joiner stalls nobody. It
+/// plays
 /// itself, by <see cref="Session.Do"/>, or only serves. It keeps nothing of who has not shown, by a cookie, that it is where it says.
 /// </remarks>
 public sealed class HostSession : Session
@@ -25,12 +28,15 @@ public sealed class HostSession : Session
     /// <param name="clock">This machine's own clock.</param>
     /// <param name="options">How to take part.</param>
     /// <param name="sessionId">
-    /// A number that no other session on these machines has; choose it at random. From it and a secret of this host each join gets a session id that nobody
-    /// else can tell: it goes with every datagram, and what is still on its way from or to a former joiner is not taken for that of a later one.
+    /// A number that no other session on these machines has; choose it at random. From it and a secret of this host each join gets a
+    /// session id that nobody
+    /// else can tell: it goes with every datagram, and what is still on its way from or to a former joiner is not taken for that of a later
+    /// one.
     /// </param>
     public HostSession(Scene scene, IDatagramPort port, IClock clock, SessionOptions options, ulong sessionId)
         : this(new HostProtocol(
-            new SessionParts(scene ?? throw new ArgumentNullException(nameof(scene)), port, clock, options, SessionState.Waiting), sessionId))
+            new SessionParts(scene ?? throw new ArgumentNullException(nameof(scene)), port, clock, options, SessionState.Waiting),
+            sessionId))
     {
     }
 
@@ -38,7 +44,8 @@ public sealed class HostSession : Session
         : base(host.Parts, host) => this.host = host;
 
     /// <summary>
-    /// Raised on the session's thread for each joiner that has a copy of scene and state and got its number, with its link. Handlers must not throw.
+    /// Raised on the session's thread for each joiner that has a copy of scene and state and got its number, with its link. Handlers must
+    /// not throw.
     /// </summary>
     public event Action<LinkTraffic>? JoinerCame
     {
@@ -47,7 +54,8 @@ public sealed class HostSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread, once, for each joiner that left, fell silent, was told to go, or came anew from the same address, with what went over
+    /// Raised on the session's thread, once, for each joiner that left, fell silent, was told to go, or came anew from the same address,
+    /// with what went over
     /// its link in all. Not for those who are there when the session ends. Handlers must not throw.
     /// </summary>
     public event Action<LinkTraffic>? JoinerGone
@@ -57,7 +65,8 @@ public sealed class HostSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread when a player is sent away because its acts cost more than <see cref="SessionOptions.PlayerBudget"/>, with why, and what was
+    /// Raised on the session's thread when a player is sent away because its acts cost more than <see cref="SessionOptions.PlayerBudget"/>,
+    /// with why, and what was
     /// removed. <see cref="JoinerGone"/> is raised too. Handlers must not throw.
     /// </summary>
     public event Action<PlayerExpulsion>? PlayerExpelled
@@ -67,7 +76,8 @@ public sealed class HostSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread for each joiner, once, that says its committed state at that time is not this host's. Handlers must not throw.
+    /// Raised on the session's thread for each joiner, once, that says its committed state at that time is not this host's. Handlers must
+    /// not throw.
     /// </summary>
     public event Action<byte, SimTime>? JoinerDiverged
     {
@@ -79,12 +89,17 @@ public sealed class HostSession : Session
     public int JoinerCount => host.Roster.SeatedCount;
 
     /// <summary>
-    /// The time before which no event is accepted any more: the history before the clock, or before where the world stands if that is behind. It never goes back.
+    /// The time before which no event is accepted any more: the history before the clock, or before where the world stands if that is
+    /// behind. It never goes back.
     /// </summary>
-    /// <remarks>What a host that stands still has not simulated can still be changed, by the removal of what makes it stand, above all.</remarks>
+    /// <remarks>
+    /// What a host that stands still has not simulated can still be changed, by the removal of what makes it stand, above all.
+    /// </remarks>
     public SimTime Watermark => host.Watermark.Now;
 
-    /// <summary>What the players' acts cost so far, by ascending number, of those for whom anything was charged. On the session's thread.</summary>
+    /// <summary>
+    /// What the players' acts cost so far, by ascending number, of those for whom anything was charged. On the session's thread.
+    /// </summary>
     public IReadOnlyList<PlayerCost> Costs => host.Budget.Costs;
 
     /// <summary>How much of the log is kept: what is not settled, and what some joiner has not acknowledged.</summary>
@@ -93,11 +108,18 @@ public sealed class HostSession : Session
     /// <summary>How many are coming in.</summary>
     internal int ComingCount => host.Roster.All.Count - JoinerCount;
 
-    /// <summary>Has the next step write to every joiner, which otherwise may wait for the keep-alive: they learn sooner what is committed.</summary>
+    /// <summary>
+    /// Has the next step write to every joiner, which otherwise may wait for the keep-alive: they learn sooner what is committed.
+    /// </summary>
     public void Hasten() => host.Hasten();
 
-    /// <summary>Sends a player away. It is told so, and its session ends. Its number becomes free and its pass void; it may join again as a new player.</summary>
-    /// <remarks>What it did stays, and so do the bodies that it spawned: see <see cref="RemoveBodiesOf"/>. On the session's thread.</remarks>
+    /// <summary>
+    /// Sends a player away. It is told so, and its session ends. Its number becomes free and its pass void; it may join again as a new
+    /// player.
+    /// </summary>
+    /// <remarks>
+    /// What it did stays, and so do the bodies that it spawned: see <see cref="RemoveBodiesOf"/>. On the session's thread.
+    /// </remarks>
     /// <param name="player">The player's number.</param>
     /// <returns>False if nobody has that number now.</returns>
     /// <exception cref="ArgumentOutOfRangeException">It is not from 1 to <see cref="SessionOptions.MaxJoiners"/>.</exception>
@@ -108,7 +130,8 @@ public sealed class HostSession : Session
     }
 
     /// <summary>
-    /// Sends away all players from the machine of one, as <see cref="Kick"/> does, and lets nobody in from there as long as this session lasts. A machine is an IP address,
+    /// Sends away all players from the machine of one, as <see cref="Kick"/> does, and lets nobody in from there as long as this session
+    /// lasts. A machine is an IP address,
     /// of IPv6 its first 64 bits: everybody who shares it is shut out.
     /// </summary>
     /// <remarks>On the session's thread.</remarks>
@@ -129,13 +152,17 @@ public sealed class HostSession : Session
         return machine;
     }
 
-    /// <summary>Lets players in again from a machine: one that was banned, or one that is shut out for a while because a player from there cost too much.</summary>
+    /// <summary>
+    /// Lets players in again from a machine: one that was banned, or one that is shut out for a while because a player from there cost too
+    /// much.
+    /// </summary>
     /// <param name="machine">What <see cref="Ban"/> gave, or any address of the machine.</param>
     /// <returns>False if it was not shut out.</returns>
     public bool Unban(PeerAddress machine) => host.Door.ShutOuts.LetInAgain(machine.Machine, host.Parts.Clock.Now);
 
     /// <summary>
-    /// Removes all bodies that were spawned under a player's number, whether or not somebody has it now. The removals are events of this host, so all peers see them at the same
+    /// Removes all bodies that were spawned under a player's number, whether or not somebody has it now. The removals are events of this
+    /// host, so all peers see them at the same
     /// simulated time: now, or where the world stands if that is behind, and of a body whose spawn is still to come when it is spawned.
     /// </summary>
     /// <remarks>On the session's thread. Cost: a removal for each.</remarks>

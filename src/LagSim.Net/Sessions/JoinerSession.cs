@@ -11,13 +11,15 @@ namespace LagSim.Net.Sessions;
 /// <summary>A peer that joins a host's session, at its start or at any time later.</summary>
 /// <remarks>
 /// It sets its clock by the host's before its first tick, and fetches scene and committed state from it. Its own events show at once; one
-/// that the host refuses is taken back. When it loses its host, or its world turns out to be wrong, it asks by itself to be let in again, as the same player, and
+/// that the host refuses is taken back. When it loses its host, or its world turns out to be wrong, it asks by itself to be let in again,
+/// as the same player, and
 /// goes on from a fresh copy (<see cref="SessionState.Rejoining"/>). Its address may change at any time.
 /// </remarks>
 public sealed class JoinerSession : Session
 {
     /// <summary>
-    /// So many own events can wait for the host's verdict; <see cref="Session.Do"/> throws while they do. 16,384: at the rate that a host takes by default,
+    /// So many own events can wait for the host's verdict; <see cref="Session.Do"/> throws while they do. 16,384: at the rate that a host
+    /// takes by default,
     /// more than half a minute without an answer.
     /// </summary>
     public const int MaxUnjudgedEvents = 1 << 14;
@@ -40,7 +42,8 @@ public sealed class JoinerSession : Session
         : base(joiner.Parts, joiner) => this.joiner = joiner;
 
     /// <summary>
-    /// Raised on the session's thread when this peer lost its host, or its world, and asks to be let in again: with why. <see cref="Session.Renewed"/> follows, or
+    /// Raised on the session's thread when this peer lost its host, or its world, and asks to be let in again: with why. <see
+    /// cref="Session.Renewed"/> follows, or
     /// <see cref="Regained"/>, or the session ends. Handlers must not throw.
     /// </summary>
     public event Action<string>? Interrupted
@@ -50,7 +53,8 @@ public sealed class JoinerSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread each time that the host gives this peer a number, with what shows that it is this player: <see cref="Pass"/>. That is before there
+    /// Raised on the session's thread each time that the host gives this peer a number, with what shows that it is this player: <see
+    /// cref="Pass"/>. That is before there
     /// is a world, so a program that keeps it at once can come back whenever it is killed. Handlers must not throw.
     /// </summary>
     public event Action<PlayerPass>? PassGiven
@@ -59,7 +63,10 @@ public sealed class JoinerSession : Session
         remove => joiner.Seat.PassGiven -= value;
     }
 
-    /// <summary>Raised on the session's thread when a host that had fallen silent was heard again before it let this peer go: all goes on. Handlers must not throw.</summary>
+    /// <summary>
+    /// Raised on the session's thread when a host that had fallen silent was heard again before it let this peer go: all goes on. Handlers
+    /// must not throw.
+    /// </summary>
     public event Action? Regained
     {
         add => joiner.Loss.Regained += value;
@@ -67,7 +74,8 @@ public sealed class JoinerSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread, once, when it is found out what the first differing committed state comes from, or that this cannot be. Handlers must
+    /// Raised on the session's thread, once, when it is found out what the first differing committed state comes from, or that this cannot
+    /// be. Handlers must
     /// not throw.
     /// </summary>
     public event Action<Divergence>? Diverged
@@ -76,7 +84,9 @@ public sealed class JoinerSession : Session
         remove => joiner.Finder.Found -= value;
     }
 
-    /// <summary>The first committed state that was not the host's, and what is known of it by now; null while there is none. From any thread.</summary>
+    /// <summary>
+    /// The first committed state that was not the host's, and what is known of it by now; null while there is none. From any thread.
+    /// </summary>
     public Divergence? Divergence => joiner.Finder.First;
 
     /// <summary>How late the host accepts an event, as it said; zero before it has.</summary>
@@ -86,11 +96,14 @@ public sealed class JoinerSession : Session
     public ClockSync ClockSync => joiner.Seat.Clock;
 
     /// <summary>
-    /// What shows a host that this is the player it was, for another session of this program: see <see cref="SessionOptions.Pass"/>. Null before the host gave a
+    /// What shows a host that this is the player it was, for another session of this program: see <see cref="SessionOptions.Pass"/>. Null
+    /// before the host gave a
     /// number. From any thread.
     /// </summary>
     public PlayerPass? Pass => joiner.Seat.Pass;
 
-    /// <summary>How many own events wait for the host's verdict, at most <see cref="MaxUnjudgedEvents"/>. On the session's thread.</summary>
+    /// <summary>
+    /// How many own events wait for the host's verdict, at most <see cref="MaxUnjudgedEvents"/>. On the session's thread.
+    /// </summary>
     public int UnjudgedEvents => joiner.Connection.Unjudged.Count;
 }

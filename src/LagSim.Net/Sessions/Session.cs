@@ -13,7 +13,9 @@ using LagSim.Timelines;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>One peer's part in a shared world: it talks through a datagram port, keeps the shared time, and keeps a world ahead of it.</summary>
+/// <summary>
+/// One peer's part in a shared world: it talks through a datagram port, keeps the shared time, and keeps a world ahead of it.
+/// </summary>
 /// <remarks>
 /// For one thread, in real time (<see cref="PeerThread"/> gives it one) or in virtual time, where the harness steps it. From any thread may
 /// be read: <see cref="Scene"/>, <see cref="SharedTime"/>, <see cref="State"/>, <see cref="EndReason"/>, <see cref="Committed"/>, and which
@@ -36,7 +38,8 @@ public abstract class Session
     }
 
     /// <summary>
-    /// Raised on the session's thread, once, when there is a <see cref="World"/> and nothing has happened in it yet. Handlers must not throw.
+    /// Raised on the session's thread, once, when there is a <see cref="World"/> and nothing has happened in it yet. Handlers must not
+    /// throw.
     /// </summary>
     public event Action? Begun
     {
@@ -45,7 +48,8 @@ public abstract class Session
     }
 
     /// <summary>
-    /// Raised on the session's thread each time that a fresh copy of the host's world has taken the place of <see cref="World"/>, which is another object from
+    /// Raised on the session's thread each time that a fresh copy of the host's world has taken the place of <see cref="World"/>, which is
+    /// another object from
     /// then on, with why. What this peer did that the host had not judged is in neither. Handlers must not throw.
     /// </summary>
     public event Action<string>? Renewed
@@ -61,7 +65,9 @@ public abstract class Session
         remove => parts.Status.Ended -= value;
     }
 
-    /// <summary>Raised on the session's thread for every line of the log, in order, once it has taken effect here. Handlers must not throw.</summary>
+    /// <summary>
+    /// Raised on the session's thread for every line of the log, in order, once it has taken effect here. Handlers must not throw.
+    /// </summary>
     public event Action<LogEntry>? Logged
     {
         add => parts.Journal.Told += value;
@@ -69,7 +75,8 @@ public abstract class Session
     }
 
     /// <summary>
-    /// Raised on the session's thread for every committed state, in order; see <see cref="SessionOptions.CommitInterval"/>. Handlers must not throw.
+    /// Raised on the session's thread for every committed state, in order; see <see cref="SessionOptions.CommitInterval"/>. Handlers must
+    /// not throw.
     /// </summary>
     /// <remarks>A world that is behind commits later.</remarks>
     public event Action<CommittedState>? StateCommitted
@@ -85,14 +92,17 @@ public abstract class Session
     public SharedClock SharedTime => parts.SharedTime;
 
     /// <summary>
-    /// How far behind the shared time this peer shows the world: <see cref="SessionOptions.DisplayDelay"/> with <c>interpolation</c>, else zero. From any
+    /// How far behind the shared time this peer shows the world: <see cref="SessionOptions.DisplayDelay"/> with <c>interpolation</c>, else
+    /// zero. From any
     /// thread.
     /// </summary>
     public SimDuration DisplayDelay => parts.World.DisplayDelay;
 
     /// <summary>
-    /// What a frame that is drawn now reads of a picture: shared time less <see cref="DisplayDelay"/>. In the first moments, when that lies before the world
-    /// this peer has, the earliest instant of it, so that the world stands still until it can be shown on its way. From any thread, once there is a <see
+    /// What a frame that is drawn now reads of a picture: shared time less <see cref="DisplayDelay"/>. In the first moments, when that lies
+    /// before the world
+    /// this peer has, the earliest instant of it, so that the world stands still until it can be shown on its way. From any thread, once
+    /// there is a <see
     /// cref="World"/>.
     /// </summary>
     public SimTime DisplayTime => parts.World.DisplayTime;
@@ -100,7 +110,9 @@ public abstract class Session
     /// <summary>Where the peer stands. From any thread.</summary>
     public SessionState State => parts.Status.State;
 
-    /// <summary>Why the session ended, as a sentence; null while it goes on. From any thread: it is there once <see cref="State"/> says so.</summary>
+    /// <summary>
+    /// Why the session ended, as a sentence; null while it goes on. From any thread: it is there once <see cref="State"/> says so.
+    /// </summary>
     public string? EndReason => parts.Status.EndReason;
 
     /// <summary>What ended the session. From any thread, as <see cref="EndReason"/>.</summary>
@@ -110,32 +122,41 @@ public abstract class Session
     public byte Peer => parts.Self.Number;
 
     /// <summary>
-    /// The world, from the moment its start is known; the same from then on, but for a joiner that got a fresh copy (<see cref="Renewed"/>). From any thread,
+    /// The world, from the moment its start is known; the same from then on, but for a joiner that got a fresh copy (<see
+    /// cref="Renewed"/>). From any thread,
     /// but see the remarks for what is in it.
     /// </summary>
     public LiveWorld? World => parts.World.Live;
 
-    /// <summary>What the world went on from, for a joiner that came late enough; null where it began with the scene. On the session's thread.</summary>
+    /// <summary>
+    /// What the world went on from, for a joiner that came late enough; null where it began with the scene. On the session's thread.
+    /// </summary>
     public WorldSnapshot? BegunFrom => parts.World.BegunFrom;
 
     /// <summary>The newest committed state; null before there is one. From any thread.</summary>
     public CommittedState? Committed => parts.Commits.Newest;
 
     /// <summary>
-    /// How many lines of the host's log this peer was not told, because every accepted event in them is in <see cref="BegunFrom"/>; the next is the
+    /// How many lines of the host's log this peer was not told, because every accepted event in them is in <see cref="BegunFrom"/>; the
+    /// next is the
     /// first that <see cref="Logged"/> tells. On the session's thread.
     /// </summary>
     public uint LogStart => protocol.LogStart;
 
     /// <summary>
-    /// What went over each link so far; of a host in the order in which its joiners came. On the session's thread; see <see cref="PeerThread.Ask"/>.
+    /// What went over each link so far; of a host in the order in which its joiners came. On the session's thread; see <see
+    /// cref="PeerThread.Ask"/>.
     /// </summary>
     public IReadOnlyList<LinkTraffic> Links => protocol.Traffic;
 
-    /// <summary>How many lines of the host's log this peer has, those included that were in the state it began from. On the session's thread.</summary>
+    /// <summary>
+    /// How many lines of the host's log this peer has, those included that were in the state it began from. On the session's thread.
+    /// </summary>
     public uint LogLength => protocol.LogLength;
 
-    /// <summary>What was counted; it goes on counting. On the session's thread: another gets a <see cref="SessionCounters.Copy"/>.</summary>
+    /// <summary>
+    /// What was counted; it goes on counting. On the session's thread: another gets a <see cref="SessionCounters.Copy"/>.
+    /// </summary>
     public SessionCounters Counters => parts.Counters;
 
     /// <summary>Whether all peers with this strategy end up with the same world, bit for bit.</summary>
@@ -156,7 +177,8 @@ public abstract class Session
     }
 
     /// <summary>
-    /// Has a step that is simulating end soon, by an <see cref="OperationCanceledException"/>; from any thread. The world stands still from then on.
+    /// Has a step that is simulating end soon, by an <see cref="OperationCanceledException"/>; from any thread. The world stands still from
+    /// then on.
     /// </summary>
     internal void Interrupt() => parts.World.Interrupt();
 
@@ -171,12 +193,14 @@ public abstract class Session
     }
 
     /// <summary>
-    /// Does something to the shared world, now, or later by what <see cref="SessionOptions.Window"/> has of local lag for it: seen here then, by the others too
+    /// Does something to the shared world, now, or later by what <see cref="SessionOptions.Window"/> has of local lag for it: seen here
+    /// then, by the others too
     /// or as soon as they hear of it.
     /// </summary>
     /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
     /// <exception cref="InvalidOperationException">
-    /// The session is not running; or of a joiner's events <see cref="JoinerSession.MaxUnjudgedEvents"/> wait for the host's verdict, and nothing happened:
+    /// The session is not running; or of a joiner's events <see cref="JoinerSession.MaxUnjudgedEvents"/> wait for the host's verdict, and
+    /// nothing happened:
     /// it can be done again once verdicts have come.
     /// </exception>
     /// <exception cref="SceneException">
@@ -199,11 +223,15 @@ public abstract class Session
     }
 
     /// <summary>
-    /// Does what is due: takes in datagrams, sends, brings the world ahead, by a bounded number of events; see <see cref="LiveWorld.IsBehind"/>.
+    /// Does what is due: takes in datagrams, sends, brings the world ahead, by a bounded number of events; see <see
+    /// cref="LiveWorld.IsBehind"/>.
     /// </summary>
     /// <returns>How long until something is due again, unless a datagram or an action comes first.</returns>
-    /// <remarks>A world that cannot be simulated any further ends the session, with the reason; whatever others send, it does not throw.</remarks>
-    /// <exception cref="OperationCanceledException"><see cref="SessionOptions.Cancellation"/> asked for an end, and the session has not ended; <see cref="Leave"/> ends it.</exception>
+    /// <remarks>
+    /// A world that cannot be simulated any further ends the session, with the reason; whatever others send, it does not throw.
+    /// </remarks>
+    /// <exception cref="OperationCanceledException"><see cref="SessionOptions.Cancellation"/> asked for an end, and the session has not
+    /// ended; <see cref="Leave"/> ends it.</exception>
     public SimDuration Step() => loop.Step();
 
     /// <summary>Ends the session, or asks for a fresh copy, because its world cannot be simulated any further.</summary>

@@ -6,30 +6,17 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Core;
 
 /// <summary>What will not change any more of the world: hashed, compared with what the host says, and then forgotten.</summary>
-internal sealed class CommitTracker
+/// <param name="world">The world.</param>
+/// <param name="sharedTime">The session's time.</param>
+/// <param name="status">Where the session stands: what the host says of a world that is given up is not compared.</param>
+/// <param name="counters">What is counted.</param>
+/// <param name="extraHistory">How much longer timelines are kept than events may be late.</param>
+internal sealed class CommitTracker(
+    SharedWorld world, SharedClock sharedTime, SessionStatus status, SessionCounters counters, SimDuration extraHistory)
 {
-    private readonly SharedWorld world;
-    private readonly SharedClock sharedTime;
-    private readonly SessionStatus status;
-    private readonly SessionCounters counters;
-    private readonly SimDuration extraHistory;
     private volatile object? committed; // a boxed state: other threads read it whole
     private SimTime settled = SimTime.MinValue; // the watermark that was last committed to
     private CommitSchedule? schedule;
-
-    /// <param name="world">The world.</param>
-    /// <param name="sharedTime">The session's time.</param>
-    /// <param name="status">Where the session stands: what the host says of a world that is given up is not compared.</param>
-    /// <param name="counters">What is counted.</param>
-    /// <param name="extraHistory">How much longer timelines are kept than events may be late.</param>
-    internal CommitTracker(SharedWorld world, SharedClock sharedTime, SessionStatus status, SessionCounters counters, SimDuration extraHistory)
-    {
-        this.world = world;
-        this.sharedTime = sharedTime;
-        this.status = status;
-        this.counters = counters;
-        this.extraHistory = extraHistory;
-    }
 
     /// <summary>Raised for every committed state, in order.</summary>
     internal event Action<CommittedState>? Committed;
@@ -65,7 +52,9 @@ internal sealed class CommitTracker
         return due <= sharedTime.Now && world.Live is not null && world.Live.Simulation.SimulatedTo < due ? SimTime.MaxValue : due;
     }
 
-    /// <summary>Puts the hashes of the newest committed states into an update, back to one that the other is known to have, as many as may travel.</summary>
+    /// <summary>
+    /// Puts the hashes of the newest committed states into an update, back to one that the other is known to have, as many as may travel.
+    /// </summary>
     /// <returns>The newest instant; <paramref name="after"/> if there is none after it.</returns>
     internal SimTime PutHashes(UpdateDatagram update, SimTime after)
     {
@@ -74,8 +63,10 @@ internal sealed class CommitTracker
             return after;
         }
 
-        for (SimTime time = newest.Time; time > after && schedule.TryGet(time, out ulong hash) && update.TryAddHash(time, hash); time -= schedule.Interval)
+        SimTime time = newest.Time;
+        while (time > after && schedule.TryGet(time, out ulong hash) && update.TryAddHash(time, hash))
         {
+            time -= schedule.Interval;
         }
 
         return newest.Time;
@@ -99,7 +90,9 @@ internal sealed class CommitTracker
         }
     }
 
-    /// <summary>Nothing before the watermark will change any more; hash what is due, and forget it, but for what the options want kept.</summary>
+    /// <summary>
+    /// Nothing before the watermark will change any more; hash what is due, and forget it, but for what the options want kept.
+    /// </summary>
     internal void Commit(SimTime watermark)
     {
         if (world.Live is null || schedule is null)
@@ -128,8 +121,10 @@ internal sealed class CommitTracker
     }
 
     /// <summary>
-    /// A world that has long to go takes no more memory for it than one that is there: what has been committed to is hashed as the world gets there, and then
-    /// forgotten. What the watermark has not passed stays, however old it is: an event of then may still come, and to have forgotten it would be to lose it.
+    /// A world that has long to go takes no more memory for it than one that is there: what has been committed to is hashed as the world
+    /// gets there, and then
+    /// forgotten. What the watermark has not passed stays, however old it is: an event of then may still come, and to have forgotten it
+    /// would be to lose it.
     /// </summary>
     internal void ForgetWhileBehind() => Commit(settled);
 

@@ -6,17 +6,9 @@ namespace LagSim.Net.Sessions.Core;
 
 /// <summary>Tells what kind of datagram came, counts what is none, and hands on the rest.</summary>
 /// <remarks>Whoever reads the port calls it: the session itself, or what shares one port among many.</remarks>
-internal sealed class DatagramIntake
+internal sealed class DatagramIntake(SessionCounters counters, IDatagramHandler handler)
 {
     private readonly UpdateDatagram received = new();
-    private readonly SessionCounters counters;
-    private readonly IDatagramHandler handler;
-
-    internal DatagramIntake(SessionCounters counters, IDatagramHandler handler)
-    {
-        this.counters = counters;
-        this.handler = handler;
-    }
 
     internal void Take(ReadOnlySpan<byte> datagram, PeerAddress from)
     {

@@ -6,19 +6,13 @@ using LagSim.Net.Wire;
 namespace LagSim.Net.Sessions.Core;
 
 /// <summary>The one way by which a session's datagrams go out: it hands them to the port and counts them.</summary>
-internal sealed class DatagramSender
+internal sealed class DatagramSender(IDatagramPort port, SessionCounters counters)
 {
-    /// <summary>As often a goodbye is said at once; who has not heard it hears it again in answer to what it sends, for as long as the port is there.</summary>
+    /// <summary>
+    /// As often a goodbye is said at once; who has not heard it hears it again in answer to what it sends, for as long as the port is
+    /// there.
+    /// </summary>
     internal const int Goodbyes = 3;
-
-    private readonly IDatagramPort port;
-    private readonly SessionCounters counters;
-
-    internal DatagramSender(IDatagramPort port, SessionCounters counters)
-    {
-        this.port = port;
-        this.counters = counters;
-    }
 
     internal void Send(ReadOnlySpan<byte> datagram, PeerAddress to)
     {

@@ -12,7 +12,8 @@ internal sealed class EventJournal
     internal RecentEvents Recent { get; private set; } = new();
 
     /// <param name="entry">The line.</param>
-    /// <param name="hasEffect">Whether its event is in this peer's world; false for an accepted one that came too late for the history here.</param>
+    /// <param name="hasEffect">Whether its event is in this peer's world; false for an accepted one that came too late for the history
+    /// here.</param>
     internal void Tell(in LogEntry entry, bool hasEffect)
     {
         Recent.Add(entry, hasEffect);

@@ -22,7 +22,9 @@ internal interface ISessionProtocol : IDatagramHandler
     /// <summary>Whatever is due by the own clock, sending included.</summary>
     void Tend(SimTime now);
 
-    /// <summary>Whatever is to be done when the world has got as far as it could; true if it changed the world, which then goes on at once.</summary>
+    /// <summary>
+    /// Whatever is to be done when the world has got as far as it could; true if it changed the world, which then goes on at once.
+    /// </summary>
     bool TendWorld(SimTime now);
 
     /// <summary>When something is due next, by the own clock, if nothing comes in.</summary>
@@ -31,6 +33,8 @@ internal interface ISessionProtocol : IDatagramHandler
     /// <summary>Says goodbye.</summary>
     void Farewell();
 
-    /// <summary>Asks for a fresh copy of the world in place of one that cannot be gone on with; false where there is none to be had.</summary>
+    /// <summary>
+    /// Asks for a fresh copy of the world in place of one that cannot be gone on with; false where there is none to be had.
+    /// </summary>
     bool TryRenew(SessionEnd by, string why);
 }

@@ -7,22 +7,11 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>What this peer does itself: stamped with its number and a time, held against rights and limits, and brought into its own world at once.</summary>
-internal sealed class LocalActions
+/// <summary>
+/// What this peer does itself: stamped with its number and a time, held against rights and limits, and brought into its own world at once.
+/// </summary>
+internal sealed class LocalActions(PlayerIdentity self, SessionStatus status, SharedClock sharedTime, SharedWorld world)
 {
-    private readonly PlayerIdentity self;
-    private readonly SessionStatus status;
-    private readonly SharedClock sharedTime;
-    private readonly SharedWorld world;
-
-    internal LocalActions(PlayerIdentity self, SessionStatus status, SharedClock sharedTime, SharedWorld world)
-    {
-        this.self = self;
-        this.status = status;
-        this.sharedTime = sharedTime;
-        this.world = world;
-    }
-
     /// <exception cref="InvalidOperationException">The session is not running.</exception>
     internal void ThrowIfNotRunning()
     {

@@ -43,7 +43,8 @@ internal sealed class SessionLoop
     internal void EndWorld(SimulationException failure)
     {
         bool isFull = failure is TimelinesFullException;
-        if (isFull && protocol.TryRenew(SessionEnd.TimelinesFull, $"This peer had no more room for what may still change. {failure.Message}"))
+        if (isFull && protocol.TryRenew(
+            SessionEnd.TimelinesFull, $"This peer had no more room for what may still change. {failure.Message}"))
         {
             return;
         }

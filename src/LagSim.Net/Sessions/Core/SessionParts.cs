@@ -11,7 +11,8 @@ namespace LagSim.Net.Sessions.Core;
 internal sealed class SessionParts
 {
     /// <summary>The furthest that a clock may have run, 23 days: so long a session can last.</summary>
-    internal static readonly SimTime MaxClock = SimTime.FromSeconds(2_000_000); // the estimate of another clock takes readings of up to 24 days
+    // The estimate of another clock takes readings of up to 24 days.
+    internal static readonly SimTime MaxClock = SimTime.FromSeconds(2_000_000);
 
     internal SessionParts(Scene? scene, IDatagramPort port, IClock clock, SessionOptions options, SessionState first)
     {
@@ -22,7 +23,8 @@ internal sealed class SessionParts
         if (clock.Now > MaxClock)
         {
             throw new ArgumentException(
-                FormattableString.Invariant($"The clock reads {clock.Now.ToSeconds():F0} s; a session takes one that reads less than {MaxClock.ToSeconds():F0} s. Make a new one."),
+                FormattableString.Invariant($"The clock reads {clock.Now.ToSeconds():F0} s; a session takes one that reads less than")
+                    + FormattableString.Invariant($" {MaxClock.ToSeconds():F0} s. Make a new one."),
                 nameof(clock));
         }
 

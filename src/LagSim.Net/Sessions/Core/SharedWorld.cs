@@ -10,7 +10,9 @@ using LagSim.Timelines;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>This peer's copy of the shared world: how it is made, how events enter it, and how it is brought ahead of the shared time.</summary>
+/// <summary>
+/// This peer's copy of the shared world: how it is made, how events enter it, and how it is brought ahead of the shared time.
+/// </summary>
 /// <remarks>For the session's thread; which world, its scene and <see cref="DisplayTime"/> from any thread.</remarks>
 internal sealed class SharedWorld
 {
@@ -43,7 +45,8 @@ internal sealed class SharedWorld
         if (options.SyncTest && !(strategy.RewritesPast && strategy.Mode == HealingMode.CausalCone))
         {
             throw new ArgumentException(
-                $"The strategy is '{options.Strategy}', which does not heal; a sync test is for one that does: healing or interpolation.", nameof(options));
+                $"The strategy is '{options.Strategy}', which does not heal; a sync test is for one that does:"
+                + " healing or interpolation.", nameof(options));
         }
     }
 
@@ -99,7 +102,8 @@ internal sealed class SharedWorld
     internal void Begin(WorldSnapshot snapshot)
     {
         live?.Retire();
-        LiveWorld copied = new(Scene!, snapshot, WorldOptions(snapshot.Start), options.Window.LookAhead, options.PicturePast + DisplayDelay, options.Contacts)
+        LiveWorld copied = new(
+            Scene!, snapshot, WorldOptions(snapshot.Start), options.Window.LookAhead, options.PicturePast + DisplayDelay, options.Contacts)
         {
             Work = new WorkLedger(clock),
             WaitsForLateEvents = true,
@@ -206,5 +210,6 @@ internal sealed class SharedWorld
     // The session itself decides what is forgotten, by the watermark; the simulation's own limit would go by its look-ahead.
     private SimulationOptions WorldOptions(SimTime start) =>
         new(
-            start, SimDuration.MaxValue, options.MaxSegments, interruption.Token, options.SyncTest ? HealingMode.SyncTest : strategy.Mode, options.Threads);
+            start, SimDuration.MaxValue, options.MaxSegments, interruption.Token,
+            options.SyncTest ? HealingMode.SyncTest : strategy.Mode, options.Threads);
 }

@@ -5,27 +5,14 @@ using LagSim.Timelines;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>Begins a world: the first one, or a fresh copy in the place of one that could not be gone on with. What belongs to one world starts anew with it.</summary>
-internal sealed class WorldStart
+/// <summary>
+/// Begins a world: the first one, or a fresh copy in the place of one that could not be gone on with. What belongs to one world starts anew
+/// with it.
+/// </summary>
+internal sealed class WorldStart(
+    SharedWorld world, CommitTracker commits, EventJournal journal, SessionStatus status, SessionCounters counters,
+    SimDuration commitInterval)
 {
-    private readonly SharedWorld world;
-    private readonly CommitTracker commits;
-    private readonly EventJournal journal;
-    private readonly SessionStatus status;
-    private readonly SessionCounters counters;
-    private readonly SimDuration commitInterval;
-
-    internal WorldStart(
-        SharedWorld world, CommitTracker commits, EventJournal journal, SessionStatus status, SessionCounters counters, SimDuration commitInterval)
-    {
-        this.world = world;
-        this.commits = commits;
-        this.journal = journal;
-        this.status = status;
-        this.counters = counters;
-        this.commitInterval = commitInterval;
-    }
-
     /// <summary>Raised once, when there is a world and nothing has happened in it yet.</summary>
     internal event Action? Begun;
 

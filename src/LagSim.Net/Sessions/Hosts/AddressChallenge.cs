@@ -6,20 +6,12 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Has somebody show that it is at the address that its datagrams give, before anything is kept of it or sent to it that is longer than what it sent.</summary>
-internal sealed class AddressChallenge
+/// <summary>
+/// Has somebody show that it is at the address that its datagrams give, before anything is kept of it or sent to it that is longer than
+/// what it sent.
+/// </summary>
+internal sealed class AddressChallenge(JoinCookies cookies, DatagramSender sender, IClock clock)
 {
-    private readonly JoinCookies cookies;
-    private readonly DatagramSender sender;
-    private readonly IClock clock;
-
-    internal AddressChallenge(JoinCookies cookies, DatagramSender sender, IClock clock)
-    {
-        this.cookies = cookies;
-        this.sender = sender;
-        this.clock = clock;
-    }
-
     /// <summary>Sends a cookie, which only who is at that address gets.</summary>
     internal void Send(ulong nonce, PeerAddress to)
     {

@@ -9,43 +9,12 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Answers those who ask to be let in: welcomes them, each with a link of its own and a copy to fetch, or tells why not.</summary>
-internal sealed class Admission
+internal sealed class Admission(
+    ulong sessionId, SimDuration history, JoinCookies cookies, AddressChallenge challenge, JoinRules rules,
+    PlayerPlaces places, JoinerRoster roster, WaitingRoom room, JoinCopies copies, JoinerTimeouts timeouts,
+    LinkFactory links, DatagramSender sender, SessionCounters counters, IClock clock)
 {
-    private readonly ulong sessionId;
-    private readonly SimDuration history;
-    private readonly JoinCookies cookies;
-    private readonly AddressChallenge challenge;
-    private readonly JoinRules rules;
-    private readonly PlayerPlaces places;
-    private readonly JoinerRoster roster;
-    private readonly WaitingRoom room;
-    private readonly JoinCopies copies;
-    private readonly JoinerTimeouts timeouts;
-    private readonly LinkFactory links;
-    private readonly DatagramSender sender;
-    private readonly SessionCounters counters;
-    private readonly IClock clock;
     private ulong joins;
-
-    internal Admission(
-        ulong sessionId, SimDuration history, JoinCookies cookies, AddressChallenge challenge, JoinRules rules, PlayerPlaces places, JoinerRoster roster,
-        WaitingRoom room, JoinCopies copies, JoinerTimeouts timeouts, LinkFactory links, DatagramSender sender, SessionCounters counters, IClock clock)
-    {
-        this.sessionId = sessionId;
-        this.history = history;
-        this.cookies = cookies;
-        this.challenge = challenge;
-        this.rules = rules;
-        this.places = places;
-        this.roster = roster;
-        this.room = room;
-        this.copies = copies;
-        this.timeouts = timeouts;
-        this.links = links;
-        this.sender = sender;
-        this.counters = counters;
-        this.clock = clock;
-    }
 
     internal void OnJoin(in JoinDatagram join, PeerAddress from)
     {
@@ -101,7 +70,8 @@ internal sealed class Admission
             return null; // the world is being simulated again; the joiner asks once more
         }
 
-        // The same address, shown by the cookie, under a new nonce: it started again. One that is in stays until the new one gets its number: if it had only
+        // The same address, shown by the cookie, under a new nonce: it started again. One that is in stays until the new one gets its
+        // number: if it had only
         // fallen silent, it may be heard again first, and goes on.
         roster.All.RemoveAll(j => j.Peer == 0 && j.Link.Other == from);
         room.MakeRoom(from, made);

@@ -7,24 +7,11 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>The host's log as the session keeps it: each event is recorded once with its verdict, and settled once nobody who joins needs it.</summary>
-internal sealed class AuthoritativeLog
+/// <summary>
+/// The host's log as the session keeps it: each event is recorded once with its verdict, and settled once nobody who joins needs it.
+/// </summary>
+internal sealed class AuthoritativeLog(SharedWorld world, Watermark watermark, EventJournal journal, SessionCounters counters, IClock clock)
 {
-    private readonly SharedWorld world;
-    private readonly Watermark watermark;
-    private readonly EventJournal journal;
-    private readonly SessionCounters counters;
-    private readonly IClock clock;
-
-    internal AuthoritativeLog(SharedWorld world, Watermark watermark, EventJournal journal, SessionCounters counters, IClock clock)
-    {
-        this.world = world;
-        this.watermark = watermark;
-        this.journal = journal;
-        this.counters = counters;
-        this.clock = clock;
-    }
-
     /// <summary>Raised for every event that was recorded, after it was told here: the others are to hear of it.</summary>
     internal event Action<ExternalEvent>? Recorded;
 

@@ -7,18 +7,11 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Removes bodies that players spawned, by events of the host.</summary>
-internal sealed class BodyRemoval
+internal sealed class BodyRemoval(SharedWorld world, HostActions actions)
 {
-    private readonly SharedWorld world;
-    private readonly HostActions actions;
-
-    internal BodyRemoval(SharedWorld world, HostActions actions)
-    {
-        this.world = world;
-        this.actions = actions;
-    }
-
-    /// <summary>Removes bodies that a player spawned, all if none are named, as of an instant, and those that are spawned later as they are.</summary>
+    /// <summary>
+    /// Removes bodies that a player spawned, all if none are named, as of an instant, and those that are spawned later as they are.
+    /// </summary>
     /// <returns>How many.</returns>
     internal int RemoveSpawned(IEnumerable<BodyId>? some, byte player, SimTime from)
     {

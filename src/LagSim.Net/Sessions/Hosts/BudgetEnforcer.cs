@@ -9,34 +9,11 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Sends away who has used up its budget, removes its bodies, and stops what else it moved.</summary>
-internal sealed class BudgetEnforcer
+internal sealed class BudgetEnforcer(
+    WorkBudget budget, ForeignActs acts, JoinerRoster roster, ShutOuts shutOuts, BodyRemoval removal,
+    HostActions actions, SharedWorld world, Watermark watermark, SessionStatus status)
 {
     private const int MostStops = 1024;
-
-    private readonly WorkBudget budget;
-    private readonly ForeignActs acts;
-    private readonly JoinerRoster roster;
-    private readonly ShutOuts shutOuts;
-    private readonly BodyRemoval removal;
-    private readonly HostActions actions;
-    private readonly SharedWorld world;
-    private readonly Watermark watermark;
-    private readonly SessionStatus status;
-
-    internal BudgetEnforcer(
-        WorkBudget budget, ForeignActs acts, JoinerRoster roster, ShutOuts shutOuts, BodyRemoval removal, HostActions actions, SharedWorld world,
-        Watermark watermark, SessionStatus status)
-    {
-        this.budget = budget;
-        this.acts = acts;
-        this.roster = roster;
-        this.shutOuts = shutOuts;
-        this.removal = removal;
-        this.actions = actions;
-        this.world = world;
-        this.watermark = watermark;
-        this.status = status;
-    }
 
     /// <summary>Raised when a player is sent away, with why, and what was removed.</summary>
     internal event Action<PlayerExpulsion>? Expelled;
@@ -77,7 +54,8 @@ internal sealed class BudgetEnforcer
         int removed = removal.RemoveSpawned(player == WorkBudget.Departed ? costly.Where(body => body.Sequence > 0) : null, player, from);
         int stopped = Stop(player, costly, from);
         budget.StartAnew(now);
-        Expelled?.Invoke(new PlayerExpulsion(player == WorkBudget.Departed ? (byte)0 : player, wasThere, work, seconds, removed, stopped, from));
+        byte number = player == WorkBudget.Departed ? (byte)0 : player;
+        Expelled?.Invoke(new PlayerExpulsion(number, wasThere, work, seconds, removed, stopped, from));
     }
 
     /// <summary>Stops the bodies that a player moved, and that are not its own; how many.</summary>

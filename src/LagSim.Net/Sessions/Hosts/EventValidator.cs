@@ -7,23 +7,8 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>The host's verdict on an event of a joiner; it changes nothing.</summary>
-internal sealed class EventValidator
+internal sealed class EventValidator(SharedWorld world, SharedClock sharedTime, Watermark watermark, WorkBudget budget, SimDuration history)
 {
-    private readonly SharedWorld world;
-    private readonly SharedClock sharedTime;
-    private readonly Watermark watermark;
-    private readonly WorkBudget budget;
-    private readonly SimDuration history;
-
-    internal EventValidator(SharedWorld world, SharedClock sharedTime, Watermark watermark, WorkBudget budget, SimDuration history)
-    {
-        this.world = world;
-        this.sharedTime = sharedTime;
-        this.watermark = watermark;
-        this.budget = budget;
-        this.history = history;
-    }
-
     internal Verdict Judge(in ExternalEvent external)
     {
         SimTime now = sharedTime.Now;

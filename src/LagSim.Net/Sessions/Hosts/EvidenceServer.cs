@@ -8,28 +8,10 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Tells a joiner whose committed state is another the host's events of the time in which that came about.</summary>
-internal sealed class EvidenceServer
+internal sealed class EvidenceServer(
+    JoinerRoster roster, EventJournal journal, SharedWorld world, Watermark watermark, DatagramSender sender,
+    SessionCounters counters, IClock clock)
 {
-    private readonly JoinerRoster roster;
-    private readonly EventJournal journal;
-    private readonly SharedWorld world;
-    private readonly Watermark watermark;
-    private readonly DatagramSender sender;
-    private readonly SessionCounters counters;
-    private readonly IClock clock;
-
-    internal EvidenceServer(
-        JoinerRoster roster, EventJournal journal, SharedWorld world, Watermark watermark, DatagramSender sender, SessionCounters counters, IClock clock)
-    {
-        this.roster = roster;
-        this.journal = journal;
-        this.world = world;
-        this.watermark = watermark;
-        this.sender = sender;
-        this.counters = counters;
-        this.clock = clock;
-    }
-
     /// <summary>Raised for each joiner, once, that says its committed state at that time is not this host's.</summary>
     internal event Action<byte, SimTime>? Diverged;
 

@@ -7,19 +7,11 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>What players did lately to bodies that are not their own: these bodies can be stopped should the player be sent away.</summary>
-internal sealed class ForeignActs
+/// <param name="isKept">Whether anybody will ask; without a budget nobody does.</param>
+/// <param name="many">With more than this, old ones are looked for.</param>
+internal sealed class ForeignActs(bool isKept, int many)
 {
     private readonly List<ExternalEvent> acts = new();
-    private readonly bool isKept;
-    private readonly int many;
-
-    /// <param name="isKept">Whether anybody will ask; without a budget nobody does.</param>
-    /// <param name="many">With more than this, old ones are looked for.</param>
-    internal ForeignActs(bool isKept, int many)
-    {
-        this.isKept = isKept;
-        this.many = many;
-    }
 
     /// <summary>Remembers an accepted act, if it is on a body that is not the player's own.</summary>
     internal void Note(in ExternalEvent external)

@@ -26,7 +26,8 @@ internal sealed class FrontDoor
     /// <param name="timeouts">How long one may take to come in.</param>
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
     internal FrontDoor(
-        SessionParts parts, ulong sessionId, JoinerRoster roster, PlayerPlaces places, AuthoritativeLog log, WorkBudget budget, JoinerTimeouts timeouts)
+        SessionParts parts, ulong sessionId, JoinerRoster roster, PlayerPlaces places, AuthoritativeLog log, WorkBudget budget,
+        JoinerTimeouts timeouts)
     {
         this.roster = roster;
         counters = parts.Counters;
@@ -39,7 +40,8 @@ internal sealed class FrontDoor
         JoinRules rules = new(options, parts.World.Scene!.Hash, ShutOuts, Seating);
         WaitingRoom room = new(roster, Copies, options.Door);
         admission = new Admission(
-            sessionId, options.Window.History, cookies, challenge, rules, places, roster, room, Copies, timeouts, parts.Links, parts.Sender, counters, clock);
+            sessionId, options.Window.History, cookies, challenge, rules, places, roster, room, Copies, timeouts, parts.Links,
+            parts.Sender, counters, clock);
     }
 
     /// <summary>The machines from which nobody is let in.</summary>
@@ -61,7 +63,8 @@ internal sealed class FrontDoor
     /// <summary>Somebody shows that it is at another address now.</summary>
     internal void OnMove(in MoveDatagram move, PeerAddress from)
     {
-        if (roster.Of(move.SessionId) is Joiner joiner && (joiner.Peer == move.Peer || move.Peer == 0) && challenge.IsMet(from, move.SessionId, move.Cookie))
+        if (roster.Of(move.SessionId) is Joiner joiner && (joiner.Peer == move.Peer || move.Peer == 0)
+            && challenge.IsMet(from, move.SessionId, move.Cookie))
         {
             SimTime now = clock.Now;
             joiner.Link.Other = from;

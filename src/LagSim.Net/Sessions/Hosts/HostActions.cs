@@ -6,17 +6,8 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>What the host does itself: in its world and in the log at once, since nobody else has to accept it.</summary>
-internal sealed class HostActions
+internal sealed class HostActions(LocalActions actions, AuthoritativeLog log)
 {
-    private readonly LocalActions actions;
-    private readonly AuthoritativeLog log;
-
-    internal HostActions(LocalActions actions, AuthoritativeLog log)
-    {
-        this.actions = actions;
-        this.log = log;
-    }
-
     /// <summary>Does something at a shared time; see <see cref="Session.Do"/>.</summary>
     internal ExternalEvent Do(in PlayerAction action, SimTime time)
     {

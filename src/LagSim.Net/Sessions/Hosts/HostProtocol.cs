@@ -11,7 +11,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>The host's side of the session protocol: hands each datagram to the part that it is for, and has each part do in turn what is due.</summary>
+/// <summary>
+/// The host's side of the session protocol: hands each datagram to the part that it is for, and has each part do in turn what is due.
+/// </summary>
 internal sealed class HostProtocol : ISessionProtocol
 {
     private readonly PlayerPlaces places;
@@ -117,7 +119,8 @@ internal sealed class HostProtocol : ISessionProtocol
             case DatagramType.Leave when counters.IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)):
                 OnLeave(leave, from);
                 break;
-            case DatagramType.Welcome or DatagramType.Refusal or DatagramType.Challenge or DatagramType.Chunk or DatagramType.Evidence or DatagramType.Seat:
+            case DatagramType.Welcome or DatagramType.Refusal or DatagramType.Challenge or DatagramType.Chunk
+                or DatagramType.Evidence or DatagramType.Seat:
                 counters.DatagramsIgnored++; // a host's own words
                 break;
         }
@@ -139,7 +142,8 @@ internal sealed class HostProtocol : ISessionProtocol
             Parts.Counters.DatagramsIgnored++;
             if (hasEnded || joiner is null)
             {
-                // It has not heard the goodbye, or never was one of ours. Told with its own session's number, and in fewer bytes than it sent.
+                // It has not heard the goodbye, or never was one of ours. Told with its own session's number, and in fewer bytes than it
+                // sent.
                 Parts.Sender.SayGoodbye(from, update.SessionId, hasEnded ? LeaveReason.HostEnded : places.WhyGone(update.SessionId));
             }
 
@@ -157,7 +161,8 @@ internal sealed class HostProtocol : ISessionProtocol
             Farewell();
             Parts.Status.End(
                 SessionEnd.Failed,
-                FormattableString.Invariant($"The session has lasted {SessionParts.MaxClock.ToSeconds():F0} s, the longest there is; host a new one."));
+                FormattableString.Invariant($"The session has lasted {SessionParts.MaxClock.ToSeconds():F0} s, the longest there is;")
+                    + " host a new one.");
             return;
         }
 
@@ -256,7 +261,8 @@ internal sealed class HostProtocol : ISessionProtocol
         Parts.Counters.DatagramsIgnored += isNear ? 0 : 1; // further ahead than any joiner of ours goes
         Parts.Counters.EventsDeferred += events.JudgeNext(joiner, now) ? 0 : 1;
 
-        // An answer at once: it carries the acknowledgement, and the joiner's clock has its exchange without waiting. Knots come many a second, and have time.
+        // An answer at once: it carries the acknowledgement, and the joiner's clock has its exchange without waiting. Knots come many a
+        // second, and have time.
         if (canWait)
         {
             joiner.Link.Hasten(now + UpdateLink.MostAckDelay);

@@ -8,7 +8,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Makes what those who join fetch, and shares it among them, so that many who come cost one copy a second and a bounded amount of memory.</summary>
+/// <summary>
+/// Makes what those who join fetch, and shares it among them, so that many who come cost one copy a second and a bounded amount of memory.
+/// </summary>
 internal sealed class JoinCopies
 {
     /// <summary>A copy this fresh serves the next joiner too.</summary>
@@ -68,7 +70,8 @@ internal sealed class JoinCopies
                 return null;
             }
 
-            newest = new JoinCopy(hasState ? WorldCopy.Encode(world.Scene!, simulation!.Snapshot(settledTo)) : sceneCopy, log.Lines.Settled, now);
+            byte[] bytes = hasState ? WorldCopy.Encode(world.Scene!, simulation!.Snapshot(settledTo)) : sceneCopy;
+            newest = new JoinCopy(bytes, log.Lines.Settled, now);
         }
 
         return newest;
@@ -87,8 +90,10 @@ internal sealed class JoinCopies
     }
 
     /// <summary>
-    /// Whether a new joiner can be given this copy. A copy is shared for a second; and while there is no memory for another one, until it is as old as the time-out.
-    /// So joiners are not dropped each time that another one comes, and no joiner gets a world older than that because others keep fetching it.
+    /// Whether a new joiner can be given this copy. A copy is shared for a second; and while there is no memory for another one, until it
+    /// is as old as the time-out.
+    /// So joiners are not dropped each time that another one comes, and no joiner gets a world older than that because others keep fetching
+    /// it.
     /// </summary>
     private bool Serves(JoinCopy copy, SimTime now) =>
         now - copy.Made <= CopyAge || copy.Bytes.Length + BytesOf(roster.All) > RoomForCopiesLike(copy);

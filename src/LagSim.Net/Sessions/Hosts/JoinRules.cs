@@ -7,21 +7,8 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Who may come in at all: by machine, key, version, scene and place.</summary>
-internal sealed class JoinRules
+internal sealed class JoinRules(SessionOptions options, ulong sceneHash, ShutOuts shutOuts, Seating seating)
 {
-    private readonly SessionOptions options;
-    private readonly ulong sceneHash;
-    private readonly ShutOuts shutOuts;
-    private readonly Seating seating;
-
-    internal JoinRules(SessionOptions options, ulong sceneHash, ShutOuts shutOuts, Seating seating)
-    {
-        this.options = options;
-        this.sceneHash = sceneHash;
-        this.shutOuts = shutOuts;
-        this.seating = seating;
-    }
-
     /// <summary>The number that a player's key gives; 0 if it is none.</summary>
     internal byte NumberByKey(in JoinDatagram join)
     {

@@ -5,27 +5,13 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Takes the joiners' events in the order of their numbers, as many a second as each may send; has them judged, applied and recorded.</summary>
-internal sealed class JoinerEvents
+/// <summary>
+/// Takes the joiners' events in the order of their numbers, as many a second as each may send; has them judged, applied and recorded.
+/// </summary>
+internal sealed class JoinerEvents(
+    PlayerPlaces places, EventValidator validator, SharedWorld world, ForeignActs acts, AuthoritativeLog log,
+    SessionCounters counters)
 {
-    private readonly PlayerPlaces places;
-    private readonly EventValidator validator;
-    private readonly SharedWorld world;
-    private readonly ForeignActs acts;
-    private readonly AuthoritativeLog log;
-    private readonly SessionCounters counters;
-
-    internal JoinerEvents(
-        PlayerPlaces places, EventValidator validator, SharedWorld world, ForeignActs acts, AuthoritativeLog log, SessionCounters counters)
-    {
-        this.places = places;
-        this.validator = validator;
-        this.world = world;
-        this.acts = acts;
-        this.log = log;
-        this.counters = counters;
-    }
-
     /// <summary>Judges what a joiner did, in order, as far as it is here.</summary>
     /// <returns>False if something is left for later, because the joiner did too much.</returns>
     internal bool JudgeNext(Joiner joiner, SimTime now)

@@ -7,19 +7,9 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Everyone to whom a host has a link: those that are in, and those that are still coming in.</summary>
-internal sealed class JoinerRoster
+internal sealed class JoinerRoster(PlayerPlaces places, DatagramSender sender, IClock clock)
 {
     private readonly List<Joiner> joiners = new();
-    private readonly PlayerPlaces places;
-    private readonly DatagramSender sender;
-    private readonly IClock clock;
-
-    internal JoinerRoster(PlayerPlaces places, DatagramSender sender, IClock clock)
-    {
-        this.places = places;
-        this.sender = sender;
-        this.clock = clock;
-    }
 
     /// <summary>Raised, once, for each joiner that had a number and is here no longer, with what went over its link in all.</summary>
     internal event Action<LinkTraffic>? Gone;

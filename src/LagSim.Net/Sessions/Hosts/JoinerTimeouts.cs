@@ -37,7 +37,8 @@ internal sealed class JoinerTimeouts
     internal bool IsSilent(Joiner joiner, SimTime now) => now - joiner.Link.Heard > timeout / 2;
 
     /// <summary>How long one that is coming in may take, by what it has to fetch.</summary>
-    internal SimDuration PatienceWithCopy(JoinCopy copy) => timeout + SilentPlace + SimDuration.FromSeconds(copy.Bytes.Length / slowestCopy);
+    internal SimDuration PatienceWithCopy(JoinCopy copy) =>
+        timeout + SilentPlace + SimDuration.FromSeconds(copy.Bytes.Length / slowestCopy);
 
     /// <summary>When a joiner that never wrote is given up.</summary>
     internal SimTime GivenUpAt(Joiner joiner) => joiner.Link.Heard + PatienceWith(joiner) + SimDuration.OneTick;
@@ -66,7 +67,8 @@ internal sealed class JoinerTimeouts
 
     /// <summary>Whether a joiner is so far behind, and comes no nearer, that a fresh copy is sooner there.</summary>
     /// <remarks>
-    /// By time only while it is heard: one that stands still is silent, and not behind a link that is too slow. One that came in with a large copy starts far behind, and catches up.
+    /// By time only while it is heard: one that stands still is silent, and not behind a link that is too slow. One that came in with a
+    /// large copy starts far behind, and catches up.
     /// </remarks>
     private bool HasFallenBehind(Joiner joiner, SimTime now)
     {

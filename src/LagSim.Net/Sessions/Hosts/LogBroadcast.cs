@@ -92,7 +92,8 @@ internal sealed class LogBroadcast
         view.Reader = joiner;
         link.Fill(view, now);
 
-        // The watermark is a promise about what comes after this update's last entry: the one at which the next entry was added, or as there is none, now's.
+        // The watermark is a promise about what comes after this update's last entry: the one at which the next entry was added, or as
+        // there is none, now's.
         uint last = update.FirstIndex + (uint)update.Held.Length - 1;
         update.Watermark = world.Live is null ? SimTime.MinValue : last < lines.Count ? lines.WatermarkAfter(last) : watermark.Now;
         bool isUrgent = joiner.Acknowledged < Math.Min(log.LastUrgent, view.Last);

@@ -8,28 +8,13 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Gives those who have a copy and a clock their numbers: the one that a key or a pass shows, or one that is free.</summary>
-internal sealed class Seating
+/// <param name="roster">The joiners.</param>
+/// <param name="places">The numbers.</param>
+/// <param name="budget">Where a number that gets another holder begins another account.</param>
+/// <param name="sender">What they are told through.</param>
+/// <param name="mostOfOneMachine">How many may be in from one machine.</param>
+internal sealed class Seating(JoinerRoster roster, PlayerPlaces places, WorkBudget budget, DatagramSender sender, int mostOfOneMachine)
 {
-    private readonly JoinerRoster roster;
-    private readonly PlayerPlaces places;
-    private readonly WorkBudget budget;
-    private readonly DatagramSender sender;
-    private readonly int mostOfOneMachine;
-
-    /// <param name="roster">The joiners.</param>
-    /// <param name="places">The numbers.</param>
-    /// <param name="budget">Where a number that gets another holder begins another account.</param>
-    /// <param name="sender">What they are told through.</param>
-    /// <param name="mostOfOneMachine">How many may be in from one machine.</param>
-    internal Seating(JoinerRoster roster, PlayerPlaces places, WorkBudget budget, DatagramSender sender, int mostOfOneMachine)
-    {
-        this.roster = roster;
-        this.places = places;
-        this.budget = budget;
-        this.sender = sender;
-        this.mostOfOneMachine = mostOfOneMachine;
-    }
-
     /// <summary>Raised for each joiner that got its number, with its link.</summary>
     internal event Action<LinkTraffic>? Came;
 
@@ -45,11 +30,13 @@ internal sealed class Seating
             return null; // it has one
         }
 
-        // Who shows that it is a player whom nobody else is has a number, but counts: else a machine could collect passes, and then come with all of them.
+        // Who shows that it is a player whom nobody else is has a number, but counts: else a machine could collect passes, and then come
+        // with all of them.
         byte own = claimed?.Number ?? 0;
         int others = roster.All.Count(j => j.Peer > 0 && j.Peer != own && j.Link.Other != from && j.Link.Other.IsSameMachine(from));
         return others >= mostOfOneMachine ? RefusalReason.TooManyFromOneAddress
-            : own == 0 && places.Free(now, 0, from.Machine) == 0 && !roster.All.Exists(j => j.Peer > 0 && j.Link.Other == from) ? RefusalReason.Full
+            : own == 0 && places.Free(now, 0, from.Machine) == 0 && !roster.All.Exists(j => j.Peer > 0 && j.Link.Other == from)
+                ? RefusalReason.Full
             : null;
     }
 

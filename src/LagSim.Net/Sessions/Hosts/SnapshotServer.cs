@@ -7,28 +7,12 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Sends those who come in the pieces of their copies that they ask for, at a pace for each machine.</summary>
-internal sealed class SnapshotServer
+internal sealed class SnapshotServer(
+    JoinerRoster roster, CopyPaces paces, AddressChallenge challenge, DatagramSender sender, SessionCounters counters,
+    IClock clock)
 {
     /// <summary>How often every piece of a copy can be asked for in the mean, before no more of it is given.</summary>
     private const int MostRepeats = 8;
-
-    private readonly JoinerRoster roster;
-    private readonly CopyPaces paces;
-    private readonly AddressChallenge challenge;
-    private readonly DatagramSender sender;
-    private readonly SessionCounters counters;
-    private readonly IClock clock;
-
-    internal SnapshotServer(
-        JoinerRoster roster, CopyPaces paces, AddressChallenge challenge, DatagramSender sender, SessionCounters counters, IClock clock)
-    {
-        this.roster = roster;
-        this.paces = paces;
-        this.challenge = challenge;
-        this.sender = sender;
-        this.counters = counters;
-        this.clock = clock;
-    }
 
     internal void OnFetch(in FetchDatagram fetch, PeerAddress from)
     {
@@ -38,7 +22,8 @@ internal sealed class SnapshotServer
             counters.DatagramsIgnored++;
             if (joiner is not null && joiner.Link.Other != from)
             {
-                challenge.Send(fetch.SessionId, from); // pieces are many times as long as what asks for them: it must show first that it is there
+                // Pieces are many times as long as what asks for them: it must show first that it is there.
+                challenge.Send(fetch.SessionId, from);
             }
 
             return;

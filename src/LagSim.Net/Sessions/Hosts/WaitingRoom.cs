@@ -4,22 +4,14 @@ using LagSim.Net.Carriers;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Keeps those who are coming in to a number and to a size of their copies: who comes makes the oldest of the machine with the most go.</summary>
-internal sealed class WaitingRoom
+/// <summary>
+/// Keeps those who are coming in to a number and to a size of their copies: who comes makes the oldest of the machine with the most go.
+/// </summary>
+internal sealed class WaitingRoom(JoinerRoster roster, JoinCopies copies, DoorLimits door)
 {
-    private readonly JoinerRoster roster;
-    private readonly JoinCopies copies;
-    private readonly DoorLimits door;
-
-    internal WaitingRoom(JoinerRoster roster, JoinCopies copies, DoorLimits door)
-    {
-        this.roster = roster;
-        this.copies = copies;
-        this.door = door;
-    }
-
     /// <summary>
-    /// Lets go of the oldest of those that are coming in, of the machine with the most: while there are too many, or their copies take too much memory.
+    /// Lets go of the oldest of those that are coming in, of the machine with the most: while there are too many, or their copies take too
+    /// much memory.
     /// </summary>
     /// <param name="from">Who comes.</param>
     /// <param name="made">What it is to fetch. Others who fetch the same copy take no more memory for it.</param>

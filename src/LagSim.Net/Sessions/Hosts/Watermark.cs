@@ -5,22 +5,15 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>
-/// The time before which a host accepts no event any more: the history before the clock, or before where the world stands if that is behind. It never goes back.
+/// The time before which a host accepts no event any more: the history before the clock, or before where the world stands if that is
+/// behind. It never goes back.
 /// </summary>
-/// <remarks>What a host that stands still has not simulated can still be changed, by the removal of what makes it stand, above all.</remarks>
-internal sealed class Watermark
+/// <remarks>
+/// What a host that stands still has not simulated can still be changed, by the removal of what makes it stand, above all.
+/// </remarks>
+internal sealed class Watermark(SharedClock sharedTime, SharedWorld world, SimDuration history)
 {
-    private readonly SharedClock sharedTime;
-    private readonly SharedWorld world;
-    private readonly SimDuration history;
     private SimTime newest = SimTime.MinValue;
-
-    internal Watermark(SharedClock sharedTime, SharedWorld world, SimDuration history)
-    {
-        this.sharedTime = sharedTime;
-        this.world = world;
-        this.history = history;
-    }
 
     /// <summary>The watermark now.</summary>
     internal SimTime Now

@@ -11,18 +11,25 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>What each player's acts have cost of its budget: who has little left, and who has used it up.</summary>
-internal sealed class WorkBudget
+/// <param name="world">The world, which counts the work.</param>
+/// <param name="sharedTime">The session's time.</param>
+/// <param name="budget">What one player may cost; null for no limit.</param>
+internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, PlayerBudget? budget)
 {
     /// <summary>The account of bodies whose players are gone, and their numbers others'.</summary>
     internal const byte Departed = WorkLedger.Nobody - 1;
 
-    /// <summary>Who has less than this part of its budget left may do no more for the moment; and while the world is late, who has is sent away.</summary>
+    /// <summary>
+    /// Who has less than this part of its budget left may do no more for the moment; and while the world is late, who has is sent away.
+    /// </summary>
     private const double LittleLeft = 0.5;
 
     /// <summary>A player that has this part of its budget is at rest: what cost before is no part of what costs now.</summary>
     private const double NearlyAll = 0.9;
 
-    /// <summary>What a body that is not its own must have cost, as a part of the budget, for it to be stopped with the player that moved it.</summary>
+    /// <summary>
+    /// What a body that is not its own must have cost, as a part of the budget, for it to be stopped with the player that moved it.
+    /// </summary>
     private const double WorthStopping = 0.001;
 
     /// <summary>What is much to have been done for a player's bodies the first time, as a part of the budget.</summary>
@@ -35,20 +42,7 @@ internal sealed class WorkBudget
     private static readonly SimDuration Late = SimDuration.FromMilliseconds(150);
 
     private readonly Purse[] purses = new Purse[WorkLedger.Nobody];
-    private readonly SharedWorld world;
-    private readonly SharedClock sharedTime;
-    private readonly PlayerBudget? budget;
     private SimTime counted = SimTime.MaxValue; // own clock
-
-    /// <param name="world">The world, which counts the work.</param>
-    /// <param name="sharedTime">The session's time.</param>
-    /// <param name="budget">What one player may cost; null for no limit.</param>
-    internal WorkBudget(SharedWorld world, SharedClock sharedTime, PlayerBudget? budget)
-    {
-        this.world = world;
-        this.sharedTime = sharedTime;
-        this.budget = budget;
-    }
 
     /// <summary>Whether there is a budget, and a world that counts work.</summary>
     internal bool IsInForce => budget is not null && Ledger is not null;
@@ -114,7 +108,10 @@ internal sealed class WorkBudget
         }
     }
 
-    /// <summary>Who has used up its budget, the one most over it; <see cref="Departed"/> for those who are gone, and 0 for nobody. While the world is late, half of it is all there is.</summary>
+    /// <summary>
+    /// Who has used up its budget, the one most over it; <see cref="Departed"/> for those who are gone, and 0 for nobody. While the world
+    /// is late, half of it is all there is.
+    /// </summary>
     internal byte Overdrawn()
     {
         double least = sharedTime.Now - Late > world.Live!.PictureTo ? Whole * LittleLeft : 0;
@@ -128,8 +125,10 @@ internal sealed class WorkBudget
     }
 
     /// <summary>
-    /// Who is to go if one has used up its budget: of those that have little left the one for whose bodies most was done the first time, if that is much; else that one. Whose news has what
-    /// another does simulated again and again pays for it too, but it is not its doing. And of those who are charged alike, for their bodies meet, the one whose bodies move the fastest: it
+    /// Who is to go if one has used up its budget: of those that have little left the one for whose bodies most was done the first time, if
+    /// that is much; else that one. Whose news has what
+    /// another does simulated again and again pays for it too, but it is not its doing. And of those who are charged alike, for their
+    /// bodies meet, the one whose bodies move the fastest: it
     /// is not who holds a ball that makes it bounce a million times a second.
     /// </summary>
     internal byte Culprit(byte worst)
@@ -147,7 +146,8 @@ internal sealed class WorkBudget
             double speed = 0;
             foreach (BodyId body in Ledger!.CostlyBodiesOf(player, 0))
             {
-                speed = simulation.TryRead(body, simulation.SimulatedTo, out BodyState state) ? Math.Max(speed, state.Velocity.Length) : speed;
+                bool isThere = simulation.TryRead(body, simulation.SimulatedTo, out BodyState state);
+                speed = isThere ? Math.Max(speed, state.Velocity.Length) : speed;
             }
 
             return speed;
@@ -164,7 +164,9 @@ internal sealed class WorkBudget
     /// <summary>The bodies for which much was charged to a player.</summary>
     internal IReadOnlyList<BodyId> CostlyBodiesOf(byte player) => Ledger!.CostlyBodiesOf(player, Whole * WorthStopping);
 
-    /// <summary>Gives everybody all of it anew: what others were charged meanwhile was for what one who was sent away did to them, or may have been.</summary>
+    /// <summary>
+    /// Gives everybody all of it anew: what others were charged meanwhile was for what one who was sent away did to them, or may have been.
+    /// </summary>
     internal void StartAnew(SimTime now)
     {
         for (int n = 0; n < purses.Length; n++)

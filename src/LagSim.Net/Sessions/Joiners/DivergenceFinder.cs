@@ -8,35 +8,16 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Joiners;
 
 /// <summary>Finds out of a committed state that is not the host's since when, and which event makes the difference.</summary>
-internal sealed class DivergenceFinder
+internal sealed class DivergenceFinder(
+    HostConnection connection, SharedWorld world, EventJournal journal, PlayerIdentity self, DatagramSender sender,
+    SessionCounters counters, IClock clock, SimDuration timeout)
 {
-    private readonly HostConnection connection;
-    private readonly SharedWorld world;
-    private readonly EventJournal journal;
-    private readonly PlayerIdentity self;
-    private readonly DatagramSender sender;
-    private readonly SessionCounters counters;
-    private readonly IClock clock;
-    private readonly SimDuration timeout;
     private Inquiry? inquiry;
-    private SimTime agreed = SimTime.MinValue; // the newest committed time at which the states were the same, before the first at which they were not
+    // The newest committed time at which the states were the same, before the first at which they were not.
+    private SimTime agreed = SimTime.MinValue;
     private CommittedState differing;
     private ulong hostHash;
     private volatile Divergence? divergence;
-
-    internal DivergenceFinder(
-        HostConnection connection, SharedWorld world, EventJournal journal, PlayerIdentity self, DatagramSender sender, SessionCounters counters, IClock clock,
-        SimDuration timeout)
-    {
-        this.connection = connection;
-        this.world = world;
-        this.journal = journal;
-        this.self = self;
-        this.sender = sender;
-        this.counters = counters;
-        this.clock = clock;
-        this.timeout = timeout;
-    }
 
     /// <summary>Raised once, when it is found out what the first differing state comes from, or that this cannot be.</summary>
     internal event Action<Divergence>? Found;
@@ -110,7 +91,8 @@ internal sealed class DivergenceFinder
 
     internal void OnEvidence(in EvidenceDatagram evidence, int length)
     {
-        if (connection.Link is not UpdateLink link || inquiry is null || evidence.SessionId != link.SessionId || !inquiry.Take(evidence, clock.Now))
+        if (connection.Link is not UpdateLink link || inquiry is null || evidence.SessionId != link.SessionId
+            || !inquiry.Take(evidence, clock.Now))
         {
             counters.DatagramsIgnored++;
             return;
@@ -144,6 +126,6 @@ internal sealed class DivergenceFinder
     }
 
     private Divergence Describe(SimTime after, DivergenceFinding finding, EventDifference first = default) => new(
-        world.Live!.Simulation.Start, after, differing, hostHash, journal.Recent.Between(after, differing.Time), finding, first.Hosts, first.Own,
-        first.HasOwnEffect);
+        world.Live!.Simulation.Start, after, differing, hostHash, journal.Recent.Between(after, differing.Time), finding,
+        first.Hosts, first.Own, first.HasOwnEffect);
 }

@@ -7,43 +7,27 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Joiners;
 
 /// <summary>
-/// What a joiner does that lost its host, or its world: it asks to be let in again, as the same player, and gets a fresh copy. Where that is of no use or not
+/// What a joiner does that lost its host, or its world: it asks to be let in again, as the same player, and gets a fresh copy. Where that
+/// is of no use or not
 /// wanted the session ends.
 /// </summary>
-internal sealed class HostLoss
+internal sealed class HostLoss(
+    JoinAttempts attempts, HostConnection connection, SharedWorld world, SessionStatus status, SessionCounters counters,
+    IClock clock, SessionOptions options)
 {
     private const int MostUseless = 3;
 
     /// <summary>
-    /// A fresh copy that did not last this long was of no use: four dips of a link that has one each half minute. So many of those in a row end the session; one
+    /// A fresh copy that did not last this long was of no use: four dips of a link that has one each half minute. So many of those in a row
+    /// end the session; one
     /// is enough where it is the link that does not keep up, since the next copy would come over the same link.
     /// </summary>
     private static readonly SimDuration UsefulFor = SimDuration.FromSeconds(120);
 
-    private readonly JoinAttempts attempts;
-    private readonly HostConnection connection;
-    private readonly SharedWorld world;
-    private readonly SessionStatus status;
-    private readonly SessionCounters counters;
-    private readonly IClock clock;
-    private readonly SessionOptions options;
     private SimTime rejoining; // since when, by the own clock
     private SessionEnd rejoiningFor; // what the session ends by if it is not let in
     private SimTime renewed = SimTime.MinValue; // when it was last in again
     private int useless;
-
-    internal HostLoss(
-        JoinAttempts attempts, HostConnection connection, SharedWorld world, SessionStatus status, SessionCounters counters, IClock clock,
-        SessionOptions options)
-    {
-        this.attempts = attempts;
-        this.connection = connection;
-        this.world = world;
-        this.status = status;
-        this.counters = counters;
-        this.clock = clock;
-        this.options = options;
-    }
 
     /// <summary>Raised when this peer begins to ask to be let in again, with why.</summary>
     internal event Action<string>? Interrupted;
@@ -51,7 +35,8 @@ internal sealed class HostLoss
     /// <summary>Raised when a host that had fallen silent was heard again before it let this peer go.</summary>
     internal event Action? Regained;
 
-    private string Silence => FormattableString.Invariant($"The host at {connection.Host} fell silent for {options.Timeout.ToSeconds():0.###} s.");
+    private string Silence =>
+        FormattableString.Invariant($"The host at {connection.Host} fell silent for {options.Timeout.ToSeconds():0.###} s.");
 
     /// <summary>How long one that is coming in, and is pushed out, asks again.</summary>
     private SimDuration LongestComing => options.RejoinTime > options.Timeout ? options.RejoinTime : options.Timeout;
@@ -96,8 +81,10 @@ internal sealed class HostLoss
         bool isOver = leave.Reason is not (LeaveReason.TimedOut or LeaveReason.NotJoined or LeaveReason.FellBehind);
         if (isOver)
         {
-            status.End(
-                leave.Reason == LeaveReason.HostEnded ? SessionEnd.HostEnded : leave.Reason == LeaveReason.Kicked ? SessionEnd.Kicked : SessionEnd.LetGo, why);
+            SessionEnd by = leave.Reason == LeaveReason.HostEnded ? SessionEnd.HostEnded
+                : leave.Reason == LeaveReason.Kicked ? SessionEnd.Kicked
+                : SessionEnd.LetGo;
+            status.End(by, why);
         }
         else if (status.IsRejoining)
         {
@@ -112,7 +99,8 @@ internal sealed class HostLoss
         {
             Rejoin(leave.Reason == LeaveReason.FellBehind ? SessionEnd.LinkTooSlow : SessionEnd.LetGo, why, isLinkGood: false);
         }
-        else if (leave.Reason is LeaveReason.NotJoined or LeaveReason.TimedOut && attempts.Current?.IsWelcome == true && now - attempts.Began <= LongestComing)
+        else if (leave.Reason is LeaveReason.NotJoined or LeaveReason.TimedOut && attempts.Current?.IsWelcome == true
+            && now - attempts.Began <= LongestComing)
         {
             AskAnew(now); // others who came in pushed it out, or it stood still, or the host is another one
         }
@@ -122,7 +110,10 @@ internal sealed class HostLoss
         }
     }
 
-    /// <summary>Asks for a fresh copy in place of a world that cannot be gone on with; false where none is wanted, or none is of use and the session has ended.</summary>
+    /// <summary>
+    /// Asks for a fresh copy in place of a world that cannot be gone on with; false where none is wanted, or none is of use and the session
+    /// has ended.
+    /// </summary>
     internal bool TryRenew(SessionEnd by, string why) => options.RejoinTime > SimDuration.Zero && Rejoin(by, why, isLinkGood: false);
 
     /// <summary>Asks to be let in again, or ends the session where that is of no use or not wanted.</summary>
@@ -138,7 +129,8 @@ internal sealed class HostLoss
             return true;
         }
 
-        bool isSilence = by is SessionEnd.HostSilent or SessionEnd.LetGo; // who stood still, or was cut off, has nothing against the copy it got
+        // Who stood still, or was cut off, has nothing against the copy it got.
+        bool isSilence = by is SessionEnd.HostSilent or SessionEnd.LetGo;
         useless = isSilence ? useless : renewed != SimTime.MinValue && now - renewed < UsefulFor ? useless + 1 : 0;
         bool isUseless = !isSilence && useless >= (by == SessionEnd.LinkTooSlow ? 1 : MostUseless);
         if (options.RejoinTime == SimDuration.Zero || isUseless)
@@ -194,7 +186,8 @@ internal sealed class HostLoss
     }
 
     /// <summary>
-    /// What a joiner does that was not let in: one that comes back after a restart, with its pass, asks for as long as one that lost its host; for it the host
+    /// What a joiner does that was not let in: one that comes back after a restart, with its pass, asks for as long as one that lost its
+    /// host; for it the host
     /// may stand still as well. Any other session ends.
     /// </summary>
     private void AskAgainOrEnd(SimTime now, SessionEnd by, string why)
@@ -216,7 +209,9 @@ internal sealed class HostLoss
         status.State = SessionState.Joining;
     }
 
-    /// <summary>Names the longest of the times for which there was certainly no answer: who has a pass asks for more than the time-out.</summary>
+    /// <summary>
+    /// Names the longest of the times for which there was certainly no answer: who has a pass asks for more than the time-out.
+    /// </summary>
     private string NoAnswer(SimTime now)
     {
         SimDuration named = options.Pass.Number > 0 && now - attempts.Since > options.RejoinTime ? LongestComing : options.Timeout;
@@ -229,7 +224,8 @@ internal sealed class HostLoss
         LeaveReason.Replaced => $"This player came in from elsewhere; the host at {connection.Host} let this peer go.",
         LeaveReason.NotJoined => $"The host at {connection.Host} does not have this peer among its joiners, or no longer.",
         LeaveReason.FellBehind => FormattableString.Invariant(
-            $"The link to the host at {connection.Host} is too slow: what happened {options.Timeout.ToSeconds():0.###} s ago has not come over it yet."),
+            $"The link to the host at {connection.Host} is too slow: what happened {options.Timeout.ToSeconds():0.###} s ago")
+            + " has not come over it yet.",
         LeaveReason.Kicked => $"The host at {connection.Host} sent this player away.",
         _ => $"The host at {connection.Host} ended the session.",
     };

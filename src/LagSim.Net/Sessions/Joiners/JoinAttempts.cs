@@ -22,7 +22,9 @@ internal sealed class JoinAttempts
     /// <summary>Whether there is a try that the host has not welcomed.</summary>
     internal bool IsAsking => Current is { IsWelcome: false };
 
-    /// <summary>When this peer first asked, by the own clock; later by as long as its machine slept, for nobody was silent meanwhile.</summary>
+    /// <summary>
+    /// When this peer first asked, by the own clock; later by as long as its machine slept, for nobody was silent meanwhile.
+    /// </summary>
     internal SimTime Began { get; private set; } = SimTime.MaxValue;
 
     /// <summary>Since when there may have been an answer to what is asked now.</summary>
@@ -44,6 +46,9 @@ internal sealed class JoinAttempts
     /// <summary>This peer is in.</summary>
     internal void Finish() => Current = null;
 
-    /// <summary>Another number for an attempt, so that what answers an earlier one is told from what answers this. No secret: who saw one can tell the next.</summary>
+    /// <summary>
+    /// Another number for an attempt, so that what answers an earlier one is told from what answers this. No secret: who saw one can tell
+    /// the next.
+    /// </summary>
     private ulong NextNonce() => nonce = (nonce * 6_364_136_223_846_793_005) + 1_442_695_040_888_963_407;
 }

@@ -7,33 +7,10 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Joiners;
 
 /// <summary>Asks a host to let this peer in: knock, cookie, join, and then a welcome or a refusal.</summary>
-internal sealed class JoinRequests
+internal sealed class JoinRequests(
+    JoinAttempts attempts, HostConnection connection, PlayerSeat seat, SharedWorld world, SessionStatus status,
+    DatagramSender sender, SessionCounters counters, IClock clock, SessionOptions options)
 {
-    private readonly JoinAttempts attempts;
-    private readonly HostConnection connection;
-    private readonly PlayerSeat seat;
-    private readonly SharedWorld world;
-    private readonly SessionStatus status;
-    private readonly DatagramSender sender;
-    private readonly SessionCounters counters;
-    private readonly IClock clock;
-    private readonly SessionOptions options;
-
-    internal JoinRequests(
-        JoinAttempts attempts, HostConnection connection, PlayerSeat seat, SharedWorld world, SessionStatus status, DatagramSender sender,
-        SessionCounters counters, IClock clock, SessionOptions options)
-    {
-        this.attempts = attempts;
-        this.connection = connection;
-        this.seat = seat;
-        this.world = world;
-        this.status = status;
-        this.sender = sender;
-        this.counters = counters;
-        this.clock = clock;
-        this.options = options;
-    }
-
     /// <summary>Asks if it is time to.</summary>
     internal void Tend(SimTime now)
     {
@@ -48,7 +25,8 @@ internal sealed class JoinRequests
             Token128 proof = JoinCookies.Prove(options.ConnectKey, attempt.Nonce, cookie);
             PlayerPass former = seat.Pass ?? default;
             Token128 playerProof = former.Number == 0 ? default : JoinCookies.Prove(former.Secret, attempt.Nonce, cookie);
-            JoinDatagram join = new(attempt.Nonce, cookie, proof, world.Scene?.Hash ?? 0, (uint)Simulation.FoldVersion, former.Number, playerProof);
+            ulong sceneHash = world.Scene?.Hash ?? 0;
+            JoinDatagram join = new(attempt.Nonce, cookie, proof, sceneHash, (uint)Simulation.FoldVersion, former.Number, playerProof);
             sender.Send(bytes.Slice(0, join.Encode(bytes)), connection.Host);
         }
         else
@@ -62,7 +40,8 @@ internal sealed class JoinRequests
     {
         if (connection.Link is UpdateLink link && challenge.Nonce == link.SessionId)
         {
-            // The host hears this peer from an address that it does not know it to have: it is there, though it says nothing else until that is shown.
+            // The host hears this peer from an address that it does not know it to have: it is there, though it says nothing else until
+            // that is shown.
             link.NoteHeard(clock.Now);
             Span<byte> bytes = stackalloc byte[WireFormat.MoveBytes];
             sender.Send(bytes.Slice(0, new MoveDatagram(link.SessionId, link.Self, challenge.Cookie).Encode(bytes)), link);
@@ -108,7 +87,8 @@ internal sealed class JoinRequests
         RefusalReason.FoldDiffers => $"it computes worlds by other rules than this peer, whose fold version is {Simulation.FoldVersion}."
             + " Both need the same version of LagSim.",
         RefusalReason.Banned => "it lets nobody in from this address.",
-        RefusalReason.TooManyFromOneAddress => "as many as may join from one address have joined from this one (the host's MaxJoinersPerAddress).",
+        RefusalReason.TooManyFromOneAddress =>
+            "as many as may join from one address have joined from this one (the host's MaxJoinersPerAddress).",
         _ => $"reason {(int)reason}.",
     };
 

@@ -10,7 +10,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Joiners;
 
-/// <summary>A joiner's side of the session protocol: hands each datagram to the part that it is for, and has each part do in turn what is due.</summary>
+/// <summary>
+/// A joiner's side of the session protocol: hands each datagram to the part that it is for, and has each part do in turn what is due.
+/// </summary>
 internal sealed class JoinerProtocol : ISessionProtocol
 {
     /// <summary>By less than this a clock's estimate may be corrected on a bad link too.</summary>
@@ -32,11 +34,13 @@ internal sealed class JoinerProtocol : ISessionProtocol
         sleep = new SleepDetector(options.Timeout / 2);
         Connection = new HostConnection(host, parts.Links, parts.Self, parts.Sender, parts.Counters);
         Seat = new PlayerSeat(attempts, Connection, parts.SharedTime, parts.Status, parts.Counters, parts.Clock, options.Pass);
-        requests = new JoinRequests(attempts, Connection, Seat, parts.World, parts.Status, parts.Sender, parts.Counters, parts.Clock, options);
+        requests = new JoinRequests(
+            attempts, Connection, Seat, parts.World, parts.Status, parts.Sender, parts.Counters, parts.Clock, options);
         snapshot = new SnapshotClient(
             attempts, Connection, parts.World, parts.Status, parts.Sender, parts.Counters, parts.Clock, options.Accelerations);
         entry = new WorldEntry(attempts, Connection, parts.Start, parts.SharedTime, parts.Status, parts.Clock, options.Timeout);
-        log = new LogFollower(Connection, parts.World, parts.Commits, parts.Journal, parts.Self, parts.SharedTime, parts.Counters, parts.Clock);
+        log = new LogFollower(
+            Connection, parts.World, parts.Commits, parts.Journal, parts.Self, parts.SharedTime, parts.Counters, parts.Clock);
         updates = new JoinerUpdates(Connection, attempts, parts.World, parts.KeepAlive, parts.Sender);
         Loss = new HostLoss(attempts, Connection, parts.World, parts.Status, parts.Counters, parts.Clock, options);
         Finder = new DivergenceFinder(
@@ -74,7 +78,8 @@ internal sealed class JoinerProtocol : ISessionProtocol
         if (Connection.Unjudged.Count >= JoinerSession.MaxUnjudgedEvents)
         {
             throw new InvalidOperationException(
-                $"Nothing more can be done yet: {Connection.Unjudged.Count} events of this peer wait for the host's verdict, and that is the most that may.");
+                $"Nothing more can be done yet: {Connection.Unjudged.Count} events of this peer wait for the host's verdict,"
+                + " and that is the most that may.");
         }
 
         ExternalEvent external = Parts.Actions.Submit(action, time);
@@ -101,7 +106,8 @@ internal sealed class JoinerProtocol : ISessionProtocol
 
         switch (type)
         {
-            case DatagramType.Challenge when counters.IsWellFormed(ChallengeDatagram.TryDecode(datagram, out ChallengeDatagram challenge, out _)):
+            case DatagramType.Challenge when counters.IsWellFormed(
+                ChallengeDatagram.TryDecode(datagram, out ChallengeDatagram challenge, out _)):
                 requests.OnChallenge(challenge);
                 break;
             case DatagramType.Welcome when counters.IsWellFormed(WelcomeDatagram.TryDecode(datagram, out WelcomeDatagram welcome, out _)):
@@ -113,7 +119,8 @@ internal sealed class JoinerProtocol : ISessionProtocol
             case DatagramType.Chunk when counters.IsWellFormed(ChunkDatagram.TryDecode(datagram, out ChunkDatagram chunk, out _)):
                 snapshot.OnChunk(chunk, datagram.Length);
                 break;
-            case DatagramType.Evidence when counters.IsWellFormed(EvidenceDatagram.TryDecode(datagram, out EvidenceDatagram evidence, out _)):
+            case DatagramType.Evidence when counters.IsWellFormed(
+                EvidenceDatagram.TryDecode(datagram, out EvidenceDatagram evidence, out _)):
                 Finder.OnEvidence(evidence, datagram.Length);
                 break;
             case DatagramType.Leave when counters.IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)):
@@ -152,7 +159,8 @@ internal sealed class JoinerProtocol : ISessionProtocol
         SimDuration slept = sleep.Look(now);
         if (slept > SimDuration.Zero)
         {
-            Connection.Link?.NoteHeard(now); // it was this machine that slept, or whose clock jumped: who was not listened to was not silent
+            // It was this machine that slept, or whose clock jumped: who was not listened to was not silent.
+            Connection.Link?.NoteHeard(now);
             Loss.NoteSleep(slept);
             attempts.NoteSleep(slept, now);
         }
@@ -234,14 +242,16 @@ internal sealed class JoinerProtocol : ISessionProtocol
         SharedClock sharedTime = Parts.SharedTime;
         sharedTime.Adjust(clock.Estimate);
         SimDuration off = sharedTime.Remaining < SimDuration.Zero ? -sharedTime.Remaining : sharedTime.Remaining;
-        if (off <= Connection.History || off <= LeastJump || off <= clock.Estimate.ErrorBound) // an exchange that waited long, in a stall, says little
+        // An exchange that waited long, in a stall, says little.
+        if (off <= Connection.History || off <= LeastJump || off <= clock.Estimate.ErrorBound)
         {
             return true;
         }
 
         // To bend it back at 5 % takes twenty times as long, and until then all that is done here would be refused.
-        Loss.Rejoin(SessionEnd.Failed, FormattableString.Invariant(
-            $"This machine's clock and the host's are {off.ToSeconds():0.###} s further apart than before: one of them jumped, or the machine slept."), isLinkGood: false);
+        string why = FormattableString.Invariant($"This machine's clock and the host's are {off.ToSeconds():0.###} s further apart than")
+            + " before: one of them jumped, or the machine slept.";
+        Loss.Rejoin(SessionEnd.Failed, why, isLinkGood: false);
         return false;
     }
 

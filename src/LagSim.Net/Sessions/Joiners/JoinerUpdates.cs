@@ -6,23 +6,10 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Joiners;
 
 /// <summary>Sends a joiner's updates to the host: its events, what it has of the log, and how far it is on its way in.</summary>
-internal sealed class JoinerUpdates
+internal sealed class JoinerUpdates(
+    HostConnection connection, JoinAttempts attempts, SharedWorld world, KeepAlivePolicy keepAlive,
+    DatagramSender sender)
 {
-    private readonly HostConnection connection;
-    private readonly JoinAttempts attempts;
-    private readonly SharedWorld world;
-    private readonly KeepAlivePolicy keepAlive;
-    private readonly DatagramSender sender;
-
-    internal JoinerUpdates(HostConnection connection, JoinAttempts attempts, SharedWorld world, KeepAlivePolicy keepAlive, DatagramSender sender)
-    {
-        this.connection = connection;
-        this.attempts = attempts;
-        this.world = world;
-        this.keepAlive = keepAlive;
-        this.sender = sender;
-    }
-
     /// <summary>Sends the updates that are due.</summary>
     internal void Tend(SimTime now)
     {

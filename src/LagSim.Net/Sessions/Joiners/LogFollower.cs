@@ -7,32 +7,14 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Joiners;
 
-/// <summary>Follows the host's log at a joiner: takes its lines in order, has others' accepted events happen and own refused ones not have happened, and commits.</summary>
-internal sealed class LogFollower
+/// <summary>
+/// Follows the host's log at a joiner: takes its lines in order, has others' accepted events happen and own refused ones not have happened,
+/// and commits.
+/// </summary>
+internal sealed class LogFollower(
+    HostConnection connection, SharedWorld world, CommitTracker commits, EventJournal journal, PlayerIdentity self,
+    SharedClock sharedTime, SessionCounters counters, IClock clock)
 {
-    private readonly HostConnection connection;
-    private readonly SharedWorld world;
-    private readonly CommitTracker commits;
-    private readonly EventJournal journal;
-    private readonly PlayerIdentity self;
-    private readonly SharedClock sharedTime;
-    private readonly SessionCounters counters;
-    private readonly IClock clock;
-
-    internal LogFollower(
-        HostConnection connection, SharedWorld world, CommitTracker commits, EventJournal journal, PlayerIdentity self, SharedClock sharedTime,
-        SessionCounters counters, IClock clock)
-    {
-        this.connection = connection;
-        this.world = world;
-        this.commits = commits;
-        this.journal = journal;
-        this.self = self;
-        this.sharedTime = sharedTime;
-        this.counters = counters;
-        this.clock = clock;
-    }
-
     /// <summary>Keeps what an update brought until its turn comes.</summary>
     internal void Keep(UpdateDatagram update)
     {
@@ -57,7 +39,8 @@ internal sealed class LogFollower
         while (incoming.HasNext)
         {
             UpdateEntry entry = incoming.Take();
-            isUrgent |= entry.IsOwn ? entry.Sequence <= connection.LastUrgent || entry.Verdict != Verdict.Accepted : !SendWindow.IsMadeUpFor(entry.Event);
+            isUrgent |= entry.IsOwn ? entry.Sequence <= connection.LastUrgent || entry.Verdict != Verdict.Accepted
+                : !SendWindow.IsMadeUpFor(entry.Event);
             Take(entry, incoming.Received);
         }
 
@@ -69,7 +52,8 @@ internal sealed class LogFollower
             commits.Commit(SimTime.Min(incoming.Promised, needed));
         }
 
-        if (!any || connection.Link is not UpdateLink link) // what was committed may have differed: then this peer has left the link for a fresh copy
+        // What was committed may have differed: then this peer has left the link for a fresh copy.
+        if (!any || connection.Link is not UpdateLink link)
         {
             return any;
         }

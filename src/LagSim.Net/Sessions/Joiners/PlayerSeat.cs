@@ -7,7 +7,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Joiners;
 
-/// <summary>Takes the number that a host gives a joiner, which begins its part in the session: its clock is set, and its pass is there.</summary>
+/// <summary>
+/// Takes the number that a host gives a joiner, which begins its part in the session: its clock is set, and its pass is there.
+/// </summary>
 internal sealed class PlayerSeat
 {
     private readonly JoinAttempts attempts;
@@ -19,7 +21,8 @@ internal sealed class PlayerSeat
     private volatile object? pass; // a boxed one: other threads read it whole
 
     internal PlayerSeat(
-        JoinAttempts attempts, HostConnection connection, SharedClock sharedTime, SessionStatus status, SessionCounters counters, IClock clock, PlayerPass pass)
+        JoinAttempts attempts, HostConnection connection, SharedClock sharedTime, SessionStatus status, SessionCounters counters,
+        IClock clock, PlayerPass pass)
     {
         this.attempts = attempts;
         this.connection = connection;
@@ -44,7 +47,8 @@ internal sealed class PlayerSeat
 
     internal void OnSeat(in SeatDatagram seat)
     {
-        if (connection.Link is not UpdateLink link || attempts.Current is not JoinAttempt attempt || seat.SessionId != link.SessionId || !attempt.IsReady)
+        if (connection.Link is not UpdateLink link || attempts.Current is not JoinAttempt attempt
+            || seat.SessionId != link.SessionId || !attempt.IsReady)
         {
             counters.DatagramsIgnored++;
             return;

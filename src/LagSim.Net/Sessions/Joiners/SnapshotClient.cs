@@ -8,34 +8,15 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Joiners;
 
-/// <summary>Fetches the copy of scene and world that a host gives a joiner, piece by piece, and makes sure that it is the one that was announced.</summary>
-internal sealed class SnapshotClient
+/// <summary>
+/// Fetches the copy of scene and world that a host gives a joiner, piece by piece, and makes sure that it is the one that was announced.
+/// </summary>
+internal sealed class SnapshotClient(
+    JoinAttempts attempts, HostConnection connection, SharedWorld world, SessionStatus status, DatagramSender sender,
+    SessionCounters counters, IClock clock, IReadOnlyList<IAcceleration>? accelerations)
 {
     /// <summary>The longest round trip that is assumed before one is measured.</summary>
     private static readonly SimDuration MostGuessed = SimDuration.FromMilliseconds(400);
-
-    private readonly JoinAttempts attempts;
-    private readonly HostConnection connection;
-    private readonly SharedWorld world;
-    private readonly SessionStatus status;
-    private readonly DatagramSender sender;
-    private readonly SessionCounters counters;
-    private readonly IClock clock;
-    private readonly IReadOnlyList<IAcceleration>? accelerations;
-
-    internal SnapshotClient(
-        JoinAttempts attempts, HostConnection connection, SharedWorld world, SessionStatus status, DatagramSender sender, SessionCounters counters,
-        IClock clock, IReadOnlyList<IAcceleration>? accelerations)
-    {
-        this.attempts = attempts;
-        this.connection = connection;
-        this.world = world;
-        this.status = status;
-        this.sender = sender;
-        this.counters = counters;
-        this.clock = clock;
-        this.accelerations = accelerations;
-    }
 
     /// <summary>When pieces are to be asked for next.</summary>
     internal SimTime Due => attempts.Current?.Fetch?.Due ?? SimTime.MaxValue;

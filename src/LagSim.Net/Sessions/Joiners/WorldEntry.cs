@@ -9,28 +9,10 @@ using LagSim.Timelines;
 namespace LagSim.Net.Sessions.Joiners;
 
 /// <summary>Begins a joiner's world once all is there: scene, state or start, the shared time, and the number.</summary>
-internal sealed class WorldEntry
+internal sealed class WorldEntry(
+    JoinAttempts attempts, HostConnection connection, WorldStart start, SharedClock sharedTime, SessionStatus status,
+    IClock clock, SimDuration timeout)
 {
-    private readonly JoinAttempts attempts;
-    private readonly HostConnection connection;
-    private readonly WorldStart start;
-    private readonly SharedClock sharedTime;
-    private readonly SessionStatus status;
-    private readonly IClock clock;
-    private readonly SimDuration timeout;
-
-    internal WorldEntry(
-        JoinAttempts attempts, HostConnection connection, WorldStart start, SharedClock sharedTime, SessionStatus status, IClock clock, SimDuration timeout)
-    {
-        this.attempts = attempts;
-        this.connection = connection;
-        this.start = start;
-        this.sharedTime = sharedTime;
-        this.status = status;
-        this.clock = clock;
-        this.timeout = timeout;
-    }
-
     /// <summary>Begins the world if all is there. One that cannot be begun ends the session.</summary>
     /// <param name="told">When the session starts; the earliest instant if the host has not said.</param>
     /// <returns>Whether it has begun.</returns>
@@ -50,7 +32,8 @@ internal sealed class WorldEntry
             catch (SceneException failure)
             {
                 connection.Farewell();
-                status.End(SessionEnd.Failed, $"The state that the host at {connection.Host} sent is no world of its scene. {failure.Message}");
+                status.End(
+                    SessionEnd.Failed, $"The state that the host at {connection.Host} sent is no world of its scene. {failure.Message}");
                 return false;
             }
         }
@@ -62,8 +45,8 @@ internal sealed class WorldEntry
         {
             connection.Farewell();
             status.End(SessionEnd.Failed, FormattableString.Invariant(
-                $"The host at {connection.Host} says that the session began {(sharedTime.Now - told).ToSeconds():0} s ago and sent no state of it: that is more than")
-                + " history and time-out allow.");
+                $"The host at {connection.Host} says that the session began {(sharedTime.Now - told).ToSeconds():0} s ago and sent no")
+                + " state of it: that is more than history and time-out allow.");
             return false;
         }
         else
@@ -76,7 +59,8 @@ internal sealed class WorldEntry
     }
 
     /// <summary>
-    /// Whoever joins later than the history after the start gets a state with the scene. The start of one who got none lies at most the history before it
+    /// Whoever joins later than the history after the start gets a state with the scene. The start of one who got none lies at most the
+    /// history before it
     /// asked to be let in, and the time-out for clocks and copies; before that nothing is simulated, however long it would take.
     /// </summary>
     private SimTime EarliestStart(JoinAttempt attempt) =>

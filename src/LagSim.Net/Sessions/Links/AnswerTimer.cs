@@ -4,7 +4,10 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Links;
 
 /// <summary>How long a link waits for the answer to what it sent, and how often in a row none came.</summary>
-internal sealed class AnswerTimer
+/// <param name="trips">The link's round trips.</param>
+/// <param name="sent">What was sent.</param>
+/// <param name="longestDelay">How long the other end may take until it answers.</param>
+internal sealed class AnswerTimer(RoundTrips trips, SentDatagrams sent, SimDuration longestDelay)
 {
     /// <summary>The longest wait for an answer doubles no more often than this.</summary>
     private const int MostDoublings = 3;
@@ -15,21 +18,8 @@ internal sealed class AnswerTimer
     /// <summary>How long an answer is waited for before a round trip has been measured.</summary>
     private static readonly SimDuration FirstPatience = SimDuration.FromMilliseconds(300);
 
-    private readonly RoundTrips trips;
-    private readonly SentDatagrams sent;
-    private readonly SimDuration longestDelay;
     private int unanswered; // how many times in a row answers were overdue
     private SimTime answered; // when something was answered, or began to be waited for
-
-    /// <param name="trips">The link's round trips.</param>
-    /// <param name="sent">What was sent.</param>
-    /// <param name="longestDelay">How long the other end may take until it answers.</param>
-    internal AnswerTimer(RoundTrips trips, SentDatagrams sent, SimDuration longestDelay)
-    {
-        this.trips = trips;
-        this.sent = sent;
-        this.longestDelay = longestDelay;
-    }
 
     /// <summary>How long an answer is waited for.</summary>
     internal SimDuration Patience => (trips.IsMeasured ? trips.Patience : FirstPatience) + longestDelay;
@@ -46,7 +36,9 @@ internal sealed class AnswerTimer
     /// <summary>Notes that something is about to be sent: if no answer is waited for, the wait begins.</summary>
     internal void NoteSending(SimTime now) => answered = sent.Waited == 0 && unanswered == 0 ? now : answered;
 
-    /// <summary>Notes that an answer was overdue; true the moment that it has been for so long that the link counts as another one.</summary>
+    /// <summary>
+    /// Notes that an answer was overdue; true the moment that it has been for so long that the link counts as another one.
+    /// </summary>
     internal bool NoteOverdue()
     {
         unanswered = Math.Min(unanswered + 1, MostDoublings + Silent);
@@ -57,8 +49,10 @@ internal sealed class AnswerTimer
     internal SimTime Due(SimTime now) => sent.TryPeekOldest(out SimTime at) ? at + (Patience * (1L << Doublings(now))) : SimTime.MaxValue;
 
     /// <summary>
-    /// How many times the wait for an answer has doubled. Where there is a queue it doubles each time that an answer was overdue. Where there is none it first does
-    /// after eight times the wait, since a link that loses several datagrams in a row is lost for longer the fewer are sent; by then nobody may be there.
+    /// How many times the wait for an answer has doubled. Where there is a queue it doubles each time that an answer was overdue. Where
+    /// there is none it first does
+    /// after eight times the wait, since a link that loses several datagrams in a row is lost for longer the fewer are sent; by then nobody
+    /// may be there.
     /// </summary>
     internal int Doublings(SimTime now)
     {

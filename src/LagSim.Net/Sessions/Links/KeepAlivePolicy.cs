@@ -2,7 +2,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>How long a link may rest: until the keep-alive, or less where the other end has not been heard when it should have been.</summary>
+/// <summary>
+/// How long a link may rest: until the keep-alive, or less where the other end has not been heard when it should have been.
+/// </summary>
 internal sealed class KeepAlivePolicy
 {
     private readonly SimDuration resendInterval;
@@ -17,12 +19,14 @@ internal sealed class KeepAlivePolicy
     internal SimDuration KeepAlive { get; }
 
     /// <summary>
-    /// How long a silence is overdue. A host waits as long before it writes of itself: a joiner's keep-alives, which it answers, do for both.
+    /// How long a silence is overdue. A host waits as long before it writes of itself: a joiner's keep-alives, which it answers, do for
+    /// both.
     /// </summary>
     internal SimDuration Overdue => KeepAlive + (KeepAlive / 4);
 
     /// <summary>
-    /// Whether one end of a link has not heard of the other when it should have. They then write as if something were unacknowledged: else a
+    /// Whether one end of a link has not heard of the other when it should have. They then write as if something were unacknowledged: else
+    /// a
     /// burst of losses, which is counted in datagrams, would last as long as the timeout.
     /// </summary>
     internal bool IsOverdue(SimDuration silence) => silence > Overdue;

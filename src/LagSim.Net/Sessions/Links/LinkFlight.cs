@@ -45,14 +45,15 @@ internal sealed class LinkFlight
     {
         answers.NoteSending(now);
         uint last = update.FirstIndex + (uint)update.Held.Length - 1;
-        if (Sent.Add(update.Number, now, length + CongestionControl.DatagramOverhead, update.FirstIndex, last) is SentDatagrams.Datagram forgotten)
+        int bytes = length + CongestionControl.DatagramOverhead;
+        if (Sent.Add(update.Number, now, bytes, update.FirstIndex, last) is SentDatagrams.Datagram forgotten)
         {
             Lose(forgotten, now, trips.HasQueue);
         }
 
         if (update.Held.Length > 0)
         {
-            Congestion.OnSent(length + CongestionControl.DatagramOverhead);
+            Congestion.OnSent(bytes);
         }
     }
 
@@ -99,7 +100,8 @@ internal sealed class LinkFlight
             Congestion.OnSilence(now);
         }
 
-        // With a queue on the way the answer is more likely late than lost. So twice only the oldest goes again, as a probe that the window does not hold back
+        // With a queue on the way the answer is more likely late than lost. So twice only the oldest goes again, as a probe that the window
+        // does not hold back
         // (RFC 9002, 6.2.4 and 7.5); then all that is overdue is lost, and what goes is what the least window lets (7.6).
         SimTime before = now - answers.Patience;
         bool isProbe = trips.HasQueue && answers.MayBeLate;

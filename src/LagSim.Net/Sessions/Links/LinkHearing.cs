@@ -3,7 +3,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>What was heard of the other end of a link: which of its updates came, when it was last heard, and the round trips that its answers show.</summary>
+/// <summary>
+/// What was heard of the other end of a link: which of its updates came, when it was last heard, and the round trips that its answers show.
+/// </summary>
 internal class LinkHearing
 {
     private readonly SeenNumbers seen = new();
@@ -25,7 +27,9 @@ internal class LinkHearing
     /// <summary>Which of the 32 before it came.</summary>
     internal uint BitsBeforeNewest => seen.BitsBefore(seen.Newest);
 
-    /// <summary>The longer of two silences: for how long nothing came, and for how long the other said, when it last wrote, that nothing came there.</summary>
+    /// <summary>
+    /// The longer of two silences: for how long nothing came, and for how long the other said, when it last wrote, that nothing came there.
+    /// </summary>
     internal SimDuration Silence(SimTime now) => now - Heard > unheard ? now - Heard : unheard;
 
     /// <summary>Notes something else that only the other can have sent, and only now.</summary>

@@ -25,5 +25,6 @@ internal sealed class LinkTrafficCounter
 
     /// <summary>What was counted so far.</summary>
     internal LinkTraffic Of(byte peer, PeerAddress other, RoundTrips trips) => new(
-        peer, other, datagramsSent, bytesSent, datagramsReceived, bytesReceived, trips.Newest, trips.HasQueue ? trips.Queueing : SimDuration.Zero);
+        peer, other, datagramsSent, bytesSent, datagramsReceived, bytesReceived, trips.Newest,
+        trips.HasQueue ? trips.Queueing : SimDuration.Zero);
 }

@@ -9,7 +9,8 @@ internal sealed class SendPacer
     internal static readonly SimDuration LeastDistance = SimDuration.FromMilliseconds(1);
 
     /// <summary>
-    /// By so many of its distances may what is hastened be ahead: after a pause three go out at once. What one player does then does not wait because an answer to what
+    /// By so many of its distances may what is hastened be ahead: after a pause three go out at once. What one player does then does not
+    /// wait because an answer to what
     /// another did has just gone.
     /// </summary>
     private const int MostAhead = 2;
@@ -24,8 +25,11 @@ internal sealed class SendPacer
     /// <summary>When the next update is due, by the own clock.</summary>
     internal SimTime Due { get; private set; }
 
-    /// <summary>Has the next update sent no later than this, unless so many went out just now that the least distance would not be kept in the mean.</summary>
-    internal void Hasten(SimTime by) => Due = SimTime.Min(Due, SimTime.Max(by, paced == SimTime.MinValue ? by : paced - (distance * MostAhead)));
+    /// <summary>
+    /// Has the next update sent no later than this, unless so many went out just now that the least distance would not be kept in the mean.
+    /// </summary>
+    internal void Hasten(SimTime by) =>
+        Due = SimTime.Min(Due, SimTime.Max(by, paced == SimTime.MinValue ? by : paced - (distance * MostAhead)));
 
     /// <summary>Notes that an update was sent; the next is due after a rest.</summary>
     /// <param name="now">When it was sent.</param>
@@ -33,7 +37,8 @@ internal sealed class SendPacer
     internal void NoteSent(SimTime now, SimDuration apart)
     {
         distance = apart;
-        paced = now == latest && apart == LeastDistance ? paced : SimTime.Max(paced, now) + apart; // those of one moment count as one, where there is room
+        // Those of one moment count as one, where there is room.
+        paced = now == latest && apart == LeastDistance ? paced : SimTime.Max(paced, now) + apart;
         atOnce = now == latest ? atOnce + 1 : 1;
         latest = now;
     }

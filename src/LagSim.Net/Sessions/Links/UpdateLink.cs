@@ -7,9 +7,12 @@ namespace LagSim.Net.Sessions.Links;
 
 /// <summary>One end of the exchange of updates with one other peer: what came, what is on its way, and when the next one is due.</summary>
 /// <remarks>
-/// What is new goes at once, and what is not acknowledged again each resend interval, as far as the link's <see cref="SpareRate"/> allows. Beyond that nothing is repeated
-/// before it is known to be lost, and what is new waits until it is worth a datagram: two thirds of its bytes are entries, or half of what it will wait in the
-/// queue, or a tenth of a second, has passed. No more is on its way than <see cref="CongestionControl"/> lets, but for two probes into a silence.
+/// What is new goes at once, and what is not acknowledged again each resend interval, as far as the link's <see cref="SpareRate"/> allows.
+/// Beyond that nothing is repeated
+/// before it is known to be lost, and what is new waits until it is worth a datagram: two thirds of its bytes are entries, or half of what
+/// it will wait in the
+/// queue, or a tenth of a second, has passed. No more is on its way than <see cref="CongestionControl"/> lets, but for two probes into a
+/// silence.
 /// </remarks>
 internal sealed class UpdateLink
 {
@@ -19,7 +22,10 @@ internal sealed class UpdateLink
     /// <summary>What an update has beside its entries, in bytes: header, state hash, UDP and IP.</summary>
     private const int OwnBytes = WireFormat.EmptyUpdateBytes + WireFormat.StateHashBytes + CongestionControl.DatagramOverhead;
 
-    /// <summary>A window's worth of datagrams goes out in four fifths of a round trip, so that it does not overflow a short queue at once (RFC 9002, 7.7).</summary>
+    /// <summary>
+    /// A window's worth of datagrams goes out in four fifths of a round trip, so that it does not overflow a short queue at once (RFC 9002,
+    /// 7.7).
+    /// </summary>
     private const double PaceGain = 1.25;
 
     private readonly SimDuration interval;
@@ -46,8 +52,8 @@ internal sealed class UpdateLink
     /// <param name="now">By the own clock.</param>
     /// <param name="parts">What its parts are made by; null for the usual ones.</param>
     internal UpdateLink(
-        ulong sessionId, byte self, byte peer, PeerAddress other, uint acknowledged, SimDuration interval, UpdateDatagram outgoing, byte[] buffer, SimTime now,
-        LinkParts? parts = null)
+        ulong sessionId, byte self, byte peer, PeerAddress other, uint acknowledged, SimDuration interval, UpdateDatagram outgoing,
+        byte[] buffer, SimTime now, LinkParts? parts = null)
     {
         this.interval = interval;
         parts ??= new LinkParts();
@@ -99,7 +105,8 @@ internal sealed class UpdateLink
     internal SimTime Due => pacer.Due;
 
     /// <summary>
-    /// How long something new waits for more at most, where it may not hurry: no longer than an answer takes, and no longer than the queue itself has it wait, but
+    /// How long something new waits for more at most, where it may not hurry: no longer than an answer takes, and no longer than the queue
+    /// itself has it wait, but
     /// for what nobody notices on such a link.
     /// </summary>
     private SimDuration MergeTime
@@ -111,7 +118,9 @@ internal sealed class UpdateLink
         }
     }
 
-    /// <summary>The longer of two silences: for how long nothing came, and for how long the other said, when it last wrote, that nothing came there.</summary>
+    /// <summary>
+    /// The longer of two silences: for how long nothing came, and for how long the other said, when it last wrote, that nothing came there.
+    /// </summary>
     internal SimDuration Silence(SimTime now) => hearing.Silence(now);
 
     /// <summary>When an update was sent that the other says it has; false for one that was not, or long ago.</summary>
@@ -151,7 +160,9 @@ internal sealed class UpdateLink
     /// <summary>Notes something else that only the other can have sent, and only now.</summary>
     internal void NoteHeard(SimTime now) => hearing.NoteHeard(now);
 
-    /// <summary>Has the next update sent no later than this, unless so many went out just now that the least distance would not be kept in the mean.</summary>
+    /// <summary>
+    /// Has the next update sent no later than this, unless so many went out just now that the least distance would not be kept in the mean.
+    /// </summary>
     internal void Hasten(SimTime by) => pacer.Hasten(by);
 
     /// <summary>Has the other answered: at once, or where that is too much together with what else there is to say soon.</summary>
@@ -190,7 +201,10 @@ internal sealed class UpdateLink
         return true;
     }
 
-    /// <summary>An update with everything that this type knows filled in; the rest is the caller's. Then <see cref="Fill"/>, and send it with <see cref="Seal"/>.</summary>
+    /// <summary>
+    /// An update with everything that this type knows filled in; the rest is the caller's. Then <see cref="Fill"/>, and send it with <see
+    /// cref="Seal"/>.
+    /// </summary>
     internal UpdateDatagram Compose(SimTime now) => composer.Next(SessionId, Self, hearing, now);
 
     /// <summary>Puts entries into the composed update.</summary>
@@ -208,7 +222,8 @@ internal sealed class UpdateLink
         isProbe = false;
 
         // What has to go finds the window half empty. An update that is worth its own bytes is none that could have waited.
-        int repeated = Outgoing.Fill(update, source, congestion.IsHalfFull ? 0 : spare.Bytes, OwnBytes, congestion.DatagramBytes - OwnBytes);
+        int most = congestion.IsHalfFull ? 0 : spare.Bytes;
+        int repeated = Outgoing.Fill(update, source, most, OwnBytes, congestion.DatagramBytes - OwnBytes);
         int needed = update.EncodedLength - WireFormat.EmptyUpdateBytes - repeated;
         spare.Spend(repeated + Math.Max(0, OwnBytes - (Math.Max(0, needed) / 2)));
     }
