@@ -23,7 +23,7 @@ public sealed class SessionPartsTests
     public void Folder_NeverKnows(string folder, params string[] others)
     {
         string[] wrong = Directory.GetFiles(Path.Combine(Folder, folder), "*.cs")
-            .Where(file => others.Any(other => File.ReadAllText(file).Contains($"using LagSim.Net.Sessions.{other};", StringComparison.Ordinal)))
+            .Where(file => File.ReadLines(file).Any(line => others.Any(other => line == $"using LagSim.Net.Sessions.{other};")))
             .Select(file => Path.GetFileName(file)!)
             .ToArray();
         Assert.Empty(wrong);

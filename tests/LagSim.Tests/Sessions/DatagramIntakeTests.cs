@@ -25,7 +25,7 @@ public sealed class DatagramIntakeTests : IDatagramHandler
         new KnockDatagram(1).Encode(knock);
         byte[] other = (byte[])knock.Clone();
         other[2]++;
-        UpdateLink link = new(1, 0, 1, PeerAddress.Virtual(1), 0, SimDuration.FromMilliseconds(30), new UpdateDatagram(), new byte[WireFormat.MaxBytes], SimTime.Zero);
+        UpdateLink link = new LinkFactory(SimDuration.FromMilliseconds(30)).To(PeerAddress.Virtual(1), 1, 0, SimTime.Zero);
         link.Compose(SimTime.FromSeconds(1));
         ReadOnlySpan<byte> update = link.Seal(new OwnEvents(0), SimTime.FromSeconds(1), SimDuration.FromSeconds(1), isUrgent: false);
         intake.Take(knock, PeerAddress.Virtual(1));

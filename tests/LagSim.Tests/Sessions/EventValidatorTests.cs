@@ -28,7 +28,8 @@ public sealed class EventValidatorTests
         sharedTime.Adjust(SimDuration.Zero);
         world = new SharedWorld(BuiltInScenes.Billiards(), options, clock, sharedTime, new SessionCounters());
         SimDuration history = options.Window.History;
-        validator = new EventValidator(world, sharedTime, new Watermark(sharedTime, world, history), new WorkBudget(world, sharedTime, null), history);
+        Watermark watermark = new(sharedTime, world, history);
+        validator = new EventValidator(world, sharedTime, watermark, new WorkBudget(world, sharedTime, null), history);
     }
 
     [Fact]
@@ -64,7 +65,7 @@ public sealed class EventValidatorTests
 
     private Verdict Judge(double seconds, double speed = 1)
     {
-        ExternalEvent external = PlayerAction.SetVelocity(Body, new Vector3D(speed, 0, 0)).Stamp(clock.Now + SimDuration.FromSeconds(seconds), 1, 1);
-        return validator.Judge(external);
+        SimTime time = clock.Now + SimDuration.FromSeconds(seconds);
+        return validator.Judge(PlayerAction.SetVelocity(Body, new Vector3D(speed, 0, 0)).Stamp(time, 1, 1));
     }
 }
