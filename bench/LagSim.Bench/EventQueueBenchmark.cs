@@ -1,8 +1,8 @@
 using System.Collections.Generic;
 using BenchmarkDotNet.Attributes;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 
 namespace LagSim.Bench;

@@ -1,12 +1,12 @@
 using System;
 using BenchmarkDotNet.Attributes;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 
 namespace LagSim.Bench;

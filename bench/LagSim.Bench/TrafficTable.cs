@@ -2,11 +2,11 @@ using System;
 using System.Globalization;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Links;
-using LagSim.Harness.Peers;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
+using LagSim.Testing.Running;
 using LagSim.Time;
 
 namespace LagSim.Bench;

@@ -5,8 +5,8 @@ using System.Globalization;
 using System.Linq;
 using LagSim.Cli.Output;
 using LagSim.Harness.Check;
-using LagSim.Harness.Links;
 using LagSim.Net.Strategies;
+using LagSim.Testing.Links;
 
 namespace LagSim.Cli.Commands;
 

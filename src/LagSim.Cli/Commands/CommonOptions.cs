@@ -4,9 +4,9 @@ using System.CommandLine.Parsing;
 using System.Globalization;
 using System.Linq;
 using LagSim.Cli.Output;
-using LagSim.Harness.Links;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Strategies;
+using LagSim.Testing.Links;
 
 namespace LagSim.Cli.Commands;
 

@@ -5,11 +5,11 @@ using System.Linq;
 using LagSim.Cli.Output;
 using LagSim.Events;
 using LagSim.Harness.Compare;
-using LagSim.Harness.Links;
 using LagSim.Harness.Reports;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 
 namespace LagSim.Cli.Commands;

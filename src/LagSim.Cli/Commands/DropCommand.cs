@@ -3,10 +3,10 @@ using System.CommandLine;
 using System.Linq;
 using LagSim.Cli.Output;
 using LagSim.Harness.Drop;
-using LagSim.Harness.Links;
 using LagSim.Harness.Peers;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 
 namespace LagSim.Cli.Commands;

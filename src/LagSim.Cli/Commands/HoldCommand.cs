@@ -6,9 +6,9 @@ using System.Linq;
 using LagSim.Cli.Output;
 using LagSim.Harness.Hands;
 using LagSim.Harness.Hold;
-using LagSim.Harness.Links;
 using LagSim.Net.Sessions;
 using LagSim.Net.Strategies;
+using LagSim.Testing.Links;
 using LagSim.Time;
 
 namespace LagSim.Cli.Commands;

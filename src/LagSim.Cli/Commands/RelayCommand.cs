@@ -5,9 +5,10 @@ using System.Linq;
 using System.Net;
 using System.Threading;
 using LagSim.Cli.Output;
-using LagSim.Harness.Links;
+using LagSim.Harness.Relays;
 using LagSim.Harness.Reports;
 using LagSim.Hosting;
+using LagSim.Testing.Links;
 using LagSim.Time;
 
 namespace LagSim.Cli.Commands;

@@ -4,6 +4,7 @@ using System.Linq;
 using System.Text.Json;
 using LagSim.Events;
 using LagSim.Harness.Check;
+using LagSim.Testing;
 
 namespace LagSim.Cli.Output;
 

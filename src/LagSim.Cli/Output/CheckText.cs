@@ -3,6 +3,7 @@ using System.IO;
 using System.Linq;
 using LagSim.Harness.Check;
 using LagSim.Harness.Reports;
+using LagSim.Testing;
 
 namespace LagSim.Cli.Output;
 

@@ -1,8 +1,8 @@
 using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
-using LagSim.Harness.Links;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Accuracy;
 

@@ -1,8 +1,8 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
-using LagSim.Harness.Links;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Accuracy;
 

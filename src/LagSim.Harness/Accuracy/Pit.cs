@@ -1,7 +1,7 @@
 using System;
 using System.Collections.Generic;
-using LagSim.Harness.Links;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Accuracy;
 

@@ -1,8 +1,8 @@
 using System;
 using System.Collections.Generic;
-using LagSim.Harness.Links;
 using LagSim.Net.Sessions;
 using LagSim.Net.Strategies;
+using LagSim.Testing.Links;
 using LagSim.Time;
 
 namespace LagSim.Harness.Check;

@@ -1,4 +1,5 @@
 using System.Collections.Generic;
+using LagSim.Testing;
 
 namespace LagSim.Harness.Check;
 

@@ -1,4 +1,4 @@
-using LagSim.Harness.Links;
+using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Check;
 

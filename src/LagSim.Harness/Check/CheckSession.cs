@@ -4,13 +4,14 @@ using System.Globalization;
 using System.Linq;
 using System.Threading;
 using LagSim.Events;
-using LagSim.Harness.Links;
-using LagSim.Harness.Peers;
 using LagSim.Harness.Reports;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
+using LagSim.Testing.Invariant;
+using LagSim.Testing.Links;
+using LagSim.Testing.Running;
 using LagSim.Time;
 
 namespace LagSim.Harness.Check;

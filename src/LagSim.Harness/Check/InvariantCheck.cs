@@ -4,8 +4,8 @@ using System.Collections.Generic;
 using System.Diagnostics;
 using System.Linq;
 using System.Threading;
-using LagSim.Harness.Links;
 using LagSim.Net.Strategies;
+using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Check;
 

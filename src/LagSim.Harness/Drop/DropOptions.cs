@@ -1,10 +1,10 @@
 using System;
 using System.Collections.Generic;
 using System.Threading;
-using LagSim.Harness.Links;
 using LagSim.Harness.Peers;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 
 namespace LagSim.Harness.Drop;

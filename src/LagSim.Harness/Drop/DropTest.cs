@@ -2,10 +2,10 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Harness.Metrics;
 using LagSim.Harness.Peers;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 
 namespace LagSim.Harness.Drop;

@@ -1,9 +1,9 @@
 using System;
 using System.Collections.Generic;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 
 namespace LagSim.Harness.Fuzz;
@@ -19,7 +19,7 @@ public sealed class HostileDatagrams
     private readonly byte[] buffer = new byte[WireFormat.MaxBytes];
 
     /// <summary>A source of such datagrams.</summary>
-    public HostileDatagrams(SeededRandom random)
+    internal HostileDatagrams(SeededRandom random)
     {
         ArgumentNullException.ThrowIfNull(random);
         this.random = random;

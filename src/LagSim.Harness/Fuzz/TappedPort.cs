@@ -1,6 +1,6 @@
 using System;
-using LagSim.Harness.Links;
 using LagSim.Net.Carriers;
+using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Fuzz;
 

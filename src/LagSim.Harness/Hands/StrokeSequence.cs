@@ -1,6 +1,6 @@
 using System.Collections.Generic;
-using LagSim.Harness.Links;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Hands;
 

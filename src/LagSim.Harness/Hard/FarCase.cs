@@ -2,8 +2,8 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using static LagSim.Harness.Hard.HardWorlds;
 
 namespace LagSim.Harness.Hard;

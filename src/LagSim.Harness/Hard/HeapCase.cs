@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Harness.Runs;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using static LagSim.Harness.Hard.HardWorlds;
 
@@ -84,7 +85,7 @@ internal sealed class HeapCase : IHardCase
     /// <summary>Balls on a loose grid above a floor with four walls, all as rough as each other.</summary>
     private static Scene Box(int balls, double friction, ulong seed)
     {
-        Links.SeededRandom random = new(seed);
+        SeededRandom random = new(seed);
         const double half = 0.8;
         SceneBuilder builder = Bin(new SceneBuilder("box").WithContactTolerance(Falling), half, friction);
         for (int n = 0; n < balls; n++)

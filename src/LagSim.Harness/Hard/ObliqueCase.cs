@@ -1,9 +1,9 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Links;
 using LagSim.Harness.Runs;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using static LagSim.Harness.Hard.HardWorlds;
 

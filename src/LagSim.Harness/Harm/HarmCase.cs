@@ -3,10 +3,9 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Check;
-using LagSim.Harness.Links;
 using LagSim.Harness.Scenes;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Harm;
 

@@ -7,10 +7,11 @@ using System.Net;
 using System.Text.Json;
 using System.Threading;
 using LagSim.Events;
-using LagSim.Harness.Links;
+using LagSim.Harness.Relays;
 using LagSim.Harness.Scenes;
 using LagSim.Harness.Stalls;
 using LagSim.Hosting;
+using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Harm;
 

@@ -4,13 +4,12 @@ using System.Linq;
 using System.Threading;
 using LagSim.Events;
 using LagSim.Harness.Accuracy;
-using LagSim.Harness.Check;
-using LagSim.Harness.Links;
-using LagSim.Harness.Peers;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
+using LagSim.Testing.Running;
 using LagSim.Time;
 
 namespace LagSim.Harness.Harm;

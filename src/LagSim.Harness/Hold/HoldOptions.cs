@@ -1,10 +1,10 @@
 using System;
 using System.Threading;
 using LagSim.Harness.Hands;
-using LagSim.Harness.Links;
 using LagSim.Net.Sessions;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 
 namespace LagSim.Harness.Hold;

@@ -1,11 +1,11 @@
 using System;
 using LagSim.Events;
 using LagSim.Harness.Hands;
-using LagSim.Harness.Links;
 using LagSim.Harness.Peers;
 using LagSim.Net.Clocks;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 
 namespace LagSim.Harness.Hold;

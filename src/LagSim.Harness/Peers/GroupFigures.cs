@@ -3,7 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Threading;
 using LagSim.Events;
-using LagSim.Harness.Links;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using LagSim.Timelines;
 

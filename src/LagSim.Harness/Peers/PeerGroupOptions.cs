@@ -1,8 +1,8 @@
 using System.Collections.Generic;
 using System.Threading;
-using LagSim.Harness.Links;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using LagSim.Timelines;
 

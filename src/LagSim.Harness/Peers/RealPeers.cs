@@ -4,11 +4,12 @@ using System.Linq;
 using System.Net;
 using System.Threading;
 using LagSim.Events;
-using LagSim.Harness.Links;
+using LagSim.Harness.Relays;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 
 namespace LagSim.Harness.Peers;

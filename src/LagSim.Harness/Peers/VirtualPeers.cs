@@ -2,10 +2,11 @@ using System;
 using System.Linq;
 using System.Threading;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
+using LagSim.Testing.Running;
 using LagSim.Time;
 
 namespace LagSim.Harness.Peers;
@@ -58,7 +59,7 @@ public sealed class VirtualPeers : PeerGroup
     public VirtualNetwork Network => network;
 
     /// <summary>The steps, for those who want to look at each.</summary>
-    public VirtualSteps Steps => steps;
+    internal VirtualSteps Steps => steps;
 
     /// <inheritdoc/>
     public override Session Session(int peer) => sessions[peer];

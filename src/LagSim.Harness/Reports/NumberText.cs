@@ -1,5 +1,5 @@
-using System;
 using System.Globalization;
+using LagSim.Testing.Text;
 
 namespace LagSim.Harness.Reports;
 
@@ -14,20 +14,5 @@ public static class NumberText
         number.ToString(format, CultureInfo.InvariantCulture) + " " + (number == 1 ? thing : many ?? thing + "s");
 
     /// <summary>Four significant digits, with an exponent only where a plain number would be unwieldy; for readers.</summary>
-    public static string Short(double value)
-    {
-        double size = Math.Abs(value);
-        if (value == 0.0 || !double.IsFinite(value))
-        {
-            return value == 0.0 ? "0" : RoundTrip(value);
-        }
-
-        if (size < 1e-4 || size >= 1e7)
-        {
-            return value.ToString("0.###e0", CultureInfo.InvariantCulture);
-        }
-
-        int decimals = Math.Clamp(3 - (int)Math.Floor(Math.Log10(size)), 0, 7);
-        return value.ToString("0." + new string('#', decimals), CultureInfo.InvariantCulture);
-    }
+    public static string Short(double value) => ShortNumber.Of(value);
 }

@@ -1,7 +1,7 @@
 using System;
 using System.Globalization;
-using LagSim.Harness.Links;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Scenes;
 

@@ -1,5 +1,6 @@
 using System.Collections.Generic;
 using LagSim.Scenes;
+using LagSim.Testing.Text;
 
 namespace LagSim.Harness.Scenes;
 
@@ -12,15 +13,7 @@ public static class MotionNames
     public static IReadOnlyList<string> Flight => FlightNames;
 
     /// <summary>The name of any law, those a scene cannot choose included.</summary>
-    public static string Of(MotionLaw law) => law switch
-    {
-        MotionLaw.Ballistic => "ballistic",
-        MotionLaw.RungeKutta4 => "rk4",
-        MotionLaw.ClosedForm => "closed-form",
-        MotionLaw.DormandPrince54 => "dp54",
-        MotionLaw.Automatic => "auto",
-        _ => law.ToString().ToLowerInvariant(),
-    };
+    public static string Of(MotionLaw law) => MotionText.Of(law);
 
     /// <summary>The law of flight of that name; false if there is none.</summary>
     public static bool TryParseFlight(string name, out MotionLaw law)

@@ -2,8 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
-using LagSim.Harness.Check;
-using LagSim.Harness.Links;
+using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Stalls;
 

@@ -1,6 +1,6 @@
 using System.Collections.Generic;
-using LagSim.Harness.Peers;
 using LagSim.Net.Sessions;
+using LagSim.Testing.Running;
 using LagSim.Time;
 
 namespace LagSim.Harness.Stalls;

@@ -7,8 +7,9 @@ using System.Linq;
 using System.Net;
 using System.Text.Json;
 using System.Threading;
-using LagSim.Harness.Links;
+using LagSim.Harness.Relays;
 using LagSim.Hosting;
+using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Stalls;
 

@@ -4,12 +4,12 @@ using System.Globalization;
 using System.Linq;
 using System.Threading;
 using LagSim.Events;
-using LagSim.Harness.Links;
-using LagSim.Harness.Peers;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
+using LagSim.Testing.Running;
 using LagSim.Time;
 
 namespace LagSim.Harness.Stalls;

@@ -1,6 +1,6 @@
 using System.Globalization;
-using LagSim.Harness.Links;
 using LagSim.Harness.Reports;
+using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Sweep;
 

@@ -3,14 +3,14 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Threading;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Harness.Metrics;
-using LagSim.Harness.Peers;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
+using LagSim.Testing.Running;
 using LagSim.Time;
 
 namespace LagSim.Harness.Sweep;

@@ -1,7 +1,6 @@
 using System;
-using LagSim.Harness.Check;
-using LagSim.Harness.Links;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

@@ -1,9 +1,9 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Links;
 using LagSim.Harness.Scenes;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using LagSim.Timelines;
 using Xunit;

@@ -1,11 +1,11 @@
 using System;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Tests.Sessions;
 using LagSim.Time;
 using LagSim.Timelines;

@@ -1,7 +1,7 @@
 using System;
 using LagSim.Events;
-using LagSim.Harness.Check;
 using LagSim.Scenes;
+using LagSim.Testing;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Check;
+using LagSim.Testing;
 using LagSim.Timelines;
 using Xunit;
 

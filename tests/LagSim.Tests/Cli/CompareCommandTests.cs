@@ -7,10 +7,10 @@ using LagSim.Cli;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
 using LagSim.Harness.Compare;
-using LagSim.Harness.Links;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using Xunit;
 using static LagSim.Tests.Cli.DropCommandTests;
 

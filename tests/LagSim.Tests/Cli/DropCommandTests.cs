@@ -7,9 +7,9 @@ using System.Text.Json;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
 using LagSim.Harness.Drop;
-using LagSim.Harness.Links;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using Xunit;
 
 namespace LagSim.Tests.Cli;

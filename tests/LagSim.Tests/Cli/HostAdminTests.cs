@@ -1,6 +1,6 @@
 using System;
 using LagSim.Cli.Commands;
-using LagSim.Harness.Links;
+using LagSim.Testing.Links;
 using LagSim.Tests.Sessions;
 using Xunit;
 

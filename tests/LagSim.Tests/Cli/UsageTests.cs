@@ -1,7 +1,7 @@
 using System;
 using System.IO;
 using System.Linq;
-using LagSim.Harness.Links;
+using LagSim.Testing.Links;
 using Xunit;
 
 namespace LagSim.Tests.Cli;

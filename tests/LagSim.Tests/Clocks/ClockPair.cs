@@ -1,9 +1,9 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Links;
 using LagSim.Harness.Metrics;
 using LagSim.Net.Clocks;
+using LagSim.Testing.Links;
 using LagSim.Time;
 
 namespace LagSim.Tests.Clocks;

@@ -1,7 +1,7 @@
 using System;
 using System.Linq;
-using LagSim.Harness.Links;
 using LagSim.Net.Clocks;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 

@@ -3,12 +3,12 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Compare;
-using LagSim.Harness.Links;
 using LagSim.Harness.Metrics;
 using LagSim.Harness.Peers;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 

@@ -2,11 +2,11 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Corpus;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using static LagSim.Tests.TestWorlds;
 

@@ -1,10 +1,10 @@
 using System;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Harness.Peers;
 using LagSim.Net.Display;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;

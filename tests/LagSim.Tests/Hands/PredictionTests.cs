@@ -2,9 +2,9 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Harness.Hands;
-using LagSim.Harness.Links;
 using LagSim.Net.Display;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 

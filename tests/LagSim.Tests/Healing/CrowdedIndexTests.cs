@@ -1,8 +1,7 @@
 using System.Collections.Generic;
 using LagSim.Events;
-using LagSim.Harness.Check;
-using LagSim.Harness.Links;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;

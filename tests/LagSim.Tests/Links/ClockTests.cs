@@ -1,7 +1,7 @@
 using System;
 using FsCheck;
 using FsCheck.Fluent;
-using LagSim.Harness.Links;
+using LagSim.Testing.Links;
 using LagSim.Tests.Api;
 using LagSim.Time;
 using Xunit;

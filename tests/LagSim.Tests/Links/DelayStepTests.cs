@@ -1,7 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Links;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using MathNet.Numerics.Statistics;
 using Xunit;

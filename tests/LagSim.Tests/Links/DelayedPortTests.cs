@@ -4,8 +4,9 @@ using System.Collections.Generic;
 using System.Diagnostics;
 using System.Linq;
 using System.Threading;
-using LagSim.Harness.Links;
+using LagSim.Harness.Relays;
 using LagSim.Net.Carriers;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 

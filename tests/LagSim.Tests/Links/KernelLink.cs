@@ -6,7 +6,7 @@ using System.Net;
 using System.Net.Sockets;
 using System.Runtime.InteropServices;
 using System.Threading;
-using LagSim.Harness.Links;
+using LagSim.Testing.Links;
 using Microsoft.Win32.SafeHandles;
 using Xunit;
 

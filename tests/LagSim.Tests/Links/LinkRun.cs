@@ -1,5 +1,5 @@
 using System.Linq;
-using LagSim.Harness.Links;
+using LagSim.Testing.Links;
 using LagSim.Time;
 
 namespace LagSim.Tests.Links;

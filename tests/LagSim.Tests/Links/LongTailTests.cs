@@ -1,5 +1,5 @@
 using System;
-using LagSim.Harness.Links;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using MathNet.Numerics.Distributions;
 using MathNet.Numerics.Statistics;

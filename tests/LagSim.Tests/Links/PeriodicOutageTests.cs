@@ -1,8 +1,8 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Links;
 using LagSim.Net.Carriers;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 

@@ -1,8 +1,9 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Links;
+using LagSim.Harness.Relays;
 using LagSim.Net.Carriers;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 

@@ -1,6 +1,6 @@
 using System;
 using System.Linq;
-using LagSim.Harness.Links;
+using LagSim.Testing.Links;
 using MathNet.Numerics.Distributions;
 using MathNet.Numerics.Statistics;
 using Xunit;

@@ -3,11 +3,12 @@ using System.IO;
 using System.Linq;
 using System.Net;
 using System.Threading;
-using LagSim.Harness.Links;
+using LagSim.Harness.Relays;
 using LagSim.Harness.Scenes;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 

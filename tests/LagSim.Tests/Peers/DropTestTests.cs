@@ -2,9 +2,9 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Harness.Drop;
-using LagSim.Harness.Links;
 using LagSim.Harness.Metrics;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 

@@ -4,10 +4,10 @@ using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Hands;
 using LagSim.Harness.Hold;
-using LagSim.Harness.Links;
 using LagSim.Harness.Metrics;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 

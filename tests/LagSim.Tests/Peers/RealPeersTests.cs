@@ -1,11 +1,11 @@
 using System.Linq;
 using LagSim.Cli.Commands;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Harness.Peers;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 

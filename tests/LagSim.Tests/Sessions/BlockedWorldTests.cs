@@ -1,7 +1,7 @@
 using System;
-using LagSim.Harness.Links;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 

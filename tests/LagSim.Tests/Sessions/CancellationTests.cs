@@ -1,9 +1,9 @@
 using System;
 using System.Threading;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Timelines;
 using Xunit;
 using static LagSim.Tests.TestWorlds;

@@ -1,10 +1,10 @@
 using System;
 using System.Collections.Generic;
 using LagSim.Events;
-using LagSim.Harness.Links;
-using LagSim.Harness.Peers;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
+using LagSim.Testing.Links;
+using LagSim.Testing.Running;
 using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;

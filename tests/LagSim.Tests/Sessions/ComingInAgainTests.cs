@@ -1,9 +1,9 @@
 using System;
 using System.Linq;
-using LagSim.Harness.Links;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 

@@ -1,10 +1,10 @@
 using System;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 

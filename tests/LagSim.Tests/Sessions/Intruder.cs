@@ -1,8 +1,8 @@
 using System;
-using LagSim.Harness.Links;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
+using LagSim.Testing.Links;
 using LagSim.Time;
 
 namespace LagSim.Tests.Sessions;

@@ -1,11 +1,11 @@
 using System;
 using System.Linq;
-using LagSim.Harness.Links;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;

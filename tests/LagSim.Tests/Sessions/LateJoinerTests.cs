@@ -1,8 +1,8 @@
 using System.Collections.Generic;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

@@ -2,9 +2,9 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Net.Carriers;
 using LagSim.Net.Wire;
+using LagSim.Testing.Links;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

@@ -1,8 +1,8 @@
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
+using LagSim.Testing.Links;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

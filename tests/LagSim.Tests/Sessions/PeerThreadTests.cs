@@ -3,12 +3,12 @@ using System.Net;
 using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Harness.Scenes;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using Xunit;
 
 namespace LagSim.Tests.Sessions;

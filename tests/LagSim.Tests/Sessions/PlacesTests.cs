@@ -1,11 +1,11 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Links;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Sessions;
 using LagSim.Net.Sessions.Hosts;
 using LagSim.Net.Wire;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 

@@ -1,10 +1,10 @@
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;

@@ -1,8 +1,8 @@
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Net.Sessions;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;

@@ -3,11 +3,11 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Threading.Tasks;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Harness.Scenes;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Strategies;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 

@@ -1,8 +1,8 @@
 using System.Collections.Generic;
-using LagSim.Harness.Links;
-using LagSim.Harness.Peers;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
+using LagSim.Testing.Links;
+using LagSim.Testing.Running;
 using LagSim.Time;
 using Xunit;
 

@@ -1,10 +1,10 @@
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Links;
 using LagSim.Net.Sessions;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
+using LagSim.Testing.Links;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

@@ -1,0 +1,72 @@
+using System;
+using LagSim.Net.Carriers;
+using LagSim.Testing.Links;
+
+namespace LagSim.Harness.Relays;
+
+/// <summary>A port that counts what goes through another one.</summary>
+/// <remarks>Sends and receives on the thread that the inner port allows; <see cref="Traffic"/> may be read from any thread.</remarks>
+public sealed class CountingPort : IDatagramPort
+{
+    private readonly IDatagramPort inner;
+    private readonly object gate = new(); // four counters that belong together; taken only to add to or copy them
+    private PortTraffic traffic;
+
+    /// <summary>Counts what goes through <paramref name="inner"/>, which it then owns and disposes.</summary>
+    public CountingPort(IDatagramPort inner)
+    {
+        ArgumentNullException.ThrowIfNull(inner);
+        this.inner = inner;
+    }
+
+    /// <inheritdoc/>
+    public event Action? Arrived
+    {
+        add => inner.Arrived += value;
+        remove => inner.Arrived -= value;
+    }
+
+    /// <inheritdoc/>
+    public PeerAddress LocalAddress => inner.LocalAddress;
+
+    /// <summary>What was sent and taken so far.</summary>
+    public PortTraffic Traffic
+    {
+        get
+        {
+            lock (gate)
+            {
+                return traffic;
+            }
+        }
+    }
+
+    /// <inheritdoc/>
+    public void Send(ReadOnlySpan<byte> datagram, PeerAddress to)
+    {
+        inner.Send(datagram, to);
+        lock (gate)
+        {
+            traffic = traffic.WithSent(datagram.Length);
+        }
+    }
+
+    /// <inheritdoc/>
+    public bool TryReceive(Span<byte> buffer, out int length, out PeerAddress from)
+    {
+        if (!inner.TryReceive(buffer, out length, out from))
+        {
+            return false;
+        }
+
+        lock (gate)
+        {
+            traffic = traffic.WithReceived(length);
+        }
+
+        return true;
+    }
+
+    /// <inheritdoc/>
+    public void Dispose() => inner.Dispose();
+}
