@@ -26,39 +26,42 @@ public sealed record FirstDifference(
 
     /// <summary>What differs, of which body, in both versions, and how far apart they are: one sentence, of times since the start.</summary>
     /// <remarks>Numbers have four digits where that tells them apart, else all.</remarks>
-    public override string ToString() => $"Peer {Peer}, body {Body}, {What()}.";
+    public override string ToString() => Text(body => body.ToString());
 
-    private string What()
+    /// <summary>The same sentence, where bodies have names.</summary>
+    internal string Text(Func<BodyId, string> nameOf) => $"Peer {Peer}, body {nameOf(Body)}, {What(nameOf)}.";
+
+    private string What(Func<BodyId, string> nameOf)
     {
         if (ExpectedKey is not EventKey should)
         {
-            return $"expected no event here; there is {Event(ActualKey!.Value)}, {After(Actual)}";
+            return $"expected no event here; there is {Event(ActualKey!.Value, nameOf)}, {After(Actual)}";
         }
 
         if (ActualKey is not EventKey there)
         {
-            return $"expected {Event(should)}, {After(Expected)}; there is none";
+            return $"expected {Event(should, nameOf)}, {After(Expected)}; there is none";
         }
 
         return should == there
-            ? $"after {Event(should)}: {States()}"
-            : $"{Events(should, there)}; right after {(should.Time == there.Time ? "it" : "each")}: {States()}";
+            ? $"after {Event(should, nameOf)}: {States()}"
+            : $"{Events(should, there, nameOf)}; right after {(should.Time == there.Time ? "it" : "each")}: {States()}";
     }
 
-    private string Events(in EventKey should, in EventKey there)
+    private string Events(in EventKey should, in EventKey there, Func<BodyId, string> nameOf)
     {
         if (should.Time == there.Time)
         {
             string round = should.Round == there.Round ? "" : $", in round {there.Round} of that tick and not {should.Round}";
-            return $"expected {Event(should)}; there is {Event(there)}{round}";
+            return $"expected {Event(should, nameOf)}; there is {Event(there, nameOf)}{round}";
         }
 
         double apart = (there.Time - should.Time).ToSeconds();
         string when = $"{ShortNumber.Of(Math.Abs(apart))} s {(apart > 0 ? "later" : "earlier")}";
-        return $"expected {Event(should)}; there is {Event(there)}, {when}";
+        return $"expected {Event(should, nameOf)}; there is {Event(there, nameOf)}, {when}";
     }
 
-    private string Event(in EventKey key)
+    private string Event(in EventKey key, Func<BodyId, string> nameOf)
     {
         string at = FormattableString.Invariant($"at {(key.Time - Start).ToSeconds():0.############} s"); // to the tick
         return key.Kind switch
@@ -66,10 +69,13 @@ public sealed record FirstDifference(
             EventKind.Start => $"the start {at}",
             EventKind.StepEnd => $"the end of a step {at}",
             EventKind.Impact when key.Body == key.Other => $"an impact on what does not move {at}",
-            EventKind.Impact => $"an impact with body {(key.Body == Body ? key.Other : key.Other == Body ? key.Body : $"{key.Body} and {key.Other}")} {at}",
+            EventKind.Impact => $"an impact with body {Others(key, nameOf)} {at}",
             _ => $"{key.Kind} by peer {key.Peer}, its event {key.Sequence}, {at}",
         };
     }
+
+    private string Others(in EventKey key, Func<BodyId, string> nameOf) =>
+        key.Body == Body ? nameOf(key.Other) : key.Other == Body ? nameOf(key.Body) : $"{nameOf(key.Body)} and {nameOf(key.Other)}";
 
     private static string After(BodyState state) => state.Motion == MotionLaw.Absent
         ? "after which it is not there"

@@ -6,7 +6,7 @@ namespace LagSim.Testing.Links;
 /// <remarks>
 /// <para>Made like the Linux kernel's token bucket filter, <c>tc qdisc add dev D root tbf rate R burst 1540 latency T</c>, against which it was measured: tokens come
 /// in at the rate, up to the burst; a datagram leaves as soon as there are tokens for all of it, so after a silence at once, and takes them.</para>
-/// <para>Immutable, safe on any thread. <see cref="LinkQueue"/> is one at work.</para>
+/// <para>Immutable, safe on any thread.</para>
 /// </remarks>
 public sealed class Bottleneck
 {

@@ -4,7 +4,7 @@ using System.Globalization;
 namespace LagSim.Testing.Links;
 
 /// <summary>What one direction of a link does to datagrams. A link is two of them: it need not be the same both ways.</summary>
-/// <remarks>Immutable, safe on any thread. Says what happens on average; <see cref="LinkModel"/> draws from it.</remarks>
+/// <remarks>Immutable, safe on any thread. Says what happens on average; each datagram draws from it, by the seed of the network.</remarks>
 public sealed class LinkLeg
 {
     private readonly LongTail? tail;

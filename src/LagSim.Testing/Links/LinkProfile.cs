@@ -8,7 +8,7 @@ namespace LagSim.Testing.Links;
 public sealed class LinkProfile
 {
     /// <summary>A profile that is the same both ways.</summary>
-    /// <param name="name">Not empty; what a command line says.</param>
+    /// <param name="name">Not empty; what errors and reports call it.</param>
     /// <param name="bothWays">What each direction does.</param>
     /// <param name="receiverClockOffset">See <see cref="ReceiverClockOffset"/>.</param>
     /// <exception cref="ArgumentException"><paramref name="name"/> is empty.</exception>
@@ -18,7 +18,7 @@ public sealed class LinkProfile
     }
 
     /// <summary>A profile with its own values for each direction.</summary>
-    /// <param name="name">Not empty; what a command line says.</param>
+    /// <param name="name">Not empty; what errors and reports call it.</param>
     /// <param name="toHost">What happens on the way up, from a player to the host.</param>
     /// <param name="fromHost">What happens on the way down, from the host to a player.</param>
     /// <param name="receiverClockOffset">See <see cref="ReceiverClockOffset"/>.</param>
@@ -34,7 +34,7 @@ public sealed class LinkProfile
         ReceiverClockOffset = receiverClockOffset;
     }
 
-    /// <summary>What a command line and a report call it.</summary>
+    /// <summary>What errors and reports call it.</summary>
     public string Name { get; }
 
     /// <summary>The way up, from a player to the host.</summary>

@@ -106,6 +106,9 @@ public static class LinkProfiles
         .. Ladder,
     ];
 
+    /// <summary>The names of <see cref="All"/>, in that order: the rows of a test that runs on every link.</summary>
+    public static IReadOnlyList<string> Names { get; } = [.. All.Select(known => known.Name)];
+
     /// <summary>A link that delays every datagram by the same time each way and does nothing else, named <c>delay-25ms</c> for 25.</summary>
     /// <param name="milliseconds">One way, 0 to <see cref="MaxPureDelay"/>; rounded to a nanosecond, so that the name says all.</param>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="milliseconds"/> is not finite or out of range.</exception>
@@ -122,6 +125,11 @@ public static class LinkProfiles
     }
 
     /// <summary>The profile of that name: one of <see cref="All"/>, or any <c>delay-Nms</c>.</summary>
+    /// <param name="name">Case matters.</param>
+    /// <exception cref="ArgumentException">There is no such profile; the message lists those that there are.</exception>
+    public static LinkProfile Get(string name) => TryGet(name, out LinkProfile? profile, out string? error) ? profile : throw new ArgumentException(error, nameof(name));
+
+    /// <summary>The profile of that name, if there is one.</summary>
     /// <param name="name">Case matters.</param>
     /// <param name="profile">The profile, if there is one.</param>
     /// <param name="error">Else a sentence that says what there is.</param>

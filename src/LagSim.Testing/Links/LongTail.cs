@@ -9,7 +9,7 @@ namespace LagSim.Testing.Links;
 /// 250 ms (Sui et al., Characterizing and Improving WiFi Latency in Large-Scale Operational Networks, MobiSys 2016). Of the distributions that
 /// two figures fix, the log-normal through the median and the 99th percentile puts the 90th at 34 ms there and back, a Weibull at 49. A
 /// log-logistic would be nearer, at 25, but has next to no mean: of a million datagrams one would come a quarter of an hour late.</para>
-/// <para>Each datagram's delay is its own; what makes bad moments last is that those sent behind a late one wait for it (<see cref="LinkModel"/>).
+/// <para>Each datagram's delay is its own; what makes bad moments last is that those sent behind a late one wait for it.
 /// So the quantiles hold for datagrams that are sent far apart; sent every few milliseconds, more of them are late.</para>
 /// <para>Immutable, safe on any thread.</para>
 /// </remarks>

@@ -7,9 +7,11 @@ namespace LagSim.Testing.Links;
 
 /// <summary>A network of any number of nodes in virtual time and one thread: nothing waits, and the same seed gives the same run.</summary>
 /// <remarks>
-/// <para>Drive it so: set the clock or call <see cref="DeliverUntil"/> to go to the next moment at which something is due, let the nodes
-/// act, repeat. Datagrams that arrive at the same tick do so in the order in which they were sent.</para>
-/// <para>Each ordered pair of nodes has its own <see cref="LinkModel"/>, its luck a function of seed and pair only. Not thread-safe.</para>
+/// <para>For those who step sessions, or a carrier of datagrams of their own, by themselves; <see cref="SessionTest"/> does all this for a
+/// whole game. Drive it so: call <see cref="DeliverUntil"/> to go to the next moment at which something is due, let the nodes act, repeat.
+/// Datagrams that arrive at the same tick do so in the order in which they were sent.</para>
+/// <para>Each ordered pair of nodes has its own luck, a function of seed and pair only: who is added changes nothing for the others. Not
+/// thread-safe.</para>
 /// </remarks>
 public sealed class VirtualNetwork
 {
@@ -32,7 +34,9 @@ public sealed class VirtualNetwork
     /// <summary>A network without nodes.</summary>
     /// <param name="clock">True time. Who else moves it must not move it past <see cref="NextDelivery"/> without delivering.</param>
     /// <param name="seed">The luck of all links.</param>
-    /// <param name="profile">What a pair gets that nothing else was said of; the lower number counts as the host. Default: no delay at all.</param>
+    /// <param name="profile">
+    /// What a pair gets that nothing else was said of; the lower number counts as the host. Default: no delay at all.
+    /// </param>
     public VirtualNetwork(VirtualClock clock, ulong seed, LinkProfile? profile = null)
     {
         ArgumentNullException.ThrowIfNull(clock);
@@ -51,11 +55,14 @@ public sealed class VirtualNetwork
     public long DatagramsLost { get; private set; }
 
     /// <summary>
-    /// How many datagrams may wait at a port that does not take them, as in the buffer of a socket; newer ones are lost. Default: any number.
+    /// How many datagrams may wait at a port that does not take them, as in the buffer of a socket; newer ones are lost. Default: any
+    /// number.
     /// </summary>
     internal int PortRoom { get; set; } = int.MaxValue;
 
-    /// <summary>A node's port; its address is <see cref="PeerAddress.Virtual"/> of <paramref name="number"/>. A disposed one may be made anew.</summary>
+    /// <summary>
+    /// A node's port; its address is <see cref="PeerAddress.Virtual"/> of <paramref name="number"/>. A disposed one may be made anew.
+    /// </summary>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="number"/> is negative.</exception>
     /// <exception cref="InvalidOperationException">The number is taken, or the address.</exception>
     public IDatagramPort CreatePort(int number)
@@ -121,7 +128,9 @@ public sealed class VirtualNetwork
         }
     }
 
-    /// <summary>Joins a player and the host by a link of that profile, both ways, from now on; what is in flight arrives as it would have.</summary>
+    /// <summary>
+    /// Joins a player and the host by a link of that profile, both ways, from now on; what is in flight arrives as it would have.
+    /// </summary>
     /// <remarks>With <see cref="LinkProfile.HasBulkTransfer"/> a bulk transfer over it begins now.</remarks>
     /// <param name="player">The player's number.</param>
     /// <param name="host">The host's.</param>
@@ -140,13 +149,17 @@ public sealed class VirtualNetwork
         }
     }
 
-    /// <summary>Says what the direction from one node to another does from now on; what is in flight, or waits in a queue, arrives as it would have, and
-    /// bulk transfers between the two end.</summary>
+    /// <summary>
+    /// Says what the direction from one node to another does from now on; what is in flight, or waits in a queue, arrives as it would have,
+    /// and bulk transfers between the two end.
+    /// </summary>
     /// <param name="from">The sender's number.</param>
     /// <param name="to">The receiver's.</param>
     /// <param name="leg">What the direction does.</param>
-    /// <param name="queue">A queue through which other directions go too, of this network or any at the same true time; it stands in place of the
-    /// leg's own <see cref="LinkLeg.Bottleneck"/>. Default: the leg's own, if it has one.</param>
+    /// <param name="queue">
+    /// A queue through which other directions go too, of this network or any at the same true time; it stands in place of the leg's own
+    /// <see cref="LinkLeg.Bottleneck"/>. Default: the leg's own, if it has one.
+    /// </param>
     internal void SetLink(int from, int to, LinkLeg leg, LinkQueue? queue = null)
     {
         // A link made anew in the middle of a run must not repeat the luck of the one that it follows.
@@ -165,8 +178,13 @@ public sealed class VirtualNetwork
         }
     }
 
-    /// <summary>Begins a bulk TCP transfer from one node to another: competing traffic on the link between them, and on all that share its queues.</summary>
-    /// <remarks>It takes the links as they are; nodes at both ends are not needed, and hear nothing of it. It ends when one of the two directions is set anew.</remarks>
+    /// <summary>
+    /// Begins a bulk TCP transfer from one node to another: competing traffic on the link between them, and on all that share its queues.
+    /// </summary>
+    /// <remarks>
+    /// It takes the links as they are; nodes at both ends are not needed, and hear nothing of it. It ends when one of the two directions is
+    /// set anew.
+    /// </remarks>
     /// <exception cref="InvalidOperationException">The direction has no bottleneck: nothing would hold the transfer back.</exception>
     internal BulkTransfer StartBulkTransfer(int from, int to)
     {
@@ -184,7 +202,9 @@ public sealed class VirtualNetwork
     }
 
     /// <summary>Loses for good each datagram of which the rule says so; all rules given count.</summary>
-    /// <param name="rule">Gets sender, receiver and datagram when it is sent; true loses it. Each rule sees every datagram, in order.</param>
+    /// <param name="rule">
+    /// Gets sender, receiver and datagram when it is sent; true loses it. Each rule sees every datagram, in order.
+    /// </param>
     public void Lose(Func<int, int, ReadOnlyMemory<byte>, bool> rule)
     {
         ArgumentNullException.ThrowIfNull(rule);
@@ -198,7 +218,9 @@ public sealed class VirtualNetwork
     /// <exception cref="KeyNotFoundException">There is no such port.</exception>
     public PortTraffic Traffic(int number) => numbers[number].Traffic;
 
-    /// <summary>Moves true time to <paramref name="now"/> and delivers what arrives until then, that included, each at its own time.</summary>
+    /// <summary>
+    /// Moves true time to <paramref name="now"/> and delivers what arrives until then, that included, each at its own time.
+    /// </summary>
     /// <returns>How many datagrams were delivered.</returns>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="now"/> is before the clock.</exception>
     public int DeliverUntil(SimTime now)

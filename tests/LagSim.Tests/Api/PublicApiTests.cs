@@ -21,6 +21,9 @@ public sealed class PublicApiTests
     [Fact]
     public void PublicApi_OfWhatUsersReference_IsTheOneOnRecord() => IsTheOneOnRecord("PublicApi.txt", Listing());
 
+    [Fact]
+    public void PublicApi_OfTestsForGames_IsTheOneOnRecord() => IsTheOneOnRecord("PublicApi.Testing.txt", Listing(typeof(LagSim.Testing.SessionTest).Assembly));
+
 #if WITH_LITENETLIB
     [Fact]
     public void PublicApi_OfTheLiteNetLibCarrier_IsTheOneOnRecord() =>

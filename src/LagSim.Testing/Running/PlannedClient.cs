@@ -1,0 +1,8 @@
+using LagSim.Testing.Links;
+
+namespace LagSim.Testing.Running;
+
+/// <summary>A client of a test.</summary>
+/// <param name="Link">What its link to the host does.</param>
+/// <param name="AsksAtSeconds">When it asks to join, in seconds since the start; null for one that is there from the start.</param>
+internal sealed record PlannedClient(LinkProfile Link, double? AsksAtSeconds);

@@ -1,0 +1,422 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Threading;
+using LagSim.Events;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Testing.Invariant;
+using LagSim.Testing.Links;
+using LagSim.Time;
+
+namespace LagSim.Testing.Running;
+
+/// <summary>
+/// One run of a <see cref="SessionTest"/>: plays it, then holds every player's worlds against the one that had all accepted events on time.
+/// </summary>
+internal sealed class SessionRun
+{
+    /// <summary>Two machines' clocks: up to an hour apart, and up to 20 millionths fast or slow.</summary>
+    private const double ClockSpreadSeconds = 3600;
+    private const double ClockDriftPartsPerMillion = 20;
+
+    private const double FramesPerSecond = 60;
+
+    /// <summary>
+    /// How long a client may take to get in, and the last events to get everywhere, in seconds; much longer than on the worst of links.
+    /// </summary>
+    private const double Patience = 120;
+
+    /// <summary>How long what is due may wait for a player whose clock is behind the host's.</summary>
+    private static readonly SimDuration ClockPatience = SimDuration.FromSeconds(1);
+
+    /// <summary>Long enough for the whole of most tests, and the most that a session keeps.</summary>
+    private static readonly SimDuration WholeTimelines = SimDuration.FromSeconds(60);
+
+    private readonly Scene scene;
+    private readonly IReadOnlyList<PlannedClient> clients;
+    private readonly IReadOnlyList<PlannedAct> acts;
+    private readonly ulong seed;
+    private readonly Func<int, SessionOptions> options;
+    private readonly Action<int, Simulation>? prepareWorld;
+    private readonly CancellationToken cancellation;
+    private readonly VirtualClock clock = new(SimTime.FromSeconds(2 * ClockSpreadSeconds));
+    private readonly VirtualNetwork network;
+    private readonly VirtualSteps steps;
+    private readonly SeededRandom clockLuck;
+    private readonly Member?[] members; // by number; null for one that has not asked yet
+    private readonly List<ExternalEvent> accepted = [];
+    private readonly List<uint> acceptedEntries = [];
+    private SimTime nextFrame = SimTime.MaxValue; // true time
+    private long refused;
+    private long tooLate;
+
+    internal SessionRun(
+        Scene scene,
+        IReadOnlyList<PlannedClient> clients,
+        IReadOnlyList<PlannedAct> acts,
+        ulong seed,
+        Func<int, SessionOptions> options,
+        Action<int, Simulation>? prepareWorld,
+        CancellationToken cancellation)
+    {
+        this.scene = scene;
+        this.clients = clients;
+        this.acts = acts;
+        this.seed = seed;
+        this.options = options;
+        this.prepareWorld = prepareWorld;
+        this.cancellation = cancellation;
+        network = new VirtualNetwork(clock, seed);
+        steps = new VirtualSteps(network);
+        clockLuck = new SeededRandom(seed).Fork(0xC10C);
+        members = new Member?[clients.Count + 1];
+    }
+
+    private HostSession Host => (HostSession)members[0]!.Session;
+
+    private IEnumerable<Member> Members => members.OfType<Member>();
+
+    internal SessionTestResult Play(double seconds)
+    {
+        SessionTestException? failure = null;
+        try
+        {
+            Connect();
+            Act(seconds);
+            Settle();
+        }
+        catch (SessionTestException thrown) when (members[0] is not null && Members.All(member => member.Session.World is not null))
+        {
+            failure = thrown; // a world that differs explains most of what fails, and is told first
+        }
+
+        SessionTestResult result = Compare(seconds);
+        return failure is not null && result.WorldsAgree ? throw failure : result;
+    }
+
+    /// <summary>Lets the clients of the start in, one by one so that their numbers are theirs, and waits until the world begins.</summary>
+    private void Connect()
+    {
+        int expected = clients.Count(client => client.AsksAtSeconds is null);
+        Add(0, expected);
+        int joined = 0;
+        for (int n = 1; n < members.Length; n++)
+        {
+            if (clients[n - 1].AsksAtSeconds is null)
+            {
+                Add(n, 0);
+                joined++;
+                string what = $"Player {n} was not let in";
+                RunUntil(() => Host.JoinerCount >= joined, what);
+            }
+        }
+
+        RunUntil(() => Host.State == SessionState.Running && Members.All(m => m.Session.World is not null), "The world did not begin");
+        nextFrame = clock.Now;
+    }
+
+    /// <summary>Lets everything happen that is planned, until the end of the run.</summary>
+    private void Act(double seconds)
+    {
+        SimTime start = clock.Now + (Host.World!.Simulation.Start - Host.SharedTime.Now); // true time
+        foreach ((double at, Action act) in Plan(seconds))
+        {
+            AdvanceTo(SimTime.Max(start + SimDuration.FromSeconds(at), clock.Now));
+            act();
+        }
+    }
+
+    /// <summary>All that is to happen from the start on, in order; of one instant as it was planned.</summary>
+    private List<(double At, Action Act)> Plan(double seconds)
+    {
+        List<(double At, Action Act)> plan = [];
+        for (int n = 1; n < members.Length; n++)
+        {
+            if (clients[n - 1].AsksAtSeconds is double asks)
+            {
+                int number = n;
+                plan.Add((asks, () => Add(number, 0)));
+            }
+        }
+
+        foreach (PlannedAct act in acts)
+        {
+            if (act.EverySeconds is not double every)
+            {
+                plan.Add((act.AtSeconds, () => ActOnce(act)));
+                continue;
+            }
+
+            for (int n = 0; n * every <= seconds; n++)
+            {
+                plan.Add((n * every, () => ActIfIn(act)));
+            }
+        }
+
+        plan.Add((seconds, () => { }));
+        return [.. plan.OrderBy(p => p.At)];
+    }
+
+    private void ActOnce(PlannedAct act)
+    {
+        if (members[act.Player] is Member waiting && !waiting.HasEnded)
+        {
+            SimTime deadline = clock.Now + ClockPatience;
+            while (!waiting.IsRunning && !waiting.HasEnded && clock.Now < deadline)
+            {
+                Advance(deadline);
+            }
+        }
+
+        if (members[act.Player] is not { IsRunning: true } member)
+        {
+            string when = FormattableString.Invariant($"at {act.AtSeconds:0.######} s");
+            string why = members[act.Player] is not Member there ? "has not asked to join yet"
+                : there.Player.HasLeft ? "has left"
+                : $"is {there.State}";
+            throw new SessionTestException($"Player {act.Player} cannot act {when}: it {why}.");
+        }
+
+        act.Act(member.Player);
+    }
+
+    private void ActIfIn(PlannedAct act)
+    {
+        if (members[act.Player] is { IsRunning: true } member)
+        {
+            act.Act(member.Player);
+        }
+    }
+
+    private void Settle()
+    {
+        nextFrame = SimTime.MaxValue; // what is watched has ended
+        RunUntil(() => Members.All(HasHeardAll), "Not every player had heard of everything");
+    }
+
+    private bool HasHeardAll(Member member) => member.Player.HasLeft
+        || (member.IsRunning && member.Session.LogLength == Host.LogLength && member.Session is not JoinerSession { UnjudgedEvents: > 0 });
+
+    private void Add(int number, int expectedJoiners)
+    {
+        PlannedClient? client = number == 0 ? null : clients[number - 1];
+        if (client is not null)
+        {
+            network.Connect(number, 0, client.Link);
+        }
+
+        SessionOptions chosen = options(number)
+            ?? throw new SessionTestException($"There are no session options for player {number}: what WithOptions got returned null.");
+        chosen.ExpectedJoiners = expectedJoiners;
+        chosen.StartLead = chosen.StartLead < StartLead() ? StartLead() : chosen.StartLead;
+        chosen.Cancellation = cancellation;
+        chosen.ExtraHistory = chosen.Contacts is null ? WholeTimelines : chosen.ExtraHistory;
+        chosen.Accelerations ??= number == 0 ? null : scene.Accelerations;
+        IDatagramPort port = network.CreatePort(number);
+        SeededRandom luck = clockLuck.Fork((ulong)number);
+        double drift = luck.NextDouble(-ClockDriftPartsPerMillion, ClockDriftPartsPerMillion);
+        SimDuration apart = SimDuration.FromSeconds(luck.NextDouble(-ClockSpreadSeconds, ClockSpreadSeconds));
+        SkewedClock own = new(clock, drift, apart + (client?.Link.ReceiverClockOffset ?? SimDuration.Zero));
+        Session session = number == 0
+            ? new HostSession(scene, port, own, chosen, seed)
+            : new JoinerSession(null, port, own, chosen, PeerAddress.Virtual(0), seed + (ulong)number);
+        int place = steps.Add(session, port);
+        Member member = new(client?.Link, session, new TestPlayer(number, session, () => steps.Wake(place)), _ => acceptedEntries);
+        members[number] = member;
+        Watch(member);
+    }
+
+    /// <summary>Long enough for all who are there from the start to hear of it before it comes, unless much is lost.</summary>
+    private SimDuration StartLead()
+    {
+        double worst = clients.Select(client => OneWay(client.Link.FromHost)).DefaultIfEmpty(0).Max();
+        return SimDuration.FromMilliseconds(Math.Min(60_000, 500 + (2 * worst)));
+    }
+
+    private static double OneWay(LinkLeg leg) => leg.DelayMilliseconds
+        + (4 * leg.JitterMilliseconds)
+        + (leg.Tail is null ? 0 : LongTail.MostMilliseconds)
+        + (leg.Bottleneck?.QueueMilliseconds ?? 0)
+        + (leg.Outage?.Length.ToMilliseconds() ?? 0);
+
+    private void Watch(Member member)
+    {
+        Session session = member.Session;
+        session.StateCommitted += member.Committed.Add;
+        session.Begun += () => prepareWorld?.Invoke(member.Player.Number, session.World!.Simulation);
+        session.Renewed += _ => prepareWorld?.Invoke(member.Player.Number, session.World!.Simulation);
+        if (session is JoinerSession joiner)
+        {
+            member.Coverage.Follow(joiner);
+            joiner.Interrupted += _ =>
+            {
+                // What is repaired still counts: the world as it was is held against the one that never had a delay.
+                if (joiner.Counters.StatesDiffered > 0 && joiner.World is not null)
+                {
+                    member.Wrong.Add(joiner.World.Simulation);
+                }
+            };
+        }
+        else
+        {
+            session.Logged += Log;
+        }
+    }
+
+    private void Log(LogEntry entry)
+    {
+        if (entry.Verdict == Verdict.Accepted)
+        {
+            accepted.Add(entry.Event);
+            acceptedEntries.Add(entry.Index);
+            return;
+        }
+
+        refused++;
+        tooLate += entry.Verdict == Verdict.TooLate ? 1 : 0;
+    }
+
+    private void RunUntil(Func<bool> isSo, string what)
+    {
+        SimTime deadline = clock.Now + SimDuration.FromSeconds(Patience);
+        while (!isSo())
+        {
+            if (clock.Now >= deadline || Members.Any(m => m.HasEnded && !m.Player.HasLeft))
+            {
+                string after = clock.Now >= deadline ? FormattableString.Invariant($" within {Patience} s of virtual time") : "";
+                string states = string.Join("; ", Members.Select(m => $"player {m.Player.Number} is {m.State}"));
+                throw new SessionTestException($"{what}{after}: {states}.");
+            }
+
+            Advance(deadline);
+        }
+    }
+
+    private void AdvanceTo(SimTime time)
+    {
+        while (clock.Now < time)
+        {
+            Advance(time);
+        }
+    }
+
+    private void Advance(SimTime limit)
+    {
+        cancellation.ThrowIfCancellationRequested();
+        steps.Advance(SimTime.Min(limit, nextFrame));
+        if (clock.Now >= nextFrame)
+        {
+            foreach (Member member in Members)
+            {
+                member.CountFrame();
+            }
+
+            nextFrame += SimDuration.FromSeconds(1 / FramesPerSecond);
+        }
+    }
+
+    private SessionTestResult Compare(double seconds)
+    {
+        // As far as any world has got, and as long as was asked for.
+        SimTime start = Host.World!.Simulation.Start;
+        SimTime end = start + SimDuration.FromSeconds(seconds);
+        foreach (Member member in Members)
+        {
+            end = member.Session.World is null ? end : SimTime.Max(end, member.Session.World.Simulation.SimulatedTo);
+            member.Wrong.ForEach(world => end = SimTime.Max(end, world.SimulatedTo));
+        }
+
+        Simulation alone = new(scene, new SimulationOptions(start, SimDuration.MaxValue, cancellation: cancellation, threads: 1));
+        try
+        {
+            foreach (ExternalEvent external in accepted)
+            {
+                alone.Submit(external);
+            }
+
+            alone.AdvanceTo(end);
+        }
+        catch (SimulationException thrown)
+        {
+            throw new SessionTestException($"What the players did cannot be simulated: {thrown.Message}", thrown);
+        }
+
+        Comparison comparison = new(alone);
+        foreach (Member member in Members)
+        {
+            int number = member.Player.Number;
+            member.Committed.ForEach(state => comparison.Take(number, state));
+            member.Wrong.ForEach(world => comparison.Take(number, world));
+            if (!member.Player.HasLeft && member.Session.World is not null)
+            {
+                comparison.Take(number, member.Session.World.Simulation);
+            }
+        }
+
+        PlayerResult[] players = [.. Members.Select(m => m.ToResult(network.Traffic(m.Player.Number)))];
+        return new SessionTestResult(alone, seed, seconds, comparison, players, NoPromise())
+        {
+            EventsAccepted = accepted.Count,
+            EventsRefused = refused,
+            EventsTooLate = tooLate,
+        };
+    }
+
+    /// <summary>A sentence where a strategy promises no agreement; else null.</summary>
+    private string? NoPromise() => Members.FirstOrDefault(m => !m.Session.PromisesAgreement) is Member without
+        ? $"Not every player promises agreement: player {without.Player.Number} has a strategy that leaves late events as they are."
+        : null;
+
+    /// <summary>One player as the run goes on.</summary>
+    private sealed class Member
+    {
+        internal Member(LinkProfile? link, Session session, TestPlayer player, Func<SimTime, IEnumerable<uint>> accepted)
+        {
+            Link = link;
+            Session = session;
+            Player = player;
+            Coverage = new LogCoverage(accepted);
+        }
+
+        internal LinkProfile? Link { get; }
+
+        internal Session Session { get; }
+
+        internal TestPlayer Player { get; }
+
+        /// <summary>What of the host's log came to it; nothing for the host.</summary>
+        internal LogCoverage Coverage { get; }
+
+        internal List<CommittedState> Committed { get; } = [];
+
+        /// <summary>Its worlds that turned out to differ, and were replaced.</summary>
+        internal List<Simulation> Wrong { get; } = [];
+
+        internal long Frames { get; private set; }
+
+        internal long StalledFrames { get; private set; }
+
+        internal bool IsRunning => Session.State == SessionState.Running && !Player.HasLeft;
+
+        internal bool HasEnded => Session.State == SessionState.Ended;
+
+        internal string State => HasEnded ? $"out: {Session.EndReason}" : Session.State.ToString().ToLowerInvariant();
+
+        internal PlayerResult ToResult(PortTraffic traffic) =>
+            new(Player.Number, Link, Session, traffic, Frames, StalledFrames, Session is JoinerSession ? Coverage.Count().Lost : 0);
+
+        internal void CountFrame()
+        {
+            if (Session.World is null || Player.HasLeft || Session.SharedTime.Now < Session.World.Simulation.Start)
+            {
+                return; // there is nothing to be seen yet, or nobody who looks
+            }
+
+            Frames++;
+            StalledFrames += Session.World.Pictures.Latest().Covers(Session.DisplayTime) ? 0 : 1;
+        }
+    }
+}

@@ -1,0 +1,156 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Text;
+using LagSim.Scenes;
+using LagSim.Testing.Invariant;
+using LagSim.Time;
+
+namespace LagSim.Testing;
+
+/// <summary>
+/// What came of a <see cref="SessionTest"/>: whether all players had the same world, that world to read, and what it took.
+/// </summary>
+/// <remarks>For one thread: reading a world is.</remarks>
+public sealed class SessionTestResult
+{
+    private const string UsualCauses = "Usual causes: a force or a session option that is not the same for every player,"
+        + " or one that reads a clock, a random number or anything else outside the world.";
+
+    private readonly Comparison comparison;
+    private readonly string? promise;
+
+    internal SessionTestResult(
+        Simulation world, ulong seed, double seconds, Comparison comparison, IReadOnlyList<PlayerResult> players, string? promise)
+    {
+        World = world;
+        Seed = seed;
+        Seconds = seconds;
+        this.comparison = comparison;
+        this.promise = promise;
+        Players = players;
+    }
+
+    /// <summary>The seed of the run.</summary>
+    public ulong Seed { get; }
+
+    /// <summary>How long was played, in seconds since the start of the world.</summary>
+    public double Seconds { get; }
+
+    /// <summary>The players, the host first.</summary>
+    public IReadOnlyList<PlayerResult> Players { get; }
+
+    /// <summary>
+    /// The world that had every accepted event before anything was simulated: what every player's world must equal. It keeps all of its
+    /// past, and has been advanced to <see cref="Seconds"/> at least.
+    /// </summary>
+    public Simulation World { get; }
+
+    /// <summary>
+    /// Whether every world that any player had, at every time that it still knew or had committed to, equals <see cref="World"/> bit for
+    /// bit.
+    /// </summary>
+    public bool WorldsAgree => comparison.Differing == 0;
+
+    /// <summary>
+    /// The first event that a player had otherwise; null if there is none, or the players no longer keep it (<see cref="ToString"/> then
+    /// names the state).
+    /// </summary>
+    public FirstDifference? FirstDifference => comparison.First;
+
+    /// <summary>How many states, hashes and events were compared.</summary>
+    public long Compared => comparison.Compared;
+
+    /// <summary>How many of those differ in any bit.</summary>
+    public long Differing => comparison.Differing;
+
+    /// <summary>How many events the host accepted: what players did that happened.</summary>
+    public long EventsAccepted { get; internal init; }
+
+    /// <summary>How many events the host refused, those that came too late for the session's window among them.</summary>
+    public long EventsRefused { get; internal init; }
+
+    /// <summary>
+    /// How many events came to the host too late for the session's window (<see cref="Net.Sessions.SessionOptions.Window"/>). Who did them
+    /// saw them taken back.
+    /// </summary>
+    public long EventsTooLate { get; internal init; }
+
+    /// <summary>How many events came late, over all players.</summary>
+    public long LateEvents => Players.Sum(player => player.LateEvents);
+
+    /// <summary>How often a world was healed for a late event, over all players.</summary>
+    public long Heals => Players.Sum(player => player.Heals);
+
+    /// <summary>How many frames could not be drawn, over all players.</summary>
+    public long StalledFrames => Players.Sum(player => player.StalledFrames);
+
+    /// <summary>What all players sent, in bytes with UDP and IP headers, from connecting to the end.</summary>
+    public long BytesSent => Players.Sum(player => player.Traffic.BytesSent);
+
+    /// <summary>
+    /// The hash of the world at the end of the run: the same seed gives the same one on every machine, so a test can pin it.
+    /// </summary>
+    public ulong StateHash => World.StateHash(At(Seconds));
+
+    /// <summary>The state of a body at the end of the run; absent (<see cref="MotionLaw.Absent"/>) if it is not there.</summary>
+    /// <param name="body">The body.</param>
+    public BodyState StateOf(BodyId body) => StateOf(body, Seconds);
+
+    /// <summary>The state of a body at a time of the run; absent (<see cref="MotionLaw.Absent"/>) if it is not there.</summary>
+    /// <param name="body">The body.</param>
+    /// <param name="seconds">Seconds since the start of the world, 0 to <see cref="Seconds"/>.</param>
+    /// <exception cref="ArgumentOutOfRangeException">The time is out of range.</exception>
+    public BodyState StateOf(BodyId body, double seconds)
+    {
+        if (!(seconds >= 0 && seconds <= Seconds))
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(seconds), seconds, FormattableString.Invariant($"The run lasted from 0 to {Seconds} s."));
+        }
+
+        return World.TryRead(body, At(seconds), out BodyState state) ? state : default;
+    }
+
+    /// <summary>Throws if a player had another world than <see cref="World"/> at any time.</summary>
+    /// <exception cref="WorldsDifferException">One had; the message names the first difference.</exception>
+    public void ThrowIfWorldsDiffer()
+    {
+        if (!WorldsAgree)
+        {
+            throw new WorldsDifferException(ToString(), this);
+        }
+    }
+
+    /// <summary>Whether the worlds agree, else the first difference; then a line for each player.</summary>
+    public override string ToString()
+    {
+        StringBuilder text = new();
+        text.Append(WorldsAgree
+            ? FormattableString.Invariant($"All worlds agree: {Compared} states and events compared, no bit differs.")
+            : $"Not every player ended up with the same world. {Difference()}");
+        text.Append(FormattableString.Invariant($"\nseed {Seed}, {Seconds} s, {EventsAccepted} events accepted, {EventsRefused} refused"));
+        text.Append(FormattableString.Invariant($", {EventsTooLate} of them too late"));
+        foreach (PlayerResult player in Players)
+        {
+            text.Append('\n').Append(player);
+        }
+
+        return text.ToString();
+    }
+
+    private string Difference()
+    {
+        string first = comparison.First?.Text(NameOf) ?? comparison.FirstHash ?? "";
+        string count = FormattableString.Invariant($"{Differing} of {Compared} compared states and events differ.");
+        return $"{first} {count} {promise ?? UsualCauses}";
+    }
+
+    private string NameOf(BodyId body)
+    {
+        bool isOfScene = body.Peer == 0 && body.Sequence == 0 && body.Index < World.Scene.Bodies.Count;
+        return isOfScene ? $"'{World.Scene.Bodies[body.Index].Name}'" : body.ToString();
+    }
+
+    private SimTime At(double seconds) => World.Start + SimDuration.FromSeconds(seconds);
+}

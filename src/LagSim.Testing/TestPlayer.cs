@@ -1,0 +1,76 @@
+using System;
+using LagSim.Events;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+
+namespace LagSim.Testing;
+
+/// <summary>A player of a <see cref="SessionTest"/> that is being run: what it sees, and what it can do.</summary>
+/// <remarks>Handed to the code that acts for it, and of use only while that is called. For the thread of the run.</remarks>
+public sealed class TestPlayer
+{
+    private readonly Action wake;
+
+    internal TestPlayer(int number, Session session, Action wake)
+    {
+        Number = number;
+        Session = session;
+        this.wake = wake;
+    }
+
+    /// <summary>The player's number in the test; 0 is the host.</summary>
+    public int Number { get; }
+
+    internal bool HasLeft { get; private set; }
+
+    /// <summary>
+    /// Its session, to read. Act by <see cref="Do"/> and <see cref="Leave"/>, or what is done waits for the session's next step.
+    /// </summary>
+    public Session Session { get; }
+
+    /// <summary>What its clock reads: seconds of shared time since the start of the world.</summary>
+    public double Seconds => (Session.SharedTime.Now - Session.World!.Simulation.Start).ToSeconds();
+
+    /// <summary>
+    /// What the player sees of a body now: the state that a frame drawn at this moment would show, at <see cref="Session.DisplayTime"/>.
+    /// </summary>
+    /// <param name="body">The body.</param>
+    /// <param name="state">Its state, in metres, metres per second and radians per second.</param>
+    /// <returns>False where it is not there, or its picture does not cover this moment.</returns>
+    public bool TryRead(BodyId body, out BodyState state) => Session.World!.Pictures.Latest().TryRead(body, Session.DisplayTime, out state);
+
+    /// <summary>Does something, now. The player's own world has it at once, the others' when they hear of it.</summary>
+    /// <param name="action">What.</param>
+    /// <returns>The event as it was stamped; of a spawn its <see cref="ExternalEvent.Body"/> is the new one.</returns>
+    /// <exception cref="SessionTestException">The player may not do that, or not now; the message says why.</exception>
+    public ExternalEvent Do(in PlayerAction action)
+    {
+        ExternalEvent external;
+        try
+        {
+            external = Session.Do(action);
+        }
+        catch (Exception refused) when (refused is SceneException or InvalidOperationException or SimulationException)
+        {
+            string what = FormattableString.Invariant($"Player {Number} could not do its {action.Kind} at {Seconds:0.###} s");
+            throw new SessionTestException($"{what}: {refused.Message}", refused);
+        }
+
+        wake();
+        return external;
+    }
+
+    /// <summary>Leaves the session, as a player that says goodbye. It is not compared with the others from then on.</summary>
+    /// <exception cref="SessionTestException">It is the host, without which there is no session.</exception>
+    public void Leave()
+    {
+        if (Number == 0)
+        {
+            throw new SessionTestException("Player 0 is the host and cannot leave: without it there is no session to test.");
+        }
+
+        HasLeft = true;
+        Session.Leave();
+        wake();
+    }
+}
