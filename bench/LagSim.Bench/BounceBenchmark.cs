@@ -1,5 +1,5 @@
 using BenchmarkDotNet.Attributes;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 using LagSim.Time;
 

@@ -1,8 +1,8 @@
 using System;
 using System.Diagnostics;
 using System.Globalization;
-using LagSim.Harness.Metrics;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.Experiments.Metrics;
+using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 using LagSim.Time;
 

@@ -1,7 +1,7 @@
 using System;
 using System.Globalization;
 using System.Linq;
-using LagSim.Harness.Metrics;
+using LagSim.Harness.Experiments.Metrics;
 
 namespace LagSim.Bench;
 

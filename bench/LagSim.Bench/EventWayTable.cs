@@ -3,7 +3,7 @@ using System.Collections.Generic;
 using System.Diagnostics;
 using System.Globalization;
 using System.Linq;
-using LagSim.Harness.Metrics;
+using LagSim.Harness.Experiments.Metrics;
 using LagSim.Net.Sessions;
 
 namespace LagSim.Bench;

@@ -2,8 +2,8 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Metrics;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.Experiments.Metrics;
+using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 using LagSim.Time;
 

@@ -1,6 +1,6 @@
 using System;
 using System.Linq;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 using LagSim.Time;
 

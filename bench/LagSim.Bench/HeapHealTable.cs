@@ -3,7 +3,7 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Metrics;
+using LagSim.Harness.Experiments.Metrics;
 using LagSim.Hosting;
 using LagSim.Scenes;
 using LagSim.Time;

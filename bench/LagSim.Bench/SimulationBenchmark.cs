@@ -1,6 +1,6 @@
 using BenchmarkDotNet.Attributes;
 using LagSim.Events;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 using LagSim.Time;
 

@@ -2,7 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
-using LagSim.Harness.Metrics;
+using LagSim.Harness.Experiments.Metrics;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
 using LagSim.Time;

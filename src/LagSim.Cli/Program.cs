@@ -8,9 +8,9 @@ using System.Text;
 using System.Threading;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
-using LagSim.Harness.Hands;
-using LagSim.Harness.Peers;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.Experiments.Hands;
+using LagSim.Harness.Experiments.Peers;
+using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 
 namespace LagSim.Cli;

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 using System.CommandLine;
 using System.Linq;
 using LagSim.Cli.Output;
-using LagSim.Harness.Accuracy;
+using LagSim.Harness.Experiments.Accuracy;
 
 namespace LagSim.Cli.Commands;
 

@@ -1,5 +1,5 @@
 using LagSim.Cli.Output;
-using LagSim.Harness.Peers;
+using LagSim.Harness.Experiments.Peers;
 #if WITH_LITENETLIB
 using LagSim.Net.Carriers;
 #endif

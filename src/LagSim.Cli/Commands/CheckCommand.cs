@@ -4,7 +4,7 @@ using System.CommandLine;
 using System.Globalization;
 using System.Linq;
 using LagSim.Cli.Output;
-using LagSim.Harness.Check;
+using LagSim.Harness.Verification.Check;
 using LagSim.Net.Strategies;
 using LagSim.Testing.Links;
 

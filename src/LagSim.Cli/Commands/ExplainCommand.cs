@@ -1,6 +1,6 @@
 using System.CommandLine;
 using LagSim.Cli.Output;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 
 namespace LagSim.Cli.Commands;

@@ -1,8 +1,8 @@
 using System.CommandLine;
 using System.Globalization;
 using LagSim.Cli.Output;
-using LagSim.Harness.Fuzz;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Verification.Fuzz;
 
 namespace LagSim.Cli.Commands;
 

@@ -4,7 +4,7 @@ using System.CommandLine;
 using System.Diagnostics;
 using System.Linq;
 using LagSim.Cli.Output;
-using LagSim.Harness.Hard;
+using LagSim.Harness.Verification.Hard;
 
 namespace LagSim.Cli.Commands;
 

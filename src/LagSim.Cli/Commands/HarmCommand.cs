@@ -5,8 +5,8 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using LagSim.Cli.Output;
-using LagSim.Harness.Harm;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Verification.Harm;
 using LagSim.Net.Sessions;
 
 namespace LagSim.Cli.Commands;

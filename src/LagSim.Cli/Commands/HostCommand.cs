@@ -2,7 +2,7 @@ using System;
 using System.CommandLine;
 using System.Net;
 using LagSim.Cli.Output;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;

@@ -7,8 +7,8 @@ using System.IO;
 using System.Linq;
 using LagSim.Cli.Output;
 using LagSim.Harness.Reports;
-using LagSim.Harness.Runs;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
+using LagSim.Harness.SceneFiles.Runs;
 using LagSim.Scenes;
 using LagSim.Time;
 

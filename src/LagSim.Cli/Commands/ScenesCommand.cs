@@ -1,7 +1,7 @@
 using System.CommandLine;
 using System.IO;
 using LagSim.Cli.Output;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 using Spectre.Console;
 

@@ -8,7 +8,7 @@ using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Cli.Output;
 using LagSim.Harness.Reports;
-using LagSim.Harness.Stalls;
+using LagSim.Harness.Verification.Stalls;
 
 namespace LagSim.Cli.Commands;
 

@@ -5,7 +5,7 @@ using System.CommandLine.Parsing;
 using System.Globalization;
 using System.Linq;
 using LagSim.Cli.Output;
-using LagSim.Harness.Sweep;
+using LagSim.Harness.Experiments.Sweep;
 
 namespace LagSim.Cli.Commands;
 

@@ -1,9 +1,9 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Accuracy;
-using LagSim.Harness.Charts;
+using LagSim.Harness.Experiments.Accuracy;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 

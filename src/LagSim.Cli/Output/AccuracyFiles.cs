@@ -1,7 +1,7 @@
 using System.IO;
-using LagSim.Harness.Accuracy;
-using LagSim.Harness.Charts;
+using LagSim.Harness.Experiments.Accuracy;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 

@@ -1,6 +1,6 @@
 using System.IO;
-using LagSim.Harness.Accuracy;
-using LagSim.Harness.Metrics;
+using LagSim.Harness.Experiments.Accuracy;
+using LagSim.Harness.Experiments.Metrics;
 
 namespace LagSim.Cli.Output;
 

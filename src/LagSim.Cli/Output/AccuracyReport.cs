@@ -1,5 +1,5 @@
 using System.Collections.Generic;
-using LagSim.Harness.Accuracy;
+using LagSim.Harness.Experiments.Accuracy;
 
 namespace LagSim.Cli.Output;
 

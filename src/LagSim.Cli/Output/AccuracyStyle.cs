@@ -1,5 +1,5 @@
-using LagSim.Harness.Accuracy;
-using LagSim.Harness.Charts;
+using LagSim.Harness.Experiments.Accuracy;
+using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 

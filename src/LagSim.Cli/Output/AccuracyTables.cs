@@ -1,7 +1,7 @@
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Accuracy;
-using LagSim.Harness.Metrics;
+using LagSim.Harness.Experiments.Accuracy;
+using LagSim.Harness.Experiments.Metrics;
 using LagSim.Harness.Reports;
 using Spectre.Console;
 

@@ -2,8 +2,8 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
-using LagSim.Harness.Check;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Verification.Check;
 
 namespace LagSim.Cli.Output;
 

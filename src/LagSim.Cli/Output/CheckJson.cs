@@ -3,7 +3,7 @@ using System.IO;
 using System.Linq;
 using System.Text.Json;
 using LagSim.Events;
-using LagSim.Harness.Check;
+using LagSim.Harness.Verification.Check;
 using LagSim.Testing;
 
 namespace LagSim.Cli.Output;

@@ -1,8 +1,8 @@
 using System.Globalization;
 using System.IO;
 using System.Linq;
-using LagSim.Harness.Check;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Verification.Check;
 using LagSim.Testing;
 
 namespace LagSim.Cli.Output;

@@ -1,8 +1,8 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Charts;
-using LagSim.Harness.Compare;
+using LagSim.Harness.Experiments.Compare;
+using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 

@@ -1,10 +1,10 @@
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
-using LagSim.Harness.Charts;
-using LagSim.Harness.Compare;
-using LagSim.Harness.Metrics;
+using LagSim.Harness.Experiments.Compare;
+using LagSim.Harness.Experiments.Metrics;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 

@@ -1,8 +1,8 @@
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Cli.Commands;
-using LagSim.Harness.Compare;
-using LagSim.Harness.Metrics;
+using LagSim.Harness.Experiments.Compare;
+using LagSim.Harness.Experiments.Metrics;
 using LagSim.Harness.Reports;
 
 namespace LagSim.Cli.Output;

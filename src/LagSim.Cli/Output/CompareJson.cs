@@ -2,8 +2,8 @@ using System.Collections.Generic;
 using System.IO;
 using System.Linq;
 using System.Text.Json;
-using LagSim.Harness.Compare;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.Experiments.Compare;
+using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 using LagSim.Time;
 

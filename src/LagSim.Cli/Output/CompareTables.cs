@@ -1,7 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Compare;
+using LagSim.Harness.Experiments.Compare;
 using LagSim.Harness.Reports;
 using Spectre.Console;
 

@@ -1,8 +1,8 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Charts;
-using LagSim.Harness.Drop;
+using LagSim.Harness.Experiments.Drop;
+using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 

@@ -1,10 +1,10 @@
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
-using LagSim.Harness.Charts;
-using LagSim.Harness.Drop;
+using LagSim.Harness.Experiments.Drop;
 using LagSim.Harness.Reports;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.Reports.Charts;
+using LagSim.Harness.SceneFiles;
 
 namespace LagSim.Cli.Output;
 

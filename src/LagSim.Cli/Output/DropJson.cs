@@ -2,8 +2,8 @@ using System.Collections.Generic;
 using System.IO;
 using System.Linq;
 using System.Text.Json;
-using LagSim.Harness.Drop;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.Experiments.Drop;
+using LagSim.Harness.SceneFiles;
 
 namespace LagSim.Cli.Output;
 

@@ -1,4 +1,4 @@
-using LagSim.Harness.Drop;
+using LagSim.Harness.Experiments.Drop;
 
 namespace LagSim.Cli.Output;
 

@@ -1,6 +1,6 @@
 using System.Collections.Generic;
-using LagSim.Harness.Metrics;
-using LagSim.Harness.Peers;
+using LagSim.Harness.Experiments.Metrics;
+using LagSim.Harness.Experiments.Peers;
 using LagSim.Harness.Reports;
 
 namespace LagSim.Cli.Output;

@@ -1,8 +1,8 @@
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
-using LagSim.Harness.Hard;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Verification.Hard;
 
 namespace LagSim.Cli.Output;
 

@@ -1,6 +1,6 @@
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Hard;
+using LagSim.Harness.Verification.Hard;
 
 namespace LagSim.Cli.Output;
 

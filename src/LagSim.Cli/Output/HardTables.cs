@@ -3,8 +3,8 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
-using LagSim.Harness.Hard;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Verification.Hard;
 using Spectre.Console;
 
 namespace LagSim.Cli.Output;

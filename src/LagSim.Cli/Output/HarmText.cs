@@ -2,9 +2,9 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
-using LagSim.Harness.Harm;
-using LagSim.Harness.Metrics;
+using LagSim.Harness.Experiments.Metrics;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Verification.Harm;
 
 namespace LagSim.Cli.Output;
 

@@ -1,9 +1,9 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Charts;
-using LagSim.Harness.Hands;
-using LagSim.Harness.Hold;
+using LagSim.Harness.Experiments.Hands;
+using LagSim.Harness.Experiments.Hold;
+using LagSim.Harness.Reports.Charts;
 using LagSim.Scenes;
 
 namespace LagSim.Cli.Output;

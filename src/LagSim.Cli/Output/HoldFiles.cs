@@ -1,11 +1,11 @@
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
-using LagSim.Harness.Charts;
-using LagSim.Harness.Hands;
-using LagSim.Harness.Hold;
-using LagSim.Harness.Metrics;
+using LagSim.Harness.Experiments.Hands;
+using LagSim.Harness.Experiments.Hold;
+using LagSim.Harness.Experiments.Metrics;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Reports.Charts;
 using LagSim.Net.Display;
 using LagSim.Scenes;
 

@@ -1,9 +1,9 @@
 using System.IO;
 using System.Linq;
 using System.Text.Json;
-using LagSim.Harness.Hands;
-using LagSim.Harness.Hold;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.Experiments.Hands;
+using LagSim.Harness.Experiments.Hold;
+using LagSim.Harness.SceneFiles;
 using LagSim.Net.Display;
 using LagSim.Scenes;
 

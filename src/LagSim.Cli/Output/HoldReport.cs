@@ -1,6 +1,6 @@
 using System.Collections.Generic;
-using LagSim.Harness.Hands;
-using LagSim.Harness.Hold;
+using LagSim.Harness.Experiments.Hands;
+using LagSim.Harness.Experiments.Hold;
 
 namespace LagSim.Cli.Output;
 

@@ -1,8 +1,8 @@
 using System.Collections.Generic;
 using System.Linq;
 using System.Text.Json;
-using LagSim.Harness.Metrics;
-using LagSim.Harness.Peers;
+using LagSim.Harness.Experiments.Metrics;
+using LagSim.Harness.Experiments.Peers;
 
 namespace LagSim.Cli.Output;
 

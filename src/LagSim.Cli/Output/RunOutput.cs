@@ -3,8 +3,8 @@ using System.IO;
 using System.Linq;
 using System.Text.Json;
 using LagSim.Harness.Reports;
-using LagSim.Harness.Runs;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
+using LagSim.Harness.SceneFiles.Runs;
 using LagSim.Scenes;
 using Spectre.Console;
 

@@ -3,9 +3,9 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
-using LagSim.Harness.Charts;
 using LagSim.Harness.Reports;
-using LagSim.Harness.Runs;
+using LagSim.Harness.Reports.Charts;
+using LagSim.Harness.SceneFiles.Runs;
 using LagSim.Scenes;
 using LagSim.Time;
 

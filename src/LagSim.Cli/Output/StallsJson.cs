@@ -2,8 +2,8 @@ using System.Collections.Generic;
 using System.IO;
 using System.Linq;
 using System.Text.Json;
-using LagSim.Harness.Metrics;
-using LagSim.Harness.Stalls;
+using LagSim.Harness.Experiments.Metrics;
+using LagSim.Harness.Verification.Stalls;
 
 namespace LagSim.Cli.Output;
 

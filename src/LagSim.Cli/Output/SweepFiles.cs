@@ -1,9 +1,9 @@
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
-using LagSim.Harness.Charts;
+using LagSim.Harness.Experiments.Sweep;
 using LagSim.Harness.Reports;
-using LagSim.Harness.Sweep;
+using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 

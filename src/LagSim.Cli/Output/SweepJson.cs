@@ -1,6 +1,6 @@
 using System.Collections.Generic;
 using System.IO;
-using LagSim.Harness.Sweep;
+using LagSim.Harness.Experiments.Sweep;
 
 namespace LagSim.Cli.Output;
 

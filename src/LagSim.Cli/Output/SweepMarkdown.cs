@@ -3,7 +3,7 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
-using LagSim.Harness.Sweep;
+using LagSim.Harness.Experiments.Sweep;
 
 namespace LagSim.Cli.Output;
 

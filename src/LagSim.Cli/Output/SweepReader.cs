@@ -2,7 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Text.Json;
-using LagSim.Harness.Sweep;
+using LagSim.Harness.Experiments.Sweep;
 
 namespace LagSim.Cli.Output;
 

@@ -2,8 +2,8 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
+using LagSim.Harness.Experiments.Sweep;
 using LagSim.Harness.Reports;
-using LagSim.Harness.Sweep;
 using Spectre.Console;
 
 namespace LagSim.Cli.Output;

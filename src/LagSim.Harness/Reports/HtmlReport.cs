@@ -4,7 +4,7 @@ using System.Globalization;
 using System.IO;
 using System.Text;
 using System.Xml;
-using LagSim.Harness.Charts;
+using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Harness.Reports;
 

@@ -1,6 +1,6 @@
 using System;
 using System.Linq;
-using LagSim.Harness.Accuracy;
+using LagSim.Harness.Experiments.Accuracy;
 using LagSim.Scenes;
 using Xunit;
 using static LagSim.Tests.TestWorlds;

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
 using System.Threading;
-using LagSim.Harness.Accuracy;
+using LagSim.Harness.Experiments.Accuracy;
 using LagSim.Scenes;
 using Xunit;
 

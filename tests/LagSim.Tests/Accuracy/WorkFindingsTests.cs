@@ -1,6 +1,6 @@
 using System;
 using System.Linq;
-using LagSim.Harness.Accuracy;
+using LagSim.Harness.Experiments.Accuracy;
 using Xunit;
 
 namespace LagSim.Tests.Accuracy;

@@ -2,7 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using System.Threading;
-using LagSim.Harness.Accuracy;
+using LagSim.Harness.Experiments.Accuracy;
 using LagSim.Scenes;
 using Xunit;
 

@@ -1,7 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Harm;
+using LagSim.Harness.Verification.Harm;
 using LagSim.Net.Sessions;
 using Xunit;
 

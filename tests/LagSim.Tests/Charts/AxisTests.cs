@@ -1,6 +1,6 @@
 using System;
 using System.Linq;
-using LagSim.Harness.Charts;
+using LagSim.Harness.Reports.Charts;
 using Xunit;
 
 namespace LagSim.Tests.Charts;

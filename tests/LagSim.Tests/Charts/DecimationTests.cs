@@ -1,7 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Charts;
+using LagSim.Harness.Reports.Charts;
 using Xunit;
 
 namespace LagSim.Tests.Charts;

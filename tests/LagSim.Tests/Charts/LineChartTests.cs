@@ -4,7 +4,7 @@ using System.Globalization;
 using System.Linq;
 using System.Text.RegularExpressions;
 using System.Xml.Linq;
-using LagSim.Harness.Charts;
+using LagSim.Harness.Reports.Charts;
 using Xunit;
 
 namespace LagSim.Tests.Charts;

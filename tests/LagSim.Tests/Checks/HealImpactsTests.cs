@@ -1,5 +1,5 @@
 using LagSim.Events;
-using LagSim.Harness.Check;
+using LagSim.Harness.Verification.Check;
 using LagSim.Scenes;
 using Xunit;
 using static LagSim.Tests.TestWorlds;

@@ -2,7 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Check;
+using LagSim.Harness.Verification.Check;
 using LagSim.Testing;
 using LagSim.Timelines;
 using Xunit;

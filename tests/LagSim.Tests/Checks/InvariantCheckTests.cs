@@ -2,7 +2,7 @@ using System;
 using System.Linq;
 using System.Threading;
 using LagSim.Events;
-using LagSim.Harness.Check;
+using LagSim.Harness.Verification.Check;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
 using LagSim.Time;

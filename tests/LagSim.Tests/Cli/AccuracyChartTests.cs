@@ -5,8 +5,8 @@ using System.Linq;
 using System.Text.RegularExpressions;
 using System.Xml.Linq;
 using LagSim.Cli.Output;
-using LagSim.Harness.Accuracy;
-using LagSim.Harness.Charts;
+using LagSim.Harness.Experiments.Accuracy;
+using LagSim.Harness.Reports.Charts;
 using Xunit;
 
 namespace LagSim.Tests.Cli;

@@ -3,7 +3,7 @@ using System.IO;
 using System.Linq;
 using System.Text.Json;
 using System.Xml.Linq;
-using LagSim.Harness.Accuracy;
+using LagSim.Harness.Experiments.Accuracy;
 using Xunit;
 
 namespace LagSim.Tests.Cli;

@@ -6,7 +6,7 @@ using System.Text.Json;
 using System.Threading;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
-using LagSim.Harness.Check;
+using LagSim.Harness.Verification.Check;
 using LagSim.Timelines;
 using Xunit;
 

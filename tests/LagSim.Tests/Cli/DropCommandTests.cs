@@ -6,7 +6,7 @@ using System.Linq;
 using System.Text.Json;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
-using LagSim.Harness.Drop;
+using LagSim.Harness.Experiments.Drop;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
 using LagSim.Testing.Links;

@@ -1,7 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Runs;
+using LagSim.Harness.SceneFiles.Runs;
 using LagSim.Scenes;
 using LagSim.Time;
 using Xunit;

@@ -4,7 +4,7 @@ using System.Linq;
 using System.Text.Json;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
-using LagSim.Harness.Hard;
+using LagSim.Harness.Verification.Hard;
 using Xunit;
 
 namespace LagSim.Tests.Cli;

@@ -4,8 +4,8 @@ using System.IO;
 using System.Linq;
 using System.Text.Json;
 using LagSim.Cli.Commands;
-using LagSim.Harness.Hands;
-using LagSim.Harness.Hold;
+using LagSim.Harness.Experiments.Hands;
+using LagSim.Harness.Experiments.Hold;
 using Xunit;
 
 namespace LagSim.Tests.Cli;

@@ -2,9 +2,9 @@ using System;
 using System.IO;
 using System.Linq;
 using LagSim.Cli.Output;
-using LagSim.Harness.Accuracy;
+using LagSim.Harness.Experiments.Accuracy;
+using LagSim.Harness.Experiments.Sweep;
 using LagSim.Harness.Reports;
-using LagSim.Harness.Sweep;
 using Spectre.Console;
 using Xunit;
 

@@ -6,7 +6,7 @@ using System.Text.Json;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
 using LagSim.Harness.Reports;
-using LagSim.Harness.Stalls;
+using LagSim.Harness.Verification.Stalls;
 using Xunit;
 
 namespace LagSim.Tests.Cli;

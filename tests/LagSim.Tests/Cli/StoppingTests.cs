@@ -8,8 +8,8 @@ using System.Text.Json;
 using System.Threading;
 using LagSim.Cli;
 using LagSim.Cli.Output;
-using LagSim.Harness.Runs;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
+using LagSim.Harness.SceneFiles.Runs;
 using LagSim.Time;
 using Xunit;
 

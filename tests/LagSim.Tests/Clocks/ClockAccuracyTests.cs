@@ -1,7 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Metrics;
+using LagSim.Harness.Experiments.Metrics;
 using LagSim.Net.Clocks;
 using LagSim.Testing.Links;
 using LagSim.Time;

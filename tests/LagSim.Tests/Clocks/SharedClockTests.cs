@@ -198,7 +198,7 @@ public class SharedClockTests
                 }
             }
 
-            return Harness.Metrics.Percentiles.Of(errors).Max;
+            return Harness.Experiments.Metrics.Percentiles.Of(errors).Max;
         }
     }
 

@@ -2,7 +2,7 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Corpus;
 using LagSim.Events;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;

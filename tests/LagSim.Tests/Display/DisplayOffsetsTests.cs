@@ -232,7 +232,7 @@ public sealed class DisplayOffsetsTests
             .Select(file => System.IO.Path.GetRelativePath(RepositoryRoot.Path, file).Replace('\\', '/')).ToArray();
         Assert.DoesNotContain(users, file => file.StartsWith("src/LagSim/", StringComparison.Ordinal));
         Assert.DoesNotContain(users, file => file.StartsWith("src/LagSim.Net/", StringComparison.Ordinal) && !file.StartsWith("src/LagSim.Net/Display/", StringComparison.Ordinal));
-        Assert.Contains("src/LagSim.Harness/Hands/PredictionTest.cs", users); // the control: who uses it is found
+        Assert.Contains("src/LagSim.Harness/Experiments/Hands/PredictionTest.cs", users); // the control: who uses it is found
     }
 
     private static string? Refused(Func<DisplayOptions> make) => Assert.Throws<ArgumentOutOfRangeException>(make).ParamName;

@@ -1,6 +1,6 @@
 using System;
 using LagSim.Events;
-using LagSim.Harness.Peers;
+using LagSim.Harness.Experiments.Peers;
 using LagSim.Net.Display;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;

@@ -1,5 +1,5 @@
 using System.Threading;
-using LagSim.Harness.Fuzz;
+using LagSim.Harness.Verification.Fuzz;
 using Xunit;
 
 namespace LagSim.Tests.Fuzz;

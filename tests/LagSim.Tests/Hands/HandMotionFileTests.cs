@@ -3,7 +3,7 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Text;
-using LagSim.Harness.Hands;
+using LagSim.Harness.Experiments.Hands;
 using LagSim.Scenes;
 using Xunit;
 

@@ -1,7 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Hands;
+using LagSim.Harness.Experiments.Hands;
 using LagSim.Scenes;
 using Xunit;
 

@@ -1,7 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Hands;
+using LagSim.Harness.Experiments.Hands;
 using LagSim.Net.Display;
 using LagSim.Scenes;
 using LagSim.Testing.Links;

@@ -1,6 +1,6 @@
 using System;
 using System.Linq;
-using LagSim.Harness.Hard;
+using LagSim.Harness.Verification.Hard;
 using Xunit;
 
 namespace LagSim.Tests.Hard;

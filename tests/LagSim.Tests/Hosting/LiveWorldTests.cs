@@ -1,7 +1,7 @@
 using System;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using LagSim.Hosting;
 using LagSim.Scenes;
 using LagSim.Tests.Determinism;

@@ -4,7 +4,7 @@ using System.Linq;
 using System.Net;
 using System.Threading;
 using LagSim.Harness.Relays;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;

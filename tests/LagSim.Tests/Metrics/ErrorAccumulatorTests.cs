@@ -1,5 +1,5 @@
 using System;
-using LagSim.Harness.Metrics;
+using LagSim.Harness.Experiments.Metrics;
 using Xunit;
 
 namespace LagSim.Tests.Metrics;

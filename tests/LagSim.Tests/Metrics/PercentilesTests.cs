@@ -1,6 +1,6 @@
 using System;
 using System.Linq;
-using LagSim.Harness.Metrics;
+using LagSim.Harness.Experiments.Metrics;
 using Xunit;
 
 namespace LagSim.Tests.Metrics;

@@ -1,8 +1,8 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Drop;
-using LagSim.Harness.Metrics;
+using LagSim.Harness.Experiments.Drop;
+using LagSim.Harness.Experiments.Metrics;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
 using LagSim.Time;

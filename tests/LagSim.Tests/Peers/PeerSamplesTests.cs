@@ -1,4 +1,4 @@
-using LagSim.Harness.Peers;
+using LagSim.Harness.Experiments.Peers;
 using LagSim.Hosting;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -122,7 +122,7 @@ public sealed class PeerSamplesTests
         never.Take(null, At(0.010), Patience);
         Assert.True(double.IsNaN(PeerComparison.Distance([samples, never], 1, 0, out bool differs)));
         Assert.False(differs);
-        Harness.Metrics.PhaseErrors errors = PeerComparison.Errors([samples, never], new SampleGrid(At(0), Interval, 10), 1, 0, 1, null, At(0));
+        Harness.Experiments.Metrics.PhaseErrors errors = PeerComparison.Errors([samples, never], new SampleGrid(At(0), Interval, 10), 1, 0, 1, null, At(0));
         Assert.Equal((0, 1), (errors.Before.ToStatistics().Samples, errors.Before.ToStatistics().StalledSamples));
     }
 
@@ -160,7 +160,7 @@ public sealed class PeerSamplesTests
     {
         PeerSamples a = new(new SampleGrid(At(0), Interval, 10), [First]);
         a.TakeSettled(Run(TestWorlds.Drop(5, 0.8), 0.2));
-        Harness.Metrics.PhaseErrors errors = PeerComparison.Errors([a, a], new SampleGrid(At(0), Interval, 10), 1, 0, 10, At(0.03), At(0.05));
+        Harness.Experiments.Metrics.PhaseErrors errors = PeerComparison.Errors([a, a], new SampleGrid(At(0), Interval, 10), 1, 0, 10, At(0.03), At(0.05));
         Assert.Equal((2, 2, 6), (errors.Before.ToStatistics().Samples, errors.During.ToStatistics().Samples, errors.After.ToStatistics().Samples));
     }
 

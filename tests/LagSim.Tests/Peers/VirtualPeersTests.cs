@@ -1,7 +1,7 @@
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Peers;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.Experiments.Peers;
+using LagSim.Harness.SceneFiles;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Testing.Links;

@@ -1,4 +1,4 @@
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Testing.Links;

@@ -4,8 +4,8 @@ using System.Linq;
 using System.Text.RegularExpressions;
 using System.Xml;
 using System.Xml.Linq;
-using LagSim.Harness.Charts;
 using LagSim.Harness.Reports;
+using LagSim.Harness.Reports.Charts;
 using Xunit;
 
 namespace LagSim.Tests.Reports;

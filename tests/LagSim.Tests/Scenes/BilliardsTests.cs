@@ -1,5 +1,5 @@
 using System.Linq;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 using Xunit;
 using static LagSim.Tests.TestWorlds;

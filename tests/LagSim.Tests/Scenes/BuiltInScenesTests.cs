@@ -2,7 +2,7 @@ using System;
 using System.IO;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;

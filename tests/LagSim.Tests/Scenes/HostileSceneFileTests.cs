@@ -2,7 +2,7 @@ using System;
 using System.Diagnostics;
 using System.IO;
 using System.Text;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using Xunit;
 
 namespace LagSim.Tests.Scenes;

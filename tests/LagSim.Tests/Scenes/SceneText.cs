@@ -1,5 +1,5 @@
 using System.Text;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 using Xunit;
 

@@ -1,7 +1,7 @@
 using System;
 using System.IO;
 using System.Linq;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 using Xunit;
 

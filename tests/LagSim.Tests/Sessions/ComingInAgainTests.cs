@@ -1,6 +1,6 @@
 using System;
 using System.Linq;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Testing.Links;

@@ -1,7 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Scenes;
+using LagSim.Harness.SceneFiles;
 using LagSim.Net.Sessions;
 using LagSim.Net.Sessions.Hosts;
 using LagSim.Net.Wire;

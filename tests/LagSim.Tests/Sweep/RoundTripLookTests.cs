@@ -1,5 +1,5 @@
 using System.Linq;
-using LagSim.Harness.Sweep;
+using LagSim.Harness.Experiments.Sweep;
 using Xunit;
 
 namespace LagSim.Tests.Sweep;

@@ -1,7 +1,7 @@
 using System.IO;
 using System.Text.Json;
 using LagSim.Cli.Output;
-using LagSim.Harness.Sweep;
+using LagSim.Harness.Experiments.Sweep;
 using LagSim.Tests.Cli;
 using Xunit;
 

@@ -1,4 +1,0 @@
-namespace LagSim.Harness.Charts;
-
-/// <summary>A grid line of an axis: its place in pixels from the axis' origin, and its label; a minor one has none.</summary>
-internal readonly record struct AxisTick(double Pixel, string? Label);

@@ -1,0 +1,30 @@
+using System.Collections.Generic;
+#if WITH_PEERS
+using LagSim.Harness.Experiments.Accuracy.Engines.Packages;
+#endif
+
+namespace LagSim.Harness.Experiments.Accuracy.Engines;
+
+/// <summary>The engines that come as packages, which not every registry has: built with <c>-p:WithPeers=true</c>, and named as missing without.</summary>
+internal static class PackageEngines
+{
+    internal static IReadOnlyList<IWorkMethod> All { get; } =
+#if WITH_PEERS
+        [new JitterMethod(), new BepuMethod(), new Box2DMethod()];
+#else
+        [new NotBuilt("Jitter2", "jitter", "Jitter2.Double"), new NotBuilt("BepuPhysics", "bepu", "BepuPhysics"),
+            new NotBuilt("Box2D.NET", "box2d", "Box2D.NET")];
+
+    /// <summary>An engine that this build does not have: a name, and what to do about it.</summary>
+    private sealed class NotBuilt(string name, string engine, string package) : SteppedEngine
+    {
+        public override string Name => name;
+
+        public override string Engine => engine;
+
+        public override string? Missing => $"it is not in this build; -p:WithPeers=true builds it in and needs the package {package}";
+
+        protected override Run Begin(WorkScene scene, double step) => throw new System.InvalidOperationException(Missing);
+    }
+#endif
+}

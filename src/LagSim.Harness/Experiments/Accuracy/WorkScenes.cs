@@ -1,0 +1,29 @@
+using System.Collections.Generic;
+using System.Diagnostics.CodeAnalysis;
+using System.Linq;
+
+namespace LagSim.Harness.Experiments.Accuracy;
+
+/// <summary>The scenes of the work-precision diagrams.</summary>
+public static class WorkScenes
+{
+    /// <summary>All of them.</summary>
+    public static IReadOnlyList<WorkScene> All { get; } =
+    [
+        new DropWork(), new Elastic49Work(), new GasWork(), new DragWork(), new KeplerWork(), new SpringWork(), new BilliardsWork(),
+        new HeapWork(), new PyramidWork(), new ShaftWork(), new HopperWork(),
+    ];
+
+    /// <summary>The name of the heaps that are drawn at random; they are no part of <see cref="All"/>.</summary>
+    public static string Drawn => RandomHeapWork.Set;
+
+    /// <summary>The heaps that a seed draws.</summary>
+    public static IReadOnlyList<WorkScene> Draw(ulong seed) => RandomHeapWork.Draw(seed);
+
+    /// <summary>The scene of that name.</summary>
+    public static bool TryGet(string name, [NotNullWhen(true)] out WorkScene? found)
+    {
+        found = All.FirstOrDefault(scene => scene.Name == name);
+        return found is not null;
+    }
+}

@@ -1,0 +1,96 @@
+using System;
+using System.Collections.Generic;
+using System.Threading;
+using LagSim.Harness.Experiments.Peers;
+using LagSim.Net.Strategies;
+using LagSim.Scenes;
+using LagSim.Testing.Links;
+using LagSim.Time;
+
+namespace LagSim.Harness.Experiments.Drop;
+
+/// <summary>What a drop test is to do. The defaults are the thesis's setting.</summary>
+public sealed record DropOptions
+{
+    /// <summary>How long the same-start case takes: both balls have come to rest, by default at 12.53 s.</summary>
+    public static readonly SimDuration SameStartLength = SimDuration.FromSeconds(13);
+
+    /// <summary>How long the teleport case takes: the lifted ball has come to rest, by default after 15.5 s.</summary>
+    public static readonly SimDuration TeleportLength = SimDuration.FromSeconds(17);
+
+    /// <summary>How long after its start a run that has the teleport case only lifts the ball, which rests until then.</summary>
+    public static readonly SimDuration TeleportAlone = SimDuration.FromSeconds(1);
+
+    /// <summary>The cases to run, in their order.</summary>
+    public IReadOnlyList<DropCase> Cases { get; init; } = [DropCase.SameStart, DropCase.Teleport];
+
+    /// <summary>What the peers do with late events.</summary>
+    public string Strategy { get; init; } = LateEventStrategies.Default;
+
+    /// <summary>How far behind shared time <c>interpolation</c> shows the world.</summary>
+    public SimDuration DisplayDelay { get; init; } = Interpolation.DefaultDelay;
+
+    /// <summary>How the ball flies.</summary>
+    public MotionLaw Motion { get; init; } = MotionLaw.RungeKutta4;
+
+    /// <summary>Steps a second of an integrating law; 1 to 10,000: all of a run's segments are kept.</summary>
+    public double RateHertz { get; init; } = 200;
+
+    /// <summary>The link of each joiner to the host.</summary>
+    public LinkProfile Link { get; init; } = LinkProfiles.PureDelay(25);
+
+    /// <summary>The delay that <see cref="Link"/> adds one way, if it is nothing but that; else null.</summary>
+    public double? DelayMilliseconds { get; init; } = 25;
+
+    /// <summary>How many peers, the host included; 2 to 9.</summary>
+    public int Peers { get; init; } = 2;
+
+    /// <summary>Whether it runs in virtual time.</summary>
+    public bool IsVirtual { get; init; }
+
+    /// <summary>What carries datagrams in real time.</summary>
+    public Carrier Carrier { get; init; } = Carrier.Udp;
+
+    /// <summary>From where the ball's centre falls at first, in metres.</summary>
+    public double HeightMetres { get; init; } = 10;
+
+    /// <summary>To where it is lifted, in metres.</summary>
+    public double SecondHeightMetres { get; init; } = 15;
+
+    /// <summary>The ball's restitution, 0 to 1.</summary>
+    public double Restitution { get; init; } = 0.8;
+
+    /// <summary>The luck of links and clocks.</summary>
+    public ulong Seed { get; init; } = 1;
+
+    /// <summary>Ends a run in virtual time, in the middle of a step if need be, by an <see cref="OperationCanceledException"/>; default none. In real time whoever is told of progress ends it, by an exception.</summary>
+    public CancellationToken Cancellation { get; init; }
+
+    /// <summary>Whether heights and restitution are the thesis's, so that its figures compare.</summary>
+    public bool IsThesisSetting => HeightMetres == 10 && SecondHeightMetres == 15 && Restitution == 0.8;
+
+    /// <summary>How long the run takes, from the start of the scene.</summary>
+    public SimDuration Length =>
+        Cases.Count == 2 ? SameStartLength + TeleportLength
+        : Cases[0] == DropCase.SameStart ? SameStartLength
+        : TeleportAlone + TeleportLength;
+
+    /// <summary>When the ball is lifted, after the start of the scene; null if it is not.</summary>
+    public SimDuration? Lift =>
+        Cases.Count == 2 ? SameStartLength : Cases[0] == DropCase.Teleport ? TeleportAlone : null;
+
+    /// <summary>The first and last instant of a case, after the start of the scene.</summary>
+    public (SimDuration First, SimDuration Last) Window(DropCase which) =>
+        Cases.Count == 1 ? (SimDuration.Zero, Length)
+        : which == DropCase.SameStart ? (SimDuration.Zero, SameStartLength)
+        : (SameStartLength, Length);
+
+    /// <summary>The scene: a ball above a floor; at rest on it if only the teleport case is run.</summary>
+    /// <exception cref="SceneException">A height or the restitution is out of range.</exception>
+    public Scene BuildScene()
+    {
+        const double radius = 0.5;
+        double height = Cases.Count == 1 && Cases[0] == DropCase.Teleport ? radius : HeightMetres;
+        return SceneFiles.BuiltInScenes.Drop(height, Restitution, Motion, RateHertz);
+    }
+}

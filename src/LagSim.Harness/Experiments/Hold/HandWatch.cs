@@ -1,0 +1,34 @@
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Harness.Experiments.Peers;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+
+namespace LagSim.Harness.Experiments.Hold;
+
+/// <summary>Writes down what each peer hears of the hand, and when. Each list is its session's until that has ended.</summary>
+internal sealed class HandWatch
+{
+    private readonly List<HandNews>[] heard;
+
+    /// <summary>Listens to every session of a group that is connected.</summary>
+    internal HandWatch(PeerGroup peers)
+    {
+        heard = Enumerable.Range(0, peers.PeerCount).Select(_ => new List<HandNews>()).ToArray();
+        for (int place = 0; place < peers.PeerCount; place++)
+        {
+            Session session = peers.Session(place);
+            List<HandNews> own = heard[place];
+            session.Logged += entry =>
+            {
+                if (entry.Verdict == Verdict.Accepted)
+                {
+                    own.Add(new HandNews(session.SharedTime.Now, entry.Event));
+                }
+            };
+        }
+    }
+
+    /// <summary>What a peer heard, by its place in the group, in the order of the log.</summary>
+    internal IReadOnlyList<HandNews> HeardBy(int place) => heard[place];
+}

@@ -1,0 +1,107 @@
+using System;
+using LagSim.Events;
+using LagSim.Harness.Experiments.Hands;
+using LagSim.Harness.Experiments.Peers;
+using LagSim.Net.Clocks;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Testing.Links;
+using LagSim.Time;
+
+namespace LagSim.Harness.Experiments.Hold;
+
+/// <summary>One session as the holder's game plays it: a grab, frames in which knots go out as <see cref="HandSender"/> says, and a release at the hand's velocity.</summary>
+internal sealed class HoldSession
+{
+    private static readonly BodyId Ball = BodyId.OfScene(0);
+
+    private readonly PeerGroup peers;
+    private readonly HandCourse course;
+    private readonly Action<SimDuration>? progress;
+
+    /// <summary>A session of a group that is connected.</summary>
+    internal HoldSession(PeerGroup peers, HandCourse course, Action<SimDuration>? progress)
+    {
+        this.peers = peers;
+        this.course = course;
+        this.progress = progress;
+        News = new NewsWatch(peers);
+        Hand = new HandWatch(peers);
+    }
+
+    /// <summary>When everybody showed what, and what the host accepted.</summary>
+    internal NewsWatch News { get; }
+
+    /// <summary>What everybody heard of the hand.</summary>
+    internal HandWatch Hand { get; }
+
+    /// <summary>When the hand closed, in shared time.</summary>
+    internal SimTime Grab { get; private set; }
+
+    /// <summary>When the ball was lifted and the motion began.</summary>
+    internal SimTime MotionStart => Grab + SimDuration.FromSeconds(HandCourse.LiftSeconds);
+
+    /// <summary>When the throw began.</summary>
+    internal SimTime ThrowStart => Grab + SimDuration.FromSeconds(course.Release - HandCourse.ThrowSeconds);
+
+    /// <summary>When the hand opened.</summary>
+    internal SimTime Release { get; private set; }
+
+    /// <summary>What each peer had sent and received when the scene had just started.</summary>
+    internal PortTraffic[] TrafficAtStart { get; private set; } = [];
+
+    /// <summary>What the holder had when the motion began.</summary>
+    internal PortTraffic TrafficAtMotion { get; private set; }
+
+    /// <summary>What the holder had when the hand was about to open.</summary>
+    internal PortTraffic TrafficAtThrow { get; private set; }
+
+    /// <summary>What each peer had in the end.</summary>
+    internal PortTraffic[] TrafficAtEnd { get; private set; } = [];
+
+    /// <summary>Where the hand was at an instant of shared time; null unless it held then.</summary>
+    internal Vector3D? HandAt(SimTime time) => time >= Grab && time <= Release ? course.At((time - Grab).ToSeconds()) : null;
+
+    /// <summary>Plays it to the end.</summary>
+    internal void Play(HoldOptions options)
+    {
+        SharedClock clock = peers.Session(HoldTest.Holder).SharedTime;
+        TrafficAtStart = GroupFigures.Traffic(peers);
+        peers.RunUntil(HoldOptions.GrabAfter, progress);
+        Grab = Do(PlayerAction.Grab(Ball));
+        SimDuration since = Grab - peers.Start;
+        SimDuration lifted = since + SimDuration.FromSeconds(HandCourse.LiftSeconds), release = since + SimDuration.FromSeconds(course.Release);
+        HandSender sender = new(Ball, new HandSenderOptions { Distance = options.KnotDistanceMetres });
+        bool isMoving = false;
+        for (int frame = 0; since + SimDuration.FromSeconds(frame / (double)HandMotion.RateHertz) is SimDuration due && due < release; frame++)
+        {
+            peers.RunUntil(due, progress);
+            if (!isMoving && due >= lifted)
+            {
+                isMoving = true;
+                TrafficAtMotion = peers.Traffic(HoldTest.Holder);
+            }
+
+            SimTime now = clock.Now;
+            double held = (now - Grab).ToSeconds();
+            if (sender.TrySample(now, course.At(held), course.VelocityAt(held), out PlayerAction knot))
+            {
+                Do(knot);
+            }
+        }
+
+        peers.RunUntil(release, progress);
+        TrafficAtThrow = peers.Traffic(HoldTest.Holder);
+        Release = Do(PlayerAction.Release(Ball, course.VelocityAt((clock.Now - Grab).ToSeconds())));
+        peers.RunQuietlyUntil(options.Length, progress);
+        TrafficAtEnd = GroupFigures.Traffic(peers);
+        peers.Finish();
+    }
+
+    private SimTime Do(PlayerAction action)
+    {
+        ExternalEvent done = peers.Do(HoldTest.Holder, action);
+        News.Did(done);
+        return done.Time;
+    }
+}

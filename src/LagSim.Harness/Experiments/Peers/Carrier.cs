@@ -1,0 +1,14 @@
+using System;
+using System.Net;
+using LagSim.Net.Carriers;
+
+namespace LagSim.Harness.Experiments.Peers;
+
+/// <summary>What carries datagrams between peers in real time.</summary>
+/// <param name="Name">Its name on the command line and in results.</param>
+/// <param name="Open">Opens a port at an endpoint; port 0 is any free one.</param>
+public sealed record Carrier(string Name, Func<IPEndPoint, IDatagramPort> Open)
+{
+    /// <summary>Plain UDP sockets.</summary>
+    public static readonly Carrier Udp = new("udp", bind => new UdpPort(bind));
+}

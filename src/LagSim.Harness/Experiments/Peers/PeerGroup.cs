@@ -1,0 +1,120 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Net.Sessions;
+using LagSim.Net.Strategies;
+using LagSim.Scenes;
+using LagSim.Testing.Links;
+using LagSim.Time;
+
+namespace LagSim.Harness.Experiments.Peers;
+
+/// <summary>A host and its joiners in one process, each with a clock of its own, watched while they share a world.</summary>
+/// <remarks>In real time (<see cref="RealPeers"/>) and in virtual time (<see cref="VirtualPeers"/>) the same sessions and strategies run.</remarks>
+public abstract class PeerGroup : IDisposable
+{
+    /// <summary>How long before a run ends it is left unwatched, to see what a world at rest costs.</summary>
+    public static readonly SimDuration QuietTime = SimDuration.FromSeconds(1);
+
+    private protected PeerGroup(Scene scene, PeerGroupOptions options)
+    {
+        Scene = scene;
+        PeerCount = options.Peers;
+        Bodies = [.. Enumerable.Range(0, scene.Bodies.Count).Select(BodyId.OfScene), .. options.Spawned];
+        DisplayDelay = LateEventStrategies.Create(options.Strategy, options.DisplayDelay).DisplayDelay;
+    }
+
+    /// <summary>What all share.</summary>
+    public Scene Scene { get; }
+
+    /// <summary>How many peers there are, the host included.</summary>
+    public int PeerCount { get; }
+
+    /// <summary>The bodies that are compared: the scene's own, then those that will be spawned.</summary>
+    public BodyId[] Bodies { get; }
+
+    /// <summary>How far behind their shared clocks the peers show the world.</summary>
+    public SimDuration DisplayDelay { get; }
+
+    /// <summary>When the scene began, in shared time; known once connected.</summary>
+    public SimTime Start { get; private protected set; }
+
+    /// <summary>What each peer showed, the host first.</summary>
+    public IReadOnlyList<PeerSamples> Seen { get; private protected set; } = [];
+
+    /// <summary>What each peer showed at the same true instants.</summary>
+    public IReadOnlyList<PeerSamples> SeenTrueTime { get; private protected set; } = [];
+
+    /// <summary>What each peer's timelines say in the end.</summary>
+    public IReadOnlyList<PeerSamples> Settled { get; private protected set; } = [];
+
+    /// <summary>The largest distance of a joiner's shared clock from the host's at each true instant that was sampled, in milliseconds.</summary>
+    public double[] ClockErrorMilliseconds { get; private protected set; } = [];
+
+    /// <summary>Processor seconds per second while everything rested and nobody watched; null where that was not measured.</summary>
+    public double? CpuCoresAtRest { get; private protected set; }
+
+    /// <summary>The instants at which peers are compared.</summary>
+    public SampleGrid Grid { get; private protected set; }
+
+    /// <summary>A session, to be read once the run has ended.</summary>
+    public abstract Session Session(int peer);
+
+    /// <summary>What a peer has sent and received so far.</summary>
+    public abstract PortTraffic Traffic(int peer);
+
+    /// <summary>Connects everybody and waits until the start is known to all.</summary>
+    /// <exception cref="PeerGroupException">Not all came together in time.</exception>
+    public abstract void Connect();
+
+    /// <summary>Lets time pass until the host's shared clock reads that long after the start, watching.</summary>
+    public abstract void RunUntil(SimDuration sinceStart, Action<SimDuration>? progress);
+
+    /// <summary>As <see cref="RunUntil"/>, until every peer's shared clock reads that; unwatched at the end, while what rests is measured.</summary>
+    public abstract void RunQuietlyUntil(SimDuration sinceStart, Action<SimDuration>? progress);
+
+    /// <summary>Has a peer do something, now.</summary>
+    public abstract ExternalEvent Do(int peer, PlayerAction action);
+
+    /// <summary>Ends all sessions and collects what settled.</summary>
+    public abstract void Finish();
+
+    /// <inheritdoc/>
+    public abstract void Dispose();
+
+    /// <summary>A session that ended in the middle of a run makes what is measured meaningless.</summary>
+    private protected static void ThrowIfEnded(int peer, SessionState state, Session session)
+    {
+        if (state == SessionState.Ended)
+        {
+            throw new PeerGroupException($"Peer {peer} dropped out: {session.EndReason}");
+        }
+    }
+
+    /// <summary>How long it is until the slowest of some shared clocks reads <paramref name="end"/>; zero or less once it does.</summary>
+    private protected static SimDuration LeftUntil(SimTime end, IEnumerable<Session> sessions) =>
+        sessions.Select(session => end - session.SharedTime.Now).Max();
+
+    private protected void PrepareSamples(SimDuration length, SimDuration interval)
+    {
+        Grid = new SampleGrid(Start, interval, (int)(length.Ticks / interval.Ticks));
+        Seen = NewSamples(DisplayDelay);
+        SeenTrueTime = NewSamples(DisplayDelay);
+        Settled = NewSamples(SimDuration.Zero);
+        ClockErrorMilliseconds = new double[Grid.Count];
+    }
+
+    private protected void CollectSettled()
+    {
+        for (int peer = 0; peer < PeerCount; peer++)
+        {
+            if (Session(peer).World is { } world)
+            {
+                Settled[peer].TakeSettled(world.Simulation);
+            }
+        }
+    }
+
+    private PeerSamples[] NewSamples(SimDuration delay) => Enumerable.Range(0, PeerCount).Select(_ => new PeerSamples(Grid, Bodies, delay)).ToArray();
+}

@@ -1,0 +1,107 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+
+namespace LagSim.Harness.Reports.Charts;
+
+/// <summary>Where the texts of a panel go, so that none covers data or another text. Places are pixels from the panel's plot corner.</summary>
+internal sealed class PanelLayout
+{
+    private const double MarkerRowHeight = 15.0;
+    private const int MostMarkerRows = 4;
+    private const int ReferenceColumns = 24;
+    private readonly List<MarkerLabel> _markerLabels = [];
+    private readonly List<ReferenceLabel> _referenceLabels = [];
+    private int _markerRows;
+
+    public PanelLayout(ChartPanel panel, Axis x, Axis y)
+    {
+        Panel = panel;
+        X = x;
+        Y = y;
+        Legend = panel.HasLegendAtRight ? PanelLegend.AtRight(panel, x.Length) : PanelLegend.Above(panel, x.Length);
+        PlaceMarkerLabels();
+        PlaceReferenceLabels();
+    }
+
+    internal readonly record struct MarkerLabel(double X, double Y, string Text, bool ToTheLeft);
+
+    internal readonly record struct ReferenceLabel(double Y, string[] Lines);
+
+    public ChartPanel Panel { get; }
+
+    public Axis X { get; }
+
+    public Axis Y { get; }
+
+    public PanelLegend Legend { get; }
+
+    public IReadOnlyList<MarkerLabel> MarkerLabels => _markerLabels;
+
+    public IReadOnlyList<ReferenceLabel> ReferenceLabels => _referenceLabels;
+
+    /// <summary>The strip above the plot that holds the labels of vertical lines.</summary>
+    public double MarkerStrip => _markerRows * MarkerRowHeight;
+
+    /// <summary>All that is above the plot: title, legend, marker labels.</summary>
+    public double HeaderHeight => (Legend.Rows * PanelLegend.RowHeight) + MarkerStrip + 8.0;
+
+    /// <summary>Space right of the plot that a legend there or the labels of reference lines need.</summary>
+    public static double WidthAtRight(ChartPanel panel) => panel.HasLegendAtRight ? PanelLegend.WidthAtRight(panel)
+        : panel.ReferenceLines.Count == 0 ? 0.0
+        : 8.0 + panel.ReferenceLines.SelectMany(line => SvgElements.Wrap(line.Label, ReferenceColumns)).Max(SvgElements.TextWidth);
+
+    private void PlaceMarkerLabels()
+    {
+        List<(double From, double To, int Row)> taken = [];
+        List<(MarkerLabel Label, int Row)> placed = [];
+        // Where labels collide it is the one whose line stands clear of the others that is raised: no line goes through a text.
+        IEnumerable<(ChartMarker Marker, double X, double Width, bool IsLeft)> lines = Panel.Markers
+            .Where(m => m.Kind == MarkerKind.Line)
+            .Select(m => (Marker: m, X: X.Map(m.X), Width: SvgElements.TextWidth(m.Label) + 6.0))
+            .Select(m => (m.Marker, m.X, m.Width, IsLeft: m.X + m.Width > X.Length))
+            .OrderBy(m => m.IsLeft ? m.X : -m.X);
+        foreach ((ChartMarker marker, double x, double width, bool left) in lines)
+        {
+            (double from, double to) = left ? (x - width, x) : (x, x + width);
+            int row = 0;
+            while (row < MostMarkerRows && taken.Any(t => t.Row == row && from < t.To && to > t.From))
+            {
+                row++;
+            }
+
+            if (row == MostMarkerRows)
+            {
+                continue; // too many at one place; the line's tooltip still names it
+            }
+
+            taken.Add((from, to, row));
+            placed.Add((new MarkerLabel(x, 0.0, marker.Label, left), row));
+            _markerRows = Math.Max(_markerRows, row + 1);
+        }
+
+        // Row 0 is next to the plot; rows above it only where labels would collide.
+        _markerLabels.AddRange(placed.Select(p => p.Label with { Y = -5.0 - (p.Row * MarkerRowHeight) }));
+    }
+
+    private void PlaceReferenceLabels()
+    {
+        _referenceLabels.AddRange(Panel.ReferenceLines.OrderByDescending(line => line.Y)
+            .Select(line => new ReferenceLabel(Y.Length - Y.Map(line.Y), SvgElements.Wrap(line.Label, ReferenceColumns))));
+
+        // Labels of neighbouring lines push each other apart until all can be read.
+        for (int pass = 0; pass < 50; pass++)
+        {
+            for (int i = 1; i < _referenceLabels.Count; i++)
+            {
+                (ReferenceLabel upper, ReferenceLabel lower) = (_referenceLabels[i - 1], _referenceLabels[i]);
+                double overlap = upper.Y + (7.0 * (upper.Lines.Length + lower.Lines.Length)) + 3.0 - lower.Y;
+                if (overlap > 0.0)
+                {
+                    _referenceLabels[i - 1] = upper with { Y = upper.Y - (0.5 * overlap) };
+                    _referenceLabels[i] = lower with { Y = lower.Y + (0.5 * overlap) };
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,195 @@
+using System;
+using System.Collections.Generic;
+using System.Diagnostics;
+using System.Linq;
+using System.Threading;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Harness.SceneFiles.Runs;
+
+/// <summary>One instance of a scene in virtual time, with its events and samples reported as it goes.</summary>
+public sealed class SceneRun
+{
+    /// <summary>It is advanced by a quarter of the history at a time at most: so all that happened since the last time is there to be reported.</summary>
+    private const int StridesInHistory = 4;
+
+    /// <summary>
+    /// And by how many events at most, or of four a body: what a body was before an event is read from its newest back, so more at a time would cost the square of
+    /// their number, and fewer would have most bodies looked at for nothing.
+    /// </summary>
+    private const long EventsAtOnce = 256;
+
+    /// <summary>In how many parts it is advanced when it is timed: so few that starting and stopping the watch is nothing.</summary>
+    private const int TimedParts = 20;
+
+    private const string Impact = "impact";
+
+    private readonly Scene scene;
+    private readonly MotionLaw[] lastLaw;
+    private readonly List<BodyEvent> pending = [];
+
+    /// <summary>A run of the scene, not begun.</summary>
+    public SceneRun(Scene scene)
+    {
+        ArgumentNullException.ThrowIfNull(scene);
+        this.scene = scene;
+        lastLaw = new MotionLaw[scene.Bodies.Count];
+    }
+
+    /// <summary>Called for every event and body it touched, in canonical order.</summary>
+    public Action<BodyEvent>? OnEvent { get; init; }
+
+    /// <summary>Called with the world at every sample's time, the start included.</summary>
+    public Action<SimTime, Simulation>? OnSample { get; init; }
+
+    /// <summary>The distance between samples in seconds; at least 1e-9. Each sample's time is rounded to a tick by itself, so no error adds up.</summary>
+    public double SampleEverySeconds { get; init; } = 0.01;
+
+    /// <summary>How much of its past the simulation keeps; default 1 s, at least 4 ticks. Its memory is that of the events in it, not of the run's.</summary>
+    public SimDuration History { get; init; } = SimDuration.FromSeconds(1);
+
+    /// <summary>Ends the run early, by an <see cref="OperationCanceledException"/>; default never.</summary>
+    public CancellationToken Cancellation { get; init; }
+
+    /// <summary>Runs the scene and gives the world at its end.</summary>
+    public Simulation Run(SimDuration length, Action<SimDuration>? progress = null)
+    {
+        SimTime end = SimTime.Zero + length;
+        Simulation simulation = new(scene, new SimulationOptions(SimTime.Zero, History, cancellation: Cancellation));
+        SimDuration stride = History / StridesInHistory;
+        SimTime reported = SimTime.Zero - SimDuration.OneTick;
+        SimTime sample = SimTime.Zero;
+        long samples = 0;
+        SimTime now = SimTime.Zero;
+        while (true)
+        {
+            bool isThere;
+            do
+            {
+                long events = OnEvent is null ? long.MaxValue : Math.Max(EventsAtOnce, 4 * scene.Bodies.Count);
+                isThere = simulation.TryAdvanceTo(now, ref events);
+                Report(simulation, reported, simulation.SimulatedTo);
+                reported = simulation.SimulatedTo;
+            }
+            while (!isThere);
+
+            if (OnSample is not null && now == sample)
+            {
+                OnSample(now, simulation);
+                sample = SimTime.FromSeconds(++samples * SampleEverySeconds);
+            }
+
+            progress?.Invoke(now - SimTime.Zero);
+            if (now == end)
+            {
+                return simulation;
+            }
+
+            // Up to its horizon nothing happens, so a world at rest takes no time.
+            SimTime next = SimTime.Min(end, SimTime.Max(now + stride, simulation.Horizon));
+            now = OnSample is null ? next : SimTime.Min(next, sample);
+        }
+    }
+
+    /// <summary>The least wall-clock seconds of several runs of the simulation alone, after one that is not counted.</summary>
+    /// <param name="scene">What is run.</param>
+    /// <param name="length">How much of it.</param>
+    /// <param name="times">How often it counts.</param>
+    /// <param name="progress">Is told how many seconds have been simulated in all runs so far; its own time does not count.</param>
+    /// <param name="isWarm">Whether the same has run for so long already that there need not be one that is not counted.</param>
+    /// <param name="history">How much of its past each keeps; null for 1 s.</param>
+    /// <param name="cancellation">Ends it early, by an <see cref="OperationCanceledException"/>.</param>
+    public static double LeastSeconds(
+        Scene scene, SimDuration length, int times, Action<double>? progress = null, bool isWarm = false, SimDuration? history = null, CancellationToken cancellation = default)
+    {
+        ArgumentNullException.ThrowIfNull(scene);
+        SimTime end = SimTime.Zero + length;
+        SimDuration stride = SimDuration.FromTicks(Math.Max(1, length.Ticks / TimedParts));
+        double least = double.MaxValue;
+        int before = isWarm ? 0 : 1;
+        for (int i = 0; i < before + times; i++)
+        {
+            long began = Stopwatch.GetTimestamp();
+            Simulation simulation = new(scene, new SimulationOptions(history: history, cancellation: cancellation));
+            TimeSpan spent = Stopwatch.GetElapsedTime(began);
+            do
+            {
+                began = Stopwatch.GetTimestamp();
+                simulation.AdvanceTo(SimTime.Min(end, simulation.SimulatedTo + stride));
+                spent += Stopwatch.GetElapsedTime(began);
+                progress?.Invoke((i * length.ToSeconds()) + (simulation.SimulatedTo - SimTime.Zero).ToSeconds());
+            }
+            while (simulation.SimulatedTo < end);
+
+            least = i < before ? least : Math.Min(least, spent.TotalSeconds);
+        }
+
+        return least;
+    }
+
+    private void Report(Simulation simulation, SimTime after, SimTime upTo)
+    {
+        if (OnEvent is null)
+        {
+            return;
+        }
+
+        pending.Clear();
+        for (int body = 0; body < scene.Bodies.Count; body++)
+        {
+            BodyId id = BodyId.OfScene(body);
+            TimelineEntry? last = null;
+            foreach (TimelineEntry entry in simulation.Timeline(id, after))
+            {
+                if (entry.Key.Time > after && entry.Key.Time <= upTo)
+                {
+                    Add(simulation, id, entry, last);
+                }
+
+                last = entry;
+            }
+        }
+
+        BodyEvent[] inOrder = pending.OrderBy(e => e.Key).ThenBy(e => e.Body).ToArray();
+        foreach (BodyEvent happened in inOrder)
+        {
+            bool isOfBodies = happened.Kind == Impact && happened.Other.Length == 0;
+            BodyId? other = isOfBodies ? ImpactPartner.Body(happened, inOrder, scene) : null;
+            OnEvent(other is BodyId partner ? happened with { Other = scene.Bodies[partner.Index].Name } : happened);
+        }
+    }
+
+    private void Add(Simulation simulation, BodyId body, in TimelineEntry entry, in TimelineEntry? last)
+    {
+        MotionLaw before = lastLaw[body.Index];
+        MotionLaw law = lastLaw[body.Index] = entry.State.Motion;
+        if (entry.Key.Kind is not (EventKind.Start or EventKind.StepEnd))
+        {
+            bool isOfSurface = entry.Key.Kind == EventKind.Impact && entry.Key.Body == entry.Key.Other;
+            string surface = isOfSurface
+                ? ImpactPartner.Surface(scene, scene.Bodies[body.Index].Spec.Radius, Before(simulation, body, entry, last), entry.State)
+                : "";
+            pending.Add(new BodyEvent(entry.Key, entry.Key.Kind.ToString().ToLowerInvariant(), body, surface, entry.State));
+        }
+
+        if (law == MotionLaw.Resting != (before == MotionLaw.Resting))
+        {
+            pending.Add(new BodyEvent(entry.Key, law == MotionLaw.Resting ? "rest" : "wake", body, "", entry.State));
+        }
+    }
+
+    /// <summary>The body right before an event: after the one before it, if that is of the same tick, else a tick ago.</summary>
+    private static BodyState Before(Simulation simulation, BodyId body, in TimelineEntry entry, in TimelineEntry? last)
+    {
+        if (last is TimelineEntry earlier && earlier.Key.Time == entry.Key.Time)
+        {
+            return earlier.State;
+        }
+
+        simulation.TryRead(body, entry.Key.Time - SimDuration.OneTick, out BodyState before);
+        return before;
+    }
+}

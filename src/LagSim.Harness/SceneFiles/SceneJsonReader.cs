@@ -1,0 +1,200 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Harness.SceneFiles;
+
+/// <summary>The grammar of a scene file: which keys there are, what they mean to a <see cref="SceneBuilder"/>, and which may be left out.</summary>
+internal ref partial struct SceneJsonReader
+{
+    private static readonly JsonKeys SceneKeys =
+        new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "contact_tolerance_m", "smallest_radius_m", "spawners", "periodic_box_m", "forces", "planes", "static_spheres", "bodies"]);
+
+    private static readonly JsonKeys PlaneKeys = new(["name", "normal"], ["point_m", "offset_m", "restitution", "friction"]);
+
+    private static readonly JsonKeys SphereKeys = new(["name", "centre_m", "radius_m"], ["restitution", "friction"]);
+
+    private static readonly JsonKeys BodyKeys =
+        new(["name", "radius_m", "mass_kg", "restitution", "position_m"], ["velocity_m_per_s", "motion", "step_s", "forces", "tolerance", "friction", "rolling_resistance", "spin_rad_per_s", "players"]);
+
+    private readonly string? locate;
+    private readonly List<Action<SceneBuilder>> parts = new(); // what to build, once the name is known
+    private readonly List<string> forceNames = new();
+    private readonly List<(string Name, SceneFileException Where)> namedForces = new(); // a body may stand before the forces that it names
+    private JsonCursor cursor;
+
+    /// <param name="json">The document, known to be UTF-8.</param>
+    /// <param name="file">What errors call it.</param>
+    /// <param name="locate">
+    /// The scene's name, or null. With it builds every part by itself too, so that what is wrong with one is reported at its place. The limits stand in the builder alone, and
+    /// it names a part but cannot know where in the file that is; so a document that does not build is read once more like this.
+    /// </param>
+    internal SceneJsonReader(ReadOnlySpan<byte> json, string file, string? locate)
+    {
+        cursor = new JsonCursor(json, file);
+        this.locate = locate;
+    }
+
+    /// <summary>What the document calls the scene, as far as it was read.</summary>
+    internal string SceneName { get; private set; } = "";
+
+    /// <summary>The scene that the document says.</summary>
+    /// <exception cref="SceneFileException">It says none; the message names the place.</exception>
+    /// <exception cref="SceneException">Every part can be read, but what they make up is no scene.</exception>
+    internal Scene Read()
+    {
+        cursor.Read();
+        cursor.EnterObject();
+        uint seen = 0;
+        while (cursor.NextKey(SceneKeys, ref seen) is string key)
+        {
+            switch (key)
+            {
+                case "format":
+                    CheckFormat();
+                    break;
+                case "name":
+                    SceneName = Name();
+                    break;
+                case "gravity_m_per_s2":
+                    Vector3D gravity = cursor.Vector();
+                    Add(b => b.WithGravity(gravity));
+                    break;
+                case "resolution_m":
+                    double resolution = cursor.Number();
+                    Add(b => b.WithResolution(resolution));
+                    break;
+                case "contact_tolerance_m":
+                    double tolerance = cursor.Number();
+                    Add(b => b.WithContactTolerance(tolerance));
+                    break;
+                case "smallest_radius_m":
+                    double smallest = cursor.Number();
+                    Add(b => b.WithSmallestRadius(smallest));
+                    break;
+                case "spawners":
+                    PeerSet spawners = Peers();
+                    Add(b => b.WithSpawners(spawners));
+                    break;
+                case "periodic_box_m":
+                    Vector3D box = cursor.Vector();
+                    if (box == Vector3D.Zero)
+                    {
+                        throw cursor.Fail("the sides of the periodic box are [0, 0, 0]; each must be above zero, at least five times the largest diameter,"
+                            + " or the key left out");
+                    }
+
+                    Add(b => b.WithPeriodicBox(box));
+                    break;
+                default:
+                    ReadList(key);
+                    break;
+            }
+        }
+
+        cursor.Read(); // nothing may follow
+        CheckForceNames();
+        SceneBuilder builder = new(SceneName);
+        parts.ForEach(add => add(builder));
+        return builder.Build();
+    }
+
+    private void ReadList(string key)
+    {
+        cursor.EnterArray("an array of objects");
+        while (cursor.NextElement())
+        {
+            switch (key)
+            {
+                case "planes":
+                    ReadPlane();
+                    break;
+                case "static_spheres":
+                    ReadSphere();
+                    break;
+                case "forces":
+                    ReadForce();
+                    break;
+                default:
+                    ReadBody();
+                    break;
+            }
+        }
+    }
+
+    private void Add(Action<SceneBuilder> part)
+    {
+        parts.Add(part);
+        if (locate is null)
+        {
+            return;
+        }
+
+        SceneBuilder alone = new SceneBuilder(locate).WithGravity(Vector3D.Zero); // with which anything goes that is right in itself
+        try
+        {
+            part(alone);
+            alone.Build();
+        }
+        catch (SceneException cause)
+        {
+            throw cursor.Fail(cause.Message, cause);
+        }
+    }
+
+    private void CheckFormat()
+    {
+        string format = cursor.String();
+        if (format != SceneFile.Format)
+        {
+            throw cursor.Fail($"the format is {JsonFault.Quote(format)}; this version reads \"{SceneFile.Format}\" only");
+        }
+    }
+
+    private string Name()
+    {
+        string name = cursor.String();
+        return PartName.Problem(name) is string problem ? throw cursor.Fail(problem) : name;
+    }
+
+    private MotionLaw Motion()
+    {
+        string name = cursor.String();
+        return MotionNames.TryParseFlight(name, out MotionLaw law)
+            ? law
+            : throw cursor.Fail($"the motion {JsonFault.Quote(name)} is unknown; allowed are {MotionNames.Quoted}");
+    }
+
+    private PeerSet Peers()
+    {
+        List<int> peers = new();
+        cursor.EnterArray("an array of the numbers of peers");
+        while (cursor.NextElement())
+        {
+            double number = cursor.Number();
+            if (!(number >= 0 && number <= PeerSet.MaxPeer && number == Math.Floor(number)))
+            {
+                throw cursor.Fail($"the peer {number:R} cannot be granted a right; it must be a whole number between 0 and {PeerSet.MaxPeer}");
+            }
+
+            if (peers.Contains((int)number))
+            {
+                throw cursor.Fail($"the peer {number:R} stands here twice; each may stand once");
+            }
+
+            peers.Add((int)number);
+        }
+
+        return PeerSet.Of(peers.ToArray());
+    }
+
+    // Zero would mean the default to a BodySpec, and what is far out of range is no duration at all: both are refused here.
+    private SimDuration Step()
+    {
+        double seconds = cursor.Number();
+        return seconds is >= 1e-6 and <= 1
+            ? SimDuration.FromSeconds(seconds)
+            : throw cursor.Fail($"the step is {seconds:R} s; it must lie between 1E-06 and 1 s");
+    }
+}

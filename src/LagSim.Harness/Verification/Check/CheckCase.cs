@@ -1,0 +1,397 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Threading;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Testing.Links;
+using LagSim.Time;
+
+namespace LagSim.Harness.Verification.Check;
+
+/// <summary>One session as a seed draws it: scene, players, links, clocks, who comes and goes when, and what is done.</summary>
+/// <remarks>Depends on the seed and on the options' peers and profile only. What is left out of it afterwards shifts nothing of the rest.</remarks>
+internal sealed class CheckCase
+{
+    /// <summary>For so long of shared time things are done, in seconds.</summary>
+    internal const double Length = 10;
+
+    private const int FewestDeeds = 27;
+    private const int MostSpawns = 6;
+    private const int MostRemovals = 3;
+
+    private const int FewestKnots = 2;
+    private const int MostKnots = 10;
+
+    /// <summary>Who needs longer than this for a round trip is there from the start as a rule: to get in takes several.</summary>
+    private const double SlowMilliseconds = 500;
+
+    private const double HeapPercent = 7;
+    private const double BoxPercent = 4;
+    private const double OrbitPercent = 6;
+    private const double PitPercent = 27; // with the heaps on an open floor a third
+
+    /// <summary>Of heaps each step is an event in every world, so they take few peers.</summary>
+    private const int MostPeersOfHeap = 3;
+
+    private const double FullLinkPercent = 25;
+
+    /// <summary>
+    /// Of links, in bit/s. What a drawn session says fits into 64 kbit/s, whatever is repeated; a fifth of that shows a controller that never backs off:
+    /// of 900 sessions drawn from 12 to 64 kbit/s one made so keeps somebody out, or loses him, in 12, and what should be in none.
+    /// </summary>
+    private const double LowestRate = 12e3;
+    private const double HighestRate = 10e6;
+    private const double StopPercent = 15;
+    private const double LongestEntry = 30; // seconds, from the first question to the world: six round trips of 4 s, and what is lost
+
+    /// <summary>
+    /// Half of the peers look for contacts by the index; most of these from the first body on, the others from fewer than so many on, which
+    /// spawns reach in play.
+    /// </summary>
+    private const double IndexPercent = 50;
+    private const double FromTheFirstPercent = 70;
+    private const int LatestIndex = 24;
+
+    private const ulong SortStream = 3;
+    private const ulong TroubleStream = 4;
+    private const ulong IndexStream = 5;
+    private const ulong FirstRoom = 100;
+    private const ulong FirstHands = 1000;
+    private const ulong MostAttempts = 20;
+
+    /// <summary>
+    /// What a scene may cost, as events that it takes alone: lasting contact takes some thousand a second, and a few heaps would take all the time there is.
+    /// A scene that takes more is drawn again; so contacts last for a second or two in all, but for a few sessions.
+    /// </summary>
+    private const long UsualEvents = 1_500;
+    private const long HeavyEvents = 6_000;
+    private const double HeavyPercent = 1;
+
+    private readonly bool isHeap;
+    private readonly CheckScene room;
+    private readonly List<CheckPlayer> players = [];
+    private readonly List<CheckDeed> deeds = [];
+
+    /// <exception cref="OperationCanceledException">It was asked to stop.</exception>
+    internal CheckCase(ulong seed, CheckOptions options, CancellationToken cancellation = default)
+    {
+        Seed = seed;
+        SeededRandom random = new(seed);
+        double sort = random.Fork(SortStream).NextDouble() * 100; // a stream of its own: all other sessions are what they would be without
+        bool isPit = sort >= 100 - PitPercent;
+        isHeap = sort < HeapPercent || isPit;
+        DrawPlayers(random.Fork(1), options);
+        DrawTrouble(random.Fork(TroubleStream), options);
+        DrawIndexes(random.Fork(IndexStream));
+        SeededRandom rest = random.Fork(2);
+        long budget = rest.IsLucky(HeavyPercent) ? HeavyEvents : UsualEvents;
+        for (ulong attempt = 0; ; attempt++)
+        {
+            SeededRandom things = random.Fork(FirstRoom + (2 * attempt));
+            room = isPit ? new PitScene(things)
+                : sort < HeapPercent ? new HeapScene(things)
+                : sort < HeapPercent + BoxPercent ? new BoxScene(things)
+                : sort < HeapPercent + BoxPercent + OrbitPercent ? new OrbitScene(things)
+                : new RoomScene(things);
+            DrawDeeds(random.Fork(FirstRoom + (2 * attempt) + 1));
+            DrawHands(random.Fork(FirstHands + attempt));
+            if (attempt == MostAttempts || IsWithin(room.MostEvents ?? budget, cancellation))
+            {
+                break;
+            }
+        }
+
+        LookAhead = SimDuration.FromMilliseconds(rest.Pick(1000.0 / 30, 100, 250));
+
+        // What is compared at the end is all since the start, or only what a session keeps of itself.
+        ExtraHistory = rest.IsLucky(50) ? SimDuration.FromSeconds(60) : SimDuration.Zero;
+        BodyIndices = options.Bodies ?? Enumerable.Range(0, room.BodyCount).ToArray();
+        DeedIndices = options.Events ?? Enumerable.Range(0, deeds.Count).ToArray();
+        Throw(BodyIndices, room.BodyCount, "bodies", seed);
+        Throw(DeedIndices, deeds.Count, "events", seed);
+        Scene = room.Build(BodyIndices);
+        Accelerations = CheckScene.Accelerations;
+        double worst = players.Max(p => WorstMilliseconds(p.Link.ToHost));
+
+        // A hop, what a burst of losses adds to it, the error of a clock that is set by a slow or uneven way.
+        History = options.History ?? SimDuration.FromMilliseconds(Math.Min(5000, 1000 + (2 * worst)));
+    }
+
+    internal ulong Seed { get; }
+
+    internal Scene Scene { get; }
+
+    internal IReadOnlyList<IAcceleration> Accelerations { get; }
+
+    /// <summary>The host, and the joiners in the order of their addresses.</summary>
+    internal IReadOnlyList<CheckPlayer> Players => players;
+
+    /// <summary>Whether a link has a rate, so that events may wait in its queue, or be refused.</summary>
+    internal bool HasFullLinks => players.Exists(p => p.Link.ToHost.Bottleneck is not null || p.Link.FromHost.Bottleneck is not null);
+
+    /// <summary>Whether a process stands still for a time.</summary>
+    internal bool HasStops => players.Exists(p => p.Stop is not null);
+
+    /// <summary>All that was drawn, by ascending time.</summary>
+    internal IReadOnlyList<CheckDeed> Deeds => deeds;
+
+    /// <summary>Which of the scene's bodies there are.</summary>
+    internal IReadOnlyList<int> BodyIndices { get; }
+
+    /// <summary>Which of the deeds are done.</summary>
+    internal IReadOnlyList<int> DeedIndices { get; }
+
+    internal SimDuration History { get; }
+
+    internal SimDuration ExtraHistory { get; }
+
+    internal SimDuration LookAhead { get; }
+
+    /// <summary>How many steps of islands the scene lets others take ahead, with all that is to be done in it; the same on any machine.</summary>
+    internal long StepsAhead { get; private set; }
+
+    /// <summary>The body of the scene that had that index when it was drawn; null if it is left out.</summary>
+    internal BodyId? BodyDrawnAs(int index)
+    {
+        for (int i = 0; i < BodyIndices.Count; i++)
+        {
+            if (BodyIndices[i] == index)
+            {
+                return BodyId.OfScene(i);
+            }
+        }
+
+        return null;
+    }
+
+    private static double WorstMilliseconds(LinkLeg leg) =>
+        leg.DelayMilliseconds + (leg.Bottleneck?.QueueMilliseconds ?? 0) + (4 * leg.JitterMilliseconds) + (leg.Tail is null ? 0 : LongTail.MostMilliseconds) + ((leg.Outage?.Length.ToMilliseconds() ?? 0) * 1.1);
+
+    private static void Throw(IReadOnlyList<int> indices, int count, string what, ulong seed)
+    {
+        for (int i = 0; i < indices.Count; i++)
+        {
+            if (indices[i] < 0 || indices[i] >= count || (i > 0 && indices[i] <= indices[i - 1]))
+            {
+                throw new ArgumentException(
+                    $"The {what} '{string.Join(',', indices)}' must be ascending numbers from 0 to {count - 1}: session {seed} has {count}.");
+            }
+        }
+    }
+
+    private void DrawPlayers(SeededRandom random, CheckOptions options)
+    {
+        int most = isHeap ? Math.Clamp(MostPeersOfHeap, options.FromPeers, options.ToPeers) : options.ToPeers;
+        int peers = options.FromPeers + random.NextInt(most - options.FromPeers + 1);
+        players.Add(Player(random, LinkProfiles.PureDelay(0), null, null, false));
+        for (int peer = 1; peer < peers; peer++)
+        {
+            LinkProfile link = DrawLink(random, options);
+            double slowest = link.RoundTripMilliseconds;
+            bool isLate = random.IsLucky(slowest > SlowMilliseconds ? 10 : 35);
+            double? asks = isLate ? random.NextDouble() * (slowest > SlowMilliseconds ? 1 : 6) : null;
+            double? leaves = random.IsLucky(15) ? random.NextDouble(Math.Min(9, 2 + (asks ?? 0)), 9.5) : null;
+            players.Add(Player(random, link, asks, leaves, random.IsLucky(40)));
+        }
+
+        // Who left in order gives the number free, and somebody else may get it.
+        if (players.FirstOrDefault(p => p.LeavesAtSeconds is not null && !p.IsKilled) is CheckPlayer left)
+        {
+            LinkProfile link = DrawLink(random, options);
+            if (link.RoundTripMilliseconds <= SlowMilliseconds)
+            {
+                players.Add(Player(random, link, left.LeavesAtSeconds + random.NextDouble(), null, false));
+            }
+        }
+    }
+
+    /// <summary>Gives links rates and queues, and has a process stand still: in some sessions, from a stream of its own, so all others are what they would be without.</summary>
+    private void DrawTrouble(SeededRandom random, CheckOptions options)
+    {
+        SeededRandom ofLinks = random.Fork(1);
+        if (ofLinks.IsLucky(FullLinkPercent) && options.Profile is null)
+        {
+            for (int peer = 1; peer < players.Count; peer++)
+            {
+                players[peer] = ofLinks.IsLucky(60) ? players[peer] with { Link = DrawFullLink(ofLinks) } : players[peer];
+            }
+        }
+
+        SeededRandom ofStops = random.Fork(2);
+        if (ofStops.IsLucky(StopPercent))
+        {
+            int who = ofStops.IsLucky(30) ? 0 : ofStops.NextInt(players.Count);
+            double at = ofStops.NextDouble(0.5, 8), seconds = LogUniform(ofStops, 0.1, 40);
+            players[who] = players[who] with { Stop = (at, seconds) };
+            for (int peer = 1; peer < players.Count && who == 0; peer++)
+            {
+                // Who is on the way in gives up a host that stands for longer than its patience, and is right to.
+                bool isInVain = players[peer].AsksAtSeconds is double asks && asks > at - LongestEntry && asks < at + seconds;
+                players[peer] = isInVain ? players[peer] with { AsksAtSeconds = at + seconds } : players[peer];
+            }
+        }
+    }
+
+    private void DrawIndexes(SeededRandom random)
+    {
+        for (int peer = 0; peer < players.Count; peer++)
+        {
+            bool isUsed = random.IsLucky(IndexPercent), fromTheFirst = random.IsLucky(FromTheFirstPercent);
+            int above = random.NextInt(LatestIndex);
+            players[peer] = players[peer] with { IndexAbove = isUsed ? fromTheFirst ? 0 : above : null };
+        }
+    }
+
+    private static LinkProfile DrawFullLink(SeededRandom random)
+    {
+        double delay = LogUniform(random, 1, 200);
+        double jitter = random.Pick(0, delay / 20, delay / 5);
+        double loss = random.Pick(0, 0, 0, 1);
+        long rate = (long)LogUniform(random, LowestRate, HighestRate);
+        double queue = LogUniform(random, 50, 2000);
+        bool hasDips = random.IsLucky(30);
+        PeriodicDip? dip = hasDips ? new PeriodicDip(random.NextDouble(6, 30), 5, rate / 5) : null;
+        QueueDiscipline discipline = random.IsLucky(20) ? QueueDiscipline.CoDel : QueueDiscipline.DropTail;
+        return new LinkProfile("full", new LinkLeg(delay, jitter, loss) { Bottleneck = new Bottleneck(rate, queue, discipline) { Dip = dip } });
+    }
+
+    private static double LogUniform(SeededRandom random, double low, double high) => low * SeededRandom.Exp(random.NextDouble() * Math.Log(high / low));
+
+    private static CheckPlayer Player(SeededRandom random, LinkProfile link, double? asks, double? leaves, bool isKilled) =>
+        new(link, random.NextDouble(-30, 30), random.NextDouble(0, 3600) + link.ReceiverClockOffset.ToSeconds(), asks, leaves, isKilled);
+
+    private static LinkProfile DrawLink(SeededRandom random, CheckOptions options)
+    {
+        // Of the pure delays short ones are more frequent: three quarters below a second.
+        double delay = Math.Round(2000 * random.NextDouble() * Math.Sqrt(random.NextDouble()));
+        LinkProfile drawn = random.IsLucky(30) ? LinkProfiles.PureDelay(delay) : random.Pick([.. LinkProfiles.All]);
+        return options.Profile ?? drawn;
+    }
+
+    /// <summary>Whether the scene, with all that is to be done in it, takes no more events than that, and does not end by itself, as where elastic bodies are squeezed for ever.</summary>
+    private bool IsWithin(long budget, CancellationToken cancellation)
+    {
+        try
+        {
+            return TakesNoMoreThan(budget, cancellation);
+        }
+        catch (SimulationException)
+        {
+            return false;
+        }
+    }
+
+    private bool TakesNoMoreThan(long budget, CancellationToken cancellation)
+    {
+        Scene scene = room.Build([.. Enumerable.Range(0, room.BodyCount)]);
+        Simulation alone = new(scene, new SimulationOptions(cancellation: cancellation));
+        BodyId[] bodies = new BodyId[deeds.Count];
+        for (int i = 0; i < deeds.Count; i++)
+        {
+            CheckDeed deed = deeds[i];
+            SimTime time = SimTime.FromSeconds(deed.AtSeconds);
+            if (!alone.TryAdvanceTo(SimTime.Max(time - SimDuration.OneTick, alone.SimulatedTo), ref budget))
+            {
+                return false;
+            }
+
+            StepsAhead = alone.Engine.Stepper.StepsTaken;
+            ExternalEvent external = deed.On(deed.Spawn >= 0 ? bodies[deed.Spawn] : BodyId.OfScene(Math.Max(0, deed.Body))).Stamp(time, (byte)deed.Peer, (uint)i + 1);
+            bodies[i] = external.Body;
+            alone.Submit(external);
+        }
+
+        return alone.TryAdvanceTo(SimTime.FromSeconds(Length), ref budget);
+    }
+
+    private void DrawDeeds(SeededRandom random)
+    {
+        deeds.Clear();
+        int count = FewestDeeds + random.NextInt(17);
+        List<int> spawns = [];
+        double[] times = Enumerable.Range(0, count).Select(_ => random.NextDouble() * room.BusySeconds).Order().ToArray();
+        int removals = 0;
+        for (int i = 0; i < count; i++)
+        {
+            // In the same instant as the one before, by the same player or another, and often to the same body.
+            bool isTogether = i > 0 && random.IsLucky(25);
+            double at = isTogether ? deeds[i - 1].AtSeconds : times[i];
+            int peer = isTogether && random.IsLucky(60) ? deeds[i - 1].Peer : random.NextInt(players.Count);
+            int spawn = spawns.Count > 0 && random.IsLucky(20) ? spawns[random.NextInt(spawns.Count)] : -1;
+            int body = spawn >= 0 ? -1 : room.DrawBody(random);
+            if (isTogether && deeds[i - 1].Kind != EventKind.Spawn && random.IsLucky(50))
+            {
+                (body, spawn) = (deeds[i - 1].Body, deeds[i - 1].Spawn);
+            }
+
+            EventKind kind = random.Pick(
+                EventKind.SetVelocity, EventKind.SetVelocity, EventKind.SetVelocity, EventKind.Impulse, EventKind.Impulse,
+                EventKind.Teleport, EventKind.Teleport, EventKind.Spawn, EventKind.Remove);
+            if ((kind == EventKind.Spawn && spawns.Count == MostSpawns) || (kind == EventKind.Remove && removals == MostRemovals))
+            {
+                kind = EventKind.SetVelocity;
+            }
+
+            BodySpec spec = kind == EventKind.Spawn ? room.DrawSpec() : spawn >= 0 ? deeds[spawn].Spec : room.SpecOf(body);
+            deeds.Add(new CheckDeed(
+                at, peer, kind, kind == EventKind.Spawn ? -1 : body, kind == EventKind.Spawn ? -1 : spawn, room.DrawPosition(), room.DrawVelocity(6), spec,
+                kind == EventKind.Spawn ? room.DrawSpin(spec) : default));
+            removals += kind == EventKind.Remove ? 1 : 0;
+            if (kind == EventKind.Spawn)
+            {
+                spawns.Add(i);
+            }
+        }
+    }
+
+    /// <summary>Hands that take a body, move it about and let go of it, or only cease to tell where they are; often two at one time are after the same.</summary>
+    private void DrawHands(SeededRandom random)
+    {
+        List<CheckDeed> all = [.. deeds];
+        int[] spawns = [.. Enumerable.Range(0, deeds.Count).Where(i => deeds[i].Kind == EventKind.Spawn)];
+        int hands = room.FewestHands + random.NextInt(room.MostHands - room.FewestHands + 1);
+        CheckDeed? before = null;
+        for (int hand = 0; hand < hands; hand++)
+        {
+            int spawn = spawns.Length > 0 && random.IsLucky(20) ? random.Pick(spawns) : -1;
+            int body = spawn >= 0 ? -1 : room.DrawHeld(random);
+            double at = spawn >= 0 ? random.NextDouble(deeds[spawn].AtSeconds, room.BusySeconds) : random.NextDouble(0, room.GraspSeconds);
+            if (before is not null && random.IsLucky(50))
+            {
+                (spawn, body) = (before.Spawn, before.Body);
+                at = Math.Min(Length, before.AtSeconds + random.Pick(0, 0, random.NextDouble()));
+            }
+
+            CheckDeed deed = new(at, random.NextInt(players.Count), EventKind.Grab, body, spawn, new Vector3D(random.NextDouble(-0.1, 0.1), random.NextDouble(-0.1, 0.1), 0), default, default);
+            all.Add(deed);
+            before = deed;
+            Vector3D position = room.DrawPosition();
+            for (int knots = FewestKnots + random.NextInt(MostKnots - FewestKnots + 1); knots > 0 && at < Length; knots--)
+            {
+                // Some of the way to anywhere in the room, so it never leaves that.
+                double gap = random.Pick(0.02, 0.1, 0.1, 0.3);
+                Vector3D velocity = (room.DrawPosition() - position) * 1.5;
+                all.Add(deed with { AtSeconds = at, Kind = EventKind.HoldKnot, Position = position, Velocity = velocity });
+                position += velocity * gap;
+                at += gap;
+            }
+
+            if (at < Length && random.IsLucky(70))
+            {
+                all.Add(deed with { AtSeconds = at, Kind = EventKind.Release, Velocity = room.DrawVelocity(6) });
+            }
+        }
+
+        // By time, those of one instant as they were drawn; what names a spawn names it by where that is now.
+        int[] order = [.. Enumerable.Range(0, all.Count).OrderBy(i => all[i].AtSeconds)];
+        int[] place = new int[order.Length];
+        for (int i = 0; i < order.Length; i++)
+        {
+            place[order[i]] = i;
+        }
+
+        deeds.Clear();
+        deeds.AddRange(order.Select(i => all[i].Spawn < 0 ? all[i] : all[i] with { Spawn = place[all[i].Spawn] }));
+    }
+}

@@ -1,0 +1,129 @@
+using System;
+using System.Collections.Concurrent;
+using System.Collections.Generic;
+using System.Diagnostics;
+using System.Linq;
+using System.Threading;
+using LagSim.Net.Strategies;
+using LagSim.Testing.Links;
+
+namespace LagSim.Harness.Verification.Check;
+
+/// <summary>Random sessions against the one invariant: whatever came when, every peer's world is that of a peer that never had a delay, bit for bit.</summary>
+/// <remarks>In virtual time. Each session is drawn from its own seed and played on one thread, so every figure but the time taken is the same in every run.</remarks>
+public static class InvariantCheck
+{
+    /// <summary>Of so many failing sessions the least that fails is looked for; the others are only named.</summary>
+    public const int MostShrunk = 3;
+
+    private static readonly TimeSpan ProgressEvery = TimeSpan.FromMilliseconds(100);
+
+    /// <summary>Plays all sessions, several at a time.</summary>
+    /// <param name="options">What is checked.</param>
+    /// <param name="progress">Called on the caller's thread now and then with how many sessions are done; null for nobody.</param>
+    /// <param name="cancellation">Ends it early, with a report of the sessions that were done by then; those in progress are given up.</param>
+    /// <exception cref="ArgumentException">An option is out of its range; the sentence names it.</exception>
+    public static CheckReport Run(CheckOptions options, Action<int>? progress = null, CancellationToken cancellation = default)
+    {
+        ArgumentNullException.ThrowIfNull(options);
+        ThrowIfInvalid(options);
+        Stopwatch watch = Stopwatch.StartNew();
+        CheckOutcome?[] outcomes = new CheckOutcome?[options.Sessions];
+        ConcurrentBag<ulong> stopped = [];
+        int next = -1, done = 0;
+        Exception? fault = null;
+        Thread[] workers = [.. Enumerable.Range(0, Math.Min(options.Workers, options.Sessions)).Select(n => new Thread(Work) { IsBackground = true, Name = $"LagSim check {n}" })];
+        Array.ForEach(workers, worker => worker.Start());
+        foreach (Thread worker in workers)
+        {
+            while (!worker.Join(ProgressEvery))
+            {
+                Report();
+            }
+        }
+
+        if (fault is not null)
+        {
+            throw fault;
+        }
+
+        CheckOutcome[] played = [.. outcomes.OfType<CheckOutcome>()];
+        double seconds = watch.Elapsed.TotalSeconds;
+        List<CheckFailure> failures = [];
+        foreach (CheckOutcome failed in played.Where(o => o.Failure is not null))
+        {
+            bool isShrunk = failures.Count < MostShrunk && options.ShrinkingPlays > 0 && !cancellation.IsCancellationRequested;
+            CheckOutcome least = isShrunk ? Shrinking.Shrink(failed, options, cancellation) : failed;
+            failures.Add(new CheckFailure(failed, least, isShrunk, Command(least, options, isShrunk)));
+        }
+
+        return new CheckReport(played, failures, options.Sessions, seconds) { StoppedSeeds = [.. stopped.Order()] };
+
+        void Work()
+        {
+            ulong seed = options.Seed;
+            try
+            {
+                for (int n = Interlocked.Increment(ref next); n < options.Sessions && !cancellation.IsCancellationRequested; n = Interlocked.Increment(ref next))
+                {
+                    seed = unchecked(options.Seed + (ulong)n);
+                    outcomes[n] = CheckSession.Play(seed, options, cancellation);
+                    Interlocked.Increment(ref done);
+                }
+            }
+            catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
+            {
+                stopped.Add(seed); // it is not done; what was done is reported
+            }
+            catch (Exception failure)
+            {
+                Interlocked.CompareExchange(ref fault, failure, null);
+                Interlocked.Exchange(ref next, options.Sessions); // the others have nothing to go on for
+            }
+        }
+
+        void Report()
+        {
+            try
+            {
+                progress?.Invoke(Volatile.Read(ref done));
+            }
+            catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
+            {
+                // The workers end by themselves; what they have done is reported.
+            }
+        }
+    }
+
+    /// <summary>The command that plays one session, or what is kept of it.</summary>
+    internal static string Command(CheckOutcome of, CheckOptions options, bool isShrunk)
+    {
+        bool isPart = isShrunk || (options.Bodies ?? options.Events) is not null;
+        string part = isPart ? $" --bodies {string.Join(',', of.Bodies)} --events {List(of.Deeds)}" : "";
+        string peers = options.FromPeers == CheckOptions.FewestPeers && options.ToPeers == CheckOptions.MostPeers ? ""
+            : options.FromPeers == options.ToPeers ? $" --peers {options.FromPeers}"
+            : $" --peers {options.FromPeers}-{options.ToPeers}";
+        string profile = options.Profile is LinkProfile link ? $" --profile {link.Name}" : "";
+        string strategy = options.Strategy == LateEventStrategies.Default ? "" : $" --strategy {options.Strategy}";
+        return $"lagsim check --seed {of.Seed} --sessions 1{peers}{profile}{strategy}{part}";
+    }
+
+    private static string List(IReadOnlyList<int> indices) => indices.Count == 0 ? "none" : string.Join(',', indices);
+
+    private static void ThrowIfInvalid(CheckOptions options)
+    {
+        ArgumentOutOfRangeException.ThrowIfLessThan(options.Sessions, 1);
+        ArgumentOutOfRangeException.ThrowIfLessThan(options.Workers, 1);
+        if (options.FromPeers < CheckOptions.FewestPeers || options.ToPeers > CheckOptions.MostPeers || options.FromPeers > options.ToPeers)
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(options), $"{options.FromPeers}-{options.ToPeers}", $"A session has {CheckOptions.FewestPeers} to {CheckOptions.MostPeers} peers, the"
+                    + " host included.");
+        }
+
+        if (options.Sessions > 1 && (options.Bodies is not null || options.Events is not null))
+        {
+            throw new ArgumentException("Bodies and events are kept of one session alone: give its seed, and 1 session.", nameof(options));
+        }
+    }
+}

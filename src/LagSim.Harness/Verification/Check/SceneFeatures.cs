@@ -1,0 +1,173 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Harness.Verification.Check;
+
+/// <summary>What a session met of what is rarely drawn: seen in the world that had all on time, at every event and right before those of players.</summary>
+public readonly record struct SceneFeatures
+{
+    private const int Large = 5;
+    private const double Touching = 1e-6; // metres
+
+    /// <summary>Each by the name that scripts know it by, in their order.</summary>
+    public static IReadOnlyList<(string Name, Func<SceneFeatures, bool> IsMet)> All { get; } =
+    [
+        ("large_island", met => met.LargeIsland), ("hand_in_island", met => met.HandInIsland), ("removal_from_island", met => met.RemovalFromIsland),
+        ("magnus", met => met.Magnus), ("force_in_contact", met => met.ForceInContact), ("steps_ahead", met => met.StepsAhead),
+        ("periodic_box", met => met.PeriodicBox), ("closed_orbit", met => met.ClosedOrbit), ("other_pull", met => met.OtherPull), ("wind", met => met.Wind),
+        ("fixed_steps", met => met.FixedSteps), ("force_on_sphere", met => met.ForceOnSphere), ("force_with_rolling", met => met.ForceWithRolling),
+    ];
+
+    /// <summary>Five bodies or more that touched moved by common steps.</summary>
+    public bool LargeIsland { get; init; }
+
+    /// <summary>A hand took a body of an island of two or more, moving or at rest.</summary>
+    public bool HandInIsland { get; init; }
+
+    /// <summary>One of such an island was removed.</summary>
+    public bool RemovalFromIsland { get; init; }
+
+    /// <summary>The Magnus force bent the path of a body that flew.</summary>
+    public bool Magnus { get; init; }
+
+    /// <summary>A body on which a force acts besides gravity was in lasting contact under both.</summary>
+    public bool ForceInContact { get; init; }
+
+    /// <summary>Contact steps were taken.</summary>
+    public bool StepsAhead { get; init; }
+
+    /// <summary>The world was a periodic box.</summary>
+    public bool PeriodicBox { get; init; }
+
+    /// <summary>A body flew by the closed form of an inverse-square pull.</summary>
+    public bool ClosedOrbit { get; init; }
+
+    /// <summary>A body flew under a pull whose power is below zero, and that has no closed form.</summary>
+    public bool OtherPull { get; init; }
+
+    /// <summary>A drag acted on a body whose medium moves.</summary>
+    public bool Wind { get; init; }
+
+    /// <summary>A body flew by <see cref="MotionLaw.DormandPrince54"/> with fixed steps.</summary>
+    public bool FixedSteps { get; init; }
+
+    /// <summary>A body on which a force acts besides gravity was in lasting contact with a static sphere.</summary>
+    public bool ForceOnSphere { get; init; }
+
+    /// <summary>A body on which a force acts besides gravity was in lasting contact with resistance to rolling.</summary>
+    public bool ForceWithRolling { get; init; }
+
+    /// <param name="alone">The world, advanced to its end, with a history without end.</param>
+    /// <param name="accepted">What players did in it.</param>
+    /// <param name="stepsAhead">How many contact steps were taken.</param>
+    internal static SceneFeatures Of(Simulation alone, IReadOnlyList<ExternalEvent> accepted, long stepsAhead)
+    {
+        SceneFeatures met = new() { StepsAhead = stepsAhead > 0, PeriodicBox = alone.Scene.Box.Exists };
+        List<(BodyId Body, BodySpec Spec, BodyState State)> there = [];
+        Dictionary<EventKey, int> steps = [];
+        for (int n = 0; n < alone.BodyCount; n++)
+        {
+            BodyId body = alone.BodyAt(n);
+            BodySpec spec = alone.SpecOf(body);
+            ForceSet forces = spec.Forces;
+            Force[] acting = [.. Enumerable.Range(0, alone.Scene.Forces.Count).Where(forces.Contains).Select(i => alone.Scene.Forces[i])];
+            bool isPulled = acting.Any(f => f.Kind == ForceKind.Central && f.Power < 0);
+            bool isBlownAt = acting.Any(f => f.Kind is ForceKind.LinearDrag or ForceKind.QuadraticDrag && f.Vector != Vector3D.Zero);
+            foreach (TimelineEntry entry in alone.Timeline(body))
+            {
+                BodyState state = entry.State;
+                bool isInContact = state.Motion is MotionLaw.Constrained or MotionLaw.Sliding or MotionLaw.Rolling or MotionLaw.Resting;
+                if (!forces.IsEmpty && state.Motion is not (MotionLaw.Absent or MotionLaw.Held))
+                {
+                    met = met with
+                    {
+                        Magnus = met.Magnus || (!isInContact && forces.Contains(CheckScene.Magnus) && Vector3D.Cross(state.Spin, state.Velocity) != Vector3D.Zero),
+                        ForceInContact = met.ForceInContact || (isInContact && alone.Scene.Gravity != Vector3D.Zero),
+                        ClosedOrbit = met.ClosedOrbit || (isPulled && state.Motion == MotionLaw.ClosedForm),
+                        OtherPull = met.OtherPull || (isPulled && state.Motion is (MotionLaw.DormandPrince54 or MotionLaw.RungeKutta4)),
+                        Wind = met.Wind || isBlownAt,
+                        FixedSteps = met.FixedSteps || (state.Motion == MotionLaw.DormandPrince54 && spec.Tolerance == 0),
+                        ForceOnSphere = met.ForceOnSphere || (isInContact && alone.Scene.StaticSpheres.Any(s => IsOn(s, state, spec))),
+                        ForceWithRolling = met.ForceWithRolling || (isInContact && spec.RollingResistance > 0),
+                    };
+                }
+
+                if (state.Motion == MotionLaw.Constrained && !met.LargeIsland)
+                {
+                    // All of an island open their pieces with one key; others, beside it, may do so as well.
+                    int count = steps[entry.Key] = steps.GetValueOrDefault(entry.Key) + 1;
+                    if (count >= Large)
+                    {
+                        Read(alone, entry.Key.Time, there);
+                        met = met with { LargeIsland = CountIsland(there, there.FindIndex(b => b.Body == body), MotionLaw.Constrained) >= Large };
+                    }
+                }
+            }
+        }
+
+        foreach (ExternalEvent external in accepted)
+        {
+            if (external.Kind is EventKind.Grab or EventKind.Remove)
+            {
+                Read(alone, SimTime.Max(external.Time - SimDuration.OneTick, alone.Start), there);
+                int at = there.FindIndex(b => b.Body == external.Body);
+                bool isOfIsland = at >= 0 && CountIsland(there, at, MotionLaw.Resting) >= 2;
+                met = met with
+                {
+                    HandInIsland = met.HandInIsland || (isOfIsland && external.Kind == EventKind.Grab),
+                    RemovalFromIsland = met.RemovalFromIsland || (isOfIsland && external.Kind == EventKind.Remove),
+                };
+            }
+        }
+
+        return met;
+    }
+
+    private static bool IsOn(in StaticSphere sphere, in BodyState state, in BodySpec spec) =>
+        (state.Position - sphere.Centre).Length - sphere.Radius - spec.Radius <= Touching;
+
+    private static void Read(Simulation alone, SimTime time, List<(BodyId Body, BodySpec Spec, BodyState State)> there)
+    {
+        there.Clear();
+        for (int n = 0; n < alone.BodyCount; n++)
+        {
+            BodyId body = alone.BodyAt(n);
+            if (alone.TryRead(body, time, out BodyState state) && state.Motion != MotionLaw.Absent)
+            {
+                there.Add((body, alone.SpecOf(body), state));
+            }
+        }
+    }
+
+    /// <summary>How many bodies that move by common steps, or by that other law as well, touch each other, one by one, from a body on; none if it is not such a one.</summary>
+    private static int CountIsland(List<(BodyId Body, BodySpec Spec, BodyState State)> there, int from, MotionLaw other)
+    {
+        if (!IsOf(there[from].State))
+        {
+            return 0;
+        }
+
+        List<int> island = [from];
+        for (int i = 0; i < island.Count; i++)
+        {
+            (_, BodySpec spec, BodyState state) = there[island[i]];
+            for (int j = 0; j < there.Count; j++)
+            {
+                double gap = (there[j].State.Position - state.Position).Length - spec.Radius - there[j].Spec.Radius;
+                if (gap <= Touching && IsOf(there[j].State) && !island.Contains(j))
+                {
+                    island.Add(j);
+                }
+            }
+        }
+
+        return island.Count;
+
+        bool IsOf(in BodyState state) => state.Motion == MotionLaw.Constrained || state.Motion == other;
+    }
+}

@@ -1,0 +1,222 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Events;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Testing.Links;
+using LagSim.Time;
+
+namespace LagSim.Harness.Verification.Fuzz;
+
+/// <summary>Datagrams that nobody should send: noise, noise behind a true header, true ones changed, cut, joined or played again, and true forms with made-up values.</summary>
+/// <remarks>Deterministic by its seed. Not thread-safe.</remarks>
+public sealed class HostileDatagrams
+{
+    private const int Kept = 512;
+
+    private readonly SeededRandom random;
+    private readonly List<(byte[] Datagram, int From, int To)> seen = [];
+    private readonly byte[] buffer = new byte[WireFormat.MaxBytes];
+
+    /// <summary>A source of such datagrams.</summary>
+    internal HostileDatagrams(SeededRandom random)
+    {
+        ArgumentNullException.ThrowIfNull(random);
+        this.random = random;
+    }
+
+    /// <summary>Of a true datagram, played again as it was, who sent it to whom; null for any other.</summary>
+    public (int From, int To)? Replayed { get; private set; }
+
+    /// <summary>Shows it a true datagram, of which to make others.</summary>
+    public void Learn(ReadOnlySpan<byte> datagram, int from, int to)
+    {
+        if (seen.Count < Kept)
+        {
+            seen.Add((datagram.ToArray(), from, to));
+        }
+        else
+        {
+            seen[Below(Kept)] = (datagram.ToArray(), from, to);
+        }
+    }
+
+    /// <summary>The next one.</summary>
+    public byte[] Next()
+    {
+        int kind = seen.Count == 0 ? Below(3) : Below(10);
+        Replayed = null;
+        return kind switch
+        {
+            0 => Noise(),
+            1 => NoiseBehindAHeader(),
+            2 => MadeUp(),
+            3 => Cut(),
+            4 => Joined(),
+            9 => Again(),
+            _ => Changed(),
+        };
+    }
+
+    private int Below(int count) => (int)(random.NextUInt64() % (ulong)count);
+
+    private byte[] Any() => (byte[])seen[Below(seen.Count)].Datagram.Clone();
+
+    private byte[] Again()
+    {
+        (byte[] datagram, int from, int to) = seen[Below(seen.Count)];
+        Replayed = (from, to);
+        return datagram;
+    }
+
+    private byte[] Noise()
+    {
+        byte[] bytes = new byte[1 + Below(Below(4) == 0 ? WireFormat.MaxBytes : 100)];
+        for (int i = 0; i < bytes.Length; i++)
+        {
+            bytes[i] = (byte)random.NextUInt64();
+        }
+
+        return bytes;
+    }
+
+    private byte[] NoiseBehindAHeader()
+    {
+        byte[] bytes = Noise();
+        byte version = Below(8) == 0 ? (byte)Below(256) : WireFormat.Version;
+        byte[] head = [WireFormat.Magic & 0xFF, WireFormat.Magic >> 8, version, (byte)Below(12)];
+        head.AsSpan(0, Math.Min(head.Length, bytes.Length)).CopyTo(bytes);
+        return bytes;
+    }
+
+    private byte[] Cut()
+    {
+        byte[] bytes = Any();
+        int length = 1 + Below(Math.Min(WireFormat.MaxBytes, bytes.Length + 8));
+        Array.Resize(ref bytes, length);
+        return bytes;
+    }
+
+    private byte[] Joined()
+    {
+        byte[] first = Any(), second = Any();
+        int at = Below(Math.Min(first.Length, second.Length));
+        second.AsSpan(0, at).CopyTo(first);
+        return first;
+    }
+
+    private byte[] Changed()
+    {
+        byte[] bytes = Any();
+        for (int changes = 1 + Below(4); changes > 0; changes--)
+        {
+            int at = Below(3) == 0 ? Below(bytes.Length) : Math.Min(WireFormat.HeaderBytes + Below(80), bytes.Length - 1);
+            bytes[at] = Below(3) switch
+            {
+                0 => (byte)random.NextUInt64(),
+                1 => (byte)(bytes[at] ^ (1 << Below(8))),
+                _ => (byte)(Below(2) == 0 ? 0xFF : 0x7F + Below(2)),
+            };
+        }
+
+        return bytes;
+    }
+
+    /// <summary>A true form with values drawn, the session's number sometimes that of a datagram seen.</summary>
+    private byte[] MadeUp()
+    {
+        int length = Below(11) switch
+        {
+            0 => new KnockDatagram(random.NextUInt64()).Encode(buffer),
+            1 => new ChallengeDatagram(random.NextUInt64(), Token()).Encode(buffer),
+            2 => Join().Encode(buffer),
+            3 => new FetchDatagram(Session(), (byte)Below(10), (uint)Below(100), (uint)Below(100), random.NextUInt64()).Encode(buffer),
+            4 => new LeaveDatagram(random.NextUInt64(), (byte)Below(10), (LeaveReason)(1 + Below(7))).Encode(buffer),
+            5 => new WelcomeDatagram(
+                random.NextUInt64(), Session(), SimDuration.FromSeconds(1), 1 + Below(WorldCopy.MaxBytes), random.NextUInt64(), (uint)Below(9)).Encode(buffer),
+            6 => new DoubtDatagram(
+                Session(), (byte)Below(10), (uint)Below(100), SimTime.FromSeconds(Below(20)), SimTime.FromSeconds(20 + Below(20)), (uint)Below(70)).Encode(buffer),
+            7 => Evidence().Encode(buffer),
+            8 => new SeatDatagram(Session(), (byte)(1 + Below(9)), (uint)Below(9), Token()).Encode(buffer),
+            9 => new MoveDatagram(Session(), (byte)Below(10), Token()).Encode(buffer),
+            _ => Update().Encode(buffer),
+        };
+        return buffer.AsSpan(0, length).ToArray();
+    }
+
+    private JoinDatagram Join()
+    {
+        byte player = (byte)Below(10);
+        return new JoinDatagram(
+            random.NextUInt64(), Token(), Token(), random.NextUInt64(), (uint)(Simulation.FoldVersion + Below(2)), player, player == 0 ? default : Token());
+    }
+
+    private EvidenceDatagram Evidence() => Below(4) == 0
+        ? new EvidenceDatagram(Session(), Below(2) == 0)
+        : new EvidenceDatagram(Session(), 2000, (uint)Below(2000), 1 + (uint)Below(100), ExternalEvent.Remove(
+            SimTime.FromSeconds(Below(40)), (byte)Below(10), 1 + (uint)Below(100), BodyId.OfScene(Below(10))));
+
+    private Token128 Token()
+    {
+        Span<byte> bytes = stackalloc byte[Token128.Bytes];
+        for (int i = 0; i < bytes.Length; i++)
+        {
+            bytes[i] = (byte)random.NextUInt64();
+        }
+
+        return new Token128(bytes);
+    }
+
+    private ulong Session()
+    {
+        if (seen.Count > 0 && Below(2) == 0)
+        {
+            byte[] one = seen[Below(seen.Count)].Datagram;
+            if (one.Length >= WireFormat.EmptyUpdateBytes && one[3] == (byte)DatagramType.Update)
+            {
+                return BitConverter.ToUInt64(one, WireFormat.HeaderBytes);
+            }
+        }
+
+        return random.NextUInt64();
+    }
+
+    private UpdateDatagram Update()
+    {
+        UpdateDatagram update = new()
+        {
+            SessionId = Session(),
+            Peer = (byte)Below(10),
+            Number = (uint)random.NextUInt64(),
+            Sent = Time(),
+            EchoNumber = 1 + (uint)Below(200),
+            EchoBits = (uint)random.NextUInt64(),
+            EchoReceived = Time(),
+            EventsReceived = (uint)Below(2) * (uint)random.NextUInt64(),
+            FirstIndex = (uint)Below(100),
+            Ready = Below(2) == 0,
+            Start = Below(2) == 0 ? SimTime.MinValue : Time(),
+            Watermark = Below(2) == 0 ? SimTime.MinValue : Time(),
+        };
+        for (uint n = (uint)Below(30); n > 0; n--)
+        {
+            BodyId body = Below(2) == 0 ? BodyId.OfScene(Below(8)) : BodyId.FromPacked(random.NextUInt64());
+            _ = Below(7) switch
+            {
+                4 => update.TryAdd((Verdict)Below(6), ExternalEvent.Grab(Time(), (byte)Below(10), n, body, Vector())),
+                5 => update.TryAdd((Verdict)Below(6), ExternalEvent.HoldKnot(Time(), (byte)Below(10), n, body, Vector(), Vector())),
+                6 => update.TryAdd((Verdict)Below(6), ExternalEvent.Release(Time(), (byte)Below(10), n, body, Vector())),
+                0 => update.TryAddOwn((Verdict)Below(6), n),
+                1 => update.TryAdd((Verdict)Below(6), ExternalEvent.Remove(Time(), (byte)Below(10), n, body)),
+                2 => update.TryAdd((Verdict)Below(6), ExternalEvent.Impulse(Time(), (byte)Below(10), n, body, Vector())),
+                _ => update.TryAdd((Verdict)Below(6), ExternalEvent.Teleport(Time(), (byte)Below(10), n, body, Vector(), Vector())),
+            };
+        }
+
+        return update;
+    }
+
+    private SimTime Time() => SimTime.FromTicks(((long)random.NextUInt64() >> 2) >> Below(40));
+
+    private Vector3D Vector() => new(random.NextGaussian(), random.NextGaussian() * (Below(20) == 0 ? 1e300 : 1), random.NextGaussian());
+}

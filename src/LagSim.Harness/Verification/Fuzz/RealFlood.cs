@@ -1,0 +1,132 @@
+using System;
+using System.Diagnostics;
+using System.Net;
+using System.Threading;
+using System.Threading.Tasks;
+using LagSim.Events;
+using LagSim.Hosting;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Testing.Links;
+using LagSim.Time;
+
+namespace LagSim.Harness.Verification.Fuzz;
+
+/// <summary>A host and a joiner over real UDP sockets, flooded at full speed: a stranger sends garbage to both, and their own datagrams are played again.</summary>
+public static class RealFlood
+{
+    /// <summary>
+    /// By how much the memory in use may grow from the flood's first fifth to its end. The two sessions keep six seconds of a world of one ball; what waits in their carriers
+    /// and what their threads have just let go differs from look to look by up to 4 MB. Of 200 bytes kept for each of the datagrams that
+    /// ten seconds bring in on a slow machine, 100,000, there would be 16 MB, and of 1 kB for each of 20,000 as much.
+    /// </summary>
+    private const long MaxGrowth = 12_000_000;
+
+    private static readonly TimeSpan Patience = TimeSpan.FromSeconds(20);
+
+    /// <summary>Floods until either limit is reached.</summary>
+    /// <param name="seconds">For how long at most, above zero.</param>
+    /// <param name="packets">How many datagrams at most, at least 1.</param>
+    /// <param name="seed">What the garbage is.</param>
+    /// <param name="progress">Called now and then with the seconds passed; null for nobody.</param>
+    /// <param name="cancellation">Ends it.</param>
+    public static FloodReport Run(double seconds, long packets, ulong seed, Action<double>? progress, CancellationToken cancellation) =>
+        Run(seconds, packets, seed, progress, static port => port, cancellation);
+
+    /// <summary>The same, with something between each session and its port.</summary>
+    internal static FloodReport Run(
+        double seconds, long packets, ulong seed, Action<double>? progress, Func<IDatagramPort, IDatagramPort> between, CancellationToken cancellation)
+    {
+        ArgumentOutOfRangeException.ThrowIfLessThanOrEqual(seconds, 0);
+        ArgumentOutOfRangeException.ThrowIfLessThan(packets, 1);
+        Scene scene = new SceneBuilder("flood").WithSmallestRadius(0.25)
+            .AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0.9)
+            .AddBody("ball", new BodySpec(0.3, 1, 0.9), new Vector3D(0, 3, 0))
+            .Build();
+        using TappedPort hostPort = new(between(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0))), seed);
+        using TappedPort joinerPort = new(between(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0))), seed + 1);
+        using UdpPort stranger = new(new IPEndPoint(IPAddress.Loopback, 0));
+        SessionOptions options = new() { ConnectKey = "flood", PlayerBudget = null, ExtraHistory = SimDuration.FromSeconds(5) };
+        ulong number = (ulong)Stopwatch.GetTimestamp();
+        using PeerThread host = new(new HostSession(scene, hostPort, new StopwatchClock(), options, number), hostPort, "LagSim flooded host");
+        using PeerThread joiner = new(
+            new JoinerSession(null, joinerPort, new StopwatchClock(), options, hostPort.LocalAddress, number), joinerPort, "LagSim flooded joiner");
+        host.Start();
+        joiner.Start();
+        if (!host.WaitUntilRunning(Patience) || !joiner.WaitUntilRunning(Patience))
+        {
+            return new FloodReport(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, joiner.Session.EndReason ?? "The two did not come together.");
+        }
+
+        HostileDatagrams hostile = new(new SeededRandom(seed));
+        long began = Stopwatch.GetTimestamp(), garbage = 0, replays = 0, done = 0, memory = 0;
+        double nextDeed = 0, nextLook = 0;
+        double Elapsed() => Stopwatch.GetElapsedTime(began).TotalSeconds;
+        while (Elapsed() < seconds && garbage + replays < packets)
+        {
+            cancellation.ThrowIfCancellationRequested();
+            for (int burst = 0; burst < 64 && garbage + replays < packets; burst++)
+            {
+                stranger.Send(hostile.Next(), (burst % 4 < 2 ? hostPort : joinerPort).LocalAddress);
+                garbage++;
+                replays += hostPort.SendAgain() ? 1 : 0;
+                replays += joinerPort.SendAgain() ? 1 : 0;
+            }
+
+            if (Elapsed() >= nextDeed)
+            {
+                _ = (done % 2 == 0 ? host : joiner).Do(PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, 0.5, 0)));
+                done++;
+                nextDeed += 0.25;
+            }
+
+            if (memory == 0 && (Elapsed() > seconds / 5 || garbage + replays > packets / 5))
+            {
+                memory = LiveMemory.Read();
+            }
+
+            if (Elapsed() >= nextLook)
+            {
+                progress?.Invoke(Elapsed());
+                nextLook += 0.1;
+            }
+        }
+
+        double lasted = Elapsed();
+        long grown = memory == 0 ? 0 : LiveMemory.Read() - memory;
+        string? failure = Settle(host, joiner, done);
+        failure ??= grown > MaxGrowth ? $"Memory grew by {grown} bytes during the flood." : null;
+        SessionCounters a = Ask(host, s => s.Counters.Copy()), b = Ask(joiner, s => s.Counters.Copy());
+        return new FloodReport(
+            lasted, garbage, replays, a.DatagramsReceived + b.DatagramsReceived, a.DatagramsMalformed + b.DatagramsMalformed,
+            a.DatagramsIgnored + b.DatagramsIgnored, done, Math.Min(a.EventsAccepted, b.EventsAccepted), grown,
+            Math.Max(host.Session.World!.MaxLateness.ToMilliseconds(), joiner.Session.World!.MaxLateness.ToMilliseconds()), failure);
+    }
+
+    /// <summary>Waits until both have everything, and compares their worlds; a sentence for what is wrong.</summary>
+    private static string? Settle(PeerThread host, PeerThread joiner, long done)
+    {
+        long deadline = Stopwatch.GetTimestamp() + (long)(Patience.TotalSeconds * Stopwatch.Frequency);
+        while (Ask(host, s => s.Counters.EventsAccepted) < done || Ask(joiner, s => s.Counters.EventsAccepted) < done)
+        {
+            if (host.State == SessionState.Ended || joiner.State == SessionState.Ended || Stopwatch.GetTimestamp() > deadline)
+            {
+                return $"After the flood the host is {host.State} and the joiner {joiner.State}: {host.Session.EndReason} {joiner.Session.EndReason}";
+            }
+
+            Thread.Sleep(10);
+        }
+
+        SimTime then = SimTime.Max(host.Session.World!.Simulation.Start, host.Session.SharedTime.Now - SimDuration.FromMilliseconds(500));
+        return Ask(host, s => s.World!.Simulation.EventHash(then)) == Ask(joiner, s => s.World!.Simulation.EventHash(then))
+            ? null
+            : "After the flood the two worlds differ.";
+    }
+
+    private static T Ask<T>(PeerThread peer, Func<Session, T> question)
+    {
+        Task<T> answer = peer.Ask(question);
+        return answer.Wait(Patience) ? answer.Result : throw new Experiments.Peers.PeerGroupException($"A peer did not answer within {Patience.TotalSeconds} s.");
+    }
+}

@@ -1,0 +1,78 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.Linq;
+using LagSim.Testing.Links;
+
+namespace LagSim.Harness.Verification.Stalls;
+
+/// <summary>One drawn session: how many play over which links, how much they do, and what happens to whom.</summary>
+/// <remarks>A function of its seed alone.</remarks>
+public sealed class StallCase
+{
+    /// <summary>A peer stands still, or is gone, for 1 to 60 s.</summary>
+    private const double LeastSeconds = 1;
+    private const double MostSeconds = 60;
+
+    /// <summary>Between two stalls of one peer it plays at least so long.</summary>
+    private const double LeastPause = 2;
+
+    /// <summary>What is drawn from: a host that is killed loses its world, so that is the rarest.</summary>
+    private static readonly StallKind[] Kinds =
+    [
+        StallKind.HostFrozen, StallKind.HostFrozen, StallKind.HostKilled, StallKind.ClientFrozen, StallKind.ClientFrozen, StallKind.ClientKilled,
+        StallKind.ClientKilled, StallKind.PortChanges,
+    ];
+
+    /// <summary>Draws it.</summary>
+    public StallCase(ulong seed)
+    {
+        Seed = seed;
+        SeededRandom random = new SeededRandom(seed).Fork(0x57A11);
+        Clients = 2 + random.NextInt(3);
+        Link = random.Pick([.. LinkProfiles.All]);
+        EventsPerSecond = random.NextDouble(0.5, 4);
+        List<Stall> stalls = [];
+        int count = 1 + random.NextInt(2);
+        for (int n = 0; n < count; n++)
+        {
+            StallKind kind = random.Pick(Kinds);
+            int player = kind is StallKind.HostFrozen or StallKind.HostKilled ? 0 : 1 + random.NextInt(Clients);
+            double seconds = kind == StallKind.PortChanges
+                ? random.NextDouble(2, 5) * Stall.ChangeSeconds
+                : LeastSeconds * Math.Pow(MostSeconds / LeastSeconds, random.NextDouble()); // as many of 1 to 8 s as of 8 to 60 s
+            double at = random.NextDouble(3, 30);
+            foreach (Stall before in stalls.Where(s => s.Player == player))
+            {
+                bool isBoth = before.Kind != StallKind.PortChanges && kind != StallKind.PortChanges; // ports may change all the while
+                at = isBoth ? Math.Max(at, before.EndSeconds + LeastPause) : at;
+            }
+
+            stalls.Add(new Stall(kind, player, at, seconds));
+        }
+
+        Stalls = [.. stalls.OrderBy(s => s.AtSeconds)];
+    }
+
+    /// <summary>What it is drawn from.</summary>
+    public ulong Seed { get; }
+
+    /// <summary>How many clients there are.</summary>
+    public int Clients { get; }
+
+    /// <summary>The link of each.</summary>
+    public LinkProfile Link { get; }
+
+    /// <summary>How many events each does a second, in the mean.</summary>
+    public double EventsPerSecond { get; }
+
+    /// <summary>What happens, by time.</summary>
+    public IReadOnlyList<Stall> Stalls { get; }
+
+    /// <summary>When the last of it is over.</summary>
+    public double EndSeconds => Stalls.Max(s => s.EndSeconds);
+
+    /// <summary>All of it in a few words.</summary>
+    public override string ToString() => string.Create(
+        CultureInfo.InvariantCulture, $"{Clients} clients, {Link.Name}, {EventsPerSecond:0.0} events/s each; {string.Join("; ", Stalls)}");
+}
