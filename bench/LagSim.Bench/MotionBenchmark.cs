@@ -1,8 +1,6 @@
 using BenchmarkDotNet.Attributes;
 using LagSim.Collisions;
-using LagSim.Contacts;
 using LagSim.Harness.SceneFiles;
-using LagSim.Harness.Scenes;
 using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;

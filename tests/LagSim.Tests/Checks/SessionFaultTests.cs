@@ -1,7 +1,5 @@
 using System.Linq;
-using LagSim.Harness.Check;
 using LagSim.Harness.Verification.Check;
-using LagSim.Net.Sessions;
 using LagSim.Tests.Sessions;
 using Xunit;
 

@@ -1,6 +1,6 @@
+using LagSim.Testing.Links;
+using LagSim.Harness.SceneFiles;
 using LagSim.Events;
-using LagSim.Harness.Links;
-using LagSim.Harness.Scenes;
 using LagSim.Net.Clocks;
 using LagSim.Net.Sessions;
 using LagSim.Net.Sessions.Core;

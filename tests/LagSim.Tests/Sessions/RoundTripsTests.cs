@@ -1,9 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Links;
 using LagSim.Net.Sessions.Links;
-using LagSim.Net.Sessions;
 using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;

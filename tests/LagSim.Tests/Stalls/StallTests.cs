@@ -1,8 +1,6 @@
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Harness.Stalls;
 using LagSim.Harness.Verification.Stalls;
-using LagSim.Net.Sessions;
 using LagSim.Tests.Sessions;
 using Xunit;
 

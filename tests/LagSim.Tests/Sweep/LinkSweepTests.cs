@@ -1,8 +1,6 @@
 using System;
 using System.Linq;
 using LagSim.Harness.Experiments.Sweep;
-using LagSim.Harness.Sweep;
-using LagSim.Net.Sessions;
 using LagSim.Tests.Sessions;
 using Xunit;
 
