@@ -73,7 +73,8 @@ internal sealed class Engine
         Partners partners = new(Bodies, Timelines, view, rewinds);
         MemberFactory members = new(Bodies, Timelines, forces, Step.Scale, trajectories);
         Sleepers sleepers = new(Bodies, Timelines, view, graph, rewinds, members);
-        Stepper = new IslandStepper(scene, Bodies, Timelines, forces, graph, Step, partners, rewinds, members, trajectories, marks, work);
+        StepSegments stepSegments = new(scene, Bodies, Timelines, graph, Step, members, trajectories);
+        Stepper = new IslandStepper(Bodies, Timelines, forces, graph, Step, partners, rewinds, members, stepSegments, marks, work);
 
         // What comes of an event.
         collapse = new CollapseRule(scene, Bodies, Timelines, graph, strikes, Faults);

@@ -7,7 +7,6 @@ using LagSim.Rollback;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
-using LagSim.Trajectories;
 
 namespace LagSim.Islands;
 
@@ -18,14 +17,11 @@ namespace LagSim.Islands;
 /// all others go on along their chords to the next tick, which gathers the island by the contacts that its segments carry.
 /// </remarks>
 internal sealed class IslandStepper(
-    Scene scene, BodyTable bodies, TimelineStore timelines, in Forces forces, ContactGraph graph, ContactStep step, Partners partners,
-    RewindRequests rewinds, MemberFactory members, TrajectoryFactory trajectories, StepMarks marks, SolverWork work)
+    BodyTable bodies, TimelineStore timelines, in Forces forces, ContactGraph graph, ContactStep step, Partners partners,
+    RewindRequests rewinds, MemberFactory members, StepSegments segments, StepMarks marks, SolverWork work)
 {
     private readonly Forces forces = forces;
-    private readonly StaticSurfaces surfaces = scene.Surfaces;
     private readonly Paths paths = new(timelines);
-    private readonly PlaneSet planes = new();
-    private bool[] holdsPair = Array.Empty<bool>(); // by body of the graph: whether another body holds it
 
     /// <summary>How many contact steps were taken.</summary>
     internal long StepsTaken { get; private set; }
@@ -48,7 +44,7 @@ internal sealed class IslandStepper(
         double tolerance = StepTolerance(out bool mayRest);
         if (mayRest && HaveRested(canonical.Time))
         {
-            OpenRest(canonical);
+            segments.OpenRest(canonical);
         }
         else
         {
@@ -60,7 +56,7 @@ internal sealed class IslandStepper(
             }
 
             step.FindHolding(length.ToSeconds());
-            OpenStep(canonical, length);
+            segments.OpenStep(canonical, length);
             MarkStep();
         }
 
@@ -310,221 +306,5 @@ internal sealed class IslandStepper(
         }
 
         return rests;
-    }
-
-    /// <summary>All of the island rest from here on, and forget the impulses, so that those that come to rest in other ways meet.</summary>
-    private void OpenRest(in EventKey key)
-    {
-        step.Problem.List();
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            int slot = graph.Slots[i];
-            int before = timelines.Last(slot);
-            MotionSegment rest = MotionSegment.AtRest(key.Time, graph.Positions[i].WithoutNegativeZero());
-            timelines.Append(slot, bodies.Id(slot), key, rest, default, spin: new Spin(SpinAtRest(i)));
-            int piece = timelines.Last(slot);
-            timelines.BeginMember(piece, key.Time, timelines.StillSince(before));
-            for (int at = timelines.FirstContact(before); at != TimelineStore.None; at = timelines.NextContact(at))
-            {
-                LastingContact contact = timelines.Contact(at);
-                if (contact.Holds)
-                {
-                    timelines.AddContact(piece, new LastingContact(contact.Partner, contact.Surface, holds: true));
-                }
-            }
-
-            timelines.EndMember(piece, bodies.Id(slot));
-        }
-    }
-
-    /// <summary>
-    /// How a party turns once its centre rests: as it did, but for what moves its surface slower than rest allows. What turns about the
-    /// normal of a contact and what rolls there are told apart, so that what goes on turning on the spot does not go on rolling.
-    /// </summary>
-    private Vector3D SpinAtRest(int party)
-    {
-        Vector3D spin = graph.Spins[party];
-        double least = step.Scale.StillSpeed / graph.Radii[party];
-        foreach (int i in step.Problem.ListOf(party))
-        {
-            ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            Vector3D onTheSpot = c.Normal * Vector3D.Dot(c.Normal, spin);
-            spin = c.Held && c.Friction > 0 && (spin - onTheSpot).Length <= least ? onTheSpot : spin;
-        }
-
-        return spin.Length > least ? spin : Vector3D.Zero;
-    }
-
-    /// <summary>
-    /// Opens the pieces of the step that was solved: chords of those that something holds, else whatever law they follow alone.
-    /// </summary>
-    private void OpenStep(in EventKey key, SimDuration length)
-    {
-        step.Problem.List();
-        FindHoldingPairs();
-        SimTime end = key.Time + length;
-        SimTime centre = key.Time + SimDuration.FromTicks(length.Ticks / 2);
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            int slot = graph.Slots[i];
-            int before = timelines.Last(slot);
-            if (paths.IsHeld(before))
-            {
-                trajectories.Hands.GoOn(slot, key);
-                continue;
-            }
-
-            ref readonly SolverBody solved = ref step.Problem.Bodies[i];
-            if (!IsHeldTogether(i, out int planeCount))
-            {
-                trajectories.Flights.Open(slot, key, graph.Positions[i], LeavingVelocity(i, before, key.Time), spin: graph.Spins[i]);
-            }
-            else if (planeCount > 0)
-            {
-                OpenAlone(i, key, solved);
-            }
-            else
-            {
-                SimTime still = IsStill(i, solved) && timelines.Segment(before).Law == MotionLaw.Constrained
-                    ? timelines.StillSince(before) : key.Time;
-                members.OpenChord(slot, key, end, graph.Positions[i], solved.Velocity, solved.Spin);
-                int piece = timelines.Last(slot);
-                timelines.BeginMember(piece, centre, still);
-                CarryContacts(i, piece);
-                timelines.EndMember(piece, bodies.Id(slot));
-            }
-        }
-    }
-
-    /// <summary>
-    /// Whether a body is so slow that in the time before a sleep it does not move by the tolerance; nor its surface, against what it rubs
-    /// on,
-    /// or what rolling resistance is to have it turn with.
-    /// </summary>
-    private bool IsStill(int party, in SolverBody solved)
-    {
-        double speed = step.Scale.StillSpeed;
-        bool isStill = solved.Velocity.Length <= speed;
-        foreach (int i in step.Problem.ListOf(party))
-        {
-            ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            Vector3D turning = c.Second == ContactPoint.Static ? solved.Spin : step.Problem.Bodies[c.First].Spin - step.Problem.Bodies[c.Second].Spin;
-            isStill &= c.Lever == 0 || turning.Length * solved.Radius <= speed;
-            // At its bound friction slips; what is just below it has been moved there by the last sweeps.
-            bool slips = c.Impulse > 0 && c.Rub.Length >= 0.999 * c.Friction * c.Impulse;
-            isStill &= c.Friction == 0 || !slips || ContactSolver.Slip(step.Problem, c).Length <= speed;
-        }
-
-        return isStill;
-    }
-
-    /// <summary>Who is held by another body in the step.</summary>
-    private void FindHoldingPairs()
-    {
-        if (holdsPair.Length < graph.BodyCount)
-        {
-            holdsPair = new bool[graph.BodyCount * 2];
-        }
-
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            holdsPair[i] = false;
-        }
-
-        for (int i = 0; i < step.Problem.ContactCount; i++)
-        {
-            ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            if (c.Second != ContactPoint.Static && c.Holds)
-            {
-                holdsPair[c.First] = true;
-                holdsPair[c.Second] = true;
-            }
-        }
-    }
-
-    /// <summary>
-    /// Whether something pushes a party in the step. If that is static planes alone, on which a closed form carries it, <paramref
-    /// name="planes"/> tells how many.
-    /// </summary>
-    private bool IsHeldTogether(int party, out int planes)
-    {
-        planes = 0;
-        bool isHeld = holdsPair[party];
-        bool needsSteps = isHeld || !bodies.Spec(graph.Slots[party]).Forces.IsEmpty;
-        bool rubs = false;
-        foreach (int i in step.Problem.ListOf(party))
-        {
-            ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            if (c.Second == ContactPoint.Static && c.Holds)
-            {
-                isHeld = true;
-                needsSteps |= !surfaces.IsPlane(c.Surface) || c.Impulse == 0;
-                rubs |= c.Friction > 0;
-                planes++;
-            }
-        }
-
-        planes = needsSteps || (rubs && planes > 1) ? 0 : planes;
-        return isHeld;
-    }
-
-    /// <summary>
-    /// The velocity at the tick of who leaves: with what the contacts of the last step gave in its second half, for until now they have
-    /// held it.
-    /// </summary>
-    private Vector3D LeavingVelocity(int party, int piece, SimTime tick)
-    {
-        if (timelines.Segment(piece).Law != MotionLaw.Constrained)
-        {
-            return graph.Velocities[party];
-        }
-
-        double since = tick.SecondsSince(timelines.CentreOf(piece));
-        Vector3D push = Vector3D.Zero;
-        for (int at = timelines.FirstContact(piece); at != TimelineStore.None; at = timelines.NextContact(at))
-        {
-            push += timelines.Contact(at).Push;
-        }
-
-        return graph.Velocities[party] + (graph.Accelerations[party] * since) + (push * (0.5 / graph.Masses[party]));
-    }
-
-    /// <summary>
-    /// Opens the closed form of a body that planes alone hold: with the mean of its velocities before the tick and after.
-    /// </summary>
-    private void OpenAlone(int party, in EventKey key, in SolverBody solved)
-    {
-        Vector3D velocity = (graph.Velocities[party] + solved.Velocity) * 0.5;
-        Vector3D spin = (graph.Spins[party] + solved.Spin) * 0.5;
-        planes.Clear();
-        foreach (int i in step.Problem.ListOf(party))
-        {
-            ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            if (c.Second == ContactPoint.Static && c.Impulse > 0)
-            {
-                velocity -= c.Normal * Vector3D.Dot(c.Normal, velocity);
-                planes.Add(c.Surface);
-            }
-        }
-
-        trajectories.Open(graph.Slots[party], key, graph.Positions[party], velocity, 0, planes.Planes, spin);
-    }
-
-    private void CarryContacts(int party, int piece)
-    {
-        BodyId self = bodies.Id(graph.Slots[party]);
-        foreach (int i in step.Problem.ListOf(party))
-        {
-            ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            bool isFirst = c.First == party;
-            bool isPair = c.Second != ContactPoint.Static;
-            Vector3D push = (c.Normal * c.Impulse) + c.Rub;
-            timelines.AddContact(piece, new LastingContact(
-                !isPair ? self : bodies.Id(graph.Slots[isFirst ? c.Second : c.First]),
-                isPair ? LastingContact.NoSurface : c.Surface,
-                c.Holds,
-                (isFirst ? push : -push).WithoutNegativeZero(),
-                (isFirst ? c.Turn : -c.Turn).WithoutNegativeZero()));
-        }
     }
 }
