@@ -166,7 +166,7 @@ internal sealed class Engine
             Timelines.BeginMember(piece, body.Centre, body.StillSince);
             foreach (LastingContact contact in body.ContactArray)
             {
-                Timelines.AddContact(piece, contact);
+                Timelines.Carried.Add(piece, contact);
             }
 
             Timelines.EndMember(piece, body.Id);

@@ -20,7 +20,7 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
     /// </summary>
     internal bool IsCovered(int slot, int piece, int surface)
     {
-        int at = timelines.ContactWith(piece, surface);
+        int at = timelines.Carried.With(piece, surface);
         if (at == TimelineStore.None)
         {
             return false;
@@ -28,7 +28,7 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
 
         ref readonly MotionSegment path = ref timelines.Segment(piece);
         return timelines.Key(piece).Kind == EventKind.StepEnd || (IsSolved(slot, piece, at) && IsOpenedWithHand(piece))
-            || (timelines.Contact(at).Holds && Vector3D.Dot(surfaces.Normal(surface, path.Position), path.Velocity) >= -scale.ImpactSpeed);
+            || (timelines.Carried.At(at).Holds && Vector3D.Dot(surfaces.Normal(surface, path.Position), path.Velocity) >= -scale.ImpactSpeed);
     }
 
     /// <summary>
@@ -36,7 +36,7 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
     /// not go on over.
     /// </summary>
     private bool IsSolved(int slot, int piece, int contact) =>
-        timelines.Key(piece).Kind == EventKind.Impact && timelines.Contact(contact).Holds && !IsElastic(slot, timelines.Contact(contact));
+        timelines.Key(piece).Kind == EventKind.Impact && timelines.Carried.At(contact).Holds && !IsElastic(slot, timelines.Carried.At(contact));
 
     /// <summary>
     /// Whether the impact that opened a member's piece was one with a hand that the member touches. A world that began from a snapshot may
@@ -45,9 +45,9 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
     private bool IsOpenedWithHand(int piece)
     {
         bool isByHand = false;
-        for (int at = timelines.FirstContact(piece); at != TimelineStore.None && !isByHand; at = timelines.NextContact(at))
+        for (int at = timelines.Carried.First(piece); at != TimelineStore.None && !isByHand; at = timelines.Carried.Next(at))
         {
-            ref readonly LastingContact contact = ref timelines.Contact(at);
+            ref readonly LastingContact contact = ref timelines.Carried.At(at);
             int partner = contact.Surface == LastingContact.NoSurface ? bodies.SlotOf(contact.Partner) : -1;
             isByHand = partner >= 0 && IsOpenedWith(partner, timelines.Key(piece));
         }
@@ -88,8 +88,8 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
             return false;
         }
 
-        int at = timelines.ContactWith(piece, bodies.Id(other));
-        if (at == TimelineStore.None || timelines.ContactWith(otherPiece, bodies.Id(slot)) == TimelineStore.None)
+        int at = timelines.Carried.With(piece, bodies.Id(other));
+        if (at == TimelineStore.None || timelines.Carried.With(otherPiece, bodies.Id(slot)) == TimelineStore.None)
         {
             return false;
         }
@@ -102,7 +102,7 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
         SimTime opened = SimTime.Max(timelines.Key(piece).Time, timelines.Key(otherPiece).Time);
         Vector3D normal = (paths.PositionAt(piece, opened) - paths.PositionAt(otherPiece, opened)).Direction;
         double opening = Vector3D.Dot(normal, timelines.Segment(piece).Velocity - timelines.Segment(otherPiece).Velocity);
-        return timelines.Contact(at).Holds && opening >= -scale.ImpactSpeed;
+        return timelines.Carried.At(at).Holds && opening >= -scale.ImpactSpeed;
     }
 
     /// <summary>
@@ -110,8 +110,8 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
     /// </summary>
     private bool IsCoveredFromHand(int hand, int handPiece, int piece)
     {
-        int at = timelines.ContactWith(piece, bodies.Id(hand));
-        if (at == TimelineStore.None || !timelines.Contact(at).Holds)
+        int at = timelines.Carried.With(piece, bodies.Id(hand));
+        if (at == TimelineStore.None || !timelines.Carried.At(at).Holds)
         {
             return false;
         }
@@ -128,8 +128,8 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
 
     internal bool Holds(int piece, int surface)
     {
-        int at = timelines.ContactWith(piece, surface);
-        return at != TimelineStore.None && timelines.Contact(at).Holds;
+        int at = timelines.Carried.With(piece, surface);
+        return at != TimelineStore.None && timelines.Carried.At(at).Holds;
     }
 
     /// <summary>Whether two bodies, of which one may be a hand's, carry a contact that holds them together.</summary>
@@ -141,8 +141,8 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
             return false;
         }
 
-        int at = isMember ? timelines.ContactWith(piece, bodies.Id(other)) : timelines.ContactWith(otherPiece, bodies.Id(slot));
-        return at != TimelineStore.None && timelines.Contact(at).Holds;
+        int at = isMember ? timelines.Carried.With(piece, bodies.Id(other)) : timelines.Carried.With(otherPiece, bodies.Id(slot));
+        return at != TimelineStore.None && timelines.Carried.At(at).Holds;
     }
 
     private double OpeningAt(int piece, int otherPiece, SimTime time)

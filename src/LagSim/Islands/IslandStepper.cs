@@ -92,9 +92,9 @@ internal sealed class IslandStepper(
                 continue; // in a hand
             }
 
-            for (int at = timelines.FirstContact(piece); at != TimelineStore.None; at = timelines.NextContact(at))
+            for (int at = timelines.Carried.First(piece); at != TimelineStore.None; at = timelines.Carried.Next(at))
             {
-                ref readonly LastingContact contact = ref timelines.Contact(at);
+                ref readonly LastingContact contact = ref timelines.Carried.At(at);
                 if (contact.Holds && contact.Surface == LastingContact.NoSurface && partners.TryFind(bodies.Id(graph.Slots[i]), contact.Partner, key, out int partner)
                     && graph.IndexOf(partner) < 0)
                 {
@@ -176,7 +176,7 @@ internal sealed class IslandStepper(
             }
             else
             {
-                double since = middle.SecondsSince(timelines.Segment(piece).Law == MotionLaw.Resting ? tick : timelines.CentreOf(piece));
+                double since = middle.SecondsSince(timelines.Segment(piece).Law == MotionLaw.Resting ? tick : timelines.Carried.CentreOf(piece));
                 graph.Accelerations[i] = forces.On(bodies.Id(slot)).At(spec, tick, 0, graph.Positions[i], velocity, graph.Spins[i]);
                 gain = graph.Accelerations[i] * since;
             }
@@ -223,7 +223,7 @@ internal sealed class IslandStepper(
                 }
 
                 int piece = timelines.Last(graph.Slots[i]);
-                double since = middle.SecondsSince(timelines.Segment(piece).Law == MotionLaw.Resting ? tick : timelines.CentreOf(piece));
+                double since = middle.SecondsSince(timelines.Segment(piece).Law == MotionLaw.Resting ? tick : timelines.Carried.CentreOf(piece));
                 Vector3D mean = (graph.Velocities[i] + step.Problem.Bodies[i].Velocity) * 0.5;
                 Vector3D spin = (graph.Spins[i] + step.Problem.Bodies[i].Spin) * 0.5;
                 Vector3D acceleration = forces.On(bodies.Id(graph.Slots[i])).At(spec, tick, 0, graph.Positions[i], mean, spin);
@@ -269,10 +269,10 @@ internal sealed class IslandStepper(
                 continue;
             }
 
-            int at = c.Second == ContactPoint.Static ? timelines.ContactWith(piece, c.Surface) : timelines.ContactWith(piece, bodies.Id(graph.Slots[c.Second]));
+            int at = c.Second == ContactPoint.Static ? timelines.Carried.With(piece, c.Surface) : timelines.Carried.With(piece, bodies.Id(graph.Slots[c.Second]));
             if (at != TimelineStore.None)
             {
-                ref readonly LastingContact known = ref timelines.Contact(at);
+                ref readonly LastingContact known = ref timelines.Carried.At(at);
                 c.Impulse = Math.Max(0, Vector3D.Dot(known.Push, c.Normal));
                 c.Rub = c.Friction > 0 ? known.Push - (c.Normal * Vector3D.Dot(known.Push, c.Normal)) : Vector3D.Zero;
                 c.Turn = c.Lever > 0 ? known.Turn : Vector3D.Zero;
@@ -302,7 +302,7 @@ internal sealed class IslandStepper(
         for (int i = 0; i < graph.BodyCount && rests; i++)
         {
             int piece = timelines.Last(graph.Slots[i]);
-            rests = tick - timelines.StillSince(piece) >= ContactScale.StillFor;
+            rests = tick - timelines.Carried.StillSince(piece) >= ContactScale.StillFor;
         }
 
         return rests;

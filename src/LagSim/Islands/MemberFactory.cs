@@ -25,12 +25,12 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
         int before = timelines.Last(slot);
         MotionSegment path = timelines.Segment(before);
         bool slept = path.Law == MotionLaw.Resting;
-        SimTime centre = slept ? key.Time : timelines.CentreOf(before);
-        SimTime still = slept || hasChanged ? key.Time : timelines.StillSince(before);
+        SimTime centre = slept ? key.Time : timelines.Carried.CentreOf(before);
+        SimTime still = slept || hasChanged ? key.Time : timelines.Carried.StillSince(before);
         if (slept && !hasChanged)
         {
-            centre = timelines.CentreOf(before);
-            still = timelines.StillSince(before);
+            centre = timelines.Carried.CentreOf(before);
+            still = timelines.Carried.StillSince(before);
             timelines.Append(slot, bodies.Id(slot), key, MotionSegment.AtRest(key.Time, path.Position), default, spin: timelines.SpinOf(before));
         }
         else
@@ -40,10 +40,10 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
 
         int piece = timelines.Last(slot);
         timelines.BeginMember(piece, centre, still);
-        for (int at = timelines.FirstContact(before); at != TimelineStore.None; at = timelines.NextContact(at))
+        for (int at = timelines.Carried.First(before); at != TimelineStore.None; at = timelines.Carried.Next(at))
         {
-            LastingContact contact = timelines.Contact(at);
-            timelines.AddContact(piece, contact);
+            LastingContact contact = timelines.Carried.At(at);
+            timelines.Carried.Add(piece, contact);
         }
     }
 

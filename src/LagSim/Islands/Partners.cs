@@ -33,7 +33,7 @@ internal sealed class Partners(BodyTable bodies, TimelineStore timelines, PathVi
             rewinds.Add(partner, key);
         }
 
-        bool holds = paths.IsHeld(piece) || (paths.IsMember(piece) && timelines.ContactWith(piece, body) != TimelineStore.None);
+        bool holds = paths.IsHeld(piece) || (paths.IsMember(piece) && timelines.Carried.With(piece, body) != TimelineStore.None);
         if (!holds && !NearMisses.Contains(partner))
         {
             NearMisses.Add(partner);

@@ -25,9 +25,9 @@ internal sealed class Sleepers(
             return true;
         }
 
-        for (int at = timelines.FirstContact(last); at != TimelineStore.None; at = timelines.NextContact(at))
+        for (int at = timelines.Carried.First(last); at != TimelineStore.None; at = timelines.Carried.Next(at))
         {
-            ref readonly LastingContact contact = ref timelines.Contact(at);
+            ref readonly LastingContact contact = ref timelines.Carried.At(at);
             int partner = contact.Surface == LastingContact.NoSurface ? bodies.SlotOf(contact.Partner) : -1;
             int piece = partner < 0 ? TimelineStore.None : view.PieceBefore(partner, key);
             if (piece != TimelineStore.None && paths.IsMember(piece) && timelines.Segment(piece).Law == MotionLaw.Resting)

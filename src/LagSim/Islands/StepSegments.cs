@@ -30,13 +30,13 @@ internal sealed class StepSegments(
             MotionSegment rest = MotionSegment.AtRest(key.Time, graph.Positions[i].WithoutNegativeZero());
             timelines.Append(slot, bodies.Id(slot), key, rest, default, spin: new Spin(SpinAtRest(i)));
             int piece = timelines.Last(slot);
-            timelines.BeginMember(piece, key.Time, timelines.StillSince(before));
-            for (int at = timelines.FirstContact(before); at != TimelineStore.None; at = timelines.NextContact(at))
+            timelines.BeginMember(piece, key.Time, timelines.Carried.StillSince(before));
+            for (int at = timelines.Carried.First(before); at != TimelineStore.None; at = timelines.Carried.Next(at))
             {
-                LastingContact contact = timelines.Contact(at);
+                LastingContact contact = timelines.Carried.At(at);
                 if (contact.Holds)
                 {
-                    timelines.AddContact(piece, new LastingContact(contact.Partner, contact.Surface, holds: true));
+                    timelines.Carried.Add(piece, new LastingContact(contact.Partner, contact.Surface, holds: true));
                 }
             }
 
@@ -93,7 +93,7 @@ internal sealed class StepSegments(
             else
             {
                 SimTime still = IsStill(i, solved) && timelines.Segment(before).Law == MotionLaw.Constrained
-                    ? timelines.StillSince(before) : key.Time;
+                    ? timelines.Carried.StillSince(before) : key.Time;
                 members.OpenChord(slot, key, end, graph.Positions[i], solved.Velocity, solved.Spin);
                 int piece = timelines.Last(slot);
                 timelines.BeginMember(piece, centre, still);
@@ -186,11 +186,11 @@ internal sealed class StepSegments(
             return graph.Velocities[body];
         }
 
-        double since = tick.SecondsSince(timelines.CentreOf(piece));
+        double since = tick.SecondsSince(timelines.Carried.CentreOf(piece));
         Vector3D push = Vector3D.Zero;
-        for (int at = timelines.FirstContact(piece); at != TimelineStore.None; at = timelines.NextContact(at))
+        for (int at = timelines.Carried.First(piece); at != TimelineStore.None; at = timelines.Carried.Next(at))
         {
-            push += timelines.Contact(at).Push;
+            push += timelines.Carried.At(at).Push;
         }
 
         return graph.Velocities[body] + (graph.Accelerations[body] * since) + (push * (0.5 / graph.Masses[body]));
@@ -226,7 +226,7 @@ internal sealed class StepSegments(
             bool isFirst = c.First == body;
             bool isPair = c.Second != ContactPoint.Static;
             Vector3D push = (c.Normal * c.Impulse) + c.Rub;
-            timelines.AddContact(piece, new LastingContact(
+            timelines.Carried.Add(piece, new LastingContact(
                 !isPair ? self : bodies.Id(graph.Slots[isFirst ? c.Second : c.First]),
                 isPair ? LastingContact.NoSurface : c.Surface,
                 c.Holds,

@@ -218,9 +218,9 @@ internal sealed class IslandImpact(
         ref readonly MotionSegment path = ref timelines.Segment(piece);
         SimTime end = path.Law == MotionLaw.Resting ? scale.TickFrom(key.Time, double.PositiveInfinity) : path.End;
         double left = end.SecondsSince(key.Time);
-        for (int at = timelines.FirstContact(piece); at != TimelineStore.None; at = timelines.NextContact(at))
+        for (int at = timelines.Carried.First(piece); at != TimelineStore.None; at = timelines.Carried.Next(at))
         {
-            LastingContact contact = timelines.Contact(at);
+            LastingContact contact = timelines.Carried.At(at);
             if (!contact.Holds || (!presses && memberContacts.IsElastic(slot, contact)))
             {
                 continue; // that there is room to close in is not used up yet, or an impact tells when

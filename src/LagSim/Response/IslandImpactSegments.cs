@@ -67,7 +67,7 @@ internal sealed class IslandImpactSegments(
             timelines.BeginMember(timelines.Last(slot), key.Time, key.Time);
             for (int k = 0; k < supports.Count; k++)
             {
-                timelines.AddContact(timelines.Last(slot), new LastingContact(bodies.Id(slot), supports[k], holds: true));
+                timelines.Carried.Add(timelines.Last(slot), new LastingContact(bodies.Id(slot), supports[k], holds: true));
             }
         }
 
@@ -99,14 +99,14 @@ internal sealed class IslandImpactSegments(
             }
 
             BodyId partner = bodies.Id(graph.Slots[isPair && c.First == body ? c.Second : c.First]);
-            int known = isPair ? timelines.ContactWith(piece, partner) : timelines.ContactWith(piece, c.Surface);
+            int known = isPair ? timelines.Carried.With(piece, partner) : timelines.Carried.With(piece, c.Surface);
             if (known != TimelineStore.None)
             {
-                timelines.Hold(known, c.Lasts);
+                timelines.Carried.Hold(known, c.Lasts);
             }
             else if (c.Lasts)
             {
-                timelines.AddContact(piece, new LastingContact(partner, isPair ? LastingContact.NoSurface : c.Surface, holds: true));
+                timelines.Carried.Add(piece, new LastingContact(partner, isPair ? LastingContact.NoSurface : c.Surface, holds: true));
             }
         }
     }

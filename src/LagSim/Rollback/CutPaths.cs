@@ -89,15 +89,15 @@ internal sealed class CutPaths
 
         bool isMember = timelines.Segment(segment).IsOfIsland;
         int from = contacts.Count;
-        for (int at = isMember ? timelines.FirstContact(segment) : TimelineStore.None; at != TimelineStore.None; at = timelines.NextContact(at))
+        for (int at = isMember ? timelines.Carried.First(segment) : TimelineStore.None; at != TimelineStore.None; at = timelines.Carried.Next(at))
         {
-            contacts.Add(timelines.Contact(at));
+            contacts.Add(timelines.Carried.At(at));
         }
 
         pieces.Add(new Piece
         {
-            Centre = isMember ? timelines.CentreOf(segment) : default,
-            Still = isMember ? timelines.StillSince(segment) : default,
+            Centre = isMember ? timelines.Carried.CentreOf(segment) : default,
+            Still = isMember ? timelines.Carried.StillSince(segment) : default,
             FromContact = from,
             ContactCount = contacts.Count - from,
             Slot = slot,
@@ -206,12 +206,12 @@ internal sealed class CutPaths
             return true;
         }
 
-        bool isSame = timelines.CentreOf(segment) == piece.Centre && timelines.StillSince(segment) == piece.Still;
+        bool isSame = timelines.Carried.CentreOf(segment) == piece.Centre && timelines.Carried.StillSince(segment) == piece.Still;
         int n = 0;
-        int at = timelines.FirstContact(segment);
-        for (; at != TimelineStore.None && isSame; at = timelines.NextContact(at))
+        int at = timelines.Carried.First(segment);
+        for (; at != TimelineStore.None && isSame; at = timelines.Carried.Next(at))
         {
-            isSame = n < piece.ContactCount && timelines.Contact(at).Equals(contacts[piece.FromContact + n++]);
+            isSame = n < piece.ContactCount && timelines.Carried.At(at).Equals(contacts[piece.FromContact + n++]);
         }
 
         return isSame && n == piece.ContactCount;
@@ -228,7 +228,7 @@ internal sealed class CutPaths
         timelines.BeginMember(segment, piece.Centre, piece.Still);
         for (int n = 0; n < piece.ContactCount; n++)
         {
-            timelines.AddContact(segment, contacts[piece.FromContact + n]);
+            timelines.Carried.Add(segment, contacts[piece.FromContact + n]);
         }
 
         timelines.EndMember(segment, body);

@@ -41,7 +41,7 @@ internal sealed partial class TimelineStore
 
         if (motion.IsOfIsland)
         {
-            AddMember(ref hash, segment);
+            Carried.AddTo(ref hash, segment, origin);
         }
 
         return hash.Value;

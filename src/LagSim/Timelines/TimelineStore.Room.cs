@@ -89,7 +89,11 @@ internal sealed partial class TimelineStore
 
     private void Release(int at)
     {
-        ReleaseContacts(at);
+        if (pieces[at].Segment.IsOfIsland)
+        {
+            Carried.Release(at);
+        }
+
         links[at].Serial = 0;
         links[at].Closed = SimTime.MaxValue; // nothing that could be dropped
         links[at].Next = free;
@@ -119,10 +123,7 @@ internal sealed partial class TimelineStore
             Array.Resize(ref spins, size);
         }
 
-        if (members.Length > 0)
-        {
-            Array.Resize(ref members, size);
-        }
+        Carried.Grow(size);
     }
 
     /// <summary>When the last part of what is kept began. The span since the edge may exceed the range of a long; as an unsigned difference it never does.</summary>

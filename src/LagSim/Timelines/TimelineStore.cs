@@ -99,6 +99,9 @@ internal sealed partial class TimelineStore
     /// <summary>The body's oldest segment that is kept, or <see cref="None"/>.</summary>
     internal int First(int slot) => first[slot];
 
+    /// <summary>What members' segments carry besides their paths.</summary>
+    internal CarriedContacts Carried { get; } = new();
+
     internal int Next(int segment) => links[segment].Next;
 
     internal int Previous(int segment) => links[segment].Previous;
@@ -231,6 +234,12 @@ internal sealed partial class TimelineStore
             hashes.Value += HashOf(at, body);
         }
     }
+
+    /// <summary>Begins what a member's segment, just appended, carries.</summary>
+    internal void BeginMember(int segment, SimTime centre, SimTime still) => Carried.Begin(segment, centre, still, pieces.Length);
+
+    /// <summary>Ends it: from here on it counts in the hash.</summary>
+    internal void EndMember(int segment, BodyId body) => hashes.Value += HashOf(segment, body);
 
     /// <summary>Removes the body's segments keyed at or after <paramref name="key"/>; returns how many.</summary>
     internal int CutFrom(int slot, BodyId body, in EventKey key)

@@ -4,9 +4,12 @@ using LagSim.Time;
 
 namespace LagSim.Timelines;
 
-/// <content>What the segments of members of islands carry besides their paths.</content>
-internal sealed partial class TimelineStore
+/// <summary>What the segments of members of islands carry from step to step, besides their paths: lasting contacts, and the instants of their step.</summary>
+/// <remarks>By segment; allocates only once there is an island, and when more is carried than ever before. Not thread-safe.</remarks>
+internal sealed class CarriedContacts
 {
+    private const int None = TimelineStore.None;
+
     private Member[] members = Array.Empty<Member>(); // by segment; only once there is an island
     private LastingContact[] contacts = Array.Empty<LastingContact>(); // lists, linked
     private int[] nextContact = Array.Empty<int>();
@@ -20,16 +23,16 @@ internal sealed partial class TimelineStore
     internal SimTime StillSince(int segment) => members[segment].Still;
 
     /// <summary>The first contact that a member's segment carries, or <see cref="None"/>.</summary>
-    internal int FirstContact(int segment) => members[segment].First;
+    internal int First(int segment) => members[segment].First;
 
-    internal int NextContact(int contact) => nextContact[contact];
+    internal int Next(int contact) => nextContact[contact];
 
-    internal ref readonly LastingContact Contact(int contact) => ref contacts[contact];
+    internal ref readonly LastingContact At(int contact) => ref contacts[contact];
 
     /// <summary>The contact of a member's segment with a body, or <see cref="None"/>.</summary>
-    internal int ContactWith(int segment, BodyId partner)
+    internal int With(int segment, BodyId partner)
     {
-        int at = FirstContact(segment);
+        int at = First(segment);
         while (at != None && (contacts[at].Surface != LastingContact.NoSurface || contacts[at].Partner != partner))
         {
             at = nextContact[at];
@@ -39,9 +42,9 @@ internal sealed partial class TimelineStore
     }
 
     /// <summary>The contact of a member's segment with a static surface, or <see cref="None"/>.</summary>
-    internal int ContactWith(int segment, int surface)
+    internal int With(int segment, int surface)
     {
-        int at = FirstContact(segment);
+        int at = First(segment);
         while (at != None && contacts[at].Surface != surface)
         {
             at = nextContact[at];
@@ -51,13 +54,8 @@ internal sealed partial class TimelineStore
     }
 
     /// <summary>A copy of the contacts that a segment carries.</summary>
-    internal LastingContact[] ContactsOf(int segment)
+    internal LastingContact[] CopyOf(int segment)
     {
-        if (!pieces[segment].Segment.IsOfIsland)
-        {
-            return Array.Empty<LastingContact>();
-        }
-
         int count = 0;
         for (int at = members[segment].First; at != None; at = nextContact[at])
         {
@@ -74,18 +72,22 @@ internal sealed partial class TimelineStore
     }
 
     /// <summary>Begins what a member's segment, just appended, carries.</summary>
-    internal void BeginMember(int segment, SimTime centre, SimTime still)
+    /// <param name="segment">The segment.</param>
+    /// <param name="centre">See <see cref="CentreOf"/>.</param>
+    /// <param name="still">See <see cref="StillSince"/>.</param>
+    /// <param name="room">For how many segments there is room.</param>
+    internal void Begin(int segment, SimTime centre, SimTime still, int room)
     {
         if (segment >= members.Length)
         {
-            Array.Resize(ref members, pieces.Length);
+            Array.Resize(ref members, room);
         }
 
         members[segment] = new Member { Centre = centre, Still = still, First = None, Last = None };
     }
 
     /// <summary>Adds a contact to the list of the segment begun.</summary>
-    internal void AddContact(int segment, in LastingContact contact)
+    internal void Add(int segment, in LastingContact contact)
     {
         int at = freeContact;
         if (at != None)
@@ -125,12 +127,19 @@ internal sealed partial class TimelineStore
         c = new LastingContact(c.Partner, c.Surface, holds, c.Push, c.Turn);
     }
 
-    /// <summary>Ends it: from here on it counts in the hash.</summary>
-    internal void EndMember(int segment, BodyId body) => hashes.Value += HashOf(segment, body);
-
-    private void ReleaseContacts(int segment)
+    /// <summary>Makes room for as many segments as the store has, if any carries something.</summary>
+    internal void Grow(int room)
     {
-        if (pieces[segment].Segment.IsOfIsland && members[segment].Last != None)
+        if (members.Length > 0)
+        {
+            Array.Resize(ref members, room);
+        }
+    }
+
+    /// <summary>A member's segment is gone.</summary>
+    internal void Release(int segment)
+    {
+        if (members[segment].Last != None)
         {
             nextContact[members[segment].Last] = freeContact;
             freeContact = members[segment].First;
@@ -139,7 +148,8 @@ internal sealed partial class TimelineStore
         }
     }
 
-    private void AddMember(ref StableHash hash, int segment)
+    /// <summary>Adds to a hash what a segment carries.</summary>
+    internal void AddTo(ref StableHash hash, int segment, SimTime origin)
     {
         hash.Add(members[segment].Centre - origin);
         hash.Add(members[segment].Still - origin);
