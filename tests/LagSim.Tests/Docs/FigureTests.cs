@@ -10,9 +10,9 @@ namespace LagSim.Tests.Docs;
 public sealed class FigureTests
 {
     [Fact]
-    public void Readme_TableOfStrategies_IsWhatCompareGives()
+    public void Strategies_TableOfThePage_IsWhatCompareGives()
     {
-        string readme = SnippetTests.Read("README.md");
+        string page = SnippetTests.Read("docs/STRATEGIES.md");
         JsonElement[] runs = Json("compare", "--scene", "billiards", "--profile", "transatlantic", "--json").GetProperty("runs").EnumerateArray().ToArray();
         Assert.Equal(5, runs.Length);
         foreach (JsonElement run in runs)
@@ -26,12 +26,12 @@ public sealed class FigureTests
                 run.GetProperty("events_rerun").GetProperty("mean").GetDouble().ToString("F1", CultureInfo.InvariantCulture),
                 run.GetProperty("cone_bodies").GetProperty("mean").GetDouble().ToString("F0", CultureInfo.InvariantCulture),
             ];
-            Assert.Contains($"| {string.Join(" | ", cells)} |", readme, System.StringComparison.Ordinal);
+            Assert.Contains($"| {string.Join(" | ", cells)} |", page, System.StringComparison.Ordinal);
         }
     }
 
     [Fact]
-    public void Idle_BytesASecondOfReadmeAndLinks_AreWhatTheSweepGivesWithAndWithoutHeaders()
+    public void Idle_BytesASecondOfReadmeSessionsAndLinks_AreWhatTheSweepGivesWithAndWithoutHeaders()
     {
         const double Headers = 28 * 0.5; // of UDP and IP, for the datagram that goes each way every 2 s
         JsonElement cell = Json("sweep", "--clients", "3", "--events", "0", "--rate-kbps", "256", "--queue-ms", "50", "--no-dips", "--play-s", "60", "--rest-s", "1", "--json")
@@ -39,7 +39,7 @@ public sealed class FigureTests
         double down = cell.GetProperty("sent_bytes_per_s").GetDouble(), up = cell.GetProperty("sent_up_bytes_per_s").GetDouble();
         string both = $"{Whole(up - Headers)} bytes a second up and {Whole(down - Headers)} down, or {Whole(up)} and {Whole(down)} with UDP and IP headers";
         Assert.Contains(both, SnippetTests.Read("README.md"), System.StringComparison.Ordinal);
-        Assert.Contains(both, SnippetTests.Read("docs/ARCHITECTURE.md"), System.StringComparison.Ordinal);
+        Assert.Contains(both, SnippetTests.Read("docs/SESSIONS.md"), System.StringComparison.Ordinal);
         Assert.Contains(
             $"sent {Whole(down)} bytes a second with those headers ({Whole(down - Headers)} without", SnippetTests.Read("docs/LINKS.md"), System.StringComparison.Ordinal);
 

@@ -22,10 +22,14 @@ namespace LagSim.Tests.Docs;
 public sealed partial class SnippetTests
 {
     private static readonly string Compiled = Read("tests/LagSim.Tests/Docs/Snippets.cs") + Read("tests/LagSim.Tests/Docs/ForceSnippets.cs")
-        + Read("tests/LagSim.Tests/Docs/LiteNetLibSnippets.cs");
+        + Read("tests/LagSim.Tests/Docs/LiteNetLibSnippets.cs") + Read("samples/FirstGame/Program.cs");
 
     [Theory]
-    [InlineData("README.md", 7)]
+    [InlineData("README.md", 1)]
+    [InlineData("docs/TUTORIAL.md", 4)]
+    [InlineData("docs/GAMELOOP.md", 7)]
+    [InlineData("docs/ENGINES.md", 1)]
+    [InlineData("docs/TUNING.md", 1)]
     [InlineData("src/LagSim/README.md", 1)]
     [InlineData("src/LagSim.Net/README.md", 1)]
     [InlineData("src/LagSim.Net.LiteNetLib/README.md", 1)]
@@ -105,7 +109,10 @@ public sealed partial class SnippetTests
     }
 
     [Theory]
-    [InlineData("README.md", 12)]
+    [InlineData("README.md", 4)]
+    [InlineData("docs/CLI.md", 12)]
+    [InlineData("docs/STRATEGIES.md", 3)]
+    [InlineData("docs/EXACT.md", 1)]
     [InlineData("docs/ACCURACY.md", 8)]
     [InlineData("docs/SCENES.md", 3)]
     [InlineData("CONTRIBUTING.md", 1)]
@@ -129,7 +136,7 @@ public sealed partial class SnippetTests
     {
         string[] lines = Lines(snippet), uses = [.. lines.Where(line => Use().IsMatch(line))];
         string[] there = Lines(Compiled), code = [.. lines.Where(line => !Use().IsMatch(line))];
-        return Enumerable.Range(0, Math.Max(0, there.Length - code.Length)).Any(at => there.AsSpan(at, code.Length).SequenceEqual(code))
+        return Enumerable.Range(0, Math.Max(0, there.Length - code.Length + 1)).Any(at => there.AsSpan(at, code.Length).SequenceEqual(code))
             && uses.All(use => there.Contains(use) || use == "using LagSim;"); // in which the test's own namespace lies
     }
 

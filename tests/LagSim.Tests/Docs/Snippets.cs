@@ -3,10 +3,12 @@ using System.Net;
 using System.Threading.Tasks;
 using LagSim.Events;
 using LagSim.Hosting;
+using LagSim.Net.Carriers;
 using LagSim.Net.Display;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Tests.Docs;
 
@@ -36,18 +38,18 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
 
     internal Simulation HearLate(BodyId ball)
     {
-        Simulation world = new(scene, new SimulationOptions(history: SimDuration.FromSeconds(2))); // how late news may be; 1 s by default
-        world.Healed += heal => Console.WriteLine($"{heal.Bodies} bodies looked at anew, {heal.Events} events run again");
+        Simulation world = new(scene, new SimulationOptions(history: SimDuration.FromSeconds(2))); // how late an event may be; 1 s by default
+        world.Healed += heal => Console.WriteLine($"{heal.Bodies} bodies rewound, {heal.Events} events re-simulated");
         world.AdvanceTo(SimTime.FromSeconds(3));
 
-        // at 3 s news arrives that peer 1 kicked the ball at 2.2 s, which is the first thing it did
+        // at 3 s a late event arrives: peer 1 kicked the ball at 2.2 s; it is the first thing that peer did
         ExternalEvent kick = PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)).Stamp(SimTime.FromSeconds(2.2), peer: 1, sequence: 1);
         if (world.Submit(kick) == SubmitResult.TooOld)
         {
             throw new InvalidOperationException("It lies before the history; nothing has changed.");
         }
 
-        world.AdvanceTo(SimTime.FromSeconds(3)); // to the bit what it would be if the news had come in time
+        world.AdvanceTo(SimTime.FromSeconds(3)); // to the bit what it would be if the event had come in time
         return world;
     }
 
@@ -106,9 +108,9 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         HandSender sender = new(ball);
 
         // each frame
-        if (sender.TrySample(peer.Session.SharedTime.Now, hand, handVelocity, out PlayerAction knot))
+        if (sender.TrySample(peer.Session.SharedTime.Now, hand, handVelocity, out PlayerAction keyframe))
         {
-            _ = peer.Do(knot);
+            _ = peer.Do(keyframe);
         }
 
         // the hand opens: a throw
@@ -127,7 +129,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
 
         if (display.TryRead(ball, out DrawnBody drawn))
         {
-            Draw(drawn.Position); // the world has it at drawn.State.Position; news moved it by drawn.Jump metres
+            Draw(drawn.Position); // the world has it at drawn.State.Position; a late event moved it by drawn.Jump metres
         }
     }
 
@@ -143,6 +145,56 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         {
             DrawHand(at);
         }
+    }
+
+    internal async Task Smallest()
+    {
+        Scene scene = new SceneBuilder("bounce")
+            .AddPlane("floor", normal: Vector3D.Up, point: Vector3D.Zero)
+            .AddBody("ball", new BodySpec(radius: 0.5, mass: 1, restitution: 0.7), position: new Vector3D(0, 4, 0))
+            .Build();
+        BodyId ball = scene.BodyNamed("ball");
+
+        using PeerThread host = PeerThread.Host(scene, udpPort: 5000);
+
+        // on another machine: a client gets the scene from the host
+        using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Parse("192.0.2.1"), 5000));
+        client.WaitUntilRunning(TimeSpan.FromSeconds(15));
+
+        // each frame
+        if (client.Latest() is Picture picture && picture.TryRead(ball, client.Session.DisplayTime, out BodyState state))
+        {
+            Draw(state.Position);
+        }
+
+        // a kick: here at once, on every other machine at the same instant of the world
+        await client.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
+    }
+
+    internal void Polled(BodyId ball)
+    {
+        using UdpPort port = new(new IPEndPoint(IPAddress.Any, 5000));
+        HostSession session = new(scene, port, new StopwatchClock(), new SessionOptions(), Session.DrawNumber());
+
+        // each frame
+        session.Step();
+        if (session.World?.Pictures.Latest() is Picture picture && picture.TryRead(ball, session.DisplayTime, out BodyState state))
+        {
+            Draw(state.Position);
+        }
+
+        // at the end
+        session.Leave();
+    }
+
+    internal static SessionOptions Tuned()
+    {
+        SessionOptions options = new()
+        {
+            Window = new LatencyCompensationWindow(history: SimDuration.FromMilliseconds(400), lookAhead: SimDuration.FromMilliseconds(50))
+                .WithLocalLag(EventKind.Impulse, SimDuration.FromMilliseconds(40)),
+        };
+        return options;
     }
 
     internal async Task ShareOfThePackage()

@@ -1,0 +1,46 @@
+using System;
+using System.Net;
+using System.Threading;
+using LagSim;
+using LagSim.Events;
+using LagSim.Hosting;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+
+Scene scene = new SceneBuilder("my first world")
+    .AddPlane("floor", normal: Vector3D.Up, point: Vector3D.Zero)
+    .AddBody("ball", new BodySpec(radius: 0.5, mass: 1, restitution: 0.8), position: new Vector3D(0, 5, 0))
+    .Build();
+
+// "join ADDRESS:PORT" makes this program a client; anything else makes it the host.
+using PeerThread me = args is ["join", string address]
+    ? PeerThread.Join(IPEndPoint.Parse(address))
+    : PeerThread.Host(scene, udpPort: 5000);
+if (!me.WaitUntilRunning(TimeSpan.FromSeconds(15)))
+{
+    Console.Error.WriteLine(me.Session.EndReason);
+    return 1;
+}
+
+BodyId ball = me.Session.Scene!.BodyNamed("ball"); // a client gets the scene from the host
+for (int frame = 0; frame < 60 * 10 && me.State == SessionState.Running; frame++)
+{
+    if (frame % 120 == 60)
+    {
+        _ = me.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0))); // a kick every two seconds, 6 N s upwards
+    }
+
+    if (frame % 15 == 0 && me.Latest() is Picture picture && picture.TryRead(ball, me.Session.DisplayTime, out BodyState state))
+    {
+        Console.WriteLine($"height {state.Position.Y:F2} m");
+    }
+
+    Thread.Sleep(1000 / 60);
+}
+
+if (await me.Ask(session => session.Committed) is CommittedState last)
+{
+    Console.WriteLine($"committed state {last.StateHash:x16}");
+}
+
+return 0;

@@ -1,0 +1,50 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using System.Text.RegularExpressions;
+using LagSim.Tests.Api;
+using Xunit;
+
+namespace LagSim.Tests.Docs;
+
+/// <summary>Links between pages lead somewhere, and the pages stay as short as their readers' patience.</summary>
+public sealed partial class PageLinkTests
+{
+    [Fact]
+    public void Pages_EveryRelativeLink_LeadsToAFileOrFolder()
+    {
+        string[] broken = [.. Pages().SelectMany(page => Broken(page, File.ReadAllText(page)))];
+        Assert.True(broken.Length == 0, string.Join('\n', broken));
+        Assert.Single(Broken(Path.Combine(RepositoryRoot.Path, "README.md"), "[no page](docs/NO-SUCH-PAGE.md)")); // the control
+    }
+
+    [Fact]
+    public void Index_NamesEveryPage()
+    {
+        string index = SnippetTests.Read("docs/README.md");
+        string[] missing = [.. Directory.GetFiles(Path.Combine(RepositoryRoot.Path, "docs"), "*.md").Select(file => Path.GetFileName(file)!)
+            .Where(name => name != "README.md" && !index.Contains($"({name})", StringComparison.Ordinal))];
+        Assert.True(missing.Length == 0, $"docs/README.md does not name {string.Join(", ", missing)}.");
+    }
+
+    [Theory]
+    [InlineData("README.md", 120)]
+    [InlineData("docs/ARCHITECTURE.md", 250)]
+    public void Page_HasAtMostSoManyLines(string page, int lines) => Assert.InRange(SnippetTests.Read(page).Count(c => c == '\n'), 1, lines);
+
+    private static IEnumerable<string> Pages() => Directory.GetFiles(RepositoryRoot.Path, "*.md")
+        .Concat(new[] { "docs", "src", "bench", "samples", "tests" }
+            .SelectMany(folder => Directory.EnumerateFiles(Path.Combine(RepositoryRoot.Path, folder), "*.md", SearchOption.AllDirectories)))
+        .Where(file => !file.Replace('\\', '/').Split('/').Any(part => part is "bin" or "obj"));
+
+    private static IEnumerable<string> Broken(string page, string text) => Link().Matches(text)
+        .Select(match => match.Groups[1].Value is { Length: > 0 } link ? link : match.Groups[2].Value)
+        .Where(target => !target.Contains("://", StringComparison.Ordinal) && !target.StartsWith('#') && !target.StartsWith("mailto:", StringComparison.Ordinal))
+        .Select(target => Path.Combine(Path.GetDirectoryName(page)!, target.Split('#')[0]))
+        .Where(path => !File.Exists(path) && !Directory.Exists(path))
+        .Select(path => $"{page}: {path}");
+
+    [GeneratedRegex("""\]\(([^)\s]+)\)|(?:src|srcset)="([^"]+)""")]
+    private static partial Regex Link();
+}
