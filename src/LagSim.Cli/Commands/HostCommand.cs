@@ -60,7 +60,7 @@ internal static class HostCommand
             using UdpPort carrier = new(new IPEndPoint(local, parsed.GetValue(port)));
             HostSession session = Open(loaded, carrier, request.Options);
             bool json = parsed.GetValue(common.Json);
-            SessionPrinter printer = new(console, json, "host", parsed.GetValue(common.Seed), request)
+            SessionPrinter printer = new(console, json, "host", parsed.GetValue(common.Seed), request.Seconds, request.RecordFile)
             {
                 ListeningOn = new IPEndPoint(local, carrier.LocalAddress.ToEndPoint().Port).ToString(),
             };

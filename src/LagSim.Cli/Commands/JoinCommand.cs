@@ -64,7 +64,7 @@ internal static class JoinCommand
                 };
             }
 
-            SessionPrinter printer = new(console, parsed.GetValue(common.Json), "join", parsed.GetValue(common.Seed), request);
+            SessionPrinter printer = new(console, parsed.GetValue(common.Json), "join", parsed.GetValue(common.Seed), request.Seconds, request.RecordFile);
             using SessionRunner runner = new(session, carrier, request, printer, console.Stop);
             return runner.Run();
         });

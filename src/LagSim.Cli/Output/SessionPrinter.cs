@@ -3,7 +3,6 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Text.Json;
-using LagSim.Cli.Commands;
 using LagSim.Harness.Reports;
 using LagSim.Net.Carriers;
 using LagSim.Net.Recordings;
@@ -21,17 +20,25 @@ internal sealed class SessionPrinter
     private readonly bool json;
     private readonly string command;
     private readonly ulong seed;
-    private readonly SessionRequest request;
+    private readonly double? forSeconds;
+    private readonly string? recordFile;
     private readonly List<(double Seconds, CommittedState State)> states = [];
     private ClockReading? clock;
 
-    internal SessionPrinter(ToolConsole console, bool json, string command, ulong seed, SessionRequest request)
+    /// <param name="console">Where to print.</param>
+    /// <param name="json">Whether the summary is JSON.</param>
+    /// <param name="command">The command that runs, <c>host</c> or <c>join</c>.</param>
+    /// <param name="seed">The seed of the run.</param>
+    /// <param name="seconds">How long to take part; null until asked to stop.</param>
+    /// <param name="recordFile">Where the session is recorded; null for nowhere.</param>
+    internal SessionPrinter(ToolConsole console, bool json, string command, ulong seed, double? seconds, string? recordFile)
     {
         this.console = console;
         this.json = json;
         this.command = command;
         this.seed = seed;
-        this.request = request;
+        forSeconds = seconds;
+        this.recordFile = recordFile;
     }
 
     /// <summary>Where a host can be reached; null for a joiner.</summary>
@@ -164,7 +171,7 @@ internal sealed class SessionPrinter
             to.WriteLine($"counted: {string.Join(", ", counted.Select(c => $"{c.Name.Replace('_', ' ')} {c.Count}"))}");
         }
 
-        if (request.RecordFile is string file)
+        if (recordFile is string file)
         {
             string files = recorder?.Files.Count > 1 ? string.Join(", ", recorder.Files) : file;
             to.WriteLine(recorder?.Failure is null ? $"recorded in {files}" : $"recorded in {files} only in part: {recorder.Failure}");
@@ -180,7 +187,7 @@ internal sealed class SessionPrinter
         SessionCounters counters = session.Counters;
         document.WriteNumber("peer", session.Peer);
         document.WriteString("listening_on", ListeningOn);
-        JsonDocumentWriter.Number(document, "for_s", request.Seconds);
+        JsonDocumentWriter.Number(document, "for_s", forSeconds);
         document.WriteString("ended_by", Words(session.EndedBy));
         document.WriteString("end_reason", session.EndReason);
         JsonDocumentWriter.Number(document, "committed_s", states.Count > 0 ? states[^1].Seconds : null);
@@ -239,7 +246,7 @@ internal sealed class SessionPrinter
         }
 
         document.WriteEndArray();
-        document.WriteString("recording", request.RecordFile);
+        document.WriteString("recording", recordFile);
         document.WriteString("recording_failure", recorder?.Failure);
         document.WriteStartArray("recordings");
         foreach (string file in recorder?.Files ?? [])
