@@ -1,0 +1,40 @@
+namespace LagSim.Tests.Architecture;
+
+/// <summary>The types that have more than 400 lines or 15 fields, each with the reason why it is not split, or not yet.</summary>
+internal static class LargeTypes
+{
+    internal static readonly LargeType[] All =
+    [
+        // The engine.
+        new("LagSim.Contacts.ContactStep", "the steps of one solver share its arrays of rows; waits to be split into building, solving and writing back"),
+        new("LagSim.Contacts.SolverContact", "a row of the solver, kept flat: what is read together lies together"),
+        new("LagSim.Engine", "puts the parts together, a field for each part; it has next to no code of its own"),
+        new("LagSim.Islands.IslandStepper", "waits to be split: members, steps and steps taken ahead share its state"),
+        new("LagSim.Timelines.TimelineStore", "waits to be split: keeping, cutting and asking are in one", 700),
+
+        // Peers.
+        new("LagSim.Net.Sessions.SessionCounters", "a number for each thing that is counted"),
+        new("LagSim.Net.Sessions.SessionOptions", "a field for each option, of hosts and clients alike; waits to be split by these two"),
+        new("LagSim.Net.Wire.UpdateDatagram", "a field for each that the datagram carries"),
+
+        // Tests for games.
+        new("LagSim.Testing.Links.BulkTransfer", "the state of one sender of a stream, most of it the numbers of its congestion window"),
+        new("LagSim.Testing.Links.LinkModel", "one direction of a link: a stream of random numbers for each thing that can go wrong there, and where it stands"),
+        new("LagSim.Testing.Running.SessionRun", "one session from start to end, with its clocks and its network; a few lines over"),
+
+        // What the tool does.
+        new("LagSim.Cli.Commands.SessionRunner", "waits to be split: asking to join, acting, watching and the end are in one"),
+        new("LagSim.Harness.Experiments.Compare.CompareRun", "one run from start to end: its set-up, its players and what it measures"),
+        new("LagSim.Harness.Experiments.Drop.DropRun", "one run from start to end: its set-up, its players and what it measures"),
+        new("LagSim.Harness.Experiments.Hold.HoldRun", "one run from start to end: its set-up, its players and what it measures"),
+        new("LagSim.Harness.Experiments.Sweep.SweepOutcome", "a result record, a field for each column"),
+        new("LagSim.Harness.Relays.RelayCore", "what a relay is set to, its clients, and what it counts"),
+        new("LagSim.Harness.SceneFiles.SceneJsonReader", "a method for each element of the format; together they are its definition"),
+        new("LagSim.Harness.Verification.Check.CheckOutcome", "a result record, a field for each figure"),
+        new("LagSim.Harness.Verification.Check.CheckSession", "one drawn session from start to end; waits to be split into drawing, playing and judging"),
+        new("LagSim.Harness.Verification.Check.RoomScene", "draws a scene: a field for each trait that all its bodies share"),
+        new("LagSim.Harness.Verification.Stalls.StallClient", "one client of a run, with all that is measured of it"),
+        new("LagSim.Harness.Verification.Stalls.StallProcessRun", "one run from start to end: its set-up, its processes and what it measures"),
+        new("LagSim.Harness.Verification.Stalls.StallRun", "one run from start to end: its set-up, its players and what it measures"),
+    ];
+}

@@ -1,0 +1,23 @@
+using System.Reflection;
+using LagSim.Cli.Output;
+using LagSim.Harness.Reports;
+using LagSim.Net.Sessions;
+using LagSim.Testing;
+
+namespace LagSim.Tests.Architecture;
+
+/// <summary>What is compiled from <c>src</c>.</summary>
+internal static class SourceAssemblies
+{
+    internal static readonly Assembly[] All =
+    [
+        typeof(Simulation).Assembly,
+        typeof(Session).Assembly,
+        typeof(SessionTest).Assembly,
+        typeof(NumberText).Assembly,
+        typeof(ExitCode).Assembly,
+#if WITH_LITENETLIB
+        typeof(LagSim.Net.Carriers.LiteNetLibPort).Assembly,
+#endif
+    ];
+}
