@@ -30,7 +30,7 @@ internal static class DropCommand
         Option<int> peers = CommonOptions.Whole("--peers", "How many peers, the host included", 2, 2, 9);
         Option<string> time = CommonOptions.Time("real");
         Option<string> transport = CommonOptions.Word("--transport", "What carries the datagrams in real time; in virtual time they only cross the simulated"
-            + " link.", Carrier.Udp.Name, BuiltCarriers.Names);
+            + " link.", Carrier.Udp.Name, CarrierChoice.Names);
         Option<double> height = CommonOptions.Number("--height-m", "The height from which the ball's centre falls", 10, 0.5, 1e6);
         Option<double> second = CommonOptions.Number("--second-height-m", "The height to which it is lifted", 15, 0.5, 1e6);
         Option<double> restitution = CommonOptions.Number("--restitution", "Restitution of ball and floor", 0.8, 0, 1);
@@ -55,7 +55,7 @@ internal static class DropCommand
                 DelayMilliseconds = parsed.GetValue(profile) is null ? parsed.GetValue(delay) ?? DefaultDelay : null,
                 Peers = parsed.GetValue(peers),
                 IsVirtual = parsed.GetValue(time) == "virtual",
-                Carrier = BuiltCarriers.Of(parsed.GetValue(transport)!),
+                Carrier = CarrierChoice.Of(parsed.GetValue(transport)!),
                 HeightMetres = parsed.GetValue(height),
                 SecondHeightMetres = parsed.GetValue(second),
                 Restitution = parsed.GetValue(restitution),

@@ -1,4 +1,3 @@
-#if WITH_LITENETLIB
 using System.Net;
 using LagSim.Net.Carriers;
 
@@ -16,4 +15,3 @@ public sealed class LiteNetLibPortSuiteTests : DatagramPortSuite
     /// <inheritdoc/>
     protected override long Dropped(IDatagramPort port) => ((LiteNetLibPort)port).Dropped;
 }
-#endif

@@ -1,4 +1,3 @@
-#if WITH_LITENETLIB
 using System;
 using System.Linq;
 using System.Net;
@@ -313,4 +312,3 @@ public sealed class LiteNetLibPortTests
     private static LiteNetLibPort Open(string? key = null, int maxConnections = LiteNetLibPort.DefaultMaxConnections) =>
         new(new IPEndPoint(IPAddress.Loopback, 0), key, maxConnections);
 }
-#endif

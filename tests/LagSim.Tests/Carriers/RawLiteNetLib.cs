@@ -1,4 +1,3 @@
-#if WITH_LITENETLIB
 using System;
 using System.Net;
 using System.Net.Sockets;
@@ -77,4 +76,3 @@ internal sealed class RawLiteNetLib : IDisposable
         return packet;
     }
 }
-#endif

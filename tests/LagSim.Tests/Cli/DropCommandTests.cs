@@ -225,15 +225,13 @@ public sealed class DropCommandTests
     [Fact]
     public void Transport_InRealTime_IsUdp() => Assert.Equal("udp", DropNames.Transport(new DropOptions()));
 
-#if WITH_LITENETLIB
     [Fact]
     public void Transport_LiteNetLib_IsNamedInRealTimeOnly()
     {
-        Assert.Equal("litenetlib", DropNames.Transport(new DropOptions { Carrier = BuiltCarriers.Of("litenetlib") }));
+        Assert.Equal("litenetlib", DropNames.Transport(new DropOptions { Carrier = CarrierChoice.Of("litenetlib") }));
         JsonElement run = Json("drop", "--time", "virtual", "--case", "same-start", "--transport", "litenetlib", "--json").GetProperty("runs")[0];
         Assert.Equal("virtual", Text(run, "transport"));
     }
-#endif
 
     internal static T WithComma<T>(Func<T> work)
     {

@@ -141,12 +141,6 @@ public sealed class UsageTests
     public void Drop_DelayAndProfile_AreRefusedTogether() =>
         Tool.Refuses(Usage, ["drop", "--time", "virtual", "--delay-ms", "25", "--profile", "lan"], "--delay-ms and --profile exclude each other");
 
-#if !WITH_LITENETLIB
-    [Fact]
-    public void Drop_LiteNetLibNotInTheBuild_IsRefusedWithTheSwitch() =>
-        Tool.Refuses(Usage, ["drop", "--transport", "litenetlib"], "--transport litenetlib", "-p:WithLiteNetLib=true", "LagSim.Net.LiteNetLib");
-#endif
-
     [Theory]
     [InlineData("--until-s", "NaN", "between 0 and 1000000")]
     [InlineData("--until-s", "-1", "between 0 and 1000000")]

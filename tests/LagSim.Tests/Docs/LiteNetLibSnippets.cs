@@ -1,4 +1,3 @@
-#if WITH_LITENETLIB
 using System.Net;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
@@ -7,7 +6,7 @@ using LagSim.Scenes;
 
 namespace LagSim.Tests.Docs;
 
-/// <summary>The code of the page of LagSim.Net.LiteNetLib, compiled where that is.</summary>
+/// <summary>The code of the page of LagSim.Net.LiteNetLib, compiled.</summary>
 internal static class LiteNetLibSnippets
 {
     internal static void Host(Scene scene, ulong sessionId)
@@ -18,4 +17,3 @@ internal static class LiteNetLibSnippets
         host.Start();
     }
 }
-#endif

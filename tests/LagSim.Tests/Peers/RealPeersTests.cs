@@ -16,16 +16,14 @@ public sealed class RealPeersTests
 {
     [Theory(Timeout = 60_000)]
     [InlineData("udp")]
-#if WITH_LITENETLIB
     [InlineData("litenetlib")]
-#endif
     public async System.Threading.Tasks.Task Run_ThreePeersOverLoopback_AgreeToTheBit(string carrier)
     {
         await System.Threading.Tasks.Task.Run(
             () =>
             {
                 SimDuration length = SimDuration.FromSeconds(1.2);
-                PeerGroupOptions options = new(3, LinkProfiles.PureDelay(5), Length: length) { Carrier = BuiltCarriers.Of(carrier) };
+                PeerGroupOptions options = new(3, LinkProfiles.PureDelay(5), Length: length) { Carrier = CarrierChoice.Of(carrier) };
                 using RealPeers peers = new(BuiltInScenes.Drop(2, 0.8), options);
                 peers.Connect();
                 peers.RunUntil(SimDuration.FromSeconds(0.1), null);
