@@ -67,7 +67,7 @@ public sealed class ExternalEventTests
     [Fact]
     public void TookEffect_WhileAHealIsUnderWay_IsNotKnownAheadOfIt()
     {
-        Simulation simulation = new(Space, KeepAll) ;
+        Simulation simulation = new(Space, KeepAll);
         ExternalEvent push = ExternalEvent.Impulse(At(1), 1, 1, First, V(0, 2));
         simulation.Submit(push);
         simulation.AdvanceTo(At(2));

@@ -1,12 +1,12 @@
-using LagSim.Testing.Links;
-using LagSim.Harness.SceneFiles;
 using LagSim.Events;
+using LagSim.Harness.SceneFiles;
 using LagSim.Net.Clocks;
 using LagSim.Net.Sessions;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Hosts;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
+using LagSim.Testing.Links;
 using LagSim.Time;
 using Xunit;
 
