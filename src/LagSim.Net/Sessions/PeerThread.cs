@@ -15,7 +15,8 @@ namespace LagSim.Net.Sessions;
 /// <remarks>Every member may be called from any thread, but <see cref="Latest"/> from one only, the one that draws.</remarks>
 public sealed class PeerThread : IDisposable
 {
-    private readonly ConcurrentQueue<Action> requests = new();
+    private readonly ConcurrentQueue<IPeerRequest> requests = new();
+    private readonly ActionRequests actions = new();
     private readonly IDatagramPort port;
     private readonly WorldThread thread;
     private readonly ManualResetEventSlim decided = new(); // running or ended
@@ -128,12 +129,21 @@ public sealed class PeerThread : IDisposable
     }
 
     /// <summary>Does something to the shared world as soon as the session's thread gets to it, which is at once unless it is at work.
-    /// Asked before <see cref="Start"/>, it waits for the thread.</summary>
+    /// Asked before <see cref="Start"/>, it waits for the thread. From any thread. Cost: allocates nothing, and wakes the thread.</summary>
     /// <returns>
     /// The stamped event, or the exception that <see cref="Session.Do"/> throws: look at it, or what was refused goes unnoticed. What the host makes of the
-    /// event is heard later, by <see cref="Session.Logged"/>.
+    /// event is heard later, by <see cref="Session.Logged"/>. Await it at once, once, or let it go: an answer that nobody awaits is forgotten some 60 calls later.
     /// </returns>
-    public Task<ExternalEvent> Do(PlayerAction action) => Ask(session => session.Do(action));
+    /// <exception cref="ObjectDisposedException">The thread has been disposed.</exception>
+    /// <exception cref="InvalidOperationException">The thread ended by an exception, the inner one.</exception>
+    public ValueTask<ExternalEvent> Do(PlayerAction action)
+    {
+        ThrowIfOver();
+        ActionRequest request = actions.Take(action);
+        ValueTask<ExternalEvent> answer = request.Task; // before it is asked: answered, it may be used again
+        Send(request);
+        return answer;
+    }
 
     /// <summary>Asks the session something on its own thread; answered once the thread is started, cancelled if it is disposed before.</summary>
     /// <exception cref="ObjectDisposedException">The thread has been disposed.</exception>
@@ -145,37 +155,10 @@ public sealed class PeerThread : IDisposable
             throw new ArgumentNullException(nameof(question));
         }
 
-        thread.ThrowIfFaulted();
-        if (disposed)
-        {
-            throw new ObjectDisposedException(nameof(PeerThread));
-        }
-
-        TaskCompletionSource<T> answer = new(TaskCreationOptions.RunContinuationsAsynchronously);
-        requests.Enqueue(() =>
-        {
-            if (disposed)
-            {
-                answer.SetCanceled();
-                return;
-            }
-
-            try
-            {
-                answer.SetResult(question(Session));
-            }
-            catch (Exception failure)
-            {
-                answer.SetException(failure);
-            }
-        });
-        thread.Wake();
-        if (disposed)
-        {
-            AnswerAll(); // it was disposed meanwhile, and nobody else will
-        }
-
-        return answer.Task;
+        ThrowIfOver();
+        SessionQuestion<T> request = new(question);
+        Send(request);
+        return request.Task;
     }
 
     /// <summary>Stops the thread, in the middle of its work if it is at some, and waits for it. One that <see cref="Host"/> or <see cref="Join"/> made
@@ -222,11 +205,37 @@ public sealed class PeerThread : IDisposable
         }
     }
 
+    private void ThrowIfOver()
+    {
+        thread.ThrowIfFaulted();
+        if (disposed)
+        {
+            throw new ObjectDisposedException(nameof(PeerThread));
+        }
+    }
+
+    private void Send(IPeerRequest request)
+    {
+        requests.Enqueue(request);
+        thread.Wake();
+        if (disposed)
+        {
+            AnswerAll(); // it was disposed meanwhile, and nobody else will
+        }
+    }
+
     private void AnswerAll()
     {
-        while (requests.TryDequeue(out Action? request))
+        while (requests.TryDequeue(out IPeerRequest? request))
         {
-            request();
+            if (disposed)
+            {
+                request.Cancel();
+            }
+            else
+            {
+                request.Answer(Session);
+            }
         }
     }
 

@@ -186,7 +186,7 @@ internal sealed class SessionWarmup
 
     private static ExternalEvent Do(PeerThread player, in PlayerAction action)
     {
-        Task<ExternalEvent> answer = player.Do(action);
+        ValueTask<ExternalEvent> answer = player.Do(action);
         player.Step();
         return answer.GetAwaiter().GetResult(); // it is there
     }

@@ -49,6 +49,67 @@ public sealed class PeerThreadTests
         Assert.Throws<ObjectDisposedException>(() => { _ = thread.Ask(_ => 1); });
     }
 
+    [Fact]
+    public void Do_Warm_AllocatesNothingOnTheCallingThread()
+    {
+        using UdpPort port = new(new IPEndPoint(IPAddress.Loopback, 0));
+        using PeerThread thread = Host(port); // not started: nobody empties the queue, so that a call costs the same each time
+        PlayerAction push = PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, 1, 0));
+        for (int n = 0; n < 2; n++)
+        {
+            _ = thread.Do(push);
+            thread.Step();
+        }
+
+        Assert.Equal(0, Allocated(() =>
+        {
+            for (int n = 0; n < ActionRequests.Kept / 2; n++)
+            {
+                _ = thread.Do(push);
+            }
+        }));
+        thread.Step();
+        Assert.NotEqual(0, Allocated(() => _ = thread.Ask(_ => 1))); // the control: what allocates is seen
+    }
+
+    [Fact]
+    public async Task Do_NeverAwaited_IsUsedAgainAndItsAnswerForgotten()
+    {
+        using UdpPort port = new(new IPEndPoint(IPAddress.Loopback, 0));
+        using PeerThread thread = Host(port);
+        PlayerAction push = PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, 1, 0));
+        ValueTask<ExternalEvent> left = thread.Do(push), right = thread.Do(push);
+        Task<ExternalEvent> awaited = right.AsTask();
+        thread.Step();
+        await Assert.ThrowsAsync<InvalidOperationException>(() => awaited.WaitAsync(Deadline, TestContext.Current.CancellationToken));
+        for (int n = 0; n < ActionRequests.Kept; n++)
+        {
+            _ = thread.Do(push);
+        }
+
+        Assert.Throws<InvalidOperationException>(() => left.IsCompleted); // another's by now, and never taken for it
+    }
+
+    [Fact]
+    public async Task Do_AwaitedWhileManyMoreAreAsked_KeepsItsAnswer()
+    {
+        using UdpPort port = new(new IPEndPoint(IPAddress.Loopback, 0));
+        using PeerThread thread = Host(port);
+        Task<ExternalEvent>[] answers = new Task<ExternalEvent>[3 * ActionRequests.Kept];
+        for (int n = 0; n < answers.Length; n++)
+        {
+            answers[n] = thread.Do(PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, n, 0))).AsTask();
+        }
+
+        thread.Step();
+        foreach (Task<ExternalEvent> answer in answers)
+        {
+            InvalidOperationException refused = await Assert.ThrowsAsync<InvalidOperationException>(
+                () => answer.WaitAsync(Deadline, TestContext.Current.CancellationToken));
+            Assert.Contains("Waiting", refused.Message, StringComparison.Ordinal); // the session's own: it does not run yet
+        }
+    }
+
     [Theory]
     [InlineData("0.0.0.0", 5000)]
     [InlineData("::", 5000)]
@@ -140,6 +201,13 @@ public sealed class PeerThreadTests
 
         reader.Join();
         Assert.Equal(0, missing);
+    }
+
+    private static long Allocated(Action work)
+    {
+        long before = GC.GetAllocatedBytesForCurrentThread();
+        work();
+        return GC.GetAllocatedBytesForCurrentThread() - before;
     }
 
     private static TimeSpan Deadline => TimeSpan.FromSeconds(20);

@@ -123,7 +123,7 @@ public sealed class RealPeers : PeerGroup
     /// <inheritdoc/>
     public override ExternalEvent Do(int peer, PlayerAction action)
     {
-        System.Threading.Tasks.Task<ExternalEvent> done = threads[peer].Do(action);
+        System.Threading.Tasks.Task<ExternalEvent> done = threads[peer].Do(action).AsTask();
         try
         {
             return done.Wait((int)AnswerDeadline.ToMilliseconds())
