@@ -6,11 +6,9 @@ internal static class LargeTypes
     internal static readonly LargeType[] All =
     [
         // The engine.
-        new("LagSim.Contacts.ContactStep", "the steps of one solver share its arrays of rows; waits to be split into building, solving and writing back"),
         new("LagSim.Contacts.SolverContact", "a row of the solver, kept flat: what is read together lies together"),
         new("LagSim.Engine", "puts the parts together, a field for each part; it has next to no code of its own"),
-        new("LagSim.Islands.IslandStepper", "waits to be split: members, steps and steps taken ahead share its state"),
-        new("LagSim.Timelines.TimelineStore", "waits to be split: keeping, cutting and asking are in one", 700),
+        new("LagSim.Timelines.TimelineStore", "waits to be split: keeping, cutting and asking are in one"),
 
         // Peers.
         new("LagSim.Net.Sessions.SessionCounters", "a number for each thing that is counted"),
