@@ -52,7 +52,7 @@ internal static class MemoryTable
         HashSet<object> seen = new(ReferenceEqualityComparer.Instance) { scene };
         double timelines = simulation.Engine.Timelines.Room * (double)SegmentBytes();
         double perBody = ObjectSize.Of(simulation.Engine.Timelines, seen) - timelines;
-        double index = ObjectSize.Of(ObjectSize.Field(simulation, "index"), seen);
+        double index = ObjectSize.Of(simulation.Engine.BroadPhase.Current, seen);
         double rest = perBody + ObjectSize.Of(simulation, seen);
         double formula = bodies * rate * History * SegmentBytes();
         double withLast = formula + (bodies * SegmentBytes());

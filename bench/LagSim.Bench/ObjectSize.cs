@@ -58,8 +58,4 @@ internal static class ObjectSize
     internal static int SizeOf(Type type) => type.IsValueType
         ? (int)typeof(Unsafe).GetMethod(nameof(Unsafe.SizeOf))!.MakeGenericMethod(type).Invoke(null, null)!
         : IntPtr.Size;
-
-    /// <summary>What a private field of an object holds.</summary>
-    internal static object? Field(object owner, string name) =>
-        (owner.GetType().GetField(name, Fields) ?? throw new InvalidOperationException($"{owner.GetType().Name} has no field {name}.")).GetValue(owner);
 }
