@@ -136,7 +136,7 @@ internal sealed class Engine
     /// <summary>What it does wrongly on purpose: only a test sets it.</summary>
     internal TestFaults Faults { get; } = new();
 
-    /// <summary>How many times timelines were rewound, and how many segments that cut.</summary>
+    /// <summary>How far a rollback has come, and what rollbacks have done so far.</summary>
     internal RollbackState Rollback => rollback;
 
     /// <summary>The last instant that can be read: nothing happens between what is simulated and here.</summary>

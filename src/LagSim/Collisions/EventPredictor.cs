@@ -13,16 +13,14 @@ internal sealed class EventPredictor(
     BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
     AdaptiveBroadPhase broadPhase, CollisionSearch search, PathView view, TestFaults faults)
 {
-    private const int NoPartner = PendingContact.NoPartner;
-
     private readonly Paths paths = new(timelines);
 
     /// <summary>Finds the body's next event and schedules it in place of any other.</summary>
     /// <param name="slot">The body.</param>
     /// <param name="except">Another that is not met, whatever the paths say: only a fault put in on purpose names one.</param>
-    internal void Predict(int slot, int except = NoPartner)
+    internal void Predict(int slot, int except = PendingContact.NoPartner)
     {
-        NextEvent next = new() { Partner = NoPartner };
+        NextEvent next = new() { Partner = PendingContact.NoPartner };
         int external = log.Due(slot);
         if (external != EventLog.None)
         {
@@ -50,13 +48,13 @@ internal sealed class EventPredictor(
     /// is due was found with a segment on which its partner no longer is.
     /// </summary>
     internal void Recheck(int slot) =>
-        Predict(slot, faults.Has(HealingFault.GivesUpByBody) ? scheduler.Contact(slot).Partner : NoPartner);
+        Predict(slot, faults.Has(HealingFault.GivesUpByBody) ? scheduler.Contact(slot).Partner : PendingContact.NoPartner);
 
     /// <summary>Whether the segment of the partner's path that the pending impact was found with is no longer what the partner is on then.</summary>
     internal bool IsStale(int slot, in EventKey key)
     {
         int partner = scheduler.Contact(slot).Partner;
-        if (partner == NoPartner)
+        if (partner == PendingContact.NoPartner)
         {
             return false;
         }
@@ -95,7 +93,7 @@ internal sealed class EventPredictor(
     {
         Set(slot, next, next.Partner, next.Piece, next.IsTied);
         int partner = next.Partner;
-        if (partner == NoPartner || next.Piece != timelines.Last(partner))
+        if (partner == PendingContact.NoPartner || next.Piece != timelines.Last(partner))
         {
             return;
         }
@@ -113,7 +111,7 @@ internal sealed class EventPredictor(
         {
             Partner = partner,
             Surface = next.Surface,
-            PartnerSerial = partner == NoPartner ? 0 : timelines.Serial(faults.Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : piece),
+            PartnerSerial = partner == PendingContact.NoPartner ? 0 : timelines.Serial(faults.Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : piece),
             Residual = next.Residual,
             IsTied = isTied,
         });

@@ -16,8 +16,6 @@ internal sealed class IsolatedImpact(
     Scene scene, BodyTable bodies, TimelineStore timelines, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
     ContactGraph graph, ImpactResolver resolver, ImpactNotifier notifier, ImpactSegments segments, TestFaults faults)
 {
-    private const int NoPartner = PendingContact.NoPartner;
-
     private readonly StaticSurfaces surfaces = scene.Surfaces;
 
     /// <summary>How many impacts were of two alone, or of one and a surface alone.</summary>
@@ -69,7 +67,7 @@ internal sealed class IsolatedImpact(
         bool isPlain = !rollback.IsActive && !CollapseRule.MayBeStruckAgain(key)
             && (!scheduler.Contact(slot).IsTied || faults.IgnoresTies) && flights.IsFree(slot) && !faults.TakesNoShortcut && !faults.SwapsOperands;
         int other = scheduler.Contact(slot).Partner;
-        return isPlain && (other == NoPartner
+        return isPlain && (other == PendingContact.NoPartner
             ? scheduler.IsLeastAloneWith(slot, key)
             : scheduler.Contact(other).Partner == slot && (!scheduler.Contact(other).IsTied || faults.IgnoresTies) && flights.IsFree(other)
                 && scheduler.IsLeastAloneWith(other, key) && TouchesNoSurface(slot, key.Time) && TouchesNoSurface(other, key.Time));
@@ -90,7 +88,7 @@ internal sealed class IsolatedImpact(
     {
         int other = scheduler.Contact(slot).Partner;
         graph.Clear();
-        if (other == NoPartner)
+        if (other == PendingContact.NoPartner)
         {
             graph.AddBody(slot);
             graph.AddContact(new ContactPoint(0, ContactPoint.Static, scheduler.Contact(slot).Surface, default));

@@ -19,6 +19,15 @@ public sealed partial class PageLinkTests
         Assert.Single(Broken(Path.Combine(RepositoryRoot.Path, "README.md"), "[no page](docs/NO-SUCH-PAGE.md)")); // the control
     }
 
+    /// <summary>Who looks for a rule's code finds it: <c>Contacts/ContactStep.cs</c> on a page is a file of the core.</summary>
+    [Fact]
+    public void Pages_EveryFileOfTheCoreThatTheyName_IsThere()
+    {
+        string[] gone = [.. Pages().SelectMany(page => Gone(File.ReadAllText(page)).Select(file => $"{page}: {file}"))];
+        Assert.True(gone.Length == 0, string.Join('\n', gone));
+        Assert.Equal(["Contacts/NoSuchFile.cs"], Gone("`Contacts/NoSuchFile.cs` and `Contacts/ContactStep.cs`")); // the control
+    }
+
     [Fact]
     public void Index_NamesEveryPage()
     {
@@ -44,6 +53,16 @@ public sealed partial class PageLinkTests
         .Select(target => Path.Combine(Path.GetDirectoryName(page)!, target.Split('#')[0]))
         .Where(path => !File.Exists(path) && !Directory.Exists(path))
         .Select(path => $"{page}: {path}");
+
+    private static IEnumerable<string> Gone(string text)
+    {
+        string core = Path.Combine(RepositoryRoot.Path, "src", "LagSim");
+        return CoreFile().Matches(text).Select(match => match.Groups[1].Value)
+            .Where(file => Directory.Exists(Path.Combine(core, Path.GetDirectoryName(file)!)) && !File.Exists(Path.Combine(core, file)));
+    }
+
+    [GeneratedRegex("`(\\w+/\\w+\\.cs)`")]
+    private static partial Regex CoreFile();
 
     [GeneratedRegex("""\]\(([^)\s]+)\)|(?:src|srcset)="([^"]+)""")]
     private static partial Regex Link();

@@ -53,6 +53,23 @@ public sealed class LiveWorldTests
         Assert.True(Enumerable.Range(1, 12).Sum(seed => Follow(seed, publishes: false).Different) > 0);
     }
 
+    /// <summary>Late events that come one a step, each at the last instant that was done, do not keep there a world whose steps may do next to nothing.</summary>
+    [Fact]
+    public void Step_WithALateEventBeforeEach_StillGetsOn()
+    {
+        LiveWorld world = new(RandomScene, Kept) { Work = new WorkLedger { MostAStep = 1e-3 } };
+        world.Step(At(0.5));
+        SimTime before = world.Simulation.SimulatedTo;
+        for (uint n = 1; n <= 20; n++)
+        {
+            world.Submit(ExternalEvent.SetVelocity(world.Simulation.SimulatedTo, 1, n, First, V(0, 1)));
+            world.Step(At(0.5));
+            Assert.True(world.IsBehind); // else the step had nothing left to do
+            Assert.True(world.Simulation.SimulatedTo > before, $"still at {before} after event {n}");
+            before = world.Simulation.SimulatedTo;
+        }
+    }
+
     [Fact]
     public void Step_WorldAtRest_IsNeverDueAgain()
     {
