@@ -12,13 +12,13 @@ using LagSim.Time;
 
 namespace LagSim.Bench;
 
-/// <summary>How long a reader sees a world without an event that came late, in real time: how late it was, what the heal takes up to the published picture, and what comes on top.</summary>
+/// <summary>How long a reader sees a world without an event that came late, in real time: how late it was, what the heal takes up to the published render snapshot, and what comes on top.</summary>
 internal sealed class ArrivalTable
 {
     private static readonly SimDuration Late = SimDuration.FromMilliseconds(100);
 
     private readonly IClock clock = new StopwatchClock();
-    private readonly List<double> quiet = new(); // steps without news
+    private readonly List<double> quiet = new(); // steps without late events
     private readonly LiveWorld world;
     private uint sequence;
     private int target = -1; // the body that something is to happen to
@@ -33,7 +33,7 @@ internal sealed class ArrivalTable
         Console.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
             $"An event {Late.ToMilliseconds():0} ms late among bodies of a gas, real time, p50 / p99 / max in ms. Divergence: from the stamp until a reader at full speed sees the event"));
-        Console.WriteLine("| bodies | divergence | compute: from arrival to published picture | divergence - lateness - compute | a step without news |");
+        Console.WriteLine("| bodies | divergence | compute: from arrival to published picture | divergence - lateness - compute | a step without late events |");
         Console.WriteLine("|---|---|---|---|---|");
         new ArrivalTable(1_000).Measure(1_000, brief ? 5 : 100); // so that nothing is measured that the compiler has not finished with
         foreach (int bodies in brief ? new[] { 1_000 } : new[] { 100, 1_000, 3_000 })
@@ -53,9 +53,9 @@ internal sealed class ArrivalTable
         {
             Thread.Sleep(5 + random.Next(15));
             int number = random.Next(bodies);
-            Picture picture = world.Pictures.Latest();
+            RenderSnapshot snapshot = world.RenderSnapshots.Latest();
             SimTime asked = clock.Now;
-            if (!picture.TryRead(BodyId.OfScene(number), asked, out BodyState without))
+            if (!snapshot.TryRead(BodyId.OfScene(number), asked, out BodyState without))
             {
                 continue; // the machine has not kept up: there is nothing to compare
             }
@@ -66,8 +66,8 @@ internal sealed class ArrivalTable
             while (shown.IsSameBits(without))
             {
                 thread.ThrowIfFaulted();
-                world.Pictures.Latest().TryRead(BodyId.OfScene(number), asked, out BodyState read);
-                shown = read.Motion == MotionLaw.Absent ? without : read; // a picture may end before
+                world.RenderSnapshots.Latest().TryRead(BodyId.OfScene(number), asked, out BodyState read);
+                shown = read.Motion == MotionLaw.Absent ? without : read; // a render snapshot may end before
             }
 
             SimTime seen = clock.Now;

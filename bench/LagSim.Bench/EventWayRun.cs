@@ -13,31 +13,31 @@ using LagSim.Time;
 
 namespace LagSim.Bench;
 
-/// <summary>One process of <see cref="EventWayTable"/>: a host and a joiner over loopback UDP, a player at each who does every kind of event at random gaps.</summary>
+/// <summary>One process of <see cref="EventWayTable"/>: a host and a client over loopback UDP, a player at each who does every kind of event at random gaps.</summary>
 /// <remarks>Times are taken on the sessions' own threads, so that no reader takes a core from them: what is compared is the stamp of an event, when it comes into the
 /// other's world, and when that world was published with it.</remarks>
 internal sealed class EventWayRun
 {
     private static readonly EventKind[] Kinds =
     {
-        EventKind.Spawn, EventKind.Impulse, EventKind.SetVelocity, EventKind.Teleport, EventKind.Grab, EventKind.HoldKnot, EventKind.Release, EventKind.Remove,
+        EventKind.Spawn, EventKind.Impulse, EventKind.SetVelocity, EventKind.Teleport, EventKind.Grab, EventKind.HoldKeyframe, EventKind.Release, EventKind.Remove,
     };
 
     private readonly int rounds;
     private readonly int seed;
     private readonly Side host;
-    private readonly Side joiner;
+    private readonly Side client;
 
     private int compiled;
     private double compiledMilliseconds;
     private int collections;
 
-    private EventWayRun(PeerThread host, PeerThread joiner, int rounds, int seed)
+    private EventWayRun(PeerThread host, PeerThread client, int rounds, int seed)
     {
         this.rounds = rounds;
         this.seed = seed;
         this.host = new Side(host, 0);
-        this.joiner = new Side(joiner, 1);
+        this.client = new Side(client, 1);
     }
 
     /// <summary>A line for each event: who did it, its kind, and from its stamp to the other's world and to its being published, from its being asked for to its stamp, in ms;
@@ -53,15 +53,15 @@ internal sealed class EventWayRun
         long began = Stopwatch.GetTimestamp();
         using PeerThread host = PeerThread.Host(scene, options: options, bind: IPAddress.Loopback);
         double calling = Stopwatch.GetElapsedTime(began).TotalMilliseconds;
-        using PeerThread joiner = PeerThread.Join(new IPEndPoint(IPAddress.Loopback, host.LocalAddress.ToEndPoint().Port), options);
-        TimeSpan patience = TimeSpan.FromSeconds(20);
-        if (!host.WaitUntilRunning(patience) || !joiner.WaitUntilRunning(patience))
+        using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Loopback, host.LocalAddress.ToEndPoint().Port), options);
+        TimeSpan timeout = TimeSpan.FromSeconds(20);
+        if (!host.WaitUntilRunning(timeout) || !client.WaitUntilRunning(timeout))
         {
-            throw new InvalidOperationException($"The session does not run: {joiner.Session.EndReason}");
+            throw new InvalidOperationException($"The session does not run: {client.Session.EndReason}");
         }
 
         double running = Stopwatch.GetElapsedTime(began).TotalMilliseconds;
-        EventWayRun run = new(host, joiner, rounds, seed);
+        EventWayRun run = new(host, client, rounds, seed);
         run.Play();
         double atRest = AtRest();
         Console.WriteLine(string.Create(
@@ -71,10 +71,10 @@ internal sealed class EventWayRun
 
     private void Play()
     {
-        host.Watch(joiner);
-        joiner.Watch(host);
-        Side.Practise(joiner, host); // what measures is compiled before it measures
-        Thread[] players = { new(() => Play(host)), new(() => Play(joiner)) };
+        host.Watch(client);
+        client.Watch(host);
+        Side.Practise(client, host); // what measures is compiled before it measures
+        Thread[] players = { new(() => Play(host)), new(() => Play(client)) };
         int before = (int)JitInfo.GetCompiledMethodCount();
         TimeSpan spent = JitInfo.GetCompilationTime();
         int collected = GC.CollectionCount(0);
@@ -82,12 +82,12 @@ internal sealed class EventWayRun
         Array.ForEach(players, p => p.Join());
         Thread.Sleep(50);
         host.Show();
-        joiner.Show();
+        client.Show();
         compiled = (int)JitInfo.GetCompiledMethodCount() - before;
         compiledMilliseconds = (JitInfo.GetCompilationTime() - spent).TotalMilliseconds;
         collections = GC.CollectionCount(0) - collected;
         host.Tell("host");
-        joiner.Tell("joiner");
+        client.Tell("joiner");
     }
 
     /// <summary>Every kind in turn, each on the same body, so that it is where the next kind needs it.</summary>
@@ -109,7 +109,7 @@ internal sealed class EventWayRun
                     EventKind.SetVelocity => PlayerAction.SetVelocity(own, new Vector3D(-0.3, 2, 0)),
                     EventKind.Teleport => PlayerAction.Teleport(own, home + new Vector3D(0, 1, 0)),
                     EventKind.Grab => PlayerAction.Grab(own),
-                    EventKind.HoldKnot => PlayerAction.HoldKnot(own, home + new Vector3D(0, 1.2, 0), new Vector3D(0, 1, 0)),
+                    EventKind.HoldKeyframe => PlayerAction.HoldKeyframe(own, home + new Vector3D(0, 1.2, 0), new Vector3D(0, 1, 0)),
                     EventKind.Release => PlayerAction.Release(own, new Vector3D(0, 1, 0)),
                     _ => PlayerAction.Remove(spawned),
                 });

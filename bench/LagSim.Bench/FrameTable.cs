@@ -12,9 +12,9 @@ using LagSim.Time;
 
 namespace LagSim.Bench;
 
-/// <summary>What a game's frame pays for reading a whole world while that world rewrites thousands of events, in real time, and whether each picture is whole.</summary>
+/// <summary>What a game's frame pays for reading a whole world while that world rewrites thousands of events, in real time, and whether each render snapshot is whole.</summary>
 /// <remarks>
-/// News comes in pairs of opposite kicks of one stamp on two balls of equal mass, so that in any one version of the world, at any instant, the sum of all velocities is what it
+/// Late events come in pairs of opposite kicks of one stamp on two balls of equal mass, so that in any one version of the world, at any instant, the sum of all velocities is what it
 /// was at the start. Bodies of two versions, or of one that has half of a pair, would have another.
 /// </remarks>
 internal sealed class FrameTable
@@ -99,7 +99,7 @@ internal sealed class FrameTable
         using WorldThread thread = new("world", Step);
         thread.Start();
         List<double>[] asking = { new(), new() }, reading = { new(), new() };
-        long torn = 0, frames = 0, behind = 0, pictures = 0, last = 0;
+        long torn = 0, frames = 0, behind = 0, snapshots = 0, last = 0;
         Vector3D total = default;
         Thread.Sleep(500);
         long end = Stopwatch.GetTimestamp() + (long)(seconds * Stopwatch.Frequency);
@@ -109,23 +109,23 @@ internal sealed class FrameTable
             int healing = isHealing ? 1 : 0;
             SimTime now = clock.Now;
             long began = Stopwatch.GetTimestamp();
-            Picture picture = world.Pictures.Latest();
+            RenderSnapshot snapshot = world.RenderSnapshots.Latest();
             long asked = Stopwatch.GetTimestamp();
-            SimTime time = SimTime.Min(now, picture.To);
+            SimTime time = SimTime.Min(now, snapshot.To);
             Vector3D sum = Vector3D.Zero;
             int there = 0;
-            for (int n = 0; n < picture.BodyCount; n++)
+            for (int n = 0; n < snapshot.BodyCount; n++)
             {
-                there += picture.TryRead(picture.BodyAt(n), time, out BodyState state) ? 1 : 0;
+                there += snapshot.TryRead(snapshot.BodyAt(n), time, out BodyState state) ? 1 : 0;
                 sum += state.Velocity;
             }
 
             long read = Stopwatch.GetTimestamp();
             total = frames == 0 ? sum : total;
-            torn += there == Bodies && (sum - total).Length < Tolerance && picture.Number >= last ? 0 : 1;
-            pictures += picture.Number > last ? 1 : 0;
-            last = picture.Number;
-            behind += picture.To < now ? 1 : 0;
+            torn += there == Bodies && (sum - total).Length < Tolerance && snapshot.Number >= last ? 0 : 1;
+            snapshots += snapshot.Number > last ? 1 : 0;
+            last = snapshot.Number;
+            behind += snapshot.To < now ? 1 : 0;
             frames++;
             asking[healing].Add(Stopwatch.GetElapsedTime(began, asked).TotalMicroseconds);
             reading[healing].Add(Stopwatch.GetElapsedTime(asked, read).TotalMilliseconds);
@@ -141,7 +141,7 @@ internal sealed class FrameTable
         return string.Create(
             CultureInfo.InvariantCulture,
             $"| {often} | {healMilliseconds.Count} | {MeanAndTail.Of(healedEvents).Mean:N0} | {Text(healMilliseconds)} | {Text(asking[0])} | {Text(reading[0])} | {Text(asking[1])} | {Text(reading[1])} "
-            + $"| {pictures:N0} | {torn} | {behind:N0} of {frames:N0} |");
+            + $"| {snapshots:N0} | {torn} | {behind:N0} of {frames:N0} |");
     }
 
     private static string Text(List<double> values)

@@ -73,11 +73,11 @@ internal sealed class GasWorld
         SimTime now = Simulation.SimulatedTo + SimDuration.FromSeconds(0.125);
         Simulation.AdvanceTo(now);
         ulong events = Simulation.Engine.Timelines.EventHash;
-        ExternalEvent[] news = new ExternalEvent[count];
+        ExternalEvent[] lateEvents = new ExternalEvent[count];
         for (int i = 0; i < count; i++)
         {
             SimTime stamp = now - SimDuration.FromSeconds(late * (0.9 + (0.1 * random.NextDouble())));
-            news[i] = ExternalEvent.Impulse(stamp, 1, ++sequence, BodyId.OfScene(random.Next(bodies)), new Vector3D(0.1, 0.05, 0));
+            lateEvents[i] = ExternalEvent.Impulse(stamp, 1, ++sequence, BodyId.OfScene(random.Next(bodies)), new Vector3D(0.1, 0.05, 0));
         }
 
         long impacts = Simulation.ImpactsProcessed;
@@ -93,7 +93,7 @@ internal sealed class GasWorld
 
         void Together(Action<ExternalEvent> bring)
         {
-            Array.ForEach(news, bring);
+            Array.ForEach(lateEvents, bring);
             Simulation.AdvanceTo(now);
         }
     }

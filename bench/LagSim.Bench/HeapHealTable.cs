@@ -46,7 +46,7 @@ internal static class HeapHealTable
         return string.Create(
             CultureInfo.InvariantCulture,
             $"| {row.Balls:N0}{(row.Tolerance is double d ? $", d = {d} m" : "")} | {2 * row.Half} | {seconds / row.Seconds:0.00} | {heals.Sum(h => h.Milliseconds) / 1000 / row.Seconds:0.00} | {inTime / row.Seconds:0.00} "
-            + $"| {heals.Average(h => h.Heal.News):0.0} | {heals.Average(h => h.Heal.Bodies):0} | {heals.Average(h => h.Heal.Events):0} | {times.P50:0.0} / {times.P99:0.0} "
+            + $"| {heals.Average(h => h.Heal.LateEvents):0.0} | {heals.Average(h => h.Heal.Bodies):0} | {heals.Average(h => h.Heal.Events):0} | {times.P50:0.0} / {times.P99:0.0} "
             + $"| {kept:0.0} | {mega:0.0} | {counted / seconds * 1e-6:0.0} / {countedInTime / inTime * 1e-6:0.0} |");
     }
 

@@ -7,7 +7,7 @@ using LagSim.Time;
 
 namespace LagSim.Bench;
 
-/// <summary>What heaps of balls in lasting contact cost, which is the dearest there is: by their size, with and without friction, and several of them.</summary>
+/// <summary>What heaps of balls in persistent contact cost, which is the dearest there is: by their size, with and without friction, and several of them.</summary>
 internal static class HeapTable
 {
     private const double Seconds = 3;

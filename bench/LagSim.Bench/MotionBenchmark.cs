@@ -42,17 +42,17 @@ public class MotionBenchmark
 
     /// <summary>When a parabola meets a plane: a quadratic.</summary>
     [Benchmark]
-    public bool ContactWithPlane() => ContactFinder.WithPlane(ballistic, default, 0.5, Floor, SimTime.Zero, End, out _);
+    public bool ContactWithPlane() => TimeOfImpact.WithPlane(ballistic, default, 0.5, Floor, SimTime.Zero, End, out _);
 
     /// <summary>When two parabolas of one acceleration meet: their relative motion is a straight line.</summary>
     [Benchmark]
-    public bool ContactOfTwoInFlight() => ContactFinder.WithSphere(ballistic, default, other, default, 0.9, SimTime.Zero, End, out _);
+    public bool ContactOfTwoInFlight() => TimeOfImpact.WithSphere(ballistic, default, other, default, 0.9, SimTime.Zero, End, out _);
 
     /// <summary>When a parabola meets a body at rest: a quartic.</summary>
     [Benchmark]
-    public bool ContactWithOneAtRest() => ContactFinder.WithSphere(ballistic, default, resting, default, 0.9, SimTime.Zero, End, out _);
+    public bool ContactWithOneAtRest() => TimeOfImpact.WithSphere(ballistic, default, resting, default, 0.9, SimTime.Zero, End, out _);
 
     /// <summary>When a Runge-Kutta step meets a body in flight: a polynomial of degree ten.</summary>
     [Benchmark]
-    public bool ContactOfARungeKuttaStep() => ContactFinder.WithSphere(step, dense, other, default, 0.9, SimTime.Zero, End, out _);
+    public bool ContactOfARungeKuttaStep() => TimeOfImpact.WithSphere(step, dense, other, default, 0.9, SimTime.Zero, End, out _);
 }

@@ -11,7 +11,7 @@ using LagSim.Time;
 
 namespace LagSim.Bench;
 
-/// <summary>What one datagram costs a host, from its port to the answer: noise, an old one, a keep-alive, and one with an event that is judged and put into the world.</summary>
+/// <summary>What one datagram costs a host, from its port to the answer: noise, an old one, a keep-alive, and one with an event that is validated and put into the world.</summary>
 [MemoryDiagnoser]
 public class SessionBenchmark
 {
@@ -32,7 +32,7 @@ public class SessionBenchmark
         port = new FeedPort();
         host = new HostSession(scene, port, clock, new SessionOptions { MaxEventsPerSecond = 100_000, StartLead = SimDuration.Zero }, 99);
         byte[] bytes = new byte[WireFormat.MaxBytes];
-        Feed(bytes.AsSpan(0, new KnockDatagram(1).Encode(bytes)));
+        Feed(bytes.AsSpan(0, new ConnectRequestDatagram(1).Encode(bytes)));
         ChallengeDatagram.TryDecode(port.LastSent, out ChallengeDatagram challenge, out _);
         Feed(bytes.AsSpan(0, new JoinDatagram(1, challenge.Cookie, JoinCookies.Prove("", 1, challenge.Cookie), 0, (uint)Simulation.FoldVersion).Encode(bytes)));
         WelcomeDatagram.TryDecode(port.LastSent, out WelcomeDatagram welcome, out _);

@@ -37,9 +37,9 @@ internal static class TrafficTable
         for (int peer = 0; peer < peers; peer++)
         {
             IDatagramPort port = network.CreatePort(peer);
-            SessionOptions options = new() { ExpectedJoiners = peers - 1 };
+            SessionOptions options = new() { ExpectedClients = peers - 1 };
             steps.Add(
-                peer == 0 ? new HostSession(scene, port, clock, options, 1) : new JoinerSession(null, port, clock, options, PeerAddress.Virtual(0), (ulong)peer),
+                peer == 0 ? new HostSession(scene, port, clock, options, 1) : new ClientSession(null, port, clock, options, PeerAddress.Virtual(0), (ulong)peer),
                 port);
         }
 
@@ -57,7 +57,7 @@ internal static class TrafficTable
         }
 
         LinkTraffic[] after = steps.Sessions.Skip(1).Select(s => s.Links[0]).ToArray();
-        double PerSecond(Func<LinkTraffic, long> of, int joiner) => (of(after[joiner]) - of(before[joiner])) / Seconds;
+        double PerSecond(Func<LinkTraffic, long> of, int client) => (of(after[client]) - of(before[client])) / Seconds;
         return string.Create(
             CultureInfo.InvariantCulture,
             $"| {rate:0} | {PerSecond(l => l.BytesSent, 0):0} | {PerSecond(l => l.BytesReceived, 0):0} | {PerSecond(l => l.BytesSent, 1):0} | {PerSecond(l => l.BytesReceived, 1):0} |");

@@ -25,9 +25,9 @@ for (int frame = 0; frame < 40; frame++)
         host.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0))); // 6 N s upwards, now
     }
 
-    // Any instant of the picture can be read; a game reads the one it draws.
+    // Any instant of the render snapshot can be read; a game reads the one it draws.
     SimTime now = host.Now;
-    if (host.Picture.TryRead(ball, now, out BodyState state))
+    if (host.RenderSnapshot.TryRead(ball, now, out BodyState state))
     {
         string height = new('#', (int)(state.Position.Y * 12));
         Console.WriteLine($"{(now - began).ToSeconds(),5:0.00} s {state.Position.Y,6:0.000} m {state.Motion,-9} {height}");

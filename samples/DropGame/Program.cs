@@ -63,9 +63,9 @@ try
             _ = peers[1].Do(PlayerAction.Teleport(ball, new Vector3D(-4, 12, 0), new Vector3D(4, 0, 0)));
         }
 
-        if (me.Latest() is Picture picture && !Console.IsOutputRedirected)
+        if (me.Latest() is RenderSnapshot snapshot && !Console.IsOutputRedirected)
         {
-            Draw(picture, me.Session.SharedTime.Now); // any instant of a picture can be read; a frame draws the one it is at
+            Draw(snapshot, me.Session.SharedTime.Now); // any instant of a render snapshot can be read; a frame draws the one it is at
         }
 
         Thread.Sleep(1000 / FramesPerSecond);
@@ -85,12 +85,12 @@ finally
     peers.ForEach(peer => peer.Dispose());
 }
 
-void Draw(Picture picture, SimTime now)
+void Draw(RenderSnapshot snapshot, SimTime now)
 {
     Console.Clear();
     foreach ((BodyId body, char look) in new[] { (ball, 'o'), (rock, '@') })
     {
-        if (picture.TryRead(body, now, out BodyState state) && state.Position.Y < Rows)
+        if (snapshot.TryRead(body, now, out BodyState state) && state.Position.Y < Rows)
         {
             Console.SetCursorPosition((int)((state.Position.X + 8) * 4), Rows - (int)state.Position.Y);
             Console.Write(look);

@@ -30,7 +30,7 @@ for (int frame = 0; frame < 60 * 10 && me.State == SessionState.Running; frame++
         _ = me.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0))); // a kick every two seconds, 6 N s upwards
     }
 
-    if (frame % 15 == 0 && me.Latest() is Picture picture && picture.TryRead(ball, me.Session.DisplayTime, out BodyState state))
+    if (frame % 15 == 0 && me.Latest() is RenderSnapshot snapshot && snapshot.TryRead(ball, me.Session.DisplayTime, out BodyState state))
     {
         Console.WriteLine($"height {state.Position.Y:F2} m");
     }

@@ -15,12 +15,12 @@ Scene scene = new SceneBuilder("two peers")
     .Build();
 BodyId ball = scene.BodyNamed("ball");
 
-// On two machines each would have one of these lines; the joiner gets the scene from the host.
+// On two machines each would have one of these lines; the client gets the scene from the host.
 using PeerThread host = PeerThread.Host(scene);
-using PeerThread joiner = PeerThread.Join(new IPEndPoint(IPAddress.Loopback, host.LocalAddress.ToEndPoint().Port));
-if (!host.WaitUntilRunning(TimeSpan.FromSeconds(5)) || !joiner.WaitUntilRunning(TimeSpan.FromSeconds(5)))
+using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Loopback, host.LocalAddress.ToEndPoint().Port));
+if (!host.WaitUntilRunning(TimeSpan.FromSeconds(5)) || !client.WaitUntilRunning(TimeSpan.FromSeconds(5)))
 {
-    Console.Error.WriteLine(joiner.Session.EndReason ?? "The two did not come together.");
+    Console.Error.WriteLine(client.Session.EndReason ?? "The two did not come together.");
     return 1;
 }
 
@@ -29,21 +29,21 @@ for (int frame = 0; frame < 30; frame++)
     if (frame == 15)
     {
         Console.WriteLine("the joiner kicks the ball");
-        _ = joiner.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
+        _ = client.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
     }
 
-    Console.WriteLine($"host {Height(host),7:0.000} m   joiner {Height(joiner),7:0.000} m");
+    Console.WriteLine($"host {Height(host),7:0.000} m   joiner {Height(client),7:0.000} m");
     Thread.Sleep(75);
 }
 
-// Of half a second ago no news is on its way any more: both have the same world, bit for bit.
+// Of half a second ago no event is on its way any more: both have the same world, bit for bit.
 SimTime then = host.Session.SharedTime.Now - SimDuration.FromMilliseconds(500);
-ulong[] hashes = [await Hash(host), await Hash(joiner)];
+ulong[] hashes = [await Hash(host), await Hash(client)];
 Console.WriteLine($"event hashes {hashes[0]:x16} {hashes[1]:x16}");
 return hashes[0] == hashes[1] ? 0 : 1;
 
 // A frame draws the instant that the session displays: the shared time, which both peers' clocks agree on, or with the strategy interpolation a little before.
 double Height(PeerThread peer) =>
-    peer.Latest() is { } picture && picture.TryRead(ball, peer.Session.DisplayTime, out BodyState state) ? state.Position.Y : double.NaN;
+    peer.Latest() is { } snapshot && snapshot.TryRead(ball, peer.Session.DisplayTime, out BodyState state) ? state.Position.Y : double.NaN;
 
 Task<ulong> Hash(PeerThread peer) => peer.Ask(session => session.World!.Simulation.EventHash(then));

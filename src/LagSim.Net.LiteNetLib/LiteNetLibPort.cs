@@ -38,8 +38,8 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     /// <summary>How many characters a user's key may have.</summary>
     public const int MaxKeyLength = 100;
 
-    /// <summary>How many connections there may be where nothing else is said: four times the joiners that a host can have.</summary>
-    public const int DefaultMaxConnections = 4 * SessionOptions.MaxJoiners;
+    /// <summary>How many connections there may be where nothing else is said: four times the clients that a host can have.</summary>
+    public const int DefaultMaxConnections = 4 * SessionOptions.MaxClients;
 
     /// <summary>The most connections that can be asked for.</summary>
     public const int MostConnections = 4096;
@@ -129,7 +129,7 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     /// <summary>How many datagrams the network would not take, as far as LiteNetLib tells.</summary>
     public long SendFailures => Interlocked.Read(ref sendFailures);
 
-    /// <summary>How often the system reported trouble instead of a packet; news that nobody listens at the other end is not counted.</summary>
+    /// <summary>How often the system reported trouble instead of a packet; a report that nobody listens at the other end is not counted.</summary>
     public long ReceiveFailures => Interlocked.Read(ref receiveFailures);
 
     /// <summary>How many requests for a connection were not granted: another key, or no room.</summary>

@@ -65,19 +65,19 @@ public sealed class SessionTest
     internal Action<int, Simulation>? PrepareWorld { get; set; }
 
     /// <summary>Adds clients that are there from the start, each over a link of its own to the host.</summary>
-    /// <param name="count">How many, 1 to <see cref="SessionOptions.MaxJoiners"/>; all clients together no more than that.</param>
+    /// <param name="count">How many, 1 to <see cref="SessionOptions.MaxClients"/>; all clients together no more than that.</param>
     /// <param name="link">What their links do.</param>
     /// <exception cref="ArgumentOutOfRangeException">That is no number of clients that a host has room for.</exception>
     public SessionTest WithClients(int count, LinkProfile link)
     {
         ArgumentNullException.ThrowIfNull(link);
-        int room = SessionOptions.MaxJoiners - clients.Count;
+        int room = SessionOptions.MaxClients - clients.Count;
         if (count < 1 || count > room)
         {
             throw new ArgumentOutOfRangeException(
                 nameof(count),
                 count,
-                $"A host has room for {SessionOptions.MaxJoiners} clients and {clients.Count} are there: 1 to {room} can be added.");
+                $"A host has room for {SessionOptions.MaxClients} clients and {clients.Count} are there: 1 to {room} can be added.");
         }
 
         for (int n = 0; n < count; n++)
@@ -124,7 +124,7 @@ public sealed class SessionTest
     /// <summary>Sets how the peers take part: the game's own session options. Default: <c>new SessionOptions()</c>.</summary>
     /// <param name="options">
     /// Called once a run for each player, with its number; must return a new object each time. The test itself sets
-    /// <see cref="SessionOptions.ExpectedJoiners"/>, <see cref="SessionOptions.Cancellation"/>, and a
+    /// <see cref="SessionOptions.ExpectedClients"/>, <see cref="SessionOptions.Cancellation"/>, and a
     /// <see cref="SessionOptions.StartLead"/> in which all hear of the start; a client without <see cref="SessionOptions.Accelerations"/>
     /// gets the scene's; and where nobody is told of contacts, timelines are kept for the whole run
     /// (<see cref="SessionOptions.ExtraHistory"/>), so that a difference can be named to the event.

@@ -36,8 +36,8 @@ public sealed class TestPlayer
     /// </summary>
     /// <param name="body">The body.</param>
     /// <param name="state">Its state, in metres, metres per second and radians per second.</param>
-    /// <returns>False where it is not there, or its picture does not cover this moment.</returns>
-    public bool TryRead(BodyId body, out BodyState state) => Session.World!.Pictures.Latest().TryRead(body, Session.DisplayTime, out state);
+    /// <returns>False where it is not there, or its render snapshot does not cover this moment.</returns>
+    public bool TryRead(BodyId body, out BodyState state) => Session.World!.RenderSnapshots.Latest().TryRead(body, Session.DisplayTime, out state);
 
     /// <summary>Does something, now. The player's own world has it at once, the others' when they hear of it.</summary>
     /// <param name="action">What.</param>

@@ -82,7 +82,7 @@ internal sealed class Engine
         ImpactResolver resolver = new(scene, Bodies, Timelines, graph, capture, collapse);
         ImpactNotifier notifier = new(Bodies, Timelines, graph);
         ImpactSegments segments = new(Timelines, graph, trajectories);
-        SegmentJoiner joiner = new(Bodies, Timelines, graph, partners, members, Faults);
+        SegmentJoiner client = new(Bodies, Timelines, graph, partners, members, Faults);
         Isolated = new IsolatedImpact(
             scene, Bodies, Timelines, scheduler, rollback, flights, graph, resolver, notifier, segments, Faults);
         ImpactGraphBuilder builder = new(
@@ -92,8 +92,8 @@ internal sealed class Engine
         IslandImpact island = new(
             scene, Bodies, Timelines, rewinds, graph, Step.Scale, problem, partners, memberContacts, capture, trajectories.Friction, notifier,
             memberSegments);
-        ImpactHandler impacts = new(scene, Bodies, graph, partners, Isolated, builder, resolver, island, notifier, segments, joiner);
-        StepEndHandler steps = new(Timelines, graph, Stepper, trajectories, joiner);
+        ImpactHandler impacts = new(scene, Bodies, graph, partners, Isolated, builder, resolver, island, notifier, segments, client);
+        StepEndHandler steps = new(Timelines, graph, Stepper, trajectories, client);
         LonePath lonePath = new(scene, Bodies, Timelines, new LoneWorld(scene, start, options.MaxSegments));
         ExternalHandler externals = new(
             scene, Bodies, Timelines, log, rollback, flights, graph, sleepers, members, trajectories, collapse, lonePath, Faults);
@@ -164,7 +164,7 @@ internal sealed class Engine
         {
             int piece = Timelines.Last(slot);
             Timelines.BeginMember(piece, body.Centre, body.StillSince);
-            foreach (LastingContact contact in body.ContactArray)
+            foreach (PersistentContact contact in body.ContactArray)
             {
                 Timelines.Carried.Add(piece, contact);
             }

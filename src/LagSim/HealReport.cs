@@ -4,29 +4,29 @@ using LagSim.Time;
 namespace LagSim;
 
 /// <summary>What a heal did: the rewriting of the past for one late event, or for several that came before it was finished.</summary>
-/// <remarks>Immutable. The counts follow from the world and the news alone, not from the machine.</remarks>
+/// <remarks>Immutable. The counts follow from the world and the late events alone, not from the machine.</remarks>
 public readonly struct HealReport : IEquatable<HealReport>
 {
     /// <summary>A report of these.</summary>
-    public HealReport(SimTime from, SimTime to, int news, int bodies, long segmentsCut, long events, SimTime? met = null)
+    public HealReport(SimTime from, SimTime to, int lateEvents, int bodies, long segmentsCut, long events, SimTime? met = null)
     {
         Met = met;
         From = from;
         To = to;
-        News = news;
+        LateEvents = lateEvents;
         Bodies = bodies;
         SegmentsCut = segmentsCut;
         Events = events;
     }
 
-    /// <summary>The time of the earliest news in it.</summary>
+    /// <summary>The time of the earliest late event in it.</summary>
     public SimTime From { get; }
 
-    /// <summary>How far the world was simulated when the first of the news came, and is again.</summary>
+    /// <summary>How far the world was simulated when the first of them came, and is again.</summary>
     public SimTime To { get; }
 
     /// <summary>How many late events, or events taken back, it served; at least one.</summary>
-    public int News { get; }
+    public int LateEvents { get; }
 
     /// <summary>How many bodies were predicted anew because of it: the causal cone; all there are of a full rollback, and of a heal that grew to
     /// more than 32 of them and an eighth.</summary>
@@ -40,19 +40,19 @@ public readonly struct HealReport : IEquatable<HealReport>
 
     /// <summary>
     /// From when on all paths were the old ones again, to the bit, so that the heal was done: what came after stands as it was. Null if that never came, or was
-    /// not looked for: after a full rollback, after more news before the heal was finished, and where it had cut more than 256 segments.
+    /// not looked for: after a full rollback, after more late events before the heal was finished, and where it had cut more than 256 segments.
     /// </summary>
     public SimTime? Met { get; }
 
     /// <inheritdoc/>
     public bool Equals(HealReport other) =>
-        (From, To, News, Bodies, SegmentsCut, Events, Met) == (other.From, other.To, other.News, other.Bodies, other.SegmentsCut, other.Events, other.Met);
+        (From, To, LateEvents, Bodies, SegmentsCut, Events, Met) == (other.From, other.To, other.LateEvents, other.Bodies, other.SegmentsCut, other.Events, other.Met);
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is HealReport other && Equals(other);
 
     /// <inheritdoc/>
-    public override int GetHashCode() => (From, To, News, Bodies, SegmentsCut, Events, Met).GetHashCode();
+    public override int GetHashCode() => (From, To, LateEvents, Bodies, SegmentsCut, Events, Met).GetHashCode();
 
     /// <summary>Same in every part.</summary>
     public static bool operator ==(in HealReport a, in HealReport b) => a.Equals(b);

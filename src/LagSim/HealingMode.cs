@@ -3,7 +3,7 @@ namespace LagSim;
 /// <summary>How a <see cref="Simulation"/> brings in an event that lies before its time. All give the same bits; they differ in cost.</summary>
 public enum HealingMode
 {
-    /// <summary>Rewrites only the timelines that the news can have touched. The cost follows from that, not from the size of the world.</summary>
+    /// <summary>Rewrites only the timelines that the late event can have touched. The cost follows from that, not from the size of the world.</summary>
     CausalCone,
 
     /// <summary>Rewrites everything since the event's time, for all bodies.</summary>

@@ -9,11 +9,11 @@ namespace LagSim;
 public readonly struct Hold : IEquatable<Hold>
 {
     /// <summary>A hold of these.</summary>
-    public Hold(byte peer, in Vector3D offset, SimTime knot)
+    public Hold(byte peer, in Vector3D offset, SimTime keyframe)
     {
         Peer = peer;
         Offset = offset;
-        Knot = knot;
+        Keyframe = keyframe;
     }
 
     /// <summary>The peer whose hand it is.</summary>
@@ -22,17 +22,17 @@ public readonly struct Hold : IEquatable<Hold>
     /// <summary>From the body's centre to the hand's point, in metres; fixed while the hold lasts.</summary>
     public Vector3D Offset { get; }
 
-    /// <summary>When the hand last told where it is: its last knot, or the grab. The hold ends by itself <see cref="Motion.HandPath.Lasts"/> later.</summary>
-    public SimTime Knot { get; }
+    /// <summary>When the hand last told where it is: its last keyframe, or the grab. The hold ends by itself <see cref="Motion.HandPath.Lasts"/> later.</summary>
+    public SimTime Keyframe { get; }
 
     /// <inheritdoc/>
-    public bool Equals(Hold other) => Peer == other.Peer && Offset.Equals(other.Offset) && Knot == other.Knot;
+    public bool Equals(Hold other) => Peer == other.Peer && Offset.Equals(other.Offset) && Keyframe == other.Keyframe;
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is Hold other && Equals(other);
 
     /// <inheritdoc/>
-    public override int GetHashCode() => Knot.GetHashCode() ^ (Offset.GetHashCode() * 397) ^ Peer;
+    public override int GetHashCode() => Keyframe.GetHashCode() ^ (Offset.GetHashCode() * 397) ^ Peer;
 
     /// <summary>Same in every part.</summary>
     public static bool operator ==(in Hold a, in Hold b) => a.Equals(b);

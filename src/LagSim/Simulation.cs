@@ -178,7 +178,7 @@ public sealed class Simulation
 
     /// <summary>
     /// Adds an event that takes effect at <paramref name="arrival"/>, after its own time, by advancing the body alone from the event's time to the arrival: its
-    /// own motion and contacts with static geometry, as the thesis does. What lies before the arrival is not rewritten. What a hand does (grab, knot, release)
+    /// own motion and contacts with static geometry, as the thesis does. What lies before the arrival is not rewritten. What a hand does (grab, keyframe, release)
     /// is done at the arrival as it is.
     /// </summary>
     /// <returns>What became of it.</returns>
@@ -213,7 +213,7 @@ public sealed class Simulation
     /// <returns>False, and a state that is <see cref="MotionLaw.Absent"/>, if the body is unknown or not there at that time.</returns>
     /// <remarks>
     /// Opens no segment and changes nothing. Cost: the number of the body's segments after that time. A time that is not simulated is a mistake of the caller,
-    /// who advances this world himself, and so an exception; a <see cref="Hosting.Picture"/>, which another thread makes, returns false there.
+    /// who advances this world himself, and so an exception; a <see cref="Hosting.RenderSnapshot"/>, which another thread makes, returns false there.
     /// </remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="HistoryEdge"/> or after <see cref="Horizon"/>: advance first.</exception>
     /// <exception cref="InvalidOperationException">The simulation ended by an exception.</exception>

@@ -130,14 +130,14 @@ internal static class SnapshotCheck
         }
 
         int surfaces = scene.PlaneArray.Length + scene.SphereArray.Length;
-        foreach (LastingContact contact in body.ContactArray)
+        foreach (PersistentContact contact in body.ContactArray)
         {
-            bool isPair = contact.Surface == LastingContact.NoSurface;
-            if (contact.Surface < LastingContact.NoSurface || contact.Surface >= surfaces || isPair == (contact.Partner == body.Id))
+            bool isPair = contact.Surface == PersistentContact.NoSurface;
+            if (contact.Surface < PersistentContact.NoSurface || contact.Surface >= surfaces || isPair == (contact.Partner == body.Id))
             {
                 throw new SceneException(
                     $"A contact of {whose} is with surface {contact.Surface} and body {contact.Partner}; a surface is numbered 0 to {surfaces - 1} and goes with"
-                    + $" the body itself, and {LastingContact.NoSurface} goes with another.");
+                    + $" the body itself, and {PersistentContact.NoSurface} goes with another.");
             }
 
             Limits.Components(contact.Push, double.MaxValue, whose, "impulse of a contact", "N s");
@@ -154,11 +154,11 @@ internal static class SnapshotCheck
         }
 
         Limits.Components(hold.Offset, Limits.MaxCoordinate, whose, "offset of the hand", "m");
-        bool isPast = hold.Knot >= snapshot.Start && hold.Knot <= body.Epoch;
-        if (!isPast || (body.End != hold.Knot + HandPath.Settles && body.End != hold.Knot + HandPath.Stops && body.End != hold.Knot + HandPath.Lasts))
+        bool isPast = hold.Keyframe >= snapshot.Start && hold.Keyframe <= body.Epoch;
+        if (!isPast || (body.End != hold.Keyframe + HandPath.Settles && body.End != hold.Keyframe + HandPath.Stops && body.End != hold.Keyframe + HandPath.Lasts))
         {
             throw new SceneException(
-                $"The hand that holds {whose} last told where it is at {hold.Knot}, and this piece of its path lasts from {body.Epoch.ToShortString()} to"
+                $"The hand that holds {whose} last told where it is at {hold.Keyframe}, and this piece of its path lasts from {body.Epoch.ToShortString()} to"
                 + $" {body.End.ToShortString()}; it must not begin before, and end {HandPath.Settles}, {HandPath.Stops} or {HandPath.Lasts} after.");
         }
     }

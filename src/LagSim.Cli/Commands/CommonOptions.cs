@@ -84,7 +84,7 @@ internal sealed class CommonOptions
         }
     }
 
-    /// <summary>The delay of every joiner's link.</summary>
+    /// <summary>The delay of every client's link.</summary>
     internal static Option<double?> Delay(string otherwise) => new("--delay-ms")
     {
         Description = $"Delay added one way, without jitter or loss (0 to 2000); {otherwise}. Cannot be combined with --profile.",
@@ -92,7 +92,7 @@ internal sealed class CommonOptions
         CustomParser = result => ParseNumber(result, "--delay-ms", 0, LinkProfiles.MaxPureDelay),
     };
 
-    /// <summary>The profile of every joiner's link.</summary>
+    /// <summary>The profile of every client's link.</summary>
     internal static Option<string?> Profile() => new("--profile")
     {
         Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, or {LinkProfiles.AnyDelay}.",

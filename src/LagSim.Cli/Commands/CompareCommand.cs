@@ -50,8 +50,8 @@ internal static class CompareCommand
             Scene played = SceneSource.Load(parsed.GetValue(scene)!);
             ulong seed = parsed.GetValue(common.Seed);
             int count = parsed.GetValue(peers);
-            IReadOnlyList<PlannedDeed> plan = PlayerPlan.Draw(played, count, seed);
-            int spawned = plan.Count(deed => deed.Kind == EventKind.Spawn);
+            IReadOnlyList<PlannedAction> plan = PlayerPlan.Draw(played, count, seed);
+            int spawned = plan.Count(scripted => scripted.Kind == EventKind.Spawn);
             if (played.Bodies.Count + spawned > CompareOptions.MaxBodies)
             {
                 throw new UsageException(

@@ -67,7 +67,7 @@ internal static class HoldCommand
             HoldOptions options = new(motion)
             {
                 HoldSeconds = HoldSeconds(motion, parsed.GetValue(hold), isVirtual),
-                KnotDistanceMetres = parsed.GetValue(distance),
+                KeyframeDistanceMetres = parsed.GetValue(distance),
                 Strategy = chosen,
                 DisplayDelay = SimDuration.FromMilliseconds(parsed.GetValue(displayDelay)),
                 Peers = parsed.GetValue(peers),

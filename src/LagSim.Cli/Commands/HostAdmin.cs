@@ -65,9 +65,9 @@ internal sealed class HostAdmin
             return $"'{line}' is no command; there are: {Syntax}.";
         }
 
-        if (!byte.TryParse(number, NumberStyles.None, CultureInfo.InvariantCulture, out byte player) || player is 0 or > SessionOptions.MaxJoiners)
+        if (!byte.TryParse(number, NumberStyles.None, CultureInfo.InvariantCulture, out byte player) || player is 0 or > SessionOptions.MaxClients)
         {
-            return $"'{number}' is no player's number; it must be 1 to {SessionOptions.MaxJoiners}.";
+            return $"'{number}' is no player's number; it must be 1 to {SessionOptions.MaxClients}.";
         }
 
         switch (words[0])

@@ -26,16 +26,16 @@ internal static class HostCommand
             DefaultValueFactory = _ => IPAddress.Loopback.ToString(),
             HelpName = "ADDRESS",
         };
-        Option<int> joiners = CommonOptions.Whole("--joiners", "Start once this many have joined; more may join at any time", 0, 0, SessionOptions.MaxJoiners);
+        Option<int> clients = CommonOptions.Whole("--joiners", "Start once this many have joined; more may join at any time", 0, 0, SessionOptions.MaxClients);
         Option<double> history = CommonOptions.Number("--history-s", "How late an event may arrive and still be accepted", 1, 0.05, 5);
         Option<int> perAddress = CommonOptions.Whole(
-            "--per-address", "How many may join from one address; 0 means half of the places, or --joiners if that is more", 0, 0, SessionOptions.MaxJoiners);
+            "--per-address", "How many may join from one address; 0 means half of the places, or --joiners if that is more", 0, 0, SessionOptions.MaxClients);
         Option<double> budget = CommonOptions.Number(
             "--budget", "What each player's acts may cost before it is sent away, as a multiple of the default of a tenth of a core; 0 for no limit", 1, 0, 1000);
         Option<bool> admin = new("--admin") { Description = $"Read commands from standard input while the session runs, one a line: {HostAdmin.Syntax}." };
         Command command = new("host", "Opens a session that others join over UDP, and takes part in it. Ctrl-C ends it for everyone.")
         {
-            scene, port, address, joiners, history, perAddress, budget, admin,
+            scene, port, address, clients, history, perAddress, budget, admin,
         };
         shared.AddTo(command);
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
@@ -44,17 +44,17 @@ internal static class HostCommand
             IPAddress local = EndPointText.ParseLocal("--address", parsed.GetValue(address)!);
             Scene loaded = SceneSource.Load(parsed.GetValue(scene)!);
             SessionRequest request = shared.Read(parsed);
-            foreach (Deed deed in request.Deeds)
+            foreach (ScriptedAction scripted in request.ScriptedActions)
             {
-                deed.ActionIn(loaded);
+                scripted.ActionIn(loaded);
             }
 
             request.Options.PlayerBudget = HarmCommand.Budget(parsed.GetValue(budget));
-            request.Options.ExpectedJoiners = parsed.GetValue(joiners);
+            request.Options.ExpectedClients = parsed.GetValue(clients);
             request.Options.Window = request.Options.Window.WithHistory(SimDuration.FromSeconds(parsed.GetValue(history)));
             if (parsed.GetValue(perAddress) is int most and > 0)
             {
-                request.Options.MaxJoinersPerAddress = most;
+                request.Options.MaxClientsPerAddress = most;
             }
 
             using UdpPort carrier = new(new IPEndPoint(local, parsed.GetValue(port)));

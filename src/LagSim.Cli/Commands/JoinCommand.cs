@@ -46,7 +46,7 @@ internal static class JoinCommand
             IPEndPoint there = EndPointText.Resolve(parsed.GetValue(host)!, "join", console.Stop);
             request = request with { Host = there };
             using UdpPort carrier = new(UdpDestination.Facing(there.Address));
-            JoinerSession session = new(
+            ClientSession session = new(
                 null, carrier, new StopwatchClock(), request.Options, PeerAddress.From(there), Session.DrawNumber());
             if (passFile is not null)
             {

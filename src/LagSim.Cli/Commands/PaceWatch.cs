@@ -6,7 +6,7 @@ namespace LagSim.Cli.Commands;
 internal sealed class PaceWatch
 {
     /// <summary>How far a world may be behind, and for how long it may then come no nearer.</summary>
-    private static readonly SimDuration Patience = SimDuration.FromSeconds(2);
+    private static readonly SimDuration Timeout = SimDuration.FromSeconds(2);
 
     private bool isBehind;
     private bool hasFound;
@@ -17,14 +17,14 @@ internal sealed class PaceWatch
     internal bool Finds(SimTime now, SimDuration behind)
     {
         bool wasBehind = isBehind;
-        isBehind = behind > Patience;
+        isBehind = behind > Timeout;
         if (!wasBehind || behind < least)
         {
             since = now;
             least = behind;
         }
 
-        bool finds = isBehind && !hasFound && now - since > Patience;
+        bool finds = isBehind && !hasFound && now - since > Timeout;
         hasFound |= finds;
         return finds;
     }

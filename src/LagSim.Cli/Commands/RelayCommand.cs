@@ -35,7 +35,7 @@ internal static class RelayCommand
             DefaultValueFactory = _ => IPAddress.Loopback.ToString(),
             HelpName = "ADDRESS",
         };
-        Option<double?> length = SessionArguments.Seconds("--for-s", "How long to run; by default until Ctrl-C.", SessionArguments.LeastLength, Deed.MostSeconds);
+        Option<double?> length = SessionArguments.Seconds("--for-s", "How long to run; by default until Ctrl-C.", SessionArguments.LeastLength, ScriptedAction.MostSeconds);
         Option<double?> change = SessionArguments.Seconds(
             "--change-port-s", "How often the host sees each joiner move to another port; by default never.", 0.5, 3600);
         Command command = new("relay", "Passes datagrams between joiners and a host, with the delays and losses of a link profile.")

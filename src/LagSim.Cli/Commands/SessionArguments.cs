@@ -25,8 +25,8 @@ internal sealed class SessionArguments
         HelpName = "TEXT",
     };
 
-    private readonly Option<string[]> deeds = new("--do") { Description = $"Do something: {Deed.Syntax}", HelpName = "DEED" };
-    private readonly Option<double?> length = Seconds("--for-s", "How long to take part, counted from the session's start; by default until Ctrl-C.", LeastLength, Deed.MostSeconds);
+    private readonly Option<string[]> scriptedActions = new("--do") { Description = $"Do something: {ScriptedAction.Syntax}", HelpName = "DEED" };
+    private readonly Option<double?> length = Seconds("--for-s", "How long to take part, counted from the session's start; by default until Ctrl-C.", LeastLength, ScriptedAction.MostSeconds);
     private readonly Option<string?> record = CommonOptions.File("--record", "Record the session in this file, whose name usually ends in .lagsim; an"
         + " existing file is replaced. Each time a fresh copy of the world is taken, as after a rejoin, the recording goes on in another file: after game.lagsim"
         + " come game.2.lagsim, game.3.lagsim and so on. The summary names them all.");
@@ -45,13 +45,13 @@ internal sealed class SessionArguments
                 result.AddError($"--key has {result.Tokens[0].Value.Length} characters; at most {SessionOptions.MaxKeyLength} are allowed.");
             }
         });
-        deeds.Validators.Add(result =>
+        scriptedActions.Validators.Add(result =>
         {
             foreach (System.CommandLine.Parsing.Token token in result.Tokens)
             {
                 try
                 {
-                    Deed.Parse(token.Value);
+                    ScriptedAction.Parse(token.Value);
                 }
                 catch (UsageException wrong)
                 {
@@ -64,7 +64,7 @@ internal sealed class SessionArguments
     internal void AddTo(Command command)
     {
         command.Options.Add(key);
-        command.Options.Add(deeds);
+        command.Options.Add(scriptedActions);
         command.Options.Add(length);
         command.Options.Add(record);
         command.Options.Add(timeout);
@@ -78,8 +78,8 @@ internal sealed class SessionArguments
     internal SessionRequest Read(ParseResult parsed)
     {
         double? seconds = parsed.GetValue(length);
-        Deed[] ordered = (parsed.GetValue(deeds) ?? []).Select(Deed.Parse).OrderBy(deed => deed.Seconds).ToArray();
-        if (ordered.FirstOrDefault(deed => deed.Seconds >= seconds) is Deed late)
+        ScriptedAction[] ordered = (parsed.GetValue(scriptedActions) ?? []).Select(ScriptedAction.Parse).OrderBy(scripted => scripted.Seconds).ToArray();
+        if (ordered.FirstOrDefault(scripted => scripted.Seconds >= seconds) is ScriptedAction late)
         {
             throw new UsageException(string.Create(CultureInfo.InvariantCulture, $"--do is '{late.Text}', which is not before the end, --for-s {seconds}."));
         }
@@ -117,12 +117,12 @@ internal sealed class SessionArguments
 
 /// <summary>How to take part in a session.</summary>
 /// <param name="Options">For the session.</param>
-/// <param name="Deeds">What to do, by time.</param>
+/// <param name="ScriptedActions">What to do, by time.</param>
 /// <param name="Seconds">How long, counted from the session's start; null until asked to stop.</param>
 /// <param name="RecordFile">Where to record; null for nowhere.</param>
-internal sealed record SessionRequest(SessionOptions Options, IReadOnlyList<Deed> Deeds, double? Seconds, string? RecordFile)
+internal sealed record SessionRequest(SessionOptions Options, IReadOnlyList<ScriptedAction> ScriptedActions, double? Seconds, string? RecordFile)
 {
-    /// <summary>Where a joiner asks to be let in; null for a host.</summary>
+    /// <summary>Where a client asks to be let in; null for a host.</summary>
     internal IPEndPoint? Host { get; init; }
 
     /// <summary>The same as <see cref="Seconds"/>.</summary>

@@ -24,15 +24,15 @@ internal sealed class SessionRunner : IDisposable
     /// <summary>After so long without an answer it is told that there is none.</summary>
     private static readonly TimeSpan SilenceToTell = TimeSpan.FromMilliseconds(450);
 
-    private static readonly TimeSpan LeavePatience = TimeSpan.FromSeconds(1);
+    private static readonly TimeSpan LeaveTimeout = TimeSpan.FromSeconds(1);
 
-    /// <summary>How long a host whose time is up waits for its joiners to leave, besides some round trips.</summary>
-    private static readonly SimDuration HostPatience = SimDuration.FromSeconds(1.5);
+    /// <summary>How long a host whose time is up waits for its clients to leave, besides some round trips.</summary>
+    private static readonly SimDuration HostTimeout = SimDuration.FromSeconds(1.5);
 
-    private const int RoundTripsOfPatience = 4;
+    private const int RoundTripsOfTimeout = 4;
 
     /// <summary>How long a host waits, after its time is up and the history has passed, for a world that is behind.</summary>
-    private static readonly SimDuration WorldPatience = SimDuration.FromSeconds(5);
+    private static readonly SimDuration WorldTimeout = SimDuration.FromSeconds(5);
 
     /// <summary>How long a host that has said goodbye answers those who have not heard it.</summary>
     private static readonly TimeSpan GoodbyeTime = TimeSpan.FromMilliseconds(300);
@@ -44,19 +44,19 @@ internal sealed class SessionRunner : IDisposable
     private readonly CancellationToken stop;
     private readonly PeerThread thread;
     private readonly SessionRecorder? recorder;
-    private readonly AutoResetEvent news = new(false);
+    private readonly AutoResetEvent wakeUp = new(false);
     private readonly CancellationTokenRegistration onStop;
     private readonly ConcurrentQueue<Action> told = new(); // what the session's thread has to say, for this one to print
-    private readonly Dictionary<uint, Deed> unjudged = []; // own ones of a joiner, by sequence number; the session's thread's
-    private readonly List<(Deed Deed, Task Attempt)> attempts = []; // of which the outcome has not been looked at
+    private readonly Dictionary<uint, ScriptedAction> unconfirmed = []; // own ones of a client, by sequence number; the session's thread's
+    private readonly List<(ScriptedAction ScriptedAction, Task Attempt)> attempts = []; // of which the outcome has not been looked at
     private volatile bool isAwaitingVerdict; // whether any is unjudged
     private bool hasToldDifference; // the session's thread's
     private bool isLooking;
-    private PlayerAction[]? actions; // of the deeds, once the scene is known
+    private PlayerAction[]? actions; // of the scripted actions, once the scene is known
     private int done; // or given up
-    private bool hasFailedDeed;
+    private bool hasFailedAction;
     private readonly PaceWatch pace = new();
-    private SimTime? patienceEnd;
+    private SimTime? timeoutEnd;
     private bool hasToldSilence;
 
     internal SessionRunner(Session session, UdpPort port, SessionRequest request, SessionPrinter printer, CancellationToken stop)
@@ -71,20 +71,20 @@ internal sealed class SessionRunner : IDisposable
         session.Logged += OnLogged;
         if (session is HostSession host)
         {
-            host.JoinerCame += link => Tell(() => printer.Came(link));
-            host.JoinerGone += link => Tell(() => printer.Gone(link));
+            host.ClientCame += link => Tell(() => printer.Came(link));
+            host.ClientGone += link => Tell(() => printer.Gone(link));
             host.PlayerExpelled += e => Tell(() => printer.Problem(e.Sentence));
-            host.JoinerDiverged += (peer, time) => Tell(() => printer.Problem(FormattableString.Invariant(
+            host.ClientDiverged += (peer, time) => Tell(() => printer.Problem(FormattableString.Invariant(
                 $"Peer {peer} says that its committed state at T {(time - session.World!.Simulation.Start).ToSeconds()} s is not this one's.")));
         }
 
         session.StateCommitted += OnCommitted;
-        if (session is JoinerSession joiner)
+        if (session is ClientSession client)
         {
-            joiner.Diverged += _ => TellDifference();
-            joiner.Interrupted += why => Tell(() => printer.Problem($"{why} Asking to be let in again."));
-            joiner.Regained += () => Tell(() => printer.Problem("The host is there again; all goes on."));
-            joiner.Renewed += _ => OnRenewed(joiner.Peer);
+            client.Diverged += _ => TellDifference();
+            client.Interrupted += why => Tell(() => printer.Problem($"{why} Asking to be let in again."));
+            client.Regained += () => Tell(() => printer.Problem("The host is there again; all goes on."));
+            client.Renewed += _ => OnRenewed(client.Peer);
         }
 
         if (request.RecordFile is string file)
@@ -98,12 +98,12 @@ internal sealed class SessionRunner : IDisposable
     }
 
     /// <summary>What a session that ended so is to the shell. That states differ, or accepted events are lost, counts whatever else there is.</summary>
-    internal static int ExitCodeOf(SessionEnd by, bool isTimeReached, long statesDiffered, long eventsLost, bool hasFailedDeed, bool isInterrupted)
+    internal static int ExitCodeOf(SessionEnd by, bool isTimeReached, long statesDiffered, long eventsLost, bool hasFailedAction, bool isInterrupted)
     {
         bool isOrderly = by is SessionEnd.Left || (by == SessionEnd.HostEnded && isTimeReached);
         return statesDiffered > 0 || eventsLost > 0 ? ExitCode.CheckFailed
             : isInterrupted ? ExitCode.Interrupted
-            : isOrderly && !hasFailedDeed ? ExitCode.Done
+            : isOrderly && !hasFailedAction ? ExitCode.Done
             : ExitCode.Input;
     }
 
@@ -120,7 +120,7 @@ internal sealed class SessionRunner : IDisposable
         {
             while (wait is TimeSpan span && !stop.IsCancellationRequested && thread.State != SessionState.Ended)
             {
-                news.WaitOne(span);
+                wakeUp.WaitOne(span);
                 PrintTold();
                 LookAtAttempts();
                 LookAtLinks();
@@ -143,7 +143,7 @@ internal sealed class SessionRunner : IDisposable
         }
 
         SessionCounters counters = session.Counters;
-        int code = ExitCodeOf(session.EndedBy, isTimeReached, counters.StatesDiffered, counters.EventsLost, hasFailedDeed, isInterrupted);
+        int code = ExitCodeOf(session.EndedBy, isTimeReached, counters.StatesDiffered, counters.EventsLost, hasFailedAction, isInterrupted);
         if (session.EndedBy != SessionEnd.Left && code != ExitCode.Done)
         {
             printer.Problem(session.EndReason!);
@@ -189,14 +189,14 @@ internal sealed class SessionRunner : IDisposable
         onStop.Dispose();
         thread.Dispose();
         recorder?.Dispose();
-        news.Dispose();
+        wakeUp.Dispose();
     }
 
     private void Wake()
     {
         try
         {
-            news.Set();
+            wakeUp.Set();
         }
         catch (ObjectDisposedException)
         {
@@ -237,7 +237,7 @@ internal sealed class SessionRunner : IDisposable
     /// <summary>Tells, once and soon, that no host answers, and for how long it will be asked: with a pass that is minutes.</summary>
     private void LookAtSilence(TimeSpan asked)
     {
-        if (!hasToldSilence && asked >= SilenceToTell && session is JoinerSession { State: SessionState.Joining } && session.Counters.DatagramsReceived == 0)
+        if (!hasToldSilence && asked >= SilenceToTell && session is ClientSession { State: SessionState.Joining } && session.Counters.DatagramsReceived == 0)
         {
             hasToldSilence = true;
             SessionOptions options = request.Options;
@@ -255,7 +255,7 @@ internal sealed class SessionRunner : IDisposable
         double passed = Passed(start);
         if (actions is null)
         {
-            actions = request.Deeds.Select(deed => deed.ActionIn(session.Scene!)).ToArray();
+            actions = request.ScriptedActions.Select(scripted => scripted.ActionIn(session.Scene!)).ToArray();
             SkipPast(passed);
             if (passed > request.Seconds)
             {
@@ -263,9 +263,9 @@ internal sealed class SessionRunner : IDisposable
             }
         }
 
-        for (; done < actions.Length && request.Deeds[done].Seconds <= passed; done++)
+        for (; done < actions.Length && request.ScriptedActions[done].Seconds <= passed; done++)
         {
-            Do(request.Deeds[done], actions[done]);
+            Do(request.ScriptedActions[done], actions[done]);
         }
 
         if (passed >= request.Seconds)
@@ -273,13 +273,13 @@ internal sealed class SessionRunner : IDisposable
             return HasSettled(start) ? null : LookInterval / 2;
         }
 
-        double next = Math.Min(done < actions.Length ? request.Deeds[done].Seconds : double.MaxValue, request.Seconds ?? double.MaxValue);
+        double next = Math.Min(done < actions.Length ? request.ScriptedActions[done].Seconds : double.MaxValue, request.Seconds ?? double.MaxValue);
         return TimeSpan.FromMilliseconds(Math.Min(Math.Ceiling(1000 * (next - passed)), LookInterval.TotalMilliseconds));
     }
 
     /// <summary>
     /// Whether all has been said, once the time is up: what happened until then is committed here, and a host has waited, but not for long, until its
-    /// joiners have heard of it and left.
+    /// clients have heard of it and left.
     /// </summary>
     private bool HasSettled(SimTime start)
     {
@@ -287,13 +287,13 @@ internal sealed class SessionRunner : IDisposable
         SimTime last = start + (interval * (long)(request.Seconds!.Value / interval.ToSeconds()));
         bool isCommitted = last == start || session.Committed?.Time >= last;
         SimTime now = session.SharedTime.Now;
-        if (session is JoinerSession joiner)
+        if (session is ClientSession client)
         {
-            patienceEnd ??= now + joiner.History + (request.Options.KeepAlive * 2);
-            return (isCommitted && attempts.Count == 0 && !isAwaitingVerdict) || now >= patienceEnd;
+            timeoutEnd ??= now + client.History + (request.Options.KeepAlive * 2);
+            return (isCommitted && attempts.Count == 0 && !isAwaitingVerdict) || now >= timeoutEnd;
         }
 
-        if (!isCommitted && now - start > SimDuration.FromSeconds(request.Seconds.Value) + request.Options.Window.History + WorldPatience)
+        if (!isCommitted && now - start > SimDuration.FromSeconds(request.Seconds.Value) + request.Options.Window.History + WorldTimeout)
         {
             Fail(FormattableString.Invariant($"The time is up, and the world is not committed to T {(last - start).ToSeconds()} s: it is too far behind."));
             return true;
@@ -301,36 +301,36 @@ internal sealed class SessionRunner : IDisposable
 
         if (isCommitted)
         {
-            patienceEnd ??= now + HostPatience + (printer.Links.LongestRoundTrip * RoundTripsOfPatience);
+            timeoutEnd ??= now + HostTimeout + (printer.Links.LongestRoundTrip * RoundTripsOfTimeout);
             thread.Ask(host =>
             {
-                ((HostSession)host).Hasten();
+                ((HostSession)host).Flush();
                 return true;
             });
         }
 
-        return isCommitted && (printer.Links.Present == 0 || now >= patienceEnd);
+        return isCommitted && (printer.Links.Present == 0 || now >= timeoutEnd);
     }
 
     /// <summary>Gives up what was to be done before this peer came in: done now it would be something else.</summary>
     private void SkipPast(double passed)
     {
-        for (; done < request.Deeds.Count && request.Deeds[done].Seconds < passed; done++)
+        for (; done < request.ScriptedActions.Count && request.ScriptedActions[done].Seconds < passed; done++)
         {
         }
 
         if (done > 0)
         {
-            Fail(FormattableString.Invariant($"Not done, for the time was past when this peer came in at T {passed:0.000} s: {Texts(request.Deeds.Take(done))}."));
+            Fail(FormattableString.Invariant($"Not done, for the time was past when this peer came in at T {passed:0.000} s: {Texts(request.ScriptedActions.Take(done))}."));
         }
     }
 
-    private void Do(Deed deed, PlayerAction action) => attempts.Add((deed, thread.Ask(peer =>
+    private void Do(ScriptedAction scripted, PlayerAction action) => attempts.Add((scripted, thread.Ask(peer =>
     {
         ExternalEvent external = peer.Do(action);
-        if (peer is JoinerSession) // what a host does needs nobody's leave
+        if (peer is ClientSession) // what a host does needs nobody's leave
         {
-            unjudged[external.Sequence] = deed;
+            unconfirmed[external.Sequence] = scripted;
             isAwaitingVerdict = true;
         }
 
@@ -340,11 +340,11 @@ internal sealed class SessionRunner : IDisposable
     /// <summary>Tells of what could not be done here.</summary>
     private void LookAtAttempts()
     {
-        foreach ((Deed deed, Task attempt) in attempts)
+        foreach ((ScriptedAction scripted, Task attempt) in attempts)
         {
             if (attempt.IsFaulted)
             {
-                Fail($"--do {deed.Text} was not done. {attempt.Exception!.InnerException!.Message}");
+                Fail($"--do {scripted.Text} was not done. {attempt.Exception!.InnerException!.Message}");
             }
         }
 
@@ -354,25 +354,25 @@ internal sealed class SessionRunner : IDisposable
     /// <summary>Tells of what was not done, or what nobody knows of. The session's thread must have stopped.</summary>
     private void TellUndone()
     {
-        Deed[] undone = [.. attempts.Select(a => a.Deed), .. request.Deeds.Skip(done)];
+        ScriptedAction[] undone = [.. attempts.Select(a => a.ScriptedAction), .. request.ScriptedActions.Skip(done)];
         if (undone.Length > 0)
         {
             Fail($"Not done, for the session ended before: {Texts(undone)}.");
         }
 
-        if (unjudged.Count > 0)
+        if (unconfirmed.Count > 0)
         {
-            Fail($"Done here, but the session ended before the host's verdict came: {Texts(unjudged.OrderBy(d => d.Key).Select(d => d.Value))}.");
+            Fail($"Done here, but the session ended before the host's verdict came: {Texts(unconfirmed.OrderBy(d => d.Key).Select(d => d.Value))}.");
         }
     }
 
     private void Fail(string sentence)
     {
-        hasFailedDeed = true;
+        hasFailedAction = true;
         printer.Problem(sentence);
     }
 
-    private static string Texts(IEnumerable<Deed> deeds) => string.Join(", ", deeds.Select(deed => $"--do {deed.Text}"));
+    private static string Texts(IEnumerable<ScriptedAction> scriptedActions) => string.Join(", ", scriptedActions.Select(scripted => $"--do {scripted.Text}"));
 
     /// <summary>Has the session's thread say how its links are; what it said before of who came and went is printed before.</summary>
     private void LookAtLinks()
@@ -395,12 +395,12 @@ internal sealed class SessionRunner : IDisposable
 
     private void OnLogged(LogEntry entry)
     {
-        if (session is JoinerSession && entry.Event.Peer == session.Peer && unjudged.Remove(entry.Event.Sequence, out Deed? deed))
+        if (session is ClientSession && entry.Event.Peer == session.Peer && unconfirmed.Remove(entry.Event.Sequence, out ScriptedAction? scripted))
         {
-            isAwaitingVerdict = unjudged.Count > 0;
+            isAwaitingVerdict = unconfirmed.Count > 0;
             if (entry.Verdict != Verdict.Accepted)
             {
-                Tell(() => Fail($"The host refused --do {deed.Text}: {Why(entry.Verdict)}."));
+                Tell(() => Fail($"The host refused --do {scripted.Text}: {Why(entry.Verdict)}."));
             }
         }
     }
@@ -412,10 +412,10 @@ internal sealed class SessionRunner : IDisposable
     private void OnRenewed(byte player)
     {
         Tell(() => printer.Problem($"In again as player {player}, with a fresh copy of the world."));
-        if (unjudged.Count > 0)
+        if (unconfirmed.Count > 0)
         {
-            string texts = Texts(unjudged.OrderBy(d => d.Key).Select(d => d.Value));
-            unjudged.Clear();
+            string texts = Texts(unconfirmed.OrderBy(d => d.Key).Select(d => d.Value));
+            unconfirmed.Clear();
             isAwaitingVerdict = false;
             Tell(() => Fail($"Done here, but a fresh copy took the place of the world before the host's verdict came: {texts}."));
         }
@@ -432,8 +432,8 @@ internal sealed class SessionRunner : IDisposable
 
     private void OnCommitted(CommittedState state)
     {
-        ClockReading? clock = session is JoinerSession joiner
-            ? new ClockReading(joiner.ClockSync.Estimate.Offset, joiner.ClockSync.Estimate.ErrorBound, joiner.ClockSync.RoundTrip / 2)
+        ClockReading? clock = session is ClientSession client
+            ? new ClockReading(client.ClockSync.Estimate.Offset, client.ClockSync.Estimate.ErrorBound, client.ClockSync.RoundTrip / 2)
             : null;
         SimDuration sinceStart = state.Time - session.World!.Simulation.Start;
         if (!(sinceStart > request.Length))
@@ -445,7 +445,7 @@ internal sealed class SessionRunner : IDisposable
     /// <summary>Tells of the first committed state that was not the host's, and what is known of it.</summary>
     private void TellDifference()
     {
-        if (!hasToldDifference && session is JoinerSession { Divergence: Divergence divergence })
+        if (!hasToldDifference && session is ClientSession { Divergence: Divergence divergence })
         {
             hasToldDifference = true;
             string sentences = divergence.ToString();
@@ -455,10 +455,10 @@ internal sealed class SessionRunner : IDisposable
 
     private void SayGoodbye()
     {
-        bool hasJoiners = session is HostSession && printer.Links.Present > 0;
+        bool hasClients = session is HostSession && printer.Links.Present > 0;
         try
         {
-            if (session.State != SessionState.Ended && thread.Ask(Goodbye).Wait(LeavePatience, CancellationToken.None) && hasJoiners)
+            if (session.State != SessionState.Ended && thread.Ask(Goodbye).Wait(LeaveTimeout, CancellationToken.None) && hasClients)
             {
                 Thread.Sleep(GoodbyeTime);
             }

@@ -26,7 +26,7 @@ internal static class CheckFiles
             foreach (CheckOutcome o in report.Outcomes)
             {
                 csv.WriteRow(
-                    o.Seed.ToString(CultureInfo.InvariantCulture), o.Peers, o.LateJoiners, o.Leavers, o.ExternalEvents, o.LateEvents, o.Heals, o.HealsThatChangedAnImpact,
+                    o.Seed.ToString(CultureInfo.InvariantCulture), o.Peers, o.LateClients, o.Leavers, o.ExternalEvents, o.LateEvents, o.Heals, o.HealsThatChangedAnImpact,
                     o.Events, o.EventsRerun, o.Impacts, o.TooLateEvents, o.RefusedEvents, o.Compared, o.DifferingBits, o.Failure,
                     o.HasFullLinks ? 1 : 0, o.HasStops ? 1 : 0, o.Copies, o.LostEvents);
             }

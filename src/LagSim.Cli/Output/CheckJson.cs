@@ -38,7 +38,7 @@ internal static class CheckJson
             json.WriteNumber("events_rerun", report.Outcomes.Sum(o => o.EventsRerun));
             json.WriteNumber("impacts", report.Outcomes.Sum(o => o.Impacts));
             json.WriteNumber("peers", report.Outcomes.Sum(o => (long)o.Peers));
-            json.WriteNumber("late_joiners", report.Outcomes.Sum(o => (long)o.LateJoiners));
+            json.WriteNumber("late_joiners", report.Outcomes.Sum(o => (long)o.LateClients));
             json.WriteNumber("leavers", report.Outcomes.Sum(o => (long)o.Leavers));
             json.WriteNumber("copies", report.Outcomes.Sum(o => o.Copies));
             json.WriteStartObject("sessions_that_met");
@@ -77,7 +77,7 @@ internal static class CheckJson
         json.WriteString("replay", failure.Command);
         json.WriteBoolean("shrunk", failure.IsShrunk);
         json.WriteNumber("bodies", failure.Least.Bodies.Count);
-        json.WriteNumber("deeds", failure.Least.Deeds.Count);
+        json.WriteNumber("deeds", failure.Least.ScriptedActions.Count);
         if (failure.Least.Difference is FirstDifference difference)
         {
             json.WriteStartObject("first_difference");

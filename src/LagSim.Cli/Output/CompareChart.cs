@@ -41,7 +41,7 @@ internal static class CompareChart
         };
     }
 
-    /// <summary>All links, by how late their worst news came.</summary>
+    /// <summary>All links, by how late their latest event came.</summary>
     internal static LineChart OfLinks(IReadOnlyList<CompareRun> runs)
     {
         string[] strategies = runs.Select(run => run.Options.Strategy).Distinct().ToArray();

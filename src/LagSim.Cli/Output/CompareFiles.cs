@@ -55,14 +55,14 @@ internal static class CompareFiles
         using StreamWriter file = new(path);
         CsvFile csv = new(
             file, "time_s", "peer", "kind", "body", "x_m", "y_m", "z_m", "vx_m_per_s_or_n_s", "vy_m_per_s_or_n_s", "vz_m_per_s_or_n_s", "radius_m", "mass_kg", "restitution");
-        foreach (PlannedDeed deed in options.Plan)
+        foreach (PlannedAction scripted in options.Plan)
         {
-            bool isPlaced = deed.Kind is Events.EventKind.Teleport or Events.EventKind.Spawn;
-            bool isNew = deed.Kind == Events.EventKind.Spawn;
+            bool isPlaced = scripted.Kind is Events.EventKind.Teleport or Events.EventKind.Spawn;
+            bool isNew = scripted.Kind == Events.EventKind.Spawn;
             csv.WriteRow(
-                deed.Time.ToSeconds(), deed.Peer, CompareJson.KindOf(deed), CompareJson.BodyOf(options.Scene, deed),
-                isPlaced ? deed.Position.X : null, isPlaced ? deed.Position.Y : null, isPlaced ? deed.Position.Z : null, deed.Velocity.X, deed.Velocity.Y, deed.Velocity.Z,
-                isNew ? deed.Spec.Radius : null, isNew ? deed.Spec.Mass : null, isNew ? deed.Spec.Restitution : null);
+                scripted.Time.ToSeconds(), scripted.Peer, CompareJson.KindOf(scripted), CompareJson.BodyOf(options.Scene, scripted),
+                isPlaced ? scripted.Position.X : null, isPlaced ? scripted.Position.Y : null, isPlaced ? scripted.Position.Z : null, scripted.Velocity.X, scripted.Velocity.Y, scripted.Velocity.Z,
+                isNew ? scripted.Spec.Radius : null, isNew ? scripted.Spec.Mass : null, isNew ? scripted.Spec.Restitution : null);
         }
     }
 

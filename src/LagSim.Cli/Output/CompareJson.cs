@@ -19,13 +19,13 @@ internal static class CompareJson
         JsonDocumentWriter.Write(output, "compare", options.Seed, options.Scene.Name, options.Scene.Hash, state, json =>
         {
             json.WriteStartArray("plan");
-            foreach (PlannedDeed deed in options.Plan)
+            foreach (PlannedAction scripted in options.Plan)
             {
                 json.WriteStartObject();
-                json.WriteNumber("time_s", deed.Time.ToSeconds());
-                json.WriteNumber("peer", deed.Peer);
-                json.WriteString("kind", KindOf(deed));
-                json.WriteString("body", BodyOf(options.Scene, deed));
+                json.WriteNumber("time_s", scripted.Time.ToSeconds());
+                json.WriteNumber("peer", scripted.Peer);
+                json.WriteString("kind", KindOf(scripted));
+                json.WriteString("body", BodyOf(options.Scene, scripted));
                 json.WriteEndObject();
             }
 
@@ -43,16 +43,16 @@ internal static class CompareJson
         });
     }
 
-    /// <summary>A deed's kind, as on the command line of <c>join --do</c>.</summary>
-    internal static string KindOf(PlannedDeed deed) => deed.Kind switch
+    /// <summary>A scripted action's kind, as on the command line of <c>join --do</c>.</summary>
+    internal static string KindOf(PlannedAction scripted) => scripted.Kind switch
     {
         Events.EventKind.SetVelocity => "set-velocity",
-        _ => deed.Kind.ToString().ToLowerInvariant(),
+        _ => scripted.Kind.ToString().ToLowerInvariant(),
     };
 
-    /// <summary>The name of the body that a deed is about; of a new one its identity.</summary>
-    internal static string BodyOf(Scene scene, PlannedDeed deed) =>
-        deed.Kind == Events.EventKind.Spawn ? deed.Body.ToString() : scene.Bodies[deed.Body.Index].Name;
+    /// <summary>The name of the body that a scripted action is about; of a new one its identity.</summary>
+    internal static string BodyOf(Scene scene, PlannedAction scripted) =>
+        scripted.Kind == Events.EventKind.Spawn ? scripted.Body.ToString() : scene.Bodies[scripted.Body.Index].Name;
 
     private static void Run(Utf8JsonWriter json, CompareRun run)
     {

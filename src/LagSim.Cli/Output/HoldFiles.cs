@@ -78,7 +78,7 @@ internal static class HoldFiles
                 csv.WriteRow(
                     run.Options.Link.Name, run.Options.Strategy, view.Peer, view.Simulated.RmsMetres, view.Simulated.MaxMetres, view.Predicted.RmsMetres, view.Predicted.MaxMetres,
                     view.BestInHindsightMetres, view.HoldLastMetres, view.VelocityMetres, run.Own.RmsMetres, during.MaxMetres, after.MaxMetres, differing, run.Heals, run.Lateness.Max,
-                    run.KnotsPerSecond, run.HolderSentPerSecond, run.HolderReceivedPerSecond);
+                    run.KeyframesPerSecond, run.HolderSentPerSecond, run.HolderReceivedPerSecond);
             }
         }
     }

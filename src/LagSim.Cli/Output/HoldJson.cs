@@ -47,9 +47,9 @@ internal static class HoldJson
         json.WriteString("truth_state_hash", JsonDocumentWriter.Hash(run.TruthStateHash));
         json.WriteString("truth_event_hash", JsonDocumentWriter.Hash(run.TruthEventHash));
         json.WriteNumber("hold_s", run.Options.HoldSeconds);
-        json.WriteNumber("knot_distance_m", run.Options.KnotDistanceMetres);
-        json.WriteNumber("knots", run.Knots);
-        json.WriteNumber("knots_per_s", run.KnotsPerSecond);
+        json.WriteNumber("knot_distance_m", run.Options.KeyframeDistanceMetres);
+        json.WriteNumber("knots", run.Keyframes);
+        json.WriteNumber("knots_per_s", run.KeyframesPerSecond);
         json.WriteNumber("holder_bytes_sent_per_s", run.HolderSentPerSecond);
         json.WriteNumber("holder_bytes_received_per_s", run.HolderReceivedPerSecond);
         RunJson.Errors(json, "holder_error", run.Own, without: null);

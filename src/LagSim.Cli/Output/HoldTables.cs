@@ -65,7 +65,7 @@ internal static class HoldTables
             + " from the same knots.";
         yield return "of best: its rms error over that of the best in hindsight of what it mixes; hold, velocity: two of those; own: what the holder sees,"
             + " which knots leave out.";
-        yield return $"A knot goes out when the others are off by more than {NumberText.Short(1000 * report.Runs[0].Options.KnotDistanceMetres)} mm. The"
+        yield return $"A knot goes out when the others are off by more than {NumberText.Short(1000 * report.Runs[0].Options.KeyframeDistanceMetres)} mm. The"
             + " throw is not in these errors.";
         yield return "during: while news of the hand is on its way to somebody, after: while none is. Bytes while it holds, with UDP and IP headers.";
         yield return "The thesis's own figures for this (Fig 4 and 5) are not known to this tool.";
@@ -92,7 +92,7 @@ internal static class HoldTables
         {
             run.Options.Link.Name, NumberText.Short(run.Seen.During.ToStatistics().MaxMetres), NumberText.Short(run.Seen.After.ToStatistics().MaxMetres),
             FormattableString.Invariant($"{settled.Sum(e => e.DifferingBits)} of {settled.Sum(e => e.Samples)}"),
-            FormattableString.Invariant($"{run.Heals}"), NumberText.Short(run.Lateness.Max), NumberText.Short(run.KnotsPerSecond),
+            FormattableString.Invariant($"{run.Heals}"), NumberText.Short(run.Lateness.Max), NumberText.Short(run.KeyframesPerSecond),
             FormattableString.Invariant($"{run.HolderSentPerSecond:0}"), FormattableString.Invariant($"{run.HolderReceivedPerSecond:0}"),
         };
     });

@@ -41,7 +41,7 @@ internal sealed class SessionPrinter
         this.recordFile = recordFile;
     }
 
-    /// <summary>Where a host can be reached; null for a joiner.</summary>
+    /// <summary>Where a host can be reached; null for a client.</summary>
     internal string? ListeningOn { get; init; }
 
     internal LinkTable Links { get; } = new();
@@ -81,7 +81,7 @@ internal sealed class SessionPrinter
         }
     }
 
-    /// <summary>A joiner came to this host.</summary>
+    /// <summary>A client came to this host.</summary>
     internal void Came(LinkTraffic link)
     {
         Links.Add(link);
@@ -95,7 +95,7 @@ internal sealed class SessionPrinter
         Progress($"peer {link.Peer} at {link.Address} is gone");
     }
 
-    /// <summary>Takes in how the links are, and tells a joiner's that there is one.</summary>
+    /// <summary>Takes in how the links are, and tells a client's that there is one.</summary>
     internal void LookAt(IReadOnlyList<LinkTraffic> links)
     {
         foreach (LinkTraffic link in links)
@@ -149,10 +149,10 @@ internal sealed class SessionPrinter
             ? "nothing was committed"
             : string.Create(CultureInfo.InvariantCulture, $"last committed: {states[^1].Seconds} s, {states[^1].State}"));
         to.WriteLine($"events: {counters.EventsAccepted} accepted, {counters.EventsRefused} refused; heals: {counters.Heals}");
-        if (session is JoinerSession joiner)
+        if (session is ClientSession client)
         {
             to.WriteLine($"states held against the host's: {counters.StatesAgreed} agreed, {counters.StatesDiffered} differed");
-            if (joiner.Divergence is Divergence divergence)
+            if (client.Divergence is Divergence divergence)
             {
                 to.WriteLine($"first difference: {divergence}");
             }
@@ -205,7 +205,7 @@ internal sealed class SessionPrinter
         document.WriteEndArray();
         document.WriteNumber("states_agreed", counters.StatesAgreed);
         document.WriteNumber("states_differed", counters.StatesDiffered);
-        document.WriteString("divergence", (session as JoinerSession)?.Divergence?.ToString());
+        document.WriteString("divergence", (session as ClientSession)?.Divergence?.ToString());
         document.WriteNumber("events_accepted", counters.EventsAccepted);
         document.WriteNumber("events_refused", counters.EventsRefused);
         document.WriteNumber("heals", counters.Heals);
@@ -234,7 +234,7 @@ internal sealed class SessionPrinter
         }
 
         document.WriteEndObject();
-        JsonDocumentWriter.Number(document, "world_late_max_ms", session.World?.MaxPictureLateness.ToMilliseconds());
+        JsonDocumentWriter.Number(document, "world_late_max_ms", session.World?.MaxRenderLateness.ToMilliseconds());
         document.WriteStartArray("costs");
         foreach (PlayerCost cost in (session as HostSession)?.Costs ?? [])
         {
@@ -264,7 +264,7 @@ internal sealed class SessionPrinter
         SessionEnd.HostEnded => "host-ended",
         SessionEnd.Refused => "refused",
         SessionEnd.HostSilent => "host-silent",
-        SessionEnd.LetGo => "let-go",
+        SessionEnd.Disconnect => "let-go",
         SessionEnd.LinkTooSlow => "link-too-slow",
         _ => "failed",
     };

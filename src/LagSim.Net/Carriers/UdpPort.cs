@@ -21,7 +21,7 @@ public sealed class UdpPort : IDatagramPort
 
     private const int SioUdpConnReset = unchecked((int)0x9800000C);
     private const int MaxKnownEndPoints = 256;
-    private static readonly TimeSpan ExitPatience = TimeSpan.FromSeconds(2);
+    private static readonly TimeSpan ExitTimeout = TimeSpan.FromSeconds(2);
 
     private readonly Socket socket;
     private readonly Thread receiver;
@@ -62,7 +62,7 @@ public sealed class UdpPort : IDatagramPort
     /// <summary>How many datagrams the network would not take.</summary>
     public long SendFailures => Interlocked.Read(ref sendFailures);
 
-    /// <summary>How often the system reported trouble instead of a datagram; news that nobody listens at the other end is not counted.</summary>
+    /// <summary>How often the system reported trouble instead of a datagram; a report that nobody listens at the other end is not counted.</summary>
     public long ReceiveFailures => Interlocked.Read(ref receiveFailures);
 
     /// <inheritdoc/>
@@ -120,7 +120,7 @@ public sealed class UdpPort : IDatagramPort
             socket.Dispose();
             if (Thread.CurrentThread != receiver)
             {
-                receiver.Join(ExitPatience); // bounded: a runtime that does not wake the thread must not hang the game
+                receiver.Join(ExitTimeout); // bounded: a runtime that does not wake the thread must not hang the game
             }
         }
     }

@@ -232,7 +232,7 @@ public sealed class AdaptivePredictor
         if (known >= 0 && known < n)
         {
             double sinceLast = HandHistory.Seconds(history[n - 1].Time, sample.Time);
-            Judge(history[known], sample, Math.Exp(-sinceLast / ErrorMemory));
+            Validate(history[known], sample, Math.Exp(-sinceLast / ErrorMemory));
             leastSquares.Fade(Math.Exp(-sinceLast / LearningMemory));
             if (TryInputs(known))
             {
@@ -244,7 +244,7 @@ public sealed class AdaptivePredictor
         sample.Learned = TryInputs(n) ? leastSquares.Foretell(inputs) : Vector3D.Zero;
     }
 
-    private void Judge(in HandHistory.Sample from, in HandHistory.Sample came, double kept)
+    private void Validate(in HandHistory.Sample from, in HandHistory.Sample came, double kept)
     {
         double seconds = HandHistory.Seconds(from.Time, came.Time);
         double least = double.MaxValue;

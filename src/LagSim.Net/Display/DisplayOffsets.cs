@@ -6,18 +6,18 @@ using LagSim.Time;
 namespace LagSim.Net.Display;
 
 /// <summary>
-/// Hides from the eye that late news has moved a body: the world is always where it is, and what is drawn is off by what news has changed, less and less so.
+/// Hides from the eye that a late event has moved a body: the world is always where it is, and what is drawn is off by what it has changed, less and less so.
 /// </summary>
 /// <remarks>
-/// <para>Call <see cref="Update"/> once a frame with the newest picture and the frame's time, then <see cref="TryRead"/> for each body to draw. For display
+/// <para>Call <see cref="Update"/> once a frame with the newest render snapshot and the frame's time, then <see cref="TryRead"/> for each body to draw. For display
 /// only: what is drawn differs from peer to peer and must never enter a simulation.</para>
-/// <para>A correction is the difference between where the body was shown at the time of the frame before and where the new picture has it at that same time.
+/// <para>A correction is the difference between where the body was shown at the time of the frame before and where the new render snapshot has it at that same time.
 /// So motion is none, however fast, nor is what a player does now; only a rewritten past is. It is added to the body's offset, and the offset decays
 /// exponentially, small ones faster (<see cref="DisplayOptions"/>), in the same curve whatever the frame rate.</para>
 /// <para>An offset is given up at once where it would have the body drawn inside a plane, a static sphere or another body as that is drawn; where it is too
 /// large to be smoothed; where the body is put elsewhere; and as far as a bounce hides it.</para>
-/// <para>For one world: who joins another makes another. A frame costs two readings of the picture a body, and for each body with an offset one look at every
-/// other. Memory grows with the bodies of the picture; otherwise nothing is allocated. Not thread-safe: for the thread that reads pictures.</para>
+/// <para>For one world: who joins another makes another. A frame costs two readings of the render snapshot a body, and for each body with an offset one look at every
+/// other. Memory grows with the bodies of the render snapshot; otherwise nothing is allocated. Not thread-safe: for the thread that reads render snapshots.</para>
 /// </remarks>
 public sealed class DisplayOffsets
 {
@@ -26,11 +26,11 @@ public sealed class DisplayOffsets
     private Entry[] entries = Array.Empty<Entry>();
     private Entry[] spare = Array.Empty<Entry>();
     private int count;
-    private Picture? lastPicture;
+    private RenderSnapshot? lastSnapshot;
     private long lastNumber;
     private SimTime lastTime;
 
-    /// <summary>Offsets for pictures of a world of the scene; all zero to begin with.</summary>
+    /// <summary>Offsets for render snapshots of a world of the scene; all zero to begin with.</summary>
     /// <param name="scene">Has what bodies must not be drawn inside of.</param>
     /// <param name="options">How corrections are hidden; null takes the defaults.</param>
     /// <exception cref="ArgumentNullException"><paramref name="scene"/> is null.</exception>
@@ -40,40 +40,40 @@ public sealed class DisplayOffsets
         this.options = options ?? new DisplayOptions();
     }
 
-    /// <summary>How often news has moved what was shown, each body counted.</summary>
+    /// <summary>How often late events have moved what was shown, each body counted.</summary>
     public long Corrections { get; private set; }
 
     /// <summary>The largest of these, in metres.</summary>
     public double LargestJump { get; private set; }
 
     /// <summary>Begins a frame.</summary>
-    /// <param name="picture">The newest picture.</param>
-    /// <param name="now">The time to show. If it is before that of the last frame, or the picture is an older one, all begins anew without offsets.</param>
-    /// <returns>False if the picture does not cover that time; then nothing changed and bodies are read as in the last frame.</returns>
-    /// <exception cref="ArgumentNullException"><paramref name="picture"/> is null.</exception>
-    public bool Update(Picture picture, SimTime now)
+    /// <param name="snapshot">The newest render snapshot.</param>
+    /// <param name="now">The time to show. If it is before that of the last frame, or the render snapshot is an older one, all begins anew without offsets.</param>
+    /// <returns>False if the render snapshot does not cover that time; then nothing changed and bodies are read as in the last frame.</returns>
+    /// <exception cref="ArgumentNullException"><paramref name="snapshot"/> is null.</exception>
+    public bool Update(RenderSnapshot snapshot, SimTime now)
     {
-        if (picture is null)
+        if (snapshot is null)
         {
-            throw new ArgumentNullException(nameof(picture));
+            throw new ArgumentNullException(nameof(snapshot));
         }
 
-        if (!picture.Covers(now))
+        if (!snapshot.Covers(now))
         {
             return false;
         }
 
-        if (lastPicture is null || now < lastTime || picture.Number < lastNumber)
+        if (lastSnapshot is null || now < lastTime || snapshot.Number < lastNumber)
         {
             count = 0;
             lastTime = now;
         }
 
-        bool isRewritten = picture != lastPicture || picture.Number != lastNumber;
-        Follow(picture);
+        bool isRewritten = snapshot != lastSnapshot || snapshot.Number != lastNumber;
+        Follow(snapshot);
         for (int n = 0; n < count; n++)
         {
-            Move(ref entries[n], picture, now, isRewritten);
+            Move(ref entries[n], snapshot, now, isRewritten);
         }
 
         while (DropWhatIsInside())
@@ -81,8 +81,8 @@ public sealed class DisplayOffsets
             // What is dropped is drawn elsewhere, where another's offset may now be too much.
         }
 
-        lastPicture = picture;
-        lastNumber = picture.Number;
+        lastSnapshot = snapshot;
+        lastNumber = snapshot.Number;
         lastTime = now;
         return true;
     }
@@ -111,29 +111,29 @@ public sealed class DisplayOffsets
         return isThere;
     }
 
-    /// <summary>Has an entry for each body of the picture, in its order.</summary>
-    private void Follow(Picture picture)
+    /// <summary>Has an entry for each body of the render snapshot, in its order.</summary>
+    private void Follow(RenderSnapshot snapshot)
     {
         int known = 0;
-        while (known < count && known < picture.BodyCount && entries[known].Body == picture.BodyAt(known))
+        while (known < count && known < snapshot.BodyCount && entries[known].Body == snapshot.BodyAt(known))
         {
             known++;
         }
 
-        if (known == count && known == picture.BodyCount)
+        if (known == count && known == snapshot.BodyCount)
         {
             return;
         }
 
-        if (spare.Length < picture.BodyCount)
+        if (spare.Length < snapshot.BodyCount)
         {
-            spare = new Entry[Math.Max(picture.BodyCount, 2 * spare.Length)];
+            spare = new Entry[Math.Max(snapshot.BodyCount, 2 * spare.Length)];
         }
 
         int old = 0;
-        for (int n = 0; n < picture.BodyCount; n++)
+        for (int n = 0; n < snapshot.BodyCount; n++)
         {
-            BodyId body = picture.BodyAt(n);
+            BodyId body = snapshot.BodyAt(n);
             while (old < count && entries[old].Body < body)
             {
                 old++;
@@ -143,23 +143,23 @@ public sealed class DisplayOffsets
         }
 
         (entries, spare) = (spare, entries);
-        count = picture.BodyCount;
+        count = snapshot.BodyCount;
     }
 
-    private void Move(ref Entry entry, Picture picture, SimTime now, bool isRewritten)
+    private void Move(ref Entry entry, RenderSnapshot snapshot, SimTime now, bool isRewritten)
     {
         entry.Jump = entry.Decay = entry.Dropped = 0;
-        bool isThere = picture.TryRead(entry.Body, now, out BodyState state);
+        bool isThere = snapshot.TryRead(entry.Body, now, out BodyState state);
         if (entry.IsThere && isThere)
         {
             if (isRewritten)
             {
-                Correct(ref entry, picture);
+                Correct(ref entry, snapshot);
             }
 
             if (entry.Size > 0)
             {
-                Shrink(ref entry, picture, now);
+                Shrink(ref entry, snapshot, now);
             }
         }
         else
@@ -169,15 +169,15 @@ public sealed class DisplayOffsets
 
         entry.IsThere = isThere;
         entry.State = state;
-        entry.Radius = isThere ? picture.RadiusOf(entry.Body) : 0;
+        entry.Radius = isThere ? snapshot.RadiusOf(entry.Body) : 0;
     }
 
-    /// <summary>What the new picture says of the last frame's time, held against what was shown then.</summary>
-    private void Correct(ref Entry entry, Picture picture)
+    /// <summary>What the new render snapshot says of the last frame's time, held against what was shown then.</summary>
+    private void Correct(ref Entry entry, RenderSnapshot snapshot)
     {
-        if (!picture.TryRead(entry.Body, lastTime, out BodyState then))
+        if (!snapshot.TryRead(entry.Body, lastTime, out BodyState then))
         {
-            entry.Drop(); // it was not there after all, or frames are further apart than pictures reach back
+            entry.Drop(); // it was not there after all, or frames are further apart than render snapshots reach back
             return;
         }
 
@@ -199,12 +199,12 @@ public sealed class DisplayOffsets
         }
     }
 
-    private void Shrink(ref Entry entry, Picture picture, SimTime now)
+    private void Shrink(ref Entry entry, RenderSnapshot snapshot, SimTime now)
     {
         double left = OffsetDecay.After(entry.Size, entry.TimeConstant, options.MaxSpeed, (now - lastTime).ToSeconds());
         entry.Decay = entry.Size - left;
         entry.ShrinkTo(left);
-        picture.TryReadSuddenChange(entry.Body, lastTime, now, out double change);
+        snapshot.TryReadSuddenChange(entry.Body, lastTime, now, out double change);
         double hidden = change < double.PositiveInfinity ? Math.Min(change * options.Hiding.ToSeconds(), entry.Size) : entry.Size;
         entry.Dropped += hidden;
         entry.ShrinkTo(entry.Size - hidden);

@@ -25,7 +25,7 @@ public readonly struct DrawnBody
     public Vector3D Position => State.Position + Offset;
 
     /// <summary>
-    /// By how many metres news has moved what was shown in the frame before: the size of the correction that the eye would see without an offset.
+    /// By how many metres late events have moved what was shown in the frame before: the size of the correction that the eye would see without an offset.
     /// </summary>
     public double Jump { get; }
 

@@ -9,7 +9,7 @@ internal enum RecordKind : byte
     /// <summary>The scene. The second record.</summary>
     Scene = 2,
 
-    /// <summary>The state with which a late joiner began. The third record, or none.</summary>
+    /// <summary>The state with which a late client began. The third record, or none.</summary>
     Joined = 3,
 
     /// <summary>An entry of the host's log.</summary>

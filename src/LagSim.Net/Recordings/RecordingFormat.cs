@@ -13,7 +13,7 @@ public static class RecordingFormat
     /// <summary>The version of the records. Scene and events in them are in that of the wire, <see cref="WireFormat.Version"/>.</summary>
     public const byte Version = 4;
 
-    /// <summary>The longest snapshot that a recording holds, that of a late joiner: 64 MiB.</summary>
+    /// <summary>The longest snapshot that a recording holds, that of a late client: 64 MiB.</summary>
     public const int MaxSnapshotBytes = 1 << 26;
 
     /// <summary>The longest reason of an end, in UTF-8.</summary>

@@ -28,7 +28,7 @@ public sealed class RecordingWriter : IDisposable
     private bool isFailed;
     private bool isDisposed;
 
-    /// <summary>Begins a recording: header, scene and what a late joiner began with are written at once.</summary>
+    /// <summary>Begins a recording: header, scene and what a late client began with are written at once.</summary>
     /// <param name="stream">Where to; it must be writable and belongs to the writer, unless <paramref name="leaveOpen"/> says otherwise.</param>
     /// <param name="peer">The number of the peer that records; 0 is the host.</param>
     /// <param name="scene">The session's scene.</param>

@@ -5,7 +5,7 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions;
 
 /// <summary>
-/// The first committed state of a joiner that is not the host's: since when, and which event of a player makes the difference, in both versions.
+/// The first committed state of a client that is not the host's: since when, and which event of a player makes the difference, in both versions.
 /// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class Divergence

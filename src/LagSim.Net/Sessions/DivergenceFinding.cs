@@ -1,6 +1,6 @@
 namespace LagSim.Net.Sessions;
 
-/// <summary>What a joiner has found out about a committed state that is not the host's.</summary>
+/// <summary>What a client has found out about a committed state that is not the host's.</summary>
 public enum DivergenceFinding
 {
     /// <summary>The host has been asked for its events, and has not told all of them yet.</summary>

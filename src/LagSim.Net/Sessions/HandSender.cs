@@ -7,12 +7,12 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions;
 
 /// <summary>
-/// Says when the others must hear of a hand that holds a body: when what they foretell of it from the last knot is off by more than a set distance.
+/// Says when the others must hear of a hand that holds a body: when what they foretell of it from the last keyframe is off by more than a set distance.
 /// </summary>
 /// <remarks>
-/// <para>It replays <see cref="HandPath"/>, by which every peer extrapolates, so bandwidth follows surprise. The same samples give the same knots. For one
-/// hand from one grab to its release, on one thread. What is done is stamped when it is done, so a knot is to be done at once.</para>
-/// <para>As <c>if (sender.TrySample(now, hand, speed, out PlayerAction knot)) { session.Do(knot); }</c>, each frame, from the grab on.</para>
+/// <para>It replays <see cref="HandPath"/>, by which every peer extrapolates, so bandwidth follows surprise. The same samples give the same keyframes. For one
+/// hand from one grab to its release, on one thread. What is done is stamped when it is done, so a keyframe is to be done at once.</para>
+/// <para>As <c>if (sender.TrySample(now, hand, speed, out PlayerAction keyframe)) { session.Do(keyframe); }</c>, each frame, from the grab on.</para>
 /// </remarks>
 public sealed class HandSender
 {
@@ -33,22 +33,22 @@ public sealed class HandSender
         this.options = (options ?? new HandSenderOptions()).Checked();
     }
 
-    /// <summary>How many knots were due so far.</summary>
-    public long Knots { get; private set; }
+    /// <summary>How many keyframes were due so far.</summary>
+    public long Keyframes { get; private set; }
 
     /// <summary>
-    /// The greatest distance in metres by which a sample was off from what the others foretold, those included that a knot was due for; of the first none.
+    /// The greatest distance in metres by which a sample was off from what the others foretold, those included that a keyframe was due for; of the first none.
     /// </summary>
     public double GreatestError { get; private set; }
 
     /// <summary>Takes where the hand is, and says whether the others must hear of it.</summary>
     /// <param name="time">When, in shared time; not before the sample before.</param>
     /// <param name="position">The hand's point, in metres.</param>
-    /// <param name="velocity">Its velocity, in m/s, as well as it is known: the better, the fewer knots.</param>
-    /// <param name="knot">What to do in the session now, if it is due; else the default.</param>
-    /// <returns>Whether a knot is due: for the first sample always.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">The time is before that of the sample for which a knot was due last.</exception>
-    public bool TrySample(SimTime time, in Vector3D position, in Vector3D velocity, out PlayerAction knot)
+    /// <param name="velocity">Its velocity, in m/s, as well as it is known: the better, the fewer keyframes.</param>
+    /// <param name="keyframe">What to do in the session now, if it is due; else the default.</param>
+    /// <returns>Whether a keyframe is due: for the first sample always.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The time is before that of the sample for which a keyframe was due last.</exception>
+    public bool TrySample(SimTime time, in Vector3D position, in Vector3D velocity, out PlayerAction keyframe)
     {
         if (hasSent && time < sent)
         {
@@ -66,10 +66,10 @@ public sealed class HandSender
             sent = time;
             sentPosition = position;
             sentVelocity = velocity;
-            Knots++;
+            Keyframes++;
         }
 
-        knot = isDue ? PlayerAction.HoldKnot(body, position, velocity) : default;
+        keyframe = isDue ? PlayerAction.HoldKeyframe(body, position, velocity) : default;
         return isDue;
     }
 }

@@ -14,7 +14,7 @@ namespace LagSim.Net.Sessions;
 /// The peer that others join. It alone says yes or no to each event, once, and keeps the log in which all verdicts stand in order.
 /// </summary>
 /// <remarks>
-/// Its clock is the session's. The watermark, before which it accepts nothing, follows that clock, so a silent joiner stalls nobody. It
+/// Its clock is the session's. The watermark, before which it accepts nothing, follows that clock, so a silent client stalls nobody. It
 /// plays
 /// itself, by <see cref="Session.Do"/>, or only serves. It keeps nothing of who has not shown, by a cookie, that it is where it says.
 /// </remarks>
@@ -22,7 +22,7 @@ public sealed class HostSession : Session
 {
     private readonly HostProtocol host;
 
-    /// <summary>Opens a session and waits for joiners.</summary>
+    /// <summary>Opens a session and waits for clients.</summary>
     /// <param name="scene">The scene that all share.</param>
     /// <param name="port">What carries datagrams; not disposed with the session.</param>
     /// <param name="clock">This machine's own clock.</param>
@@ -30,7 +30,7 @@ public sealed class HostSession : Session
     /// <param name="sessionId">
     /// A number that no other session on these machines has; choose it at random. From it and a secret of this host each join gets a
     /// session id that nobody
-    /// else can tell: it goes with every datagram, and what is still on its way from or to a former joiner is not taken for that of a later
+    /// else can tell: it goes with every datagram, and what is still on its way from or to a former client is not taken for that of a later
     /// one.
     /// </param>
     public HostSession(Scene scene, IDatagramPort port, IClock clock, SessionOptions options, ulong sessionId)
@@ -44,21 +44,21 @@ public sealed class HostSession : Session
         : base(host.Parts, host) => this.host = host;
 
     /// <summary>
-    /// Raised on the session's thread for each joiner that has a copy of scene and state and got its number, with its link. Handlers must
+    /// Raised on the session's thread for each client that has a copy of scene and state and got its number, with its link. Handlers must
     /// not throw.
     /// </summary>
-    public event Action<LinkTraffic>? JoinerCame
+    public event Action<LinkTraffic>? ClientCame
     {
         add => host.Door.Seating.Came += value;
         remove => host.Door.Seating.Came -= value;
     }
 
     /// <summary>
-    /// Raised on the session's thread, once, for each joiner that left, fell silent, was told to go, or came anew from the same address,
+    /// Raised on the session's thread, once, for each client that left, fell silent, was told to go, or came anew from the same address,
     /// with what went over
     /// its link in all. Not for those who are there when the session ends. Handlers must not throw.
     /// </summary>
-    public event Action<LinkTraffic>? JoinerGone
+    public event Action<LinkTraffic>? ClientGone
     {
         add => host.Roster.Gone += value;
         remove => host.Roster.Gone -= value;
@@ -67,7 +67,7 @@ public sealed class HostSession : Session
     /// <summary>
     /// Raised on the session's thread when a player is sent away because its acts cost more than <see cref="SessionOptions.PlayerBudget"/>,
     /// with why, and what was
-    /// removed. <see cref="JoinerGone"/> is raised too. Handlers must not throw.
+    /// removed. <see cref="ClientGone"/> is raised too. Handlers must not throw.
     /// </summary>
     public event Action<PlayerExpulsion>? PlayerExpelled
     {
@@ -76,17 +76,17 @@ public sealed class HostSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread for each joiner, once, that says its committed state at that time is not this host's. Handlers must
+    /// Raised on the session's thread for each client, once, that says its committed state at that time is not this host's. Handlers must
     /// not throw.
     /// </summary>
-    public event Action<byte, SimTime>? JoinerDiverged
+    public event Action<byte, SimTime>? ClientDiverged
     {
-        add => host.Evidence.Diverged += value;
-        remove => host.Evidence.Diverged -= value;
+        add => host.DesyncReport.Diverged += value;
+        remove => host.DesyncReport.Diverged -= value;
     }
 
-    /// <summary>How many joiners there are now, without those that are still coming in.</summary>
-    public int JoinerCount => host.Roster.SeatedCount;
+    /// <summary>How many clients there are now, without those that are still coming in.</summary>
+    public int ClientCount => host.Roster.SeatedCount;
 
     /// <summary>
     /// The time before which no event is accepted any more: the history before the clock, or before where the world stands if that is
@@ -102,16 +102,16 @@ public sealed class HostSession : Session
     /// </summary>
     public IReadOnlyList<PlayerCost> Costs => host.Budget.Costs;
 
-    /// <summary>How much of the log is kept: what is not settled, and what some joiner has not acknowledged.</summary>
+    /// <summary>How much of the log is kept: what is not settled, and what some client has not acknowledged.</summary>
     internal int KeptLogEntries => host.Log.Lines.Kept;
 
     /// <summary>How many are coming in.</summary>
-    internal int ComingCount => host.Roster.All.Count - JoinerCount;
+    internal int ComingCount => host.Roster.All.Count - ClientCount;
 
     /// <summary>
-    /// Has the next step write to every joiner, which otherwise may wait for the keep-alive: they learn sooner what is committed.
+    /// Has the next step write to every client, which otherwise may wait for the keep-alive: they learn sooner what is committed.
     /// </summary>
-    public void Hasten() => host.Hasten();
+    public void Flush() => host.Flush();
 
     /// <summary>
     /// Sends a player away. It is told so, and its session ends. Its number becomes free and its pass void; it may join again as a new
@@ -122,7 +122,7 @@ public sealed class HostSession : Session
     /// </remarks>
     /// <param name="player">The player's number.</param>
     /// <returns>False if nobody has that number now.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">It is not from 1 to <see cref="SessionOptions.MaxJoiners"/>.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">It is not from 1 to <see cref="SessionOptions.MaxClients"/>.</exception>
     public bool Kick(byte player)
     {
         ThrowIfNoPlayer(player);
@@ -137,11 +137,11 @@ public sealed class HostSession : Session
     /// <remarks>On the session's thread.</remarks>
     /// <param name="player">The player's number.</param>
     /// <returns>The machine, for <see cref="Unban"/>; null if nobody has that number now.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">It is not from 1 to <see cref="SessionOptions.MaxJoiners"/>.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">It is not from 1 to <see cref="SessionOptions.MaxClients"/>.</exception>
     public PeerAddress? Ban(byte player)
     {
         ThrowIfNoPlayer(player);
-        if (host.Roster.Seated(player) is not Joiner found)
+        if (host.Roster.Seated(player) is not Client found)
         {
             return null;
         }
@@ -168,7 +168,7 @@ public sealed class HostSession : Session
     /// <remarks>On the session's thread. Cost: a removal for each.</remarks>
     /// <param name="player">The player's number.</param>
     /// <returns>How many are removed.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">It is not from 1 to <see cref="SessionOptions.MaxJoiners"/>.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">It is not from 1 to <see cref="SessionOptions.MaxClients"/>.</exception>
     /// <exception cref="InvalidOperationException">The session is not running.</exception>
     public int RemoveBodiesOf(byte player)
     {
@@ -192,9 +192,9 @@ public sealed class HostSession : Session
 
     private static void ThrowIfNoPlayer(byte player)
     {
-        if (player is 0 or > SessionOptions.MaxJoiners)
+        if (player is 0 or > SessionOptions.MaxClients)
         {
-            throw new ArgumentOutOfRangeException(nameof(player), player, $"A player's number is 1 to {SessionOptions.MaxJoiners}.");
+            throw new ArgumentOutOfRangeException(nameof(player), player, $"A player's number is 1 to {SessionOptions.MaxClients}.");
         }
     }
 }

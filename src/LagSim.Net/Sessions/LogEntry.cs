@@ -50,7 +50,7 @@ public readonly struct LogEntry : IEquatable<LogEntry>
             EventKind.SetVelocity => $": to {Event.Velocity} m/s",
             EventKind.Impulse => $": of {Event.Velocity} N s",
             EventKind.Grab => $": by the point {Event.Position} m from its centre",
-            EventKind.HoldKnot => $": the hand at {Event.Position} m with {Event.Velocity} m/s",
+            EventKind.HoldKeyframe => $": the hand at {Event.Position} m with {Event.Velocity} m/s",
             EventKind.Release => $": with {Event.Velocity} m/s",
             _ => "",
         };

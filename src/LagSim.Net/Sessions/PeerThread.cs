@@ -74,7 +74,7 @@ public sealed class PeerThread : IDisposable
         PeerAddress address = PeerAddress.From(host);
         UdpPort port = new(UdpDestination.Facing(address.ToEndPoint().Address));
         return Begin(
-            port, () => new JoinerSession(scene, port, new StopwatchClock(), options ?? new SessionOptions(), address, Session.DrawNumber()), "LagSim joiner");
+            port, () => new ClientSession(scene, port, new StopwatchClock(), options ?? new SessionOptions(), address, Session.DrawNumber()), "LagSim joiner");
     }
 
     /// <summary>
@@ -119,13 +119,13 @@ public sealed class PeerThread : IDisposable
     public void Start() => thread.Start();
 
     /// <summary>
-    /// The newest picture of the world, for the one thread that draws; null before there is a world. A frame reads it at <see cref="Session.DisplayTime"/>.
+    /// The newest render snapshot of the world, for the one thread that draws; null before there is a world. A frame reads it at <see cref="Session.DisplayTime"/>.
     /// </summary>
     /// <exception cref="InvalidOperationException">The thread ended by an exception, the inner one.</exception>
-    public Picture? Latest()
+    public RenderSnapshot? Latest()
     {
         thread.ThrowIfFaulted();
-        return Session.World?.Pictures.Latest();
+        return Session.World?.RenderSnapshots.Latest();
     }
 
     /// <summary>Does something to the shared world as soon as the session's thread gets to it, which is at once unless it is at work.

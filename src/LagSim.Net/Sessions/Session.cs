@@ -19,7 +19,7 @@ namespace LagSim.Net.Sessions;
 /// <remarks>
 /// For one thread, in real time (<see cref="PeerThread"/> gives it one) or in virtual time, where the harness steps it. From any thread may
 /// be read: <see cref="Scene"/>, <see cref="SharedTime"/>, <see cref="State"/>, <see cref="EndReason"/>, <see cref="Committed"/>, and which
-/// <see cref="World"/> it is; of the world itself only its pictures, its counts of late steps, and when it started.
+/// <see cref="World"/> it is; of the world itself only its render snapshots, its counts of late steps, and when it started.
 /// </remarks>
 public abstract class Session
 {
@@ -50,7 +50,7 @@ public abstract class Session
     /// <summary>
     /// Raised on the session's thread each time that a fresh copy of the host's world has taken the place of <see cref="World"/>, which is
     /// another object from
-    /// then on, with why. What this peer did that the host had not judged is in neither. Handlers must not throw.
+    /// then on, with why. What this peer did that the host had not validated is in neither. Handlers must not throw.
     /// </summary>
     public event Action<string>? Renewed
     {
@@ -85,7 +85,7 @@ public abstract class Session
         remove => parts.Commits.Committed -= value;
     }
 
-    /// <summary>The scene that all peers share; null for a joiner that has not heard of it. From any thread.</summary>
+    /// <summary>The scene that all peers share; null for a client that has not heard of it. From any thread.</summary>
     public Scene? Scene => parts.World.Scene;
 
     /// <summary>The session's time; readable once <see cref="SharedClock.IsSet"/>, from any thread.</summary>
@@ -99,7 +99,7 @@ public abstract class Session
     public SimDuration DisplayDelay => parts.World.DisplayDelay;
 
     /// <summary>
-    /// What a frame that is drawn now reads of a picture: shared time less <see cref="DisplayDelay"/>. In the first moments, when that lies
+    /// What a frame that is drawn now reads of a render snapshot: shared time less <see cref="DisplayDelay"/>. In the first moments, when that lies
     /// before the world
     /// this peer has, the earliest instant of it, so that the world stands still until it can be shown on its way. From any thread, once
     /// there is a <see
@@ -122,14 +122,14 @@ public abstract class Session
     public byte Peer => parts.Self.Number;
 
     /// <summary>
-    /// The world, from the moment its start is known; the same from then on, but for a joiner that got a fresh copy (<see
+    /// The world, from the moment its start is known; the same from then on, but for a client that got a fresh copy (<see
     /// cref="Renewed"/>). From any thread,
     /// but see the remarks for what is in it.
     /// </summary>
     public LiveWorld? World => parts.World.Live;
 
     /// <summary>
-    /// What the world went on from, for a joiner that came late enough; null where it began with the scene. On the session's thread.
+    /// What the world went on from, for a client that came late enough; null where it began with the scene. On the session's thread.
     /// </summary>
     public WorldSnapshot? BegunFrom => parts.World.BegunFrom;
 
@@ -144,7 +144,7 @@ public abstract class Session
     public uint LogStart => protocol.LogStart;
 
     /// <summary>
-    /// What went over each link so far; of a host in the order in which its joiners came. On the session's thread; see <see
+    /// What went over each link so far; of a host in the order in which its clients came. On the session's thread; see <see
     /// cref="PeerThread.Ask"/>.
     /// </summary>
     public IReadOnlyList<LinkTraffic> Links => protocol.Traffic;
@@ -168,7 +168,7 @@ public abstract class Session
     /// <summary>What the session is put together of.</summary>
     internal SessionParts Parts => parts;
 
-    /// <summary>A number that nobody can guess, for a host's session or a joiner's nonce. From any thread.</summary>
+    /// <summary>A number that nobody can guess, for a host's session or a client's nonce. From any thread.</summary>
     public static ulong DrawNumber()
     {
         Span<byte> bytes = stackalloc byte[sizeof(ulong)];
@@ -199,7 +199,7 @@ public abstract class Session
     /// </summary>
     /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
     /// <exception cref="InvalidOperationException">
-    /// The session is not running; or of a joiner's events <see cref="JoinerSession.MaxUnjudgedEvents"/> wait for the host's verdict, and
+    /// The session is not running; or of a client's events <see cref="ClientSession.MaxUnconfirmedEvents"/> wait for the host's verdict, and
     /// nothing happened:
     /// it can be done again once verdicts have come.
     /// </exception>

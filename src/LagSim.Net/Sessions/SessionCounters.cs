@@ -67,7 +67,7 @@ public sealed class SessionCounters
     /// </summary>
     public long EventsLost { get; internal set; }
 
-    /// <summary>Own events of a joiner on which it has heard no verdict, because its world was replaced first: whether they happened, the new one shows.</summary>
+    /// <summary>Own events of a client on which it has heard no verdict, because its world was replaced first: whether they happened, the new one shows.</summary>
     public long EventsUnanswered { get; internal set; }
 
     /// <summary>How often a fresh copy of the host's world took the place of this peer's.</summary>
@@ -76,16 +76,16 @@ public sealed class SessionCounters
     /// <summary>Late events of other peers for which timelines were rewritten back to the event; none with a strategy that rewrites no past.</summary>
     public long Heals { get; internal set; }
 
-    /// <summary>The shared time at which a picture first showed the newest event, one's own or another's; the earliest instant before any.</summary>
+    /// <summary>The shared time at which a render snapshot first showed the newest event, one's own or another's; the earliest instant before any.</summary>
     public SimTime LastShown { get; internal set; } = SimTime.MinValue;
 
     /// <summary>Of the refused ones those that came in another's name; they stand in no log.</summary>
     public long EventsForged { get; internal set; }
 
-    /// <summary>Events of joiners that were left for later because a joiner did more than <see cref="SessionOptions.MaxEventsPerSecond"/>.</summary>
+    /// <summary>Events of clients that were left for later because a client did more than <see cref="SessionOptions.MaxEventsPerSecond"/>.</summary>
     public long EventsDeferred { get; internal set; }
 
-    /// <summary>How many of this joiner's committed states were like the host's.</summary>
+    /// <summary>How many of this client's committed states were like the host's.</summary>
     public long StatesAgreed { get; internal set; }
 
     /// <summary>How many were not.</summary>

@@ -12,14 +12,14 @@ public enum SessionEnd
     /// <summary>The host ended it, in order, for everyone.</summary>
     HostEnded,
 
-    /// <summary>The host did not let this joiner in: another version, key or scene, or no place.</summary>
+    /// <summary>The host did not let this client in: another version, key or scene, or no place.</summary>
     Refused,
 
     /// <summary>Nothing came from the host for the timeout.</summary>
     HostSilent,
 
-    /// <summary>The host gave this joiner up: it heard nothing of it, or it did not keep up.</summary>
-    LetGo,
+    /// <summary>The host gave this client up: it heard nothing of it, or it did not keep up.</summary>
+    Disconnect,
 
     /// <summary>What may still change of this peer's world is more than <see cref="SessionOptions.MaxSegments"/>, and was again in fresh copies of it.</summary>
     TimelinesFull,

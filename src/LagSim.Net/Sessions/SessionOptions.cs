@@ -18,8 +18,8 @@ public sealed class SessionOptions
     /// <summary>How long a silent peer is believed to be there, where nothing else is said: 10 s.</summary>
     public static readonly SimDuration DefaultTimeout = SimDuration.FromSeconds(10);
 
-    /// <summary>The most joiners a host can have.</summary>
-    public const int MaxJoiners = 8;
+    /// <summary>The most clients a host can have.</summary>
+    public const int MaxClients = 8;
 
     /// <summary>The longest <see cref="ConnectKey"/>, in characters.</summary>
     public const int MaxKeyLength = 256;
@@ -32,58 +32,58 @@ public sealed class SessionOptions
     /// <summary>
     /// What only those may know who shall join; the host refuses any other. Up to <see cref="MaxKeyLength"/> characters, default none. It
     /// does not travel, and it keeps strangers out; it does not encrypt. Take a long random one: who listens, or plays a host, gets what guesses can be
-    /// tried against without asking anybody, and no host shows a joiner that it knows the key.
+    /// tried against without asking anybody, and no host shows a client that it knows the key.
     /// </summary>
     public string ConnectKey { get; set; } = "";
 
     /// <summary>
-    /// Host only: keys of players by number, 1 to <see cref="MaxJoiners"/>; default none. Who gives such a key as its <see cref="ConnectKey"/> has that number,
+    /// Host only: keys of players by number, 1 to <see cref="MaxClients"/>; default none. Who gives such a key as its <see cref="ConnectKey"/> has that number,
     /// whenever it comes, and takes it over from whoever still holds it; nobody else gets it. Without, numbers go by order of arrival and are given
     /// again, and with them what a scene grants to a number.
     /// </summary>
     public IReadOnlyDictionary<byte, string> PlayerKeys { get; set; } = new Dictionary<byte, string>();
 
     /// <summary>
-    /// Joiner only: what shows the host that this is a player it had before, from <see cref="JoinerSession.Pass"/> of then; default none. With one a joiner asks for
-    /// <see cref="RejoinTime"/> to be let in, as one does that lost its host. A host that does not know it, or no longer, gives the joiner a number as it gives
+    /// Client only: what shows the host that this is a player it had before, from <see cref="ClientSession.Pass"/> of then; default none. With one a client asks for
+    /// <see cref="RejoinTime"/> to be let in, as one does that lost its host. A host that does not know it, or no longer, gives the client a number as it gives
     /// anybody; one that was started anew the same number, if it is free: without proof, and for its first <see cref="RejoinTime"/> alone.
     /// </summary>
     public PlayerPass Pass { get; set; }
 
     /// <summary>
-    /// For how long a joiner that lost its host, or its world, asks to be let in again before its session ends; and for how long a host keeps the number of a
-    /// joiner that fell silent, where nobody else needs it. 0 s to 1 h; default 2 min. With 0 a joiner's session ends at once.
+    /// For how long a client that lost its host, or its world, asks to be let in again before its session ends; and for how long a host keeps the number of a
+    /// client that fell silent, where nobody else needs it. 0 s to 1 h; default 2 min. With 0 a client's session ends at once.
     /// </summary>
     public SimDuration RejoinTime { get; set; } = SimDuration.FromSeconds(120);
 
     /// <summary>
-    /// Host only: how many joiners may be in from one address, whatever their ports, 1 to <see cref="MaxJoiners"/>; default half of the places, or <see
-    /// cref="ExpectedJoiners"/> if that is more. So nobody takes all places from one machine. Players behind one NAT share an address.
+    /// Host only: how many clients may be in from one address, whatever their ports, 1 to <see cref="MaxClients"/>; default half of the places, or <see
+    /// cref="ExpectedClients"/> if that is more. So nobody takes all places from one machine. Players behind one NAT share an address.
     /// </summary>
-    public int MaxJoinersPerAddress
+    public int MaxClientsPerAddress
     {
-        get => perAddress ?? Math.Max(MaxJoiners / 2, ExpectedJoiners);
+        get => perAddress ?? Math.Max(MaxClients / 2, ExpectedClients);
         set => perAddress = value;
     }
 
-    /// <summary>Joiner only: the accelerations that this program can supply to a scene that it gets from the host; default none.</summary>
+    /// <summary>Client only: the accelerations that this program can supply to a scene that it gets from the host; default none.</summary>
     public IReadOnlyList<IAcceleration>? Accelerations { get; set; }
 
-    /// <summary>Host only: how many events a second it takes from each joiner, 1 to 100,000; default 500. What is more is taken later. Thousands need a larger <see cref="PlayerBudget"/>, or none.</summary>
+    /// <summary>Host only: how many events a second it takes from each client, 1 to 100,000; default 500. What is more is taken later. Thousands need a larger <see cref="PlayerBudget"/>, or none.</summary>
     public int MaxEventsPerSecond { get; set; } = 500;
 
     /// <summary>
     /// The highest speed in m/s that an event of a player may give, above 0, up to <see cref="double.PositiveInfinity"/> for no limit beyond the world's own;
-    /// default 1,000. It holds for the velocity of a spawn, a teleport, a set velocity, a knot or a release, for the surface of a spawn that turns, for the way
-    /// that a knot has a held body make up for, and for what an impulse leaves, unless that is slower than what was there. A host refuses more as <see
-    /// cref="Verdict.Invalid"/>, by its own option; a joiner's own <see cref="Session.Do"/> goes by the joiner's.
+    /// default 1,000. It holds for the velocity of a spawn, a teleport, a set velocity, a keyframe or a release, for the surface of a spawn that turns, for the way
+    /// that a keyframe has a held body make up for, and for what an impulse leaves, unless that is slower than what was there. A host refuses more as <see
+    /// cref="Verdict.Invalid"/>, by its own option; a client's own <see cref="Session.Do"/> goes by the client's.
     /// </summary>
     /// <remarks>It is what keeps a stranger from asking the world for more than anyone can simulate: a fast ball in a narrow gap.</remarks>
     public double MaxGivenSpeed { get; set; } = 1_000;
 
     /// <summary>
-    /// How many bodies that one player spawned may be there at a time, 0 to 1,000,000; default 64. Those of the former holders of a joiner's number count. A
-    /// host refuses more as <see cref="Verdict.NoRight"/>, by its own option; a joiner's own <see cref="Session.Do"/> goes by the joiner's.
+    /// How many bodies that one player spawned may be there at a time, 0 to 1,000,000; default 64. Those of the former holders of a client's number count. A
+    /// host refuses more as <see cref="Verdict.NoRight"/>, by its own option; a client's own <see cref="Session.Do"/> goes by the client's.
     /// </summary>
     public int MaxSpawned { get; set; } = 64;
 
@@ -104,7 +104,7 @@ public sealed class SessionOptions
 
     /// <summary>
     /// How late an event may be and still be accepted, how far ahead the world is simulated, and how much later than it is done what this peer does is to
-    /// happen. The history is the host's, whatever a joiner says.
+    /// happen. The history is the host's, whatever a client says.
     /// </summary>
     public LatencyCompensationWindow Window { get; set; } = new();
 
@@ -124,20 +124,20 @@ public sealed class SessionOptions
     public SimDuration ExtraHistory { get; set; }
 
     /// <summary>
-    /// How much of the past pictures show, 0 to 60 s; default 250 ms. It is counted from what is displayed: with <c>interpolation</c> pictures go back by
+    /// How much of the past render snapshots show, 0 to 60 s; default 250 ms. It is counted from what is displayed: with <c>interpolation</c> render snapshots go back by
     /// <see cref="DisplayDelay"/> more, and as much more of the timelines is kept.
     /// </summary>
-    public SimDuration PicturePast { get; set; } = LiveWorld.DefaultPicturePast;
+    public SimDuration RenderedPast { get; set; } = LiveWorld.DefaultRenderedPast;
 
-    /// <summary>Host only: how many joiners the start waits for, 0 to 8; default 0. Before the start there is no world, and nothing can be done.</summary>
-    public int ExpectedJoiners { get; set; }
+    /// <summary>Host only: how many clients the start waits for, 0 to 8; default 0. Before the start there is no world, and nothing can be done.</summary>
+    public int ExpectedClients { get; set; }
 
-    /// <summary>Host only: how long after all expected joiners are ready the scene starts, 0 to 60 s; default 500 ms.</summary>
+    /// <summary>Host only: how long after all expected clients are ready the scene starts, 0 to 60 s; default 500 ms.</summary>
     public SimDuration StartLead { get; set; } = SimDuration.FromMilliseconds(500);
 
     /// <summary>
-    /// After how much silence a peer is given up, 100 ms to 10 min; default 10 s. A host lets a joiner go then, and keeps its number for <see cref="RejoinTime"/>; a
-    /// joiner asks for as long to be let in again. So long, too, a joiner may be behind the log before it gets a fresh copy instead.
+    /// After how much silence a peer is given up, 100 ms to 10 min; default 10 s. A host disconnects a client then, and keeps its number for <see cref="RejoinTime"/>; a
+    /// client asks for as long to be let in again. So long, too, a client may be behind the log before it gets a fresh copy instead.
     /// </summary>
     public SimDuration Timeout { get; set; } = DefaultTimeout;
 
@@ -168,7 +168,7 @@ public sealed class SessionOptions
     public bool SyncTest { get; set; }
 
     /// <summary>
-    /// How far behind shared time <c>interpolation</c> shows the world, 0 to 5 s; default 100 ms. No other strategy looks at it. News that comes within that
+    /// How far behind shared time <c>interpolation</c> shows the world, 0 to 5 s; default 100 ms. No other strategy looks at it. An event that comes within that
     /// time is seen without a jump, and what this peer does itself is seen that much later. A frame reads at <see cref="Session.DisplayTime"/>. Each peer may
     /// have another.
     /// </summary>
@@ -195,7 +195,7 @@ public sealed class SessionOptions
     internal void Check()
     {
         Range(ExtraHistory, 0, 60, nameof(ExtraHistory));
-        Range(PicturePast, 0, 60, nameof(PicturePast));
+        Range(RenderedPast, 0, 60, nameof(RenderedPast));
         Range(DisplayDelay, 0, Interpolation.MaxDelay.ToSeconds(), nameof(DisplayDelay));
         Range(StartLead, 0, 60, nameof(StartLead));
         Range(RejoinTime, 0, 3600, nameof(RejoinTime));
@@ -235,10 +235,10 @@ public sealed class SessionOptions
 
         foreach (KeyValuePair<byte, string> player in PlayerKeys)
         {
-            if (player.Key is 0 or > MaxJoiners || string.IsNullOrEmpty(player.Value) || player.Value.Length > MaxKeyLength)
+            if (player.Key is 0 or > MaxClients || string.IsNullOrEmpty(player.Value) || player.Value.Length > MaxKeyLength)
             {
                 throw new ArgumentOutOfRangeException(
-                    nameof(PlayerKeys), $"{player.Value?.Length ?? 0} characters for player {player.Key}", $"Players 1 to {MaxJoiners} can have keys, each of"
+                    nameof(PlayerKeys), $"{player.Value?.Length ?? 0} characters for player {player.Key}", $"Players 1 to {MaxClients} can have keys, each of"
                         + $" 1 to {MaxKeyLength} characters.");
             }
         }
@@ -263,14 +263,14 @@ public sealed class SessionOptions
             throw new ArgumentOutOfRangeException(nameof(MaxSpawned), MaxSpawned, "A player may have spawned 0 to 1,000,000 bodies that are there.");
         }
 
-        if (perAddress is < 1 or > MaxJoiners)
+        if (perAddress is < 1 or > MaxClients)
         {
-            throw new ArgumentOutOfRangeException(nameof(MaxJoinersPerAddress), perAddress, $"From one address 1 to {MaxJoiners} joiners may be in.");
+            throw new ArgumentOutOfRangeException(nameof(MaxClientsPerAddress), perAddress, $"From one address 1 to {MaxClients} joiners may be in.");
         }
 
-        if (ExpectedJoiners is < 0 or > MaxJoiners)
+        if (ExpectedClients is < 0 or > MaxClients)
         {
-            throw new ArgumentOutOfRangeException(nameof(ExpectedJoiners), ExpectedJoiners, $"A host waits for 0 to {MaxJoiners} joiners.");
+            throw new ArgumentOutOfRangeException(nameof(ExpectedClients), ExpectedClients, $"A host waits for 0 to {MaxClients} joiners.");
         }
     }
 

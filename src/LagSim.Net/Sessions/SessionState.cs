@@ -3,10 +3,10 @@ namespace LagSim.Net.Sessions;
 /// <summary>Where a peer stands in its session.</summary>
 public enum SessionState
 {
-    /// <summary>A joiner asks to be let in.</summary>
+    /// <summary>A client asks to be let in.</summary>
     Joining,
 
-    /// <summary>A joiner measures how far its clock is from the host's.</summary>
+    /// <summary>A client measures how far its clock is from the host's.</summary>
     Synchronising,
 
     /// <summary>The shared time is known; the start is not, or not all expected peers are there.</summary>
@@ -16,7 +16,7 @@ public enum SessionState
     Running,
 
     /// <summary>
-    /// A joiner that lost its host, or its world, asks to be let in again. What it knew stays readable and stands still, and nothing can be done.
+    /// A client that lost its host, or its world, asks to be let in again. What it knew stays readable and stands still, and nothing can be done.
     /// </summary>
     Rejoining,
 

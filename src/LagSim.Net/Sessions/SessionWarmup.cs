@@ -11,17 +11,17 @@ using LagSim.Timelines;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>Has what an event needs compiled before the first one comes: a host and a joiner of its own, in memory and in virtual time, do all there is to do.</summary>
+/// <summary>Has what an event needs compiled before the first one comes: a host and a client of its own, in memory and in virtual time, do all there is to do.</summary>
 /// <remarks>
 /// A runtime compiles a method when it is first called. On an event's way to another world these are several hundred, and the first event took some fifty times as
 /// long as the next. Nothing of a program's own session is touched: worlds, clocks, ports and numbers are the warm-up's own.
 /// </remarks>
 internal sealed class SessionWarmup
 {
-    /// <summary>The first time news comes at once, the second time late, and is healed. What is compiled is the same from then on.</summary>
+    /// <summary>The first time events come at once, the second time late, and are healed. What is compiled is the same from then on.</summary>
     private const int Rounds = 2;
 
-    /// <summary>So many frames late news waits on its way.</summary>
+    /// <summary>So many frames a late event waits on its way.</summary>
     private const int FramesLate = 5;
 
     /// <summary>So many frames until a host has committed a state that it copies to who joins, and until two that talk to each other run.</summary>
@@ -30,7 +30,7 @@ internal sealed class SessionWarmup
     /// <summary>So many bodies of one player the host lets be there.</summary>
     private const int MostSpawned = 2;
 
-    /// <summary>So often each gets its turn within a frame: news, its acknowledgement, and the answer to that.</summary>
+    /// <summary>So often each gets its turn within a frame: an event, its acknowledgement, and the answer to that.</summary>
     private const int TurnsAFrame = 3;
 
     private static readonly SimDuration Frame = SimDuration.FromMilliseconds(15);
@@ -39,14 +39,14 @@ internal sealed class SessionWarmup
 
     private readonly ManualClock clock = new();
     private readonly WarmupPort hostPort;
-    private readonly WarmupPort joinerPort;
+    private readonly WarmupPort clientPort;
     private readonly PeerThread host;
-    private readonly PeerThread joiner;
+    private readonly PeerThread client;
 
     // Threads that are never started: this one does their steps.
     private SessionWarmup(string strategy, Scene scene)
     {
-        (hostPort, joinerPort) = WarmupPort.Pair();
+        (hostPort, clientPort) = WarmupPort.Pair();
         host = new PeerThread(new HostSession(scene, hostPort, clock, Options(strategy, MostSpawned), 1), hostPort, "warm-up host");
         for (int n = 0; n < FramesToStart; n++)
         {
@@ -56,28 +56,28 @@ internal sealed class SessionWarmup
 
         SessionOptions options = Options(strategy, 8);
         options.Contacts = new ContactNotices();
-        joiner = new PeerThread(new JoinerSession(null, joinerPort, clock, options, hostPort.LocalAddress, 2), joinerPort, "warm-up joiner");
+        client = new PeerThread(new ClientSession(null, clientPort, clock, options, hostPort.LocalAddress, 2), clientPort, "warm-up joiner");
         host.Session.Logged += entry => Note(entry, HeardByHost, from: 1);
-        joiner.Session.Logged += entry => Note(entry, HeardByJoiner, from: 0);
+        client.Session.Logged += entry => Note(entry, HeardByClient, from: 0);
     }
 
     /// <summary>Every kind of event there is.</summary>
     internal static IReadOnlyList<EventKind> EveryKind { get; } = new[]
     {
-        EventKind.Spawn, EventKind.Impulse, EventKind.SetVelocity, EventKind.Teleport, EventKind.Grab, EventKind.HoldKnot, EventKind.Release, EventKind.Remove,
+        EventKind.Spawn, EventKind.Impulse, EventKind.SetVelocity, EventKind.Teleport, EventKind.Grab, EventKind.HoldKeyframe, EventKind.Release, EventKind.Remove,
     };
 
-    /// <summary>The kinds of the joiner's events that the host took in.</summary>
+    /// <summary>The kinds of the client's events that the host took in.</summary>
     internal SortedSet<EventKind> HeardByHost { get; } = new();
 
-    /// <summary>The kinds of the host's events that the joiner took in.</summary>
-    internal SortedSet<EventKind> HeardByJoiner { get; } = new();
+    /// <summary>The kinds of the host's events that the client took in.</summary>
+    internal SortedSet<EventKind> HeardByClient { get; } = new();
 
     /// <summary>What the host counted.</summary>
     internal SessionCounters HostCounters => host.Session.Counters;
 
-    /// <summary>What the joiner counted.</summary>
-    internal SessionCounters JoinerCounters => joiner.Session.Counters;
+    /// <summary>What the client counted.</summary>
+    internal SessionCounters ClientCounters => client.Session.Counters;
 
     /// <summary>
     /// Warms up for sessions with a strategy, once a process; who comes meanwhile waits until it is done. Where nothing is compiled while a program runs it does
@@ -143,7 +143,7 @@ internal sealed class SessionWarmup
             EventKind.SetVelocity => PlayerAction.SetVelocity(own, new Vector3D(2, 2, 0)),
             EventKind.Teleport => PlayerAction.Teleport(own, home, new Vector3D(0, 1, 0)),
             EventKind.Grab => PlayerAction.Grab(own, new Vector3D(0, 0.1, 0)),
-            EventKind.HoldKnot => PlayerAction.HoldKnot(own, home + new Vector3D(0, 0.2, 0), new Vector3D(0, 1, 0)),
+            EventKind.HoldKeyframe => PlayerAction.HoldKeyframe(own, home + new Vector3D(0, 0.2, 0), new Vector3D(0, 1, 0)),
             EventKind.Release => PlayerAction.Release(own, new Vector3D(1, 1, 0)),
             _ => PlayerAction.Remove(spawned),
         };
@@ -154,12 +154,12 @@ internal sealed class SessionWarmup
         Run(FramesToStart);
         for (int round = 0; round < Rounds; round++)
         {
-            Play(host, joinerPort, WarmupScene.HostsBody, kinds, isLate: round > 0);
-            Play(joiner, hostPort, WarmupScene.JoinersBody, kinds, isLate: round > 0);
+            Play(host, clientPort, WarmupScene.HostsBody, kinds, isLate: round > 0);
+            Play(client, hostPort, WarmupScene.ClientsBody, kinds, isLate: round > 0);
         }
 
         Run(FramesToStart); // until what was removed is forgotten
-        joiner.Session.Leave();
+        client.Session.Leave();
         Run(1);
         host.Session.Leave();
     }
@@ -173,7 +173,7 @@ internal sealed class SessionWarmup
             PlayerAction action = Action(kind, body, spawned);
             ExternalEvent done = Do(player, action);
             spawned = kind == EventKind.Spawn ? done.Body : spawned;
-            for (int n = 0; n < MostSpawned && kind == EventKind.Spawn && player == joiner; n++)
+            for (int n = 0; n < MostSpawned && kind == EventKind.Spawn && player == client; n++)
             {
                 Do(player, action); // the last is one too many for the host, which has it taken back
             }
@@ -207,7 +207,7 @@ internal sealed class SessionWarmup
             for (int turn = 0; turn < TurnsAFrame; turn++)
             {
                 host.Step();
-                joiner.Step();
+                client.Step();
             }
         }
     }

@@ -5,11 +5,11 @@ namespace LagSim.Net.Sessions;
 /// <summary>What <see cref="SessionWarmup"/> plays in: something of each way to move and to meet.</summary>
 internal static class WarmupScene
 {
-    /// <summary>The body that the host does everything to; the next is the joiner's.</summary>
+    /// <summary>The body that the host does everything to; the next is the client's.</summary>
     internal const int HostsBody = 0;
 
-    /// <summary>The body that the joiner does everything to.</summary>
-    internal const int JoinersBody = 1;
+    /// <summary>The body that the client does everything to.</summary>
+    internal const int ClientsBody = 1;
 
     private const double Radius = 0.5;
 

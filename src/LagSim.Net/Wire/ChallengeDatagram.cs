@@ -3,7 +3,7 @@ using System;
 namespace LagSim.Net.Wire;
 
 /// <summary>
-/// The host's answer to a <see cref="KnockDatagram"/>, or to an update that comes from another address than those before: bring this cookie back, then I know
+/// The host's answer to a <see cref="ConnectRequestDatagram"/>, or to an update that comes from another address than those before: bring this cookie back, then I know
 /// that you are where you say you are.
 /// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
@@ -16,7 +16,7 @@ public readonly struct ChallengeDatagram
         Cookie = cookie;
     }
 
-    /// <summary>The <see cref="KnockDatagram.Nonce"/> that this answers, or the session id of the update.</summary>
+    /// <summary>The <see cref="ConnectRequestDatagram.Nonce"/> that this answers, or the session id of the update.</summary>
     public ulong Nonce { get; }
 
     /// <summary>What only the host can make, and only for this address and nonce.</summary>

@@ -6,8 +6,8 @@ public enum DatagramType : byte
     /// <summary>No datagram.</summary>
     None = 0,
 
-    /// <summary>A <see cref="KnockDatagram"/>: are you there? In every version.</summary>
-    Knock = 1,
+    /// <summary>A <see cref="ConnectRequestDatagram"/>: are you there? In every version.</summary>
+    ConnectRequest = 1,
 
     /// <summary>A <see cref="WelcomeDatagram"/>: you are in.</summary>
     Welcome = 2,
@@ -27,17 +27,17 @@ public enum DatagramType : byte
     /// <summary>A <see cref="JoinDatagram"/>: let me in.</summary>
     Join = 7,
 
-    /// <summary>A <see cref="FetchDatagram"/>: send me these pieces.</summary>
-    Fetch = 8,
+    /// <summary>A <see cref="SnapshotRequestDatagram"/>: send me these pieces.</summary>
+    SnapshotRequest = 8,
 
-    /// <summary>A <see cref="ChunkDatagram"/>: a piece of scene and world.</summary>
-    Chunk = 9,
+    /// <summary>A <see cref="SnapshotChunkDatagram"/>: a piece of scene and world.</summary>
+    SnapshotChunk = 9,
 
-    /// <summary>A <see cref="DoubtDatagram"/>: my world is not yours; which events do you have?</summary>
-    Doubt = 10,
+    /// <summary>A <see cref="DesyncQueryDatagram"/>: my world is not yours; which events do you have?</summary>
+    DesyncQuery = 10,
 
-    /// <summary>An <see cref="EvidenceDatagram"/>: this one.</summary>
-    Evidence = 11,
+    /// <summary>An <see cref="DesyncReportDatagram"/>: this one.</summary>
+    DesyncReport = 11,
 
     /// <summary>A <see cref="SeatDatagram"/>: you are this player.</summary>
     Seat = 12,

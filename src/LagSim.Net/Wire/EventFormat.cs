@@ -31,7 +31,7 @@ public static class EventFormat
     {
         EventKind.Spawn => MaxBytes,
         EventKind.Remove => MinBytes,
-        EventKind.Teleport or EventKind.HoldKnot => MinBytes + (2 * VectorBytes),
+        EventKind.Teleport or EventKind.HoldKeyframe => MinBytes + (2 * VectorBytes),
         EventKind.SetVelocity or EventKind.Impulse or EventKind.Grab or EventKind.Release => MinBytes + VectorBytes,
         _ => 0,
     };
@@ -109,7 +109,7 @@ public static class EventFormat
             EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),
             EventKind.Impulse => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
             EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position),
-            EventKind.HoldKnot => ExternalEvent.HoldKnot(time, peer, sequence, body, position, velocity),
+            EventKind.HoldKeyframe => ExternalEvent.HoldKeyframe(time, peer, sequence, body, position, velocity),
             EventKind.Release => ExternalEvent.Release(time, peer, sequence, body, velocity),
             _ => default,
         };
@@ -117,7 +117,7 @@ public static class EventFormat
         return reader.Refusal == WireRefusal.None ? what : default;
     }
 
-    private static bool HasPosition(EventKind kind) => kind is EventKind.Spawn or EventKind.Teleport or EventKind.Grab or EventKind.HoldKnot;
+    private static bool HasPosition(EventKind kind) => kind is EventKind.Spawn or EventKind.Teleport or EventKind.Grab or EventKind.HoldKeyframe;
 
     private static bool HasVelocity(EventKind kind) => kind is not (EventKind.Remove or EventKind.Grab);
 

@@ -2,7 +2,7 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>A joiner that was challenged asks to be let in. Repeated, unchanged, until it is answered.</summary>
+/// <summary>A client that was challenged asks to be let in. Repeated, unchanged, until it is answered.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public readonly struct JoinDatagram
 {
@@ -18,25 +18,25 @@ public readonly struct JoinDatagram
         PlayerProof = playerProof;
     }
 
-    /// <summary>The <see cref="KnockDatagram.Nonce"/> of this attempt.</summary>
+    /// <summary>The <see cref="ConnectRequestDatagram.Nonce"/> of this attempt.</summary>
     public ulong Nonce { get; }
 
     /// <summary>The cookie that the host gave.</summary>
     public Token128 Cookie { get; }
 
-    /// <summary>Shows that the joiner knows the connect key, without telling it: a keyed hash of nonce and cookie.</summary>
+    /// <summary>Shows that the client knows the connect key, without telling it: a keyed hash of nonce and cookie.</summary>
     public Token128 Proof { get; }
 
-    /// <summary>The hash of the scene that the joiner expects; 0: whichever the host has.</summary>
+    /// <summary>The hash of the scene that the client expects; 0: whichever the host has.</summary>
     public ulong SceneHash { get; }
 
-    /// <summary>By which version of the rules the joiner computes worlds; see <see cref="Simulation.FoldVersion"/>.</summary>
+    /// <summary>By which version of the rules the client computes worlds; see <see cref="Simulation.FoldVersion"/>.</summary>
     public uint FoldVersion { get; }
 
-    /// <summary>The number of the player that the joiner was before; 0: none, and then there is no <see cref="PlayerProof"/> either.</summary>
+    /// <summary>The number of the player that the client was before; 0: none, and then there is no <see cref="PlayerProof"/> either.</summary>
     public byte Player { get; }
 
-    /// <summary>Shows that the joiner has that player's pass, without telling it: a keyed hash of nonce and cookie.</summary>
+    /// <summary>Shows that the client has that player's pass, without telling it: a keyed hash of nonce and cookie.</summary>
     public Token128 PlayerProof { get; }
 
     /// <summary>Writes the datagram.</summary>

@@ -18,7 +18,7 @@ public enum LeaveReason : byte
     /// <summary>Somebody with the key of the same player came in, from elsewhere.</summary>
     Replaced = 5,
 
-    /// <summary>It is not, or no longer, among the host's joiners; the answer to an update of somebody who thinks so.</summary>
+    /// <summary>It is not, or no longer, among the host's clients; the answer to an update of somebody who thinks so.</summary>
     NotJoined = 6,
 
     /// <summary>The host sent it away: <see cref="Sessions.HostSession.Kick"/> or <see cref="Sessions.HostSession.Ban"/>.</summary>

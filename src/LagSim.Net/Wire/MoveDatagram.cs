@@ -2,7 +2,7 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>A joiner whose address has changed brings back the cookie that the host sent to the new one: from then on the host writes there.</summary>
+/// <summary>A client whose address has changed brings back the cookie that the host sent to the new one: from then on the host writes there.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public readonly struct MoveDatagram
 {
@@ -17,7 +17,7 @@ public readonly struct MoveDatagram
     /// <summary>The session.</summary>
     public ulong SessionId { get; }
 
-    /// <summary>The joiner; 0 if it has no number yet.</summary>
+    /// <summary>The client; 0 if it has no number yet.</summary>
     public byte Peer { get; }
 
     /// <summary>The cookie of the <see cref="ChallengeDatagram"/> that bore the session id.</summary>

@@ -2,7 +2,7 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>The host does not let a joiner in, and says why.</summary>
+/// <summary>The host does not let a client in, and says why.</summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>. Its layout is the same in every version.</remarks>
 public readonly struct RefusalDatagram
 {
@@ -13,7 +13,7 @@ public readonly struct RefusalDatagram
         Reason = reason;
     }
 
-    /// <summary>The <see cref="KnockDatagram.Nonce"/> that this answers.</summary>
+    /// <summary>The <see cref="ConnectRequestDatagram.Nonce"/> that this answers.</summary>
     public ulong Nonce { get; }
 
     /// <summary>Why not.</summary>

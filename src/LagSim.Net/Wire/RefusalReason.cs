@@ -1,15 +1,15 @@
 namespace LagSim.Net.Wire;
 
-/// <summary>Why a host does not let a joiner in. Never renumber.</summary>
+/// <summary>Why a host does not let a client in. Never renumber.</summary>
 public enum RefusalReason : byte
 {
     /// <summary>The two speak different versions of the wire format.</summary>
     VersionDiffers = 1,
 
-    /// <summary>The joiner's scene is not the host's.</summary>
+    /// <summary>The client's scene is not the host's.</summary>
     SceneDiffers = 2,
 
-    /// <summary>The joiner's connect key is not the host's.</summary>
+    /// <summary>The client's connect key is not the host's.</summary>
     WrongKey = 3,
 
     /// <summary>The session takes no more peers.</summary>
@@ -18,12 +18,12 @@ public enum RefusalReason : byte
     /// <summary>The world has grown too large to be copied.</summary>
     TooLarge = 5,
 
-    /// <summary>The joiner computes worlds by other rules: another <see cref="Simulation.FoldVersion"/>.</summary>
+    /// <summary>The client computes worlds by other rules: another <see cref="Simulation.FoldVersion"/>.</summary>
     FoldDiffers = 6,
 
     /// <summary>As many as may come from one address are there.</summary>
     TooManyFromOneAddress = 7,
 
-    /// <summary>The host lets nobody in from where the joiner is: <see cref="Sessions.HostSession.Ban"/>.</summary>
+    /// <summary>The host lets nobody in from where the client is: <see cref="Sessions.HostSession.Ban"/>.</summary>
     Banned = 8,
 }

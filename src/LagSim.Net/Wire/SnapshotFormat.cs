@@ -18,13 +18,13 @@ public static class SnapshotFormat
     private const int MinBodyBytes = 194; // without supports, dense output, contacts and hold
     private const int DenseBytes = 72;
     private const int SpinBytes = 48; // spin and its rate
-    private const int HoldBytes = 57; // cubic, peer, offset, knot
+    private const int HoldBytes = 57; // cubic, peer, offset, keyframe
     private const int MemberBytes = 18; // centre, still since, how many contacts
     private const int ContactBytes = 61; // partner, surface, whether it holds, push, turn
 
     /// <summary>The bytes of a snapshot.</summary>
     /// <exception cref="ArgumentException">
-    /// A body has a number that is not finite, a negative support, a contact with a surface below <see cref="LastingContact.NoSurface"/>,
+    /// A body has a number that is not finite, a negative support, a contact with a surface below <see cref="PersistentContact.NoSurface"/>,
     /// or more than 65,535 contacts, none of which a world has; or all of them take 2 GiB or more.
     /// </exception>
     public static byte[] Encode(WorldSnapshot snapshot)
@@ -123,7 +123,7 @@ public static class SnapshotFormat
             WriteExactly(ref writer, body.Cubic);
             writer.WriteByte(body.Hold.Peer);
             WriteExactly(ref writer, body.Hold.Offset);
-            writer.WriteInt64(body.Hold.Knot.Ticks);
+            writer.WriteInt64(body.Hold.Keyframe.Ticks);
         }
 
         writer.WriteByte((byte)body.SupportCount);
@@ -163,10 +163,10 @@ public static class SnapshotFormat
         writer.WriteInt64(body.Centre.Ticks);
         writer.WriteInt64(body.StillSince.Ticks);
         writer.WriteUInt16((ushort)body.Contacts.Length);
-        foreach (LastingContact contact in body.Contacts.ToArray()) // an array, for a read-only span does not link everywhere
+        foreach (PersistentContact contact in body.Contacts.ToArray()) // an array, for a read-only span does not link everywhere
         {
             writer.WriteUInt64(contact.Partner.Packed);
-            writer.WriteUInt32(contact.Surface >= LastingContact.NoSurface ? unchecked((uint)contact.Surface)
+            writer.WriteUInt32(contact.Surface >= PersistentContact.NoSurface ? unchecked((uint)contact.Surface)
                 : throw new ArgumentException($"Body {body.Id} cannot travel: it has a contact with surface {contact.Surface}."));
             writer.WriteByte(contact.Holds ? (byte)1 : (byte)0);
             WriteExactly(ref writer, contact.Push);
@@ -174,20 +174,20 @@ public static class SnapshotFormat
         }
     }
 
-    private static LastingContact[] ReadContacts(ref WireReader reader, out SimTime centre, out SimTime stillSince)
+    private static PersistentContact[] ReadContacts(ref WireReader reader, out SimTime centre, out SimTime stillSince)
     {
         centre = SimTime.FromTicks(reader.ReadInt64());
         stillSince = SimTime.FromTicks(reader.ReadInt64());
         int count = reader.ReadUInt16();
         reader.Require(count * ContactBytes <= reader.Remaining, WireRefusal.TooShort);
-        LastingContact[] contacts = reader.Refusal == WireRefusal.None ? new LastingContact[count] : Array.Empty<LastingContact>();
+        PersistentContact[] contacts = reader.Refusal == WireRefusal.None ? new PersistentContact[count] : Array.Empty<PersistentContact>();
         for (int i = 0; i < contacts.Length; i++)
         {
             BodyId partner = BodyId.FromPacked(reader.ReadUInt64());
             int surface = unchecked((int)reader.ReadUInt32());
             byte holds = reader.ReadByte();
-            reader.Require(surface >= LastingContact.NoSurface && holds <= 1);
-            contacts[i] = new LastingContact(partner, surface, holds == 1, ReadExactly(ref reader), ReadExactly(ref reader));
+            reader.Require(surface >= PersistentContact.NoSurface && holds <= 1);
+            contacts[i] = new PersistentContact(partner, surface, holds == 1, ReadExactly(ref reader), ReadExactly(ref reader));
         }
 
         return contacts;
@@ -242,7 +242,7 @@ public static class SnapshotFormat
         reader.Require(turns == 0 || spin != Vector3D.Zero || spinRate != Vector3D.Zero); // one form
         SimTime centre = default;
         SimTime stillSince = default;
-        LastingContact[] contacts = IsMember(law, supports) ? ReadContacts(ref reader, out centre, out stillSince) : Array.Empty<LastingContact>();
+        PersistentContact[] contacts = IsMember(law, supports) ? ReadContacts(ref reader, out centre, out stillSince) : Array.Empty<PersistentContact>();
         return new BodySnapshot(
             id, spec, opened, law, epoch, end, position, velocity, acceleration, planes.Slice(0, supports), cubic, quartic, quintic, hold, nextStep,
             spin, spinRate, centre, stillSince, contacts);

@@ -65,7 +65,7 @@ public sealed partial class UpdateDatagram
     public SimTime Watermark { get; set; }
 
     /// <summary>
-    /// From a joiner: how many entries of the host's log it has without a gap. From the host: up to which of the joiner's own sequence
+    /// From a client: how many entries of the host's log it has without a gap. From the host: up to which of the client's own sequence
     /// numbers it has all.
     /// </summary>
     public uint EventsReceived { get; set; }

@@ -3,7 +3,7 @@ namespace LagSim.Net.Wire;
 /// <summary>What the host said about an external event. Given once, never changed. Never renumber.</summary>
 public enum Verdict : byte
 {
-    /// <summary>Nothing yet; the only verdict that a joiner sends.</summary>
+    /// <summary>Nothing yet; the only verdict that a client sends.</summary>
     Pending = 0,
 
     /// <summary>It happened, on every peer.</summary>

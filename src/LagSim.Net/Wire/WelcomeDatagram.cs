@@ -3,7 +3,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>The host lets a joiner come in, and tells it what to fetch: a copy of scene and world, and the log from where that ends.</summary>
+/// <summary>The host lets a client come in, and tells it what to fetch: a copy of scene and world, and the log from where that ends.</summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
 public readonly struct WelcomeDatagram
 {
@@ -19,7 +19,7 @@ public readonly struct WelcomeDatagram
         LogIndex = logIndex;
     }
 
-    /// <summary>The <see cref="KnockDatagram.Nonce"/> that this answers.</summary>
+    /// <summary>The <see cref="ConnectRequestDatagram.Nonce"/> that this answers.</summary>
     public ulong Nonce { get; }
 
     /// <summary>The session's number; every later datagram carries it.</summary>

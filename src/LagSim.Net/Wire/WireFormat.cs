@@ -16,8 +16,8 @@ public static class WireFormat
     /// <summary>Magic, version and type.</summary>
     public const int HeaderBytes = 4;
 
-    /// <summary>The length of a <see cref="KnockDatagram"/>.</summary>
-    public const int KnockBytes = 28;
+    /// <summary>The length of a <see cref="ConnectRequestDatagram"/>.</summary>
+    public const int ConnectRequestBytes = 28;
 
     /// <summary>The length of a <see cref="ChallengeDatagram"/>: not above that of what it answers.</summary>
     public const int ChallengeBytes = 28;
@@ -40,17 +40,17 @@ public static class WireFormat
     /// <summary>The length of a <see cref="LeaveDatagram"/>.</summary>
     public const int LeaveBytes = 14;
 
-    /// <summary>The length of a <see cref="FetchDatagram"/>.</summary>
-    public const int FetchBytes = 29;
+    /// <summary>The length of a <see cref="SnapshotRequestDatagram"/>.</summary>
+    public const int SnapshotRequestBytes = 29;
 
-    /// <summary>The length of a <see cref="ChunkDatagram"/> without its data.</summary>
-    public const int EmptyChunkBytes = 16;
+    /// <summary>The length of a <see cref="SnapshotChunkDatagram"/> without its data.</summary>
+    public const int EmptySnapshotChunkBytes = 16;
 
-    /// <summary>The length of a <see cref="DoubtDatagram"/>.</summary>
-    public const int DoubtBytes = 37;
+    /// <summary>The length of a <see cref="DesyncQueryDatagram"/>.</summary>
+    public const int DesyncQueryBytes = 37;
 
-    /// <summary>The length of an <see cref="EvidenceDatagram"/> without an event.</summary>
-    public const int EmptyEvidenceBytes = 21;
+    /// <summary>The length of an <see cref="DesyncReportDatagram"/> without an event.</summary>
+    public const int EmptyDesyncReportBytes = 21;
 
     /// <summary>The length of an <see cref="UpdateDatagram"/> without start, state hash and entries.</summary>
     public const int EmptyUpdateBytes = 59;

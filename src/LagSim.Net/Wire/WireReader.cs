@@ -52,7 +52,7 @@ public ref struct WireReader
         Require(ReadUInt16() == WireFormat.Magic, WireRefusal.NotLagSim);
         Require(ReadByte() == WireFormat.Version, WireRefusal.VersionDiffers);
         DatagramType type = (DatagramType)ReadByte();
-        Require(type is >= DatagramType.Knock and <= DatagramType.Move, WireRefusal.UnknownType);
+        Require(type is >= DatagramType.ConnectRequest and <= DatagramType.Move, WireRefusal.UnknownType);
         return type;
     }
 

@@ -8,7 +8,7 @@ using LagSim.Timelines;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>What a joiner needs to have the world: its scene, and if it has begun long enough ago the committed state.</summary>
+/// <summary>What a client needs to have the world: its scene, and if it has begun long enough ago the committed state.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class WorldCopy
 {

@@ -27,10 +27,10 @@ internal sealed class SessionRun
     /// <summary>
     /// How long a client may take to get in, and the last events to get everywhere, in seconds; much longer than on the worst of links.
     /// </summary>
-    private const double Patience = 120;
+    private const double Timeout = 120;
 
     /// <summary>How long what is due may wait for a player whose clock is behind the host's.</summary>
-    private static readonly SimDuration ClockPatience = SimDuration.FromSeconds(1);
+    private static readonly SimDuration ClockTimeout = SimDuration.FromSeconds(1);
 
     /// <summary>Long enough for the whole of most tests, and the most that a session keeps.</summary>
     private static readonly SimDuration WholeTimelines = SimDuration.FromSeconds(60);
@@ -110,7 +110,7 @@ internal sealed class SessionRun
                 Add(n, 0);
                 joined++;
                 string what = $"Player {n} was not let in";
-                RunUntil(() => Host.JoinerCount >= joined, what);
+                RunUntil(() => Host.ClientCount >= joined, what);
             }
         }
 
@@ -164,7 +164,7 @@ internal sealed class SessionRun
     {
         if (members[act.Player] is Member waiting && !waiting.HasEnded)
         {
-            SimTime deadline = clock.Now + ClockPatience;
+            SimTime deadline = clock.Now + ClockTimeout;
             while (!waiting.IsRunning && !waiting.HasEnded && clock.Now < deadline)
             {
                 Advance(deadline);
@@ -198,9 +198,9 @@ internal sealed class SessionRun
     }
 
     private bool HasHeardAll(Member member) => member.Player.HasLeft
-        || (member.IsRunning && member.Session.LogLength == Host.LogLength && member.Session is not JoinerSession { UnjudgedEvents: > 0 });
+        || (member.IsRunning && member.Session.LogLength == Host.LogLength && member.Session is not ClientSession { UnconfirmedEvents: > 0 });
 
-    private void Add(int number, int expectedJoiners)
+    private void Add(int number, int expectedClients)
     {
         PlannedClient? client = number == 0 ? null : clients[number - 1];
         if (client is not null)
@@ -210,7 +210,7 @@ internal sealed class SessionRun
 
         SessionOptions chosen = options(number)
             ?? throw new SessionTestException($"There are no session options for player {number}: what WithOptions got returned null.");
-        chosen.ExpectedJoiners = expectedJoiners;
+        chosen.ExpectedClients = expectedClients;
         chosen.StartLead = chosen.StartLead < StartLead() ? StartLead() : chosen.StartLead;
         chosen.Cancellation = cancellation;
         chosen.ExtraHistory = chosen.Contacts is null ? WholeTimelines : chosen.ExtraHistory;
@@ -222,7 +222,7 @@ internal sealed class SessionRun
         SkewedClock own = new(clock, drift, apart + (client?.Link.ReceiverClockOffset ?? SimDuration.Zero));
         Session session = number == 0
             ? new HostSession(scene, port, own, chosen, seed)
-            : new JoinerSession(null, port, own, chosen, PeerAddress.Virtual(0), seed + (ulong)number);
+            : new ClientSession(null, port, own, chosen, PeerAddress.Virtual(0), seed + (ulong)number);
         int place = steps.Add(session, port);
         Member member = new(client?.Link, session, new TestPlayer(number, session, () => steps.Wake(place)), _ => acceptedEntries);
         members[number] = member;
@@ -248,15 +248,15 @@ internal sealed class SessionRun
         session.StateCommitted += member.Committed.Add;
         session.Begun += () => prepareWorld?.Invoke(member.Player.Number, session.World!.Simulation);
         session.Renewed += _ => prepareWorld?.Invoke(member.Player.Number, session.World!.Simulation);
-        if (session is JoinerSession joiner)
+        if (session is ClientSession client)
         {
-            member.Coverage.Follow(joiner);
-            joiner.Interrupted += _ =>
+            member.Coverage.Follow(client);
+            client.Interrupted += _ =>
             {
                 // What is repaired still counts: the world as it was is held against the one that never had a delay.
-                if (joiner.Counters.StatesDiffered > 0 && joiner.World is not null)
+                if (client.Counters.StatesDiffered > 0 && client.World is not null)
                 {
-                    member.Wrong.Add(joiner.World.Simulation);
+                    member.Wrong.Add(client.World.Simulation);
                 }
             };
         }
@@ -281,12 +281,12 @@ internal sealed class SessionRun
 
     private void RunUntil(Func<bool> isSo, string what)
     {
-        SimTime deadline = clock.Now + SimDuration.FromSeconds(Patience);
+        SimTime deadline = clock.Now + SimDuration.FromSeconds(Timeout);
         while (!isSo())
         {
             if (clock.Now >= deadline || Members.Any(m => m.HasEnded && !m.Player.HasLeft))
             {
-                string after = clock.Now >= deadline ? FormattableString.Invariant($" within {Patience} s of virtual time") : "";
+                string after = clock.Now >= deadline ? FormattableString.Invariant($" within {Timeout} s of virtual time") : "";
                 string states = string.Join("; ", Members.Select(m => $"player {m.Player.Number} is {m.State}"));
                 throw new SessionTestException($"{what}{after}: {states}.");
             }
@@ -406,7 +406,7 @@ internal sealed class SessionRun
         internal string State => HasEnded ? $"out: {Session.EndReason}" : Session.State.ToString().ToLowerInvariant();
 
         internal PlayerResult ToResult(PortTraffic traffic) =>
-            new(Player.Number, Link, Session, traffic, Frames, StalledFrames, Session is JoinerSession ? Coverage.Count().Lost : 0);
+            new(Player.Number, Link, Session, traffic, Frames, StalledFrames, Session is ClientSession ? Coverage.Count().Lost : 0);
 
         internal void CountFrame()
         {
@@ -416,7 +416,7 @@ internal sealed class SessionRun
             }
 
             Frames++;
-            StalledFrames += Session.World.Pictures.Latest().Covers(Session.DisplayTime) ? 0 : 1;
+            StalledFrames += Session.World.RenderSnapshots.Latest().Covers(Session.DisplayTime) ? 0 : 1;
         }
     }
 }

@@ -20,10 +20,10 @@ internal sealed class AdaptiveBroadPhase(Scene scene, BodyTable bodies, Timeline
     internal const int MostLooks = 64;
 
     /// <summary>What is asked now.</summary>
-    internal IPairIndex Current { get; private set; } = new AllPairs();
+    internal IBroadPhase Current { get; private set; } = new BruteForce();
 
     /// <summary>Whether the bodies have become so many, or so much larger, that another serves them better.</summary>
-    internal bool IsOutgrown => Current is ShellIndex shells
+    internal bool IsOutgrown => Current is NeighbourLists shells
         ? shells.WideCount > Math.Max(outgrownAt, bodies.Count / 8)
         : bodies.Count > mostPairs;
 
@@ -41,7 +41,7 @@ internal sealed class AdaptiveBroadPhase(Scene scene, BodyTable bodies, Timeline
     /// <param name="until">Up to when bodies are on the newest segments of their paths at least.</param>
     internal void Rebuild(SimTime from, SimTime until)
     {
-        ShellIndex lists = NewLists();
+        NeighbourLists lists = NewLists();
         Current = lists;
         foreach (int slot in bodies)
         {
@@ -75,7 +75,7 @@ internal sealed class AdaptiveBroadPhase(Scene scene, BodyTable bodies, Timeline
         }
     }
 
-    private ShellIndex NewLists()
+    private NeighbourLists NewLists()
     {
         double[] radii = new double[bodies.Count];
         double[] speeds = new double[bodies.Count];
@@ -96,7 +96,7 @@ internal sealed class AdaptiveBroadPhase(Scene scene, BodyTable bodies, Timeline
         double usual = count == 0 ? scene.SmallestRadius : radii[count * 9 / 10];
         double usualSpeed = present == 0 ? 0 : speeds[present * 9 / 10];
         double tick = Limits.MaxSpeed(scene.SmallestRadius) * TickConversion.SecondsPerTick;
-        return new ShellIndex(timelines, CellInRadii * usual, usualSpeed, scene.Resolution, tick, scene.Box, bodies.SlotCount)
+        return new NeighbourLists(timelines, CellInRadii * usual, usualSpeed, scene.Resolution, tick, scene.Box, bodies.SlotCount)
         {
             ForgetsWhoMovedOn = faults.Has(HealingFault.ForgetsWhoMovedOn),
         };

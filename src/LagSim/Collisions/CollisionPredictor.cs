@@ -98,12 +98,12 @@ internal sealed class CollisionPredictor(
         ref readonly MotionSegment segment = ref timelines.Segment(last);
         if (isPlane)
         {
-            return ContactFinder.WithPlane(
+            return TimeOfImpact.WithPlane(
                 segment, timelines.Dense(last), bodies.Spec(slot).Radius, surfaces.Plane(surface), from, segment.End, out contact);
         }
 
         ref readonly StaticSphere sphere = ref surfaces.Sphere(surface);
-        return ContactFinder.WithSphere(
+        return TimeOfImpact.WithSphere(
             segment, timelines.Dense(last), MotionSegment.AtRest(start, sphere.Centre), default, bodies.Spec(slot).Radius + sphere.Radius,
             from, segment.End, out contact);
     }
@@ -186,7 +186,7 @@ internal sealed class CollisionPredictor(
         }
 
         SimTime from = opened;
-        while (from <= until && ContactFinder.WithSphere(
+        while (from <= until && TimeOfImpact.WithSphere(
             segmentA, timelines.Dense(lastA), segmentB, timelines.Dense(lastB), reach, from, until, out contact))
         {
             if (contact.Tick != opened && contact.IsSoonAfter(opened) && ClosesAtOnce(lastA, lastB, reach, opened))

@@ -295,8 +295,8 @@ internal sealed class FreeFlights : INewestSegments
             {
                 // What the finder makes of the two at the later opening, of the very signs: they part, and by far more than rounding can turn around.
                 double opening = Math.Abs(u) + Math.Abs(v) + Math.Abs(w);
-                double doubt = (opening * ((Parting * reach) + (reach - (radii[slot] + radii[other] + near)))) + (Slack * reach * ((2 * speed) + opening));
-                if (!((isOpened || b.From == from) && along > doubt))
+                double query = (opening * ((Parting * reach) + (reach - (radii[slot] + radii[other] + near)))) + (Slack * reach * ((2 * speed) + opening));
+                if (!((isOpened || b.From == from) && along > query))
                 {
                     into[count++] = new Approach(other, 0);
                 }
@@ -316,7 +316,7 @@ internal sealed class FreeFlights : INewestSegments
     }
 
     /// <summary>
-    /// Whether two bodies in free flight touch, however late, and when: the bits that <see cref="ContactFinder"/> tells of their segments, the body of lesser
+    /// Whether two bodies in free flight touch, however late, and when: the bits that <see cref="TimeOfImpact"/> tells of their segments, the body of lesser
     /// identity first. False if they touch so soon after both hold that more has to be looked at.
     /// </summary>
     internal bool TryTouch(int first, int second, out bool touches, out ContactTime contact)
@@ -332,7 +332,7 @@ internal sealed class FreeFlights : INewestSegments
             positionB += box.Nearest(apart) - apart;
         }
 
-        touches = ContactFinder.OfParabolas(
+        touches = TimeOfImpact.OfParabolas(
             a.Position, a.Velocity, from.SecondsSince(a.From), positionB, b.Velocity, from.SecondsSince(b.From), gravity, radii[first] + radii[second],
             from, SimTime.MaxValue, out contact);
         return !touches || !contact.IsSoonAfter(from);

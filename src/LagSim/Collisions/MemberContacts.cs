@@ -47,8 +47,8 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
         bool isByHand = false;
         for (int at = timelines.Carried.First(piece); at != TimelineStore.None && !isByHand; at = timelines.Carried.Next(at))
         {
-            ref readonly LastingContact contact = ref timelines.Carried.At(at);
-            int partner = contact.Surface == LastingContact.NoSurface ? bodies.SlotOf(contact.Partner) : -1;
+            ref readonly PersistentContact contact = ref timelines.Carried.At(at);
+            int partner = contact.Surface == PersistentContact.NoSurface ? bodies.SlotOf(contact.Partner) : -1;
             isByHand = partner >= 0 && IsOpenedWith(partner, timelines.Key(piece));
         }
 
@@ -153,10 +153,10 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
     }
 
     /// <summary>Whether a contact that a body carries is elastic.</summary>
-    internal bool IsElastic(int slot, in LastingContact contact)
+    internal bool IsElastic(int slot, in PersistentContact contact)
     {
-        int partner = contact.Surface == LastingContact.NoSurface ? bodies.SlotOf(contact.Partner) : -1;
-        double other = contact.Surface != LastingContact.NoSurface ? surfaces.Restitution(contact.Surface)
+        int partner = contact.Surface == PersistentContact.NoSurface ? bodies.SlotOf(contact.Partner) : -1;
+        double other = contact.Surface != PersistentContact.NoSurface ? surfaces.Restitution(contact.Surface)
             : partner >= 0 ? bodies.Spec(partner).Restitution : 0;
         return Math.Min(bodies.Spec(slot).Restitution, other) >= 1;
     }

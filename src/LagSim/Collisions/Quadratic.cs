@@ -5,8 +5,8 @@ namespace LagSim.Collisions;
 /// <summary>The first descent of a gap that is a parabola, in closed form and without cancellation.</summary>
 internal static class Quadratic
 {
-    /// <summary>As <see cref="FirstDescent.Find"/>, for f(t) = c0 + c1 t + c2 t^2 and all t >= 0.</summary>
-    internal static double FirstDescent(double c0, double c1, double c2)
+    /// <summary>As <see cref="RootIsolation.Find"/>, for f(t) = c0 + c1 t + c2 t^2 and all t >= 0.</summary>
+    internal static double RootIsolation(double c0, double c1, double c2)
     {
         if (c0 <= 0)
         {

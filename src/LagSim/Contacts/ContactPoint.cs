@@ -41,7 +41,7 @@ internal struct ContactPoint
     /// <summary>Whether the two struck each other earlier in the instant, and are in this impact because it is a collapse.</summary>
     internal bool IsFromBefore;
 
-    /// <summary>Whether it is the last rebound of the two, after which they are in lasting contact.</summary>
+    /// <summary>Whether it is the last rebound of the two, after which they are in persistent contact.</summary>
     internal bool Lasts;
 
     /// <summary>From the second party to the first.</summary>

@@ -76,7 +76,7 @@ internal sealed class ContactProblem
             Most = double.PositiveInfinity,
             NormalInverse = inverse,
             NormalMass = inverse > 0 ? 1 / inverse : 0,
-            RubMass = inverse > 0 ? 1 / (ImpactFriction.SlipPerImpulse * inverse) : 0,
+            FrictionMass = inverse > 0 ? 1 / (ImpactFriction.SlipPerImpulse * inverse) : 0,
             Follows = friction * friction <= 0.5 ? 1 : 1 / (1 + (friction * friction)),
             TurnMass = turning > 0 ? 1 / (ImpactFriction.TurnPerImpulse * turning) : 0,
         };
@@ -99,7 +99,7 @@ internal sealed class ContactProblem
         for (int i = 0; i < ContactCount; i++)
         {
             ref SolverContact c = ref Contacts[i];
-            (c.Impulse, c.Rub, c.Turn, c.HasRub, c.Bound) = (0, Vector3D.Zero, Vector3D.Zero, false, 0);
+            (c.Impulse, c.FrictionImpulse, c.Turn, c.HasFrictionImpulse, c.Bound) = (0, Vector3D.Zero, Vector3D.Zero, false, 0);
         }
     }
 
@@ -226,14 +226,14 @@ internal struct SolverContact
     internal double Most; // the largest impulse along the normal
     internal double NormalInverse;
     internal double NormalMass;
-    internal double RubMass;
+    internal double FrictionMass;
     internal double TurnMass;
     internal bool IsElastic; // loses no energy, and is of a step only if it held before
     internal bool Held; // whether the contact held before the step
     internal bool Holds; // and whether it holds in it
     internal double Impulse; // along the normal, in N s
-    internal Vector3D Rub; // of friction
-    internal bool HasRub;
+    internal Vector3D FrictionImpulse; // of friction
+    internal bool HasFrictionImpulse;
     internal double Seen; // what of its bodies' changes it has seen
     internal Vector3D Turn; // of rolling resistance, in N m s
 }

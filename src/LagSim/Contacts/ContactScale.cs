@@ -5,7 +5,7 @@ using LagSim.Time;
 
 namespace LagSim.Contacts;
 
-/// <summary>What follows from a scene's contact tolerance d and from what presses its bodies together: the lengths, speeds and spans that decide lasting contact.</summary>
+/// <summary>What follows from a scene's contact tolerance d and from what presses its bodies together: the lengths, speeds and spans that decide persistent contact.</summary>
 /// <remarks>
 /// <para>A body that falls freely for a step of h leaves the chord of its path by a h^2 / 8 at most, and gains a h of speed. With h at most sqrt(2 d / a) the first is at
 /// most d / 4, and the second at most the speed from which a body rises by d. So all of these are one length, seen as a time, a speed and a place.</para>

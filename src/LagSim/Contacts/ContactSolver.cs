@@ -39,11 +39,11 @@ internal static class ContactSolver
         for (int i = 0; i < problem.ContactCount; i++)
         {
             ref SolverContact c = ref problem.Contacts[i];
-            c.HasRub = c.Rub != Vector3D.Zero;
+            c.HasFrictionImpulse = c.FrictionImpulse != Vector3D.Zero;
             c.Bound = c.Friction * c.Impulse;
-            if (c.Impulse != 0 || c.HasRub || c.Turn != Vector3D.Zero)
+            if (c.Impulse != 0 || c.HasFrictionImpulse || c.Turn != Vector3D.Zero)
             {
-                Apply(problem, c, (c.Normal * c.Impulse) + c.Rub, c.Rub, c.Turn);
+                Apply(problem, c, (c.Normal * c.Impulse) + c.FrictionImpulse, c.FrictionImpulse, c.Turn);
             }
         }
     }
@@ -54,9 +54,9 @@ internal static class ContactSolver
         for (int i = 0; i < problem.ContactCount; i++)
         {
             ref readonly SolverContact c = ref problem.Contacts[i];
-            if (c.Rub != Vector3D.Zero || c.Turn != Vector3D.Zero)
+            if (c.FrictionImpulse != Vector3D.Zero || c.Turn != Vector3D.Zero)
             {
-                Apply(problem, c, c.Rub, c.Rub, c.Turn);
+                Apply(problem, c, c.FrictionImpulse, c.FrictionImpulse, c.Turn);
             }
         }
     }
@@ -178,14 +178,14 @@ internal static class ContactSolver
         double change = Math.Abs(along) * c.NormalInverse;
         c.Impulse = impulse;
         double px = nx * along, py = ny * along, pz = nz * along;
-        if (c.Friction > 0 && (impulse > 0 || c.HasRub))
+        if (c.Friction > 0 && (impulse > 0 || c.HasFrictionImpulse))
         {
             // The slip: the surfaces' velocities across the normal.
             double lx = (a.Spin.X * a.Radius) + (b.Spin.X * b.Radius), ly = (a.Spin.Y * a.Radius) + (b.Spin.Y * b.Radius);
             double lz = (a.Spin.Z * a.Radius) + (b.Spin.Z * b.Radius);
             double sx = vx - (nx * opening) - ((ly * nz) - (lz * ny)), sy = vy - (ny * opening) - ((lz * nx) - (lx * nz));
             double sz = vz - (nz * opening) - ((lx * ny) - (ly * nx));
-            double rx = c.Rub.X - (sx * c.RubMass), ry = c.Rub.Y - (sy * c.RubMass), rz = c.Rub.Z - (sz * c.RubMass);
+            double rx = c.FrictionImpulse.X - (sx * c.FrictionMass), ry = c.FrictionImpulse.Y - (sy * c.FrictionMass), rz = c.FrictionImpulse.Z - (sz * c.FrictionMass);
             double square = (rx * rx) + (ry * ry) + (rz * rz);
             double most = c.Follows == 1 ? c.Friction * impulse : Follow(ref c, square);
             if (square > most * most)
@@ -194,9 +194,9 @@ internal static class ContactSolver
                 (rx, ry, rz) = (rx * part, ry * part, rz * part);
             }
 
-            double qx = rx - c.Rub.X, qy = ry - c.Rub.Y, qz = rz - c.Rub.Z;
-            c.Rub = new Vector3D(rx, ry, rz);
-            c.HasRub = impulse > 0 || c.Follows < 1;
+            double qx = rx - c.FrictionImpulse.X, qy = ry - c.FrictionImpulse.Y, qz = rz - c.FrictionImpulse.Z;
+            c.FrictionImpulse = new Vector3D(rx, ry, rz);
+            c.HasFrictionImpulse = impulse > 0 || c.Follows < 1;
             (px, py, pz) = (px + qx, py + qy, pz + qz);
             double slips = Math.Sqrt((qx * qx) + (qy * qy) + (qz * qz)) * ImpactFriction.SlipPerImpulse * c.NormalInverse;
             change = Math.Max(change, slips);
@@ -223,16 +223,16 @@ internal static class ContactSolver
         double change = Math.Abs(along) * c.NormalInverse;
         c.Impulse = impulse;
         Vector3D push = c.Normal * along;
-        if (c.Friction > 0 && (impulse > 0 || c.HasRub))
+        if (c.Friction > 0 && (impulse > 0 || c.HasFrictionImpulse))
         {
             Vector3D slip = relative - (c.Normal * opening) - (Vector3D.Cross(a.Spin, c.Normal) * a.Radius);
-            Vector3D rub = c.Rub - (slip * c.RubMass);
-            double square = rub.LengthSquared;
+            Vector3D frictionImpulse = c.FrictionImpulse - (slip * c.FrictionMass);
+            double square = frictionImpulse.LengthSquared;
             double most = c.Follows == 1 ? c.Friction * impulse : Follow(ref c, square);
-            rub = square > most * most ? rub * (most / Math.Sqrt(square)) : rub;
-            Vector3D across = rub - c.Rub;
-            c.Rub = rub;
-            c.HasRub = impulse > 0 || c.Follows < 1;
+            frictionImpulse = square > most * most ? frictionImpulse * (most / Math.Sqrt(square)) : frictionImpulse;
+            Vector3D across = frictionImpulse - c.FrictionImpulse;
+            c.FrictionImpulse = frictionImpulse;
+            c.HasFrictionImpulse = impulse > 0 || c.Follows < 1;
             push += across;
             change = Math.Max(change, across.Length * ImpactFriction.SlipPerImpulse * c.NormalInverse);
             a.Spin += Vector3D.Cross(across, c.Normal) * (ImpactFriction.TurnPerImpulse * a.InverseMass / a.Radius);

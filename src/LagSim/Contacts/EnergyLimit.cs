@@ -49,7 +49,7 @@ internal sealed class EnergyLimit
         {
             ref SolverContact c = ref problem.Contacts[i];
             c.Impulse += (contacts[i].Impulse - c.Impulse) * part;
-            c.Rub += (contacts[i].Rub - c.Rub) * part;
+            c.FrictionImpulse += (contacts[i].FrictionImpulse - c.FrictionImpulse) * part;
             c.Turn += (contacts[i].Turn - c.Turn) * part;
         }
     }

@@ -56,7 +56,7 @@ internal sealed class ImpactFriction
         {
             if (Rubs(contacts[i], coefficients[i]))
             {
-                Rub(contacts[i], coefficients[i], masses, radii, velocities, spins);
+                FrictionImpulse(contacts[i], coefficients[i], masses, radii, velocities, spins);
             }
         }
 
@@ -81,7 +81,7 @@ internal sealed class ImpactFriction
 
     private static bool Rubs(in ContactPoint c, double coefficient) => c.Impulse > 0 && coefficient > 0;
 
-    private void Rub(
+    private void FrictionImpulse(
         in ContactPoint c, double coefficient, Span<double> masses, Span<double> radii, Span<Vector3D> velocities, Span<Vector3D> spins)
     {
         Vector3D slip = Slip(c, radii, velocities, spins);

@@ -31,7 +31,7 @@ public enum EventKind : byte
     Grab = 12,
 
     /// <summary>External: where the hand that holds a body is, and how fast. Without one for a second it has let go.</summary>
-    HoldKnot = 13,
+    HoldKeyframe = 13,
 
     /// <summary>External: the hand that holds a body lets go of it, with a velocity.</summary>
     Release = 14,

@@ -7,7 +7,7 @@ namespace LagSim.Events;
 
 /// <summary>What did not come from the model: something a player did to a body, stamped (time, peer, sequence) once and for all.</summary>
 /// <remarks>
-/// <para>An event for a body that is not there at its time does nothing, and may still do something should later news put the body there.</para>
+/// <para>An event for a body that is not there at its time does nothing, and may still do something should a late event put the body there.</para>
 /// <para>Immutable, safe on any thread. <c>default</c> is no event (<see cref="EventKind.None"/>) and is refused everywhere.</para>
 /// </remarks>
 public readonly struct ExternalEvent : IEquatable<ExternalEvent>
@@ -42,12 +42,12 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     public BodyId Body { get; }
 
     /// <summary>
-    /// Metres; of a spawn or teleport where the body's centre is put, of a knot where the hand's point is, of a grab that point less the body's centre; else
+    /// Metres; of a spawn or teleport where the body's centre is put, of a keyframe where the hand's point is, of a grab that point less the body's centre; else
     /// zero.
     /// </summary>
     public Vector3D Position { get; }
 
-    /// <summary>Metres per second, of a spawn, teleport, set velocity, knot or release; newton seconds, of an impulse; else zero.</summary>
+    /// <summary>Metres per second, of a spawn, teleport, set velocity, keyframe or release; newton seconds, of an impulse; else zero.</summary>
     public Vector3D Velocity { get; }
 
     /// <summary>Of a spawn what appears; else <c>default</c>.</summary>
@@ -85,7 +85,7 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
         new(EventKind.Impulse, time, peer, sequence, body, default, impulse, default);
 
     /// <summary>
-    /// The peer's hand takes the body, by a point that lies <paramref name="offset"/> from its centre, in metres. Until the first knot the hand is taken to be
+    /// The peer's hand takes the body, by a point that lies <paramref name="offset"/> from its centre, in metres. Until the first keyframe the hand is taken to be
     /// at rest where the body was. What is held already, or faster than may be given, it does not get. What is held does not turn, nor when it is let go.
     /// </summary>
     public static ExternalEvent Grab(SimTime time, byte peer, uint sequence, BodyId body, Vector3D offset = default) =>
@@ -94,14 +94,14 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     /// <summary>
     /// The peer's hand, if it holds the body, is at a position (metres) with a velocity (m/s) now; see <see cref="Motion.HandPath"/> for what follows.
     /// </summary>
-    public static ExternalEvent HoldKnot(SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity) =>
-        new(EventKind.HoldKnot, time, peer, sequence, body, position, velocity, default);
+    public static ExternalEvent HoldKeyframe(SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity) =>
+        new(EventKind.HoldKeyframe, time, peer, sequence, body, position, velocity, default);
 
     /// <summary>The peer's hand, if it holds the body, lets go of it, which from where it is goes on with this velocity (m/s).</summary>
     public static ExternalEvent Release(SimTime time, byte peer, uint sequence, BodyId body, Vector3D velocity = default) =>
         new(EventKind.Release, time, peer, sequence, body, default, velocity, default);
 
-    /// <summary>The same deed at another time; how a peer that does not heal applies what it hears late.</summary>
+    /// <summary>The same scripted action at another time; how a peer that does not heal applies what it hears late.</summary>
     public ExternalEvent At(SimTime time) => new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec, Spin);
 
     /// <inheritdoc/>

@@ -58,7 +58,7 @@ public readonly struct PlayerAction
     public static PlayerAction Grab(BodyId body, Vector3D offset = default) => new(EventKind.Grab, body, offset, default, default);
 
     /// <summary>The hand that holds the body is at a position (metres) with a velocity (m/s).</summary>
-    public static PlayerAction HoldKnot(BodyId body, Vector3D position, Vector3D velocity) => new(EventKind.HoldKnot, body, position, velocity, default);
+    public static PlayerAction HoldKeyframe(BodyId body, Vector3D position, Vector3D velocity) => new(EventKind.HoldKeyframe, body, position, velocity, default);
 
     /// <summary>The hand that holds the body lets go of it, which goes on with this velocity (m/s).</summary>
     public static PlayerAction Release(BodyId body, Vector3D velocity = default) => new(EventKind.Release, body, default, velocity, default);
@@ -73,7 +73,7 @@ public readonly struct PlayerAction
         EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),
         EventKind.Impulse => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
         EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position),
-        EventKind.HoldKnot => ExternalEvent.HoldKnot(time, peer, sequence, body, position, velocity),
+        EventKind.HoldKeyframe => ExternalEvent.HoldKeyframe(time, peer, sequence, body, position, velocity),
         EventKind.Release => ExternalEvent.Release(time, peer, sequence, body, velocity),
         _ => throw new InvalidOperationException("The default PlayerAction is no action."),
     };

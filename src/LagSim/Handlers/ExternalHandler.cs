@@ -60,7 +60,7 @@ internal sealed class ExternalHandler(
         {
             timelines.Append(slot, bodies.Id(slot), key, MotionSegment.Nothing(key.Time), default);
         }
-        else if (external.Kind is EventKind.Grab or EventKind.HoldKnot or EventKind.Release)
+        else if (external.Kind is EventKind.Grab or EventKind.HoldKeyframe or EventKind.Release)
         {
             collapse.HasLosses |= external.Kind == EventKind.Grab; // a hand gives and takes
             trajectories.Hands.Act(slot, key, external);

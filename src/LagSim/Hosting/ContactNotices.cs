@@ -7,11 +7,11 @@ using LagSim.Timelines;
 
 namespace LagSim.Hosting;
 
-/// <summary>Tells a game of contacts: each predicted, then confirmed when nothing can change it any more, or retracted by late news.</summary>
+/// <summary>Tells a game of contacts: each predicted, then confirmed when nothing can change it any more, or retracted after a late event.</summary>
 /// <remarks>
 /// <para>Made by the game and given to the one world it is to follow: to a <see cref="SimulationHost"/> or <see cref="LiveWorld"/>, or with the options of a
 /// session. It changes no bit of what happens.</para>
-/// <para>Told after each step of the world, so what a step's news took back and made again just so is not told at all: nothing is retracted that is then
+/// <para>Told after each step of the world, so what a rewind took back and re-simulation made again just so is not told at all: nothing is retracted that is then
 /// predicted unchanged. Each contact that was predicted is in the end either retracted or confirmed, once. Confirmed ones come in ascending order of their
 /// keys, each once, and are the same on all peers from where each of them began; what is not committed when a world ends is never confirmed. Confirmation comes
 /// as late as a late event may: the history of the world or session, and up to as long as a session at rest is silent.</para>

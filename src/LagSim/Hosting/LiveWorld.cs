@@ -8,16 +8,16 @@ using LagSim.Timelines;
 
 namespace LagSim.Hosting;
 
-/// <summary>A simulation kept ahead of a clock: it is advanced to now plus the look-ahead, and its picture published.</summary>
+/// <summary>A simulation kept ahead of a clock: it is advanced to now plus the look-ahead, and its render snapshot published.</summary>
 /// <remarks>
-/// For the simulation's thread, in real or virtual time alike, except <see cref="Pictures"/>, which is how another thread reads, and <see cref="LateSteps"/>
+/// For the simulation's thread, in real or virtual time alike, except <see cref="RenderSnapshots"/>, which is how another thread reads, and <see cref="LateSteps"/>
 /// and <see cref="MaxLateness"/>, which any thread may read, each for itself, and what <see cref="Contacts"/> says of itself. What changes the world goes
 /// through this type, so that the next <see cref="Step"/> publishes it.
 /// </remarks>
 public sealed class LiveWorld
 {
-    /// <summary>How much of the past pictures show where nothing else is said: 250 ms.</summary>
-    public static readonly SimDuration DefaultPicturePast = SimDuration.FromMilliseconds(250);
+    /// <summary>How much of the past render snapshots show where nothing else is said: 250 ms.</summary>
+    public static readonly SimDuration DefaultRenderedPast = SimDuration.FromMilliseconds(250);
 
     /// <summary>
     /// What a step may cost where nothing else is said, as <see cref="Effort"/> counts: some hundredths of a second for a heap, which costs most.
@@ -27,12 +27,12 @@ public sealed class LiveWorld
     /// <summary>However many bodies there are, so many events a step: it has to get on.</summary>
     private const long LeastEvents = 16;
 
-    private readonly SimDuration picturePast;
+    private readonly SimDuration renderedPast;
     private bool changed = true;
     private volatile bool isBehind;
-    private SimTime shownTo = SimTime.MinValue; // how far the newest picture's world was simulated
-    private SimTime pictureTo = SimTime.MaxValue; // how far the newest picture can be read; before there is one nobody waits for it
-    private long maxPictureLateness;
+    private SimTime shownTo = SimTime.MinValue; // how far the newest render snapshot's world was simulated
+    private SimTime renderedTo = SimTime.MaxValue; // how far the newest render snapshot can be read; before there is one nobody waits for it
+    private long maxRenderLateness;
     private long events; // how many may still happen before the next step
     private long lateSteps;
     private long maxLatenessTicks;
@@ -41,12 +41,12 @@ public sealed class LiveWorld
     /// <param name="scene">What is simulated.</param>
     /// <param name="options">Start and history; the history must exceed the look-ahead.</param>
     /// <param name="lookAhead">How far ahead of the clock, above zero and at most 1 s; default two frames.</param>
-    /// <param name="picturePast">How much of the past pictures show, at least zero; default 250 ms.</param>
+    /// <param name="renderedPast">How much of the past render snapshots show, at least zero; default 250 ms.</param>
     /// <param name="contacts">What tells of its contacts, of this world alone; null, the default, for nobody.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
-    public LiveWorld(Scene scene, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? picturePast = null, ContactNotices? contacts = null)
-        : this(new Simulation(scene, Checked(options, lookAhead, picturePast, contacts)), lookAhead, picturePast, contacts)
+    public LiveWorld(Scene scene, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null, ContactNotices? contacts = null)
+        : this(new Simulation(scene, Checked(options, lookAhead, renderedPast, contacts)), lookAhead, renderedPast, contacts)
     {
     }
 
@@ -55,25 +55,25 @@ public sealed class LiveWorld
     /// <param name="snapshot">From where it goes on.</param>
     /// <param name="options">The history, which must exceed the look-ahead.</param>
     /// <param name="lookAhead">How far ahead of the clock, above zero and at most 1 s; default two frames.</param>
-    /// <param name="picturePast">How much of the past pictures show, at least zero; default 250 ms.</param>
+    /// <param name="renderedPast">How much of the past render snapshots show, at least zero; default 250 ms.</param>
     /// <param name="contacts">What tells of its contacts, of this world alone; null, the default, for nobody.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
     /// <exception cref="SceneException">The snapshot is of no world of the scene.</exception>
     public LiveWorld(
-        Scene scene, WorldSnapshot snapshot, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? picturePast = null,
+        Scene scene, WorldSnapshot snapshot, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null,
         ContactNotices? contacts = null)
-        : this(new Simulation(scene, snapshot, Checked(options, lookAhead, picturePast, contacts)), lookAhead, picturePast, contacts)
+        : this(new Simulation(scene, snapshot, Checked(options, lookAhead, renderedPast, contacts)), lookAhead, renderedPast, contacts)
     {
     }
 
-    private LiveWorld(Simulation simulation, SimDuration? lookAhead, SimDuration? picturePast, ContactNotices? contacts)
+    private LiveWorld(Simulation simulation, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts)
     {
         Simulation = simulation;
         Contacts = contacts;
         events = EventsAStep;
         LookAhead = lookAhead ?? LatencyCompensationWindow.DefaultLookAhead;
-        this.picturePast = picturePast ?? DefaultPicturePast;
+        this.renderedPast = renderedPast ?? DefaultRenderedPast;
     }
 
     /// <summary>The world. For reading; submit to this type, not to it.</summary>
@@ -94,8 +94,8 @@ public sealed class LiveWorld
         set => Simulation.Engine.Meter.Observer = value;
     }
 
-    /// <summary>Where another thread, one only, gets its picture.</summary>
-    public PictureExchange Pictures { get; } = new();
+    /// <summary>Where another thread, one only, gets its render snapshot.</summary>
+    public RenderTripleBuffer RenderSnapshots { get; } = new();
 
     /// <summary>How often a step found the clock beyond what was simulated, so that a reader had to stall. From any thread.</summary>
     public long LateSteps => Volatile.Read(ref lateSteps);
@@ -104,13 +104,13 @@ public sealed class LiveWorld
     public SimDuration MaxLateness => SimDuration.FromTicks(Volatile.Read(ref maxLatenessTicks));
 
     /// <summary>
-    /// How far the newest picture can be read. While news is simulated again it stays where it was, though <see cref="Simulation.SimulatedTo"/> goes back. The latest time there is
-    /// before the first picture. On the simulation's thread.
+    /// How far the newest render snapshot can be read. During a rollback it stays where it was, though <see cref="Simulation.SimulatedTo"/> goes back. The latest time there is
+    /// before the first render snapshot. On the simulation's thread.
     /// </summary>
-    public SimTime PictureTo => pictureTo;
+    public SimTime RenderedTo => renderedTo;
 
-    /// <summary>The furthest the clock was beyond the newest picture when a step began, so that who draws had nothing newer to show. From any thread.</summary>
-    public SimDuration MaxPictureLateness => SimDuration.FromTicks(Volatile.Read(ref maxPictureLateness));
+    /// <summary>The furthest the clock was beyond the newest render snapshot when a step began, so that who draws had nothing newer to show. From any thread.</summary>
+    public SimDuration MaxRenderLateness => SimDuration.FromTicks(Volatile.Read(ref maxRenderLateness));
 
     /// <summary>
     /// Whether the world is not where it should be, <see cref="LookAhead"/> beyond the clock of the last <see cref="Step"/> or <see cref="Advance"/>, because
@@ -148,7 +148,7 @@ public sealed class LiveWorld
 
     /// <summary>Tells <see cref="Work"/>, if there is one, whose event is submitted next.</summary>
     /// <param name="player">The player's number.</param>
-    public void NoteNews(byte player) => Work?.NoteNews(player, Simulation.Engine.Rollback.IsActive);
+    public void NoteLateEvent(byte player) => Work?.NoteLateEvent(player, Simulation.Engine.Rollback.IsActive);
 
     /// <summary>Submits an event at its own time.</summary>
     /// <remarks>
@@ -190,8 +190,8 @@ public sealed class LiveWorld
     /// When the next step is due if nothing changes before: <paramref name="now"/> while the world <see cref="IsBehind"/>, but a look-ahead later while an instant blocks it, and
     /// <see cref="SimTime.MaxValue"/> for a world in which nothing will happen, and of which no contact is to be confirmed.
     /// </returns>
-    /// <remarks>It does a bounded number of events, so that whoever calls it gets to other things in between. While late news is made good over several steps
-    /// the last whole picture stays, until the world has caught up with it. Half of the look-ahead may be used up before the next step is due, so a moving
+    /// <remarks>It does a bounded number of events, so that whoever calls it gets to other things in between. While a rollback takes several steps
+    /// the last whole render snapshot stays, until the world has caught up with it. Half of the look-ahead may be used up before the next step is due, so a moving
     /// world steps about once a frame, one at rest never.</remarks>
     public SimTime Step(SimTime now)
     {
@@ -202,9 +202,9 @@ public sealed class LiveWorld
             Volatile.Write(ref maxLatenessTicks, Math.Max(maxLatenessTicks, late));
         }
 
-        if (pictureTo < now && changed)
+        if (renderedTo < now && changed)
         {
-            Volatile.Write(ref maxPictureLateness, Math.Max(maxPictureLateness, (now - pictureTo).Ticks));
+            Volatile.Write(ref maxRenderLateness, Math.Max(maxRenderLateness, (now - renderedTo).Ticks));
         }
 
         events = EventsAStep;
@@ -214,9 +214,9 @@ public sealed class LiveWorld
         {
             // What is behind shows where it stands, and ends there; but a world that went back to heal does not run a second time before everybody's eyes.
             shownTo = Simulation.SimulatedTo;
-            SimTime from = SimTime.Min(SimTime.Max(now, Simulation.Start), Simulation.SimulatedTo) - picturePast;
-            Pictures.Publish(Simulation, SimTime.Max(from, Simulation.HistoryEdge));
-            pictureTo = Simulation.Horizon;
+            SimTime from = SimTime.Min(SimTime.Max(now, Simulation.Start), Simulation.SimulatedTo) - renderedPast;
+            RenderSnapshots.Publish(Simulation, SimTime.Max(from, Simulation.HistoryEdge));
+            renderedTo = Simulation.Horizon;
             changed = false;
         }
 
@@ -235,7 +235,7 @@ public sealed class LiveWorld
     }
 
     /// <summary>The options, if they and the spans go together.</summary>
-    private static SimulationOptions Checked(SimulationOptions options, SimDuration? lookAhead, SimDuration? picturePast, ContactNotices? contacts)
+    private static SimulationOptions Checked(SimulationOptions options, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts)
     {
         if (options is null)
         {
@@ -248,9 +248,9 @@ public sealed class LiveWorld
             throw new ArgumentOutOfRangeException(nameof(lookAhead), ahead.ToShortString(), "The look-ahead must be above zero and at most 1 s.");
         }
 
-        if (picturePast < SimDuration.Zero)
+        if (renderedPast < SimDuration.Zero)
         {
-            throw new ArgumentOutOfRangeException(nameof(picturePast), picturePast.Value.ToShortString(), "A picture cannot show less than no past.");
+            throw new ArgumentOutOfRangeException(nameof(renderedPast), renderedPast.Value.ToShortString(), "A picture cannot show less than no past.");
         }
 
         if (options.History <= ahead)
@@ -286,7 +286,7 @@ public sealed class LiveWorld
                 world.Simulation.TryAdvanceTo(world.Simulation.SimulatedTo + SimDuration.OneTick, ref all);
             }
 
-            world.Work?.ChargeNews(world.Simulation.SimulatedTo);
+            world.Work?.ChargeLateEvent(world.Simulation.SimulatedTo);
             if (world.Simulation.SimulatedTo < front)
             {
                 world.isBehind |= !world.Simulation.TryAdvanceTo(front, ref world.events);

@@ -9,8 +9,8 @@ namespace LagSim.Hosting;
 
 /// <summary>A world for one machine: simulated ahead of real time on its own thread, acted on and read from the game's.</summary>
 /// <remarks>
-/// Every member may be called from any thread, but <see cref="Picture"/> from one only. An action is stamped when it is done, and seen in
-/// the pictures that follow a moment later. For several machines see the peers of LagSim.Net, which keep their worlds in the same way.
+/// Every member may be called from any thread, but <see cref="RenderSnapshot"/> from one only. An action is stamped when it is done, and seen in
+/// the render snapshots that follow a moment later. For several machines see the peers of LagSim.Net, which keep their worlds in the same way.
 /// </remarks>
 public sealed class SimulationHost : IDisposable
 {
@@ -41,17 +41,17 @@ public sealed class SimulationHost : IDisposable
 
     internal LiveWorld World => world;
 
-    /// <summary>The clock's time: what to read the picture at. From any thread, if the clock can be read so, as a <see cref="StopwatchClock"/> can.</summary>
+    /// <summary>The clock's time: what to read the render snapshot at. From any thread, if the clock can be read so, as a <see cref="StopwatchClock"/> can.</summary>
     public SimTime Now => clock.Now;
 
-    /// <summary>The newest picture, for the one reading thread.</summary>
+    /// <summary>The newest render snapshot, for the one reading thread.</summary>
     /// <exception cref="InvalidOperationException">The simulation ended by an exception, the inner one.</exception>
-    public Picture Picture
+    public RenderSnapshot RenderSnapshot
     {
         get
         {
             thread.ThrowIfFaulted();
-            return world.Pictures.Latest();
+            return world.RenderSnapshots.Latest();
         }
     }
 
@@ -65,7 +65,7 @@ public sealed class SimulationHost : IDisposable
     public SimDuration MaxLateness => world.MaxLateness;
 
     /// <summary>
-    /// Whether there is more to simulate than could be done by now, so that <see cref="Picture"/> ends before <see cref="Now"/> or soon after.
+    /// Whether there is more to simulate than could be done by now, so that <see cref="RenderSnapshot"/> ends before <see cref="Now"/> or soon after.
     /// </summary>
     public bool IsBehind => world.IsBehind;
 
@@ -77,7 +77,7 @@ public sealed class SimulationHost : IDisposable
     /// <exception cref="ObjectDisposedException">It has been stopped for good.</exception>
     public void Start() => thread.Start();
 
-    /// <summary>Does something to the world, now by the clock; the picture has it as soon as the world's thread has simulated it. From any thread.</summary>
+    /// <summary>Does something to the world, now by the clock; the render snapshot has it as soon as the world's thread has simulated it. From any thread.</summary>
     /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
     /// <remarks>What meets a body that is not there, or gives it more speed than it may be given, has no effect; see <see cref="Simulation.TookEffect"/>.</remarks>
     /// <exception cref="SceneException">A value may not enter the world; nothing happened.</exception>
@@ -105,7 +105,7 @@ public sealed class SimulationHost : IDisposable
     }
 
     /// <summary>
-    /// Stops the thread, in the middle of its work if it is at some, and waits for it. The last picture stays readable; nothing more can be done to the world.
+    /// Stops the thread, in the middle of its work if it is at some, and waits for it. The last render snapshot stays readable; nothing more can be done to the world.
     /// </summary>
     public void Dispose()
     {

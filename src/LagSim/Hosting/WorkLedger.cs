@@ -11,8 +11,8 @@ namespace LagSim.Hosting;
 /// <remarks>
 /// <para>Each body is on the account of the player who spawned it, or whose act touched it last; a body of the scene that nobody touched is on nobody's. One of the scene that is touched is on
 /// that account for 30 s of simulated time, and one that is struck by a body on an account for 2 s, and no longer than 2 s after the act that it comes of: what the scene would do
-/// without them is not the players'. What happens is charged to the accounts of the bodies that take part, to each in equal shares, however many bodies it has in it. What news has simulated again is charged
-/// by one half to whose news it was.</para>
+/// without them is not the players'. What happens is charged to the accounts of the bodies that take part, to each in equal shares, however many bodies it has in it. What a late event has simulated again is charged
+/// by one half to the player whose event it was.</para>
 /// <para>The unit is about a microsecond on one core of a machine of the 2020s. It is counted by events, by how many bodies take part in
 /// each and what contact solvers did for it. Where the ledger has a clock, and something took longer by that than was counted, that is what
 /// it cost: no count foresees all that can be
@@ -40,7 +40,7 @@ public sealed class WorkLedger : IWorkObserver
     private readonly Account[] accounts = new Account[Accounts + 1];
     private readonly List<byte> sharing = new();
     private Entry[] entries = new Entry[16]; // by place
-    private readonly List<byte> news = new(); // whose is being made good
+    private readonly List<byte> healedFor = new(); // whose is being made good
     private double thisStep;
     private SimTime measured; // up to then all is accounted for
 
@@ -82,17 +82,17 @@ public sealed class WorkLedger : IWorkObserver
         account.Period++;
     }
 
-    /// <summary>Notes whose news is being brought in: what it has simulated again is charged to that player by one half, shared with whose news is being made good already.</summary>
-    internal void NoteNews(byte player, bool isHealing)
+    /// <summary>Notes whose late event is being applied: what it has simulated again is charged to that player by one half, shared with those whose late events are being healed already.</summary>
+    internal void NoteLateEvent(byte player, bool isHealing)
     {
         if (!isHealing)
         {
-            news.Clear();
+            healedFor.Clear();
         }
 
-        if (!news.Contains(player))
+        if (!healedFor.Contains(player))
         {
-            news.Add(player);
+            healedFor.Add(player);
         }
     }
 
@@ -133,24 +133,24 @@ public sealed class WorkLedger : IWorkObserver
     /// <summary>The world is at work from now on.</summary>
     internal void Resume() => measured = clock?.Now ?? default;
 
-    /// <summary>News was brought in: what that took, besides the events of its instant, is charged to whose it was.</summary>
-    internal void ChargeNews(SimTime at)
+    /// <summary>A late event was applied: what that took, besides the events of its instant, is charged to the player whose it was.</summary>
+    internal void ChargeLateEvent(SimTime at)
     {
         double took = Measure();
         Total += took;
         thisStep += took;
         if (took > 0)
         {
-            ChargeNews(took, at);
+            ChargeLateEvent(took, at);
         }
     }
 
-    private bool ChargeNews(double amount, SimTime at)
+    private bool ChargeLateEvent(double amount, SimTime at)
     {
         bool goesOn = true;
-        foreach (byte player in news)
+        foreach (byte player in healedFor)
         {
-            goesOn &= Charge(player, amount / news.Count, at, isAgain: true);
+            goesOn &= Charge(player, amount / healedFor.Count, at, isAgain: true);
         }
 
         return goesOn;
@@ -193,10 +193,10 @@ public sealed class WorkLedger : IWorkObserver
         }
 
         double mine = amount;
-        if (isAgain && news.Count > 0)
+        if (isAgain && healedFor.Count > 0)
         {
             mine = owner == Nobody ? 0 : amount / 2;
-            goesOn &= ChargeNews(amount - mine, key.Time);
+            goesOn &= ChargeLateEvent(amount - mine, key.Time);
         }
 
         if (isShared)

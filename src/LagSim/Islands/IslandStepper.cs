@@ -10,7 +10,7 @@ using LagSim.Timelines;
 
 namespace LagSim.Islands;
 
-/// <summary>Contact steps: bodies in lasting contact are islands, which move by steps of a common clock, or rest together.</summary>
+/// <summary>Contact steps: bodies in persistent contact are islands, which move by steps of a common clock, or rest together.</summary>
 /// <remarks>
 /// A step opens the segments of all of an island with one key. Within it an impact or a player opens new ones for those alone whom it
 /// reaches;
@@ -94,8 +94,8 @@ internal sealed class IslandStepper(
 
             for (int at = timelines.Carried.First(piece); at != TimelineStore.None; at = timelines.Carried.Next(at))
             {
-                ref readonly LastingContact contact = ref timelines.Carried.At(at);
-                if (contact.Holds && contact.Surface == LastingContact.NoSurface && partners.TryFind(bodies.Id(graph.Slots[i]), contact.Partner, key, out int partner)
+                ref readonly PersistentContact contact = ref timelines.Carried.At(at);
+                if (contact.Holds && contact.Surface == PersistentContact.NoSurface && partners.TryFind(bodies.Id(graph.Slots[i]), contact.Partner, key, out int partner)
                     && graph.IndexOf(partner) < 0)
                 {
                     graph.AddBody(partner);
@@ -272,9 +272,9 @@ internal sealed class IslandStepper(
             int at = c.Second == ContactPoint.Static ? timelines.Carried.With(piece, c.Surface) : timelines.Carried.With(piece, bodies.Id(graph.Slots[c.Second]));
             if (at != TimelineStore.None)
             {
-                ref readonly LastingContact known = ref timelines.Carried.At(at);
+                ref readonly PersistentContact known = ref timelines.Carried.At(at);
                 c.Impulse = Math.Max(0, Vector3D.Dot(known.Push, c.Normal));
-                c.Rub = c.Friction > 0 ? known.Push - (c.Normal * Vector3D.Dot(known.Push, c.Normal)) : Vector3D.Zero;
+                c.FrictionImpulse = c.Friction > 0 ? known.Push - (c.Normal * Vector3D.Dot(known.Push, c.Normal)) : Vector3D.Zero;
                 c.Turn = c.Lever > 0 ? known.Turn : Vector3D.Zero;
                 c.Held = known.Holds;
             }

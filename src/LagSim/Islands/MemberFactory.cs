@@ -42,7 +42,7 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
         timelines.BeginMember(piece, centre, still);
         for (int at = timelines.Carried.First(before); at != TimelineStore.None; at = timelines.Carried.Next(at))
         {
-            LastingContact contact = timelines.Carried.At(at);
+            PersistentContact contact = timelines.Carried.At(at);
             timelines.Carried.Add(piece, contact);
         }
     }

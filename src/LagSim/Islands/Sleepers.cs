@@ -27,8 +27,8 @@ internal sealed class Sleepers(
 
         for (int at = timelines.Carried.First(last); at != TimelineStore.None; at = timelines.Carried.Next(at))
         {
-            ref readonly LastingContact contact = ref timelines.Carried.At(at);
-            int partner = contact.Surface == LastingContact.NoSurface ? bodies.SlotOf(contact.Partner) : -1;
+            ref readonly PersistentContact contact = ref timelines.Carried.At(at);
+            int partner = contact.Surface == PersistentContact.NoSurface ? bodies.SlotOf(contact.Partner) : -1;
             int piece = partner < 0 ? TimelineStore.None : view.PieceBefore(partner, key);
             if (piece != TimelineStore.None && paths.IsMember(piece) && timelines.Segment(piece).Law == MotionLaw.Resting)
             {

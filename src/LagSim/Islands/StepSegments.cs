@@ -33,10 +33,10 @@ internal sealed class StepSegments(
             timelines.BeginMember(piece, key.Time, timelines.Carried.StillSince(before));
             for (int at = timelines.Carried.First(before); at != TimelineStore.None; at = timelines.Carried.Next(at))
             {
-                LastingContact contact = timelines.Carried.At(at);
+                PersistentContact contact = timelines.Carried.At(at);
                 if (contact.Holds)
                 {
-                    timelines.Carried.Add(piece, new LastingContact(contact.Partner, contact.Surface, holds: true));
+                    timelines.Carried.Add(piece, new PersistentContact(contact.Partner, contact.Surface, holds: true));
                 }
             }
 
@@ -118,7 +118,7 @@ internal sealed class StepSegments(
             Vector3D turning = c.Second == ContactPoint.Static ? solved.Spin : step.Problem.Bodies[c.First].Spin - step.Problem.Bodies[c.Second].Spin;
             isStill &= c.Lever == 0 || turning.Length * solved.Radius <= speed;
             // At its bound friction slips; what is just below it has been moved there by the last sweeps.
-            bool slips = c.Impulse > 0 && c.Rub.Length >= 0.999 * c.Friction * c.Impulse;
+            bool slips = c.Impulse > 0 && c.FrictionImpulse.Length >= 0.999 * c.Friction * c.Impulse;
             isStill &= c.Friction == 0 || !slips || ContactSolver.Slip(step.Problem, c).Length <= speed;
         }
 
@@ -225,10 +225,10 @@ internal sealed class StepSegments(
             ref readonly SolverContact c = ref step.Problem.Contacts[i];
             bool isFirst = c.First == body;
             bool isPair = c.Second != ContactPoint.Static;
-            Vector3D push = (c.Normal * c.Impulse) + c.Rub;
-            timelines.Carried.Add(piece, new LastingContact(
+            Vector3D push = (c.Normal * c.Impulse) + c.FrictionImpulse;
+            timelines.Carried.Add(piece, new PersistentContact(
                 !isPair ? self : bodies.Id(graph.Slots[isFirst ? c.Second : c.First]),
-                isPair ? LastingContact.NoSurface : c.Surface,
+                isPair ? PersistentContact.NoSurface : c.Surface,
                 c.Holds,
                 (isFirst ? push : -push).WithoutNegativeZero(),
                 (isFirst ? c.Turn : -c.Turn).WithoutNegativeZero()));

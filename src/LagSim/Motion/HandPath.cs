@@ -7,37 +7,37 @@ namespace LagSim.Motion;
 /// How a hand is taken to move on after it has told where it is: the one rule by which every peer extrapolates, and a sender foresees what they do.
 /// </summary>
 /// <remarks>
-/// <para>From a knot on the hand brakes evenly, from the knot's velocity to rest, for <see cref="Stops"/>, and then keeps still: so it never gets further from
-/// the knot than half the way that it would have gone. The held body converges on that within <see cref="Settles"/>, by a cubic, without a jump in position or
+/// <para>From a keyframe on the hand brakes evenly, from the keyframe's velocity to rest, for <see cref="Stops"/>, and then keeps still: so it never gets further from
+/// the keyframe than half the way that it would have gone. The held body converges on that within <see cref="Settles"/>, by a cubic, without a jump in position or
 /// velocity.</para>
 /// <para>Pure functions, safe on any thread.</para>
 /// </remarks>
 public static class HandPath
 {
     /// <summary>
-    /// How long a held body takes to converge on what its newest knot foretells: 50 ms. Shorter than that a correction is a jerk that throws what lies in its
-    /// way; longer, and at usual rates of knots the body never gets to where the hand is.
+    /// How long a held body takes to converge on what its newest keyframe foretells: 50 ms. Shorter than that a correction is a jerk that throws what lies in its
+    /// way; longer, and at usual rates of keyframes the body never gets to where the hand is.
     /// </summary>
     public static readonly SimDuration Settles = SimDuration.FromMilliseconds(50);
 
     /// <summary>
     /// How long a hand of which nothing more is heard takes to come to rest: 300 ms, about as long as one movement of a hand goes on one way. A shorter braking
-    /// needs more knots for the same error, and a longer one hardly fewer, but goes further astray where a hand turns back.
+    /// needs more keyframes for the same error, and a longer one hardly fewer, but goes further astray where a hand turns back.
     /// </summary>
     public static readonly SimDuration Stops = SimDuration.FromMilliseconds(300);
 
-    /// <summary>How long a hold lasts after its last knot, or its grab: 1 s. Whoever holds a body still has to say so more often.</summary>
+    /// <summary>How long a hold lasts after its last keyframe, or its grab: 1 s. Whoever holds a body still has to say so more often.</summary>
     public static readonly SimDuration Lasts = SimDuration.FromSeconds(1);
 
-    /// <summary>Where the hand is taken to be so long after a knot, in metres; <paramref name="since"/> is at least zero.</summary>
-    public static Vector3D Position(in Vector3D knot, in Vector3D velocity, SimDuration since)
+    /// <summary>Where the hand is taken to be so long after a keyframe, in metres; <paramref name="since"/> is at least zero.</summary>
+    public static Vector3D Position(in Vector3D keyframe, in Vector3D velocity, SimDuration since)
     {
         double stops = Stops.ToSeconds();
         double s = since < Stops ? since.ToSeconds() : stops;
-        return knot + (velocity * (s - (s * s / (2 * stops))));
+        return keyframe + (velocity * (s - (s * s / (2 * stops))));
     }
 
-    /// <summary>How fast the hand is taken to be so long after a knot, in m/s; <paramref name="since"/> is at least zero.</summary>
+    /// <summary>How fast the hand is taken to be so long after a keyframe, in m/s; <paramref name="since"/> is at least zero.</summary>
     public static Vector3D Velocity(in Vector3D velocity, SimDuration since)
     {
         double stops = Stops.ToSeconds();
@@ -45,7 +45,7 @@ public static class HandPath
     }
 
     /// <summary>
-    /// The path from a pose at a knot to what the knot foretells: the foretold braking, and the error of pose and velocity times the cubic that takes both
+    /// The path from a pose at a keyframe to what the keyframe foretells: the foretold braking, and the error of pose and velocity times the cubic that takes both
     /// to zero, (1 - s/T)^2 (e + (e' + 2 e/T) s).
     /// </summary>
     internal static MotionSegment Converge(
@@ -61,15 +61,15 @@ public static class HandPath
     }
 
     /// <summary>The rest of the braking, from the end of the convergence on.</summary>
-    internal static MotionSegment Brake(SimTime time, SimTime knot, in Vector3D position, in Vector3D velocity)
+    internal static MotionSegment Brake(SimTime time, SimTime keyframe, in Vector3D position, in Vector3D velocity)
     {
-        SimTime end = knot + Stops;
+        SimTime end = keyframe + Stops;
         return new MotionSegment(MotionLaw.Held, time, end, position, velocity, velocity / -end.SecondsSince(time));
     }
 
     /// <summary>Still in the hand, until the hold ends by itself.</summary>
-    internal static MotionSegment Still(SimTime time, SimTime knot, in Vector3D position) =>
-        new(MotionLaw.Held, time, knot + Lasts, position, Vector3D.Zero, Vector3D.Zero);
+    internal static MotionSegment Still(SimTime time, SimTime keyframe, in Vector3D position) =>
+        new(MotionLaw.Held, time, keyframe + Lasts, position, Vector3D.Zero, Vector3D.Zero);
 
     /// <summary>No less than the highest speed on a held path, in m/s: the largest of its velocity's three Bernstein coefficients.</summary>
     internal static double SpeedBound(in MotionSegment segment, in DenseOutput dense)

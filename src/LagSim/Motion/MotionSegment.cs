@@ -52,7 +52,7 @@ internal readonly struct MotionSegment
         (1 << (int)MotionLaw.RungeKutta4) | (1 << (int)MotionLaw.Held) | (1 << (int)MotionLaw.ClosedForm) | (1 << (int)MotionLaw.DormandPrince54);
 
     /// <summary>
-    /// Whether the body is one of an island: it is in lasting contact with others, or with what no closed form carries it on, and moves or rests there.
+    /// Whether the body is one of an island: it is in persistent contact with others, or with what no closed form carries it on, and moves or rests there.
     /// </summary>
     internal bool IsOfIsland => Law == MotionLaw.Constrained || (Law == MotionLaw.Resting && Supports.Count == 0);
 

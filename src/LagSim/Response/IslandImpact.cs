@@ -12,7 +12,7 @@ using LagSim.Trajectories;
 
 namespace LagSim.Response;
 
-/// <summary>Impacts that reach islands, or begin them: an impulse spreads over lasting contacts as far as it changes velocities.</summary>
+/// <summary>Impacts that reach islands, or begin them: an impulse spreads over persistent contacts as far as it changes velocities.</summary>
 internal sealed class IslandImpact(
     Scene scene, BodyTable bodies, TimelineStore timelines, RewindRequests rewinds, ContactGraph graph, ContactScale scale,
     ImpactProblem impact, Partners partners, MemberContacts memberContacts, CaptureRule capture, SlipFactory friction,
@@ -44,7 +44,7 @@ internal sealed class IslandImpact(
         return reaches;
     }
 
-    /// <summary>Solves the impact of the graph with the lasting contacts that it reaches.</summary>
+    /// <summary>Solves the impact of the graph with the persistent contacts that it reaches.</summary>
     /// <param name="popped">The impact's key.</param>
     /// <param name="residual">Seconds from the tick to the impact.</param>
     /// <param name="presses">
@@ -62,7 +62,7 @@ internal sealed class IslandImpact(
             return ImpactOutcome.NeedsRewind;
         }
 
-        if (presses && !(isNear && IsSqueezed()))
+        if (presses && !(isNear && IsJammed()))
         {
             for (int i = struckBodies; i < graph.BodyCount; i++)
             {
@@ -146,16 +146,16 @@ internal sealed class IslandImpact(
     }
 
     /// <summary>Whether what a hand strikes is pressed against a static surface.</summary>
-    private bool IsSqueezed()
+    private bool IsJammed()
     {
-        bool isSqueezed = false;
-        for (int i = graph.ContactCount; i < impact.Problem.ContactCount && !isSqueezed; i++)
+        bool isJammed = false;
+        for (int i = graph.ContactCount; i < impact.Problem.ContactCount && !isJammed; i++)
         {
             ref readonly SolverContact c = ref impact.Problem.Contacts[i];
-            isSqueezed = c.Impulse > 0 && c.Second == ContactPoint.Static;
+            isJammed = c.Impulse > 0 && c.Second == ContactPoint.Static;
         }
 
-        return isSqueezed;
+        return isJammed;
     }
 
     /// <summary>What a hand presses against something lasts, and what it presses it against too.</summary>
@@ -204,7 +204,7 @@ internal sealed class IslandImpact(
         return any;
     }
 
-    /// <summary>Adds the lasting contacts of a body whose velocity the impact has changed, and the bodies on their other sides.</summary>
+    /// <summary>Adds the persistent contacts of a body whose velocity the impact has changed, and the bodies on their other sides.</summary>
     private bool TryReachOn(int body, in EventKey key, double residual, bool presses)
     {
         int slot = graph.Slots[body];
@@ -220,13 +220,13 @@ internal sealed class IslandImpact(
         double left = end.SecondsSince(key.Time);
         for (int at = timelines.Carried.First(piece); at != TimelineStore.None; at = timelines.Carried.Next(at))
         {
-            LastingContact contact = timelines.Carried.At(at);
+            PersistentContact contact = timelines.Carried.At(at);
             if (!contact.Holds || (!presses && memberContacts.IsElastic(slot, contact)))
             {
                 continue; // that there is room to close in is not used up yet, or an impact tells when
             }
 
-            any |= contact.Surface != LastingContact.NoSurface
+            any |= contact.Surface != PersistentContact.NoSurface
                 ? TryReachSurface(body, contact.Surface, left)
                 : TryReachPartner(body, contact.Partner, key, residual, left);
         }

@@ -38,7 +38,7 @@ internal sealed class IslandImpactSegments(
             {
                 trajectories.Hands.GoOn(graph.Slots[i], key);
             }
-            else if (!paths.IsMember(before) && !HasLasting(i))
+            else if (!paths.IsMember(before) && !HasPersistent(i))
             {
                 alone.Open(i, key, residual);
             }
@@ -55,7 +55,7 @@ internal sealed class IslandImpactSegments(
         int before = timelines.Last(slot);
         if (paths.IsMember(before))
         {
-            bool hasChanged = HasLasting(body) || impact.HasChanged(body, graph.Velocities[body], graph.Spins[body]);
+            bool hasChanged = HasPersistent(body) || impact.HasChanged(body, graph.Velocities[body], graph.Spins[body]);
             members.GoOn(slot, key, position, graph.Velocities[body], graph.Spins[body], hasChanged);
         }
         else
@@ -67,15 +67,15 @@ internal sealed class IslandImpactSegments(
             timelines.BeginMember(timelines.Last(slot), key.Time, key.Time);
             for (int k = 0; k < supports.Count; k++)
             {
-                timelines.Carried.Add(timelines.Last(slot), new LastingContact(bodies.Id(slot), supports[k], holds: true));
+                timelines.Carried.Add(timelines.Last(slot), new PersistentContact(bodies.Id(slot), supports[k], holds: true));
             }
         }
 
-        AddLasting(body, timelines.Last(slot));
+        AddPersistent(body, timelines.Last(slot));
         timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
     }
 
-    private bool HasLasting(int body)
+    private bool HasPersistent(int body)
     {
         bool has = false;
         for (int i = 0; i < graph.ContactCount && !has; i++)
@@ -87,7 +87,7 @@ internal sealed class IslandImpactSegments(
     }
 
     /// <summary>A member's new segment carries the contacts of the impact that last from here on; those that bounced off without a loss hold no more.</summary>
-    private void AddLasting(int body, int piece)
+    private void AddPersistent(int body, int piece)
     {
         for (int i = 0; i < graph.ContactCount; i++)
         {
@@ -106,7 +106,7 @@ internal sealed class IslandImpactSegments(
             }
             else if (c.Lasts)
             {
-                timelines.Carried.Add(piece, new LastingContact(partner, isPair ? LastingContact.NoSurface : c.Surface, holds: true));
+                timelines.Carried.Add(piece, new PersistentContact(partner, isPair ? PersistentContact.NoSurface : c.Surface, holds: true));
             }
         }
     }

@@ -26,7 +26,7 @@ internal sealed class IsolatedImpact(
 
     /// <summary>
     /// What the general way makes of such an impact, to the bit, by the same rules. False, and nothing is done, if it is of others too, or
-    /// if the two part so slowly that lasting contact may come of it: then who else is in touch counts.
+    /// if the two part so slowly that persistent contact may come of it: then who else is in touch counts.
     /// </summary>
     internal bool TryHandle(int slot, in EventKey key)
     {

@@ -21,7 +21,7 @@ internal sealed class CutPaths
 
     private readonly List<Piece> pieces = new();
     private readonly List<int> order = new(); // of pieces that are put back
-    private readonly List<LastingContact> contacts = new(); // of pieces, one list after the other
+    private readonly List<PersistentContact> contacts = new(); // of pieces, one list after the other
     private readonly List<(int Slot, int Earliest)> bodies = new();
     private readonly Comparison<int> byKey;
     private int[] joined = new int[4];

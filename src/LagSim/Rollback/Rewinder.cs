@@ -178,7 +178,7 @@ internal sealed class Rewinder : IOpeningObserver
         else
         {
             reconvergence.GiveUp(); // what stood before is no longer to be told from what the rollback has made
-            report = new HealReport(SimTime.Min(report.From, time), report.To, report.News + 1, 0, report.SegmentsCut, report.Events);
+            report = new HealReport(SimTime.Min(report.From, time), report.To, report.LateEvents + 1, 0, report.SegmentsCut, report.Events);
         }
     }
 
@@ -188,7 +188,7 @@ internal sealed class Rewinder : IOpeningObserver
         rollback.End();
         timelines.Openings = null;
         Healed?.Invoke(new HealReport(
-            report.From, report.To, report.News, rollback.BodyCount, rollback.SegmentsCut - report.SegmentsCut,
+            report.From, report.To, report.LateEvents, rollback.BodyCount, rollback.SegmentsCut - report.SegmentsCut,
             progress.EventsProcessed - report.Events, met));
     }
 
@@ -240,7 +240,7 @@ internal sealed class Rewinder : IOpeningObserver
 
     /// <summary>Whether to simulate everybody again costs less than to ask at every step who is ahead, and what it did there.</summary>
     private bool IsNearlyFull() =>
-        rollback.LastOld >= 0 && rollback.BodyCount > Math.Max(FewHealed, bodies.Count / 8 * Math.Min(report.News, MostConesApart));
+        rollback.LastOld >= 0 && rollback.BodyCount > Math.Max(FewHealed, bodies.Count / 8 * Math.Min(report.LateEvents, MostConesApart));
 
     /// <summary>Cuts every timeline at the key, not at its time, and has everybody predicted again.</summary>
     private void RewindAll(in EventKey key)

@@ -86,7 +86,7 @@ public sealed class Force
     public static Force Magnus(string name, double coefficient) => new(ForceKind.Magnus, name) { Strength = coefficient };
 
     /// <summary>
-    /// An acceleration in C#, a program's own. It travels by name and author's version, never as code: a joiner that does not have it among
+    /// An acceleration in C#, a program's own. It travels by name and author's version, never as code: a client that does not have it among
     /// <c>SessionOptions.Accelerations</c> does not get in. A body under it never comes to rest, and its steps are <see cref="MotionLaw.DormandPrince54"/>'s or
     /// fixed.
     /// </summary>

@@ -25,7 +25,7 @@ public enum MotionLaw : byte
     Resting = 4,
 
     /// <summary>
-    /// In a hand, whose path it has, a cubic or parabola from knot to knot; nothing it meets changes that. Entered by a grab, never a scene's choice.
+    /// In a hand, whose path it has, a cubic or parabola from keyframe to keyframe; nothing it meets changes that. Entered by a grab, never a scene's choice.
     /// </summary>
     Held = 5,
 
@@ -54,7 +54,7 @@ public enum MotionLaw : byte
     Rolling = 9,
 
     /// <summary>
-    /// In lasting contact with other bodies, with a static sphere, or with planes under forces: an island of such bodies moves by steps of at most 1/64 s, a
+    /// In persistent contact with other bodies, with a static sphere, or with planes under forces: an island of such bodies moves by steps of at most 1/64 s, a
     /// cubic each, that are taken for all of it together. Entered from an impact, ends in flight, on planes, or at rest; never a scene's choice.
     /// </summary>
     Constrained = 10,

@@ -45,7 +45,7 @@ public sealed class Scene
     public double Resolution { get; }
 
     /// <summary>
-    /// How far, in metres, bodies in lasting contact may be from where an exact calculation has them: the one knob between speed and error in heaps. A millimetre,
+    /// How far, in metres, bodies in persistent contact may be from where an exact calculation has them: the one knob between speed and error in heaps. A millimetre,
     /// or a hundredth of <see cref="SmallestRadius"/> if that is less, unless the scene says otherwise.
     /// </summary>
     public double ContactTolerance { get; }

@@ -67,7 +67,7 @@ public sealed class SceneBuilder
     }
 
     /// <summary>
-    /// Sets how far, in metres, bodies in lasting contact may be from where an exact calculation has them, 1e-9 to 0.1. Default 1e-3, or a hundredth of the smallest
+    /// Sets how far, in metres, bodies in persistent contact may be from where an exact calculation has them, 1e-9 to 0.1. Default 1e-3, or a hundredth of the smallest
     /// radius if that is less: nobody sees it, and a heap of a game is far faster than real time.
     /// </summary>
     /// <remarks>

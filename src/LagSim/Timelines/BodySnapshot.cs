@@ -55,7 +55,7 @@ public readonly struct BodySnapshot
         in Vector3D spinRate = default,
         SimTime centre = default,
         SimTime stillSince = default,
-        ReadOnlySpan<LastingContact> contacts = default)
+        ReadOnlySpan<PersistentContact> contacts = default)
     {
         if (supports.Length > MaxSupports)
         {
@@ -78,7 +78,7 @@ public readonly struct BodySnapshot
     }
 
     internal BodySnapshot(BodyId id, in BodySpec spec, in EventKey opened, in MotionSegment segment, in DenseOutput dense, in Hold hold, in Spin spin, SimTime centre,
-        SimTime stillSince, LastingContact[] contacts)
+        SimTime stillSince, PersistentContact[] contacts)
     {
         Id = id;
         Spec = spec;
@@ -129,9 +129,9 @@ public readonly struct BodySnapshot
     public SimTime StillSince { get; }
 
     /// <summary>Of a body of an island the contacts that it carries from step to step; else none.</summary>
-    public ReadOnlySpan<LastingContact> Contacts => ContactArray;
+    public ReadOnlySpan<PersistentContact> Contacts => ContactArray;
 
-    internal LastingContact[] ContactArray { get; }
+    internal PersistentContact[] ContactArray { get; }
 
     /// <summary>Of an integrated step or a held path the coefficient of t^3, in m/s^3; else zero.</summary>
     public Vector3D Cubic => Dense.Cubic;

@@ -4,14 +4,14 @@ using LagSim.Time;
 
 namespace LagSim.Timelines;
 
-/// <summary>What the segments of members of islands carry from step to step, besides their paths: lasting contacts, and the instants of their step.</summary>
+/// <summary>What the segments of members of islands carry from step to step, besides their paths: persistent contacts, and the instants of their step.</summary>
 /// <remarks>By segment; allocates only once there is an island, and when more is carried than ever before. Not thread-safe.</remarks>
 internal sealed class CarriedContacts
 {
     private const int None = TimelineStore.None;
 
     private Member[] members = Array.Empty<Member>(); // by segment; only once there is an island
-    private LastingContact[] contacts = Array.Empty<LastingContact>(); // lists, linked
+    private PersistentContact[] contacts = Array.Empty<PersistentContact>(); // lists, linked
     private int[] nextContact = Array.Empty<int>();
     private int freeContact = None;
     private int usedContacts;
@@ -27,13 +27,13 @@ internal sealed class CarriedContacts
 
     internal int Next(int contact) => nextContact[contact];
 
-    internal ref readonly LastingContact At(int contact) => ref contacts[contact];
+    internal ref readonly PersistentContact At(int contact) => ref contacts[contact];
 
     /// <summary>The contact of a member's segment with a body, or <see cref="None"/>.</summary>
     internal int With(int segment, BodyId partner)
     {
         int at = First(segment);
-        while (at != None && (contacts[at].Surface != LastingContact.NoSurface || contacts[at].Partner != partner))
+        while (at != None && (contacts[at].Surface != PersistentContact.NoSurface || contacts[at].Partner != partner))
         {
             at = nextContact[at];
         }
@@ -54,7 +54,7 @@ internal sealed class CarriedContacts
     }
 
     /// <summary>A copy of the contacts that a segment carries.</summary>
-    internal LastingContact[] CopyOf(int segment)
+    internal PersistentContact[] CopyOf(int segment)
     {
         int count = 0;
         for (int at = members[segment].First; at != None; at = nextContact[at])
@@ -62,7 +62,7 @@ internal sealed class CarriedContacts
             count++;
         }
 
-        LastingContact[] copy = count == 0 ? Array.Empty<LastingContact>() : new LastingContact[count];
+        PersistentContact[] copy = count == 0 ? Array.Empty<PersistentContact>() : new PersistentContact[count];
         for (int at = members[segment].First, n = 0; at != None; at = nextContact[at])
         {
             copy[n++] = contacts[at];
@@ -87,7 +87,7 @@ internal sealed class CarriedContacts
     }
 
     /// <summary>Adds a contact to the list of the segment begun.</summary>
-    internal void Add(int segment, in LastingContact contact)
+    internal void Add(int segment, in PersistentContact contact)
     {
         int at = freeContact;
         if (at != None)
@@ -123,8 +123,8 @@ internal sealed class CarriedContacts
     /// <summary>Whether a contact of the segment begun holds.</summary>
     internal void Hold(int contact, bool holds)
     {
-        ref LastingContact c = ref contacts[contact];
-        c = new LastingContact(c.Partner, c.Surface, holds, c.Push, c.Turn);
+        ref PersistentContact c = ref contacts[contact];
+        c = new PersistentContact(c.Partner, c.Surface, holds, c.Push, c.Turn);
     }
 
     /// <summary>Makes room for as many segments as the store has, if any carries something.</summary>

@@ -5,7 +5,7 @@ using LagSim.Time;
 namespace LagSim.Timelines;
 
 /// <summary>The external events of every body inside the window, in canonical order, so that a rolled-back body meets them again.</summary>
-/// <remarks>Looks from the newest on, since news is mostly of what happened last.</remarks>
+/// <remarks>Looks from the newest on, since most late events are about what happened last.</remarks>
 internal sealed class EventLog
 {
     internal const int None = -1;

@@ -27,7 +27,7 @@ internal enum HealingFault
     /// <summary>Timelines are cut at the time of a key, not at the key.</summary>
     CutsByTime = 16,
 
-    /// <summary>Who has come to rest meanwhile is left there by news of before.</summary>
+    /// <summary>Who has come to rest meanwhile is left there by an event from before.</summary>
     LeavesWhoRests = 32,
 
     /// <summary>A heal ends where the bodies are in their old places again, whichever way they move.</summary>

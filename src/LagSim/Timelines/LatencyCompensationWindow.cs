@@ -10,7 +10,7 @@ namespace LagSim.Timelines;
 /// beyond now. What is older is committed.
 /// </summary>
 /// <remarks>
-/// <para>Immutable, safe on any thread. The history is the session's, and so the host's: whether an event is too late is judged once, for all. The look-ahead
+/// <para>Immutable, safe on any thread. The history is the session's, and so the host's: whether an event is too late is validated once, for all. The look-ahead
 /// and the lags are each peer's own, and no bit of the world depends on the look-ahead.</para>
 /// <para>Memory: the completed events are one segment for each thing that happened to a body, kept for the history: bodies × (segments a second × history + 1)
 /// × 184 bytes, and at most a quarter more. Once any path of the world is of a degree above two (an integrator's, a closed form's
@@ -94,7 +94,7 @@ public sealed class LatencyCompensationWindow
     public LatencyCompensationWindow WithLookAhead(SimDuration lookAhead) => new(History, lookAhead, lags);
 
     /// <summary>The same window with a lag for what this peer does of a kind.</summary>
-    /// <param name="kind">Of which kind. Grab, knot and release of a hand should have the same, or they overtake each other.</param>
+    /// <param name="kind">Of which kind. Grab, keyframe and release of a hand should have the same, or they overtake each other.</param>
     /// <param name="lag">So much later than it is done it is to happen, here as elsewhere; from zero, the default, to the look-ahead, and no more than half the
     /// history. Above the delay of the links nobody ever has to heal it, and whoever did it sees it that much later.</param>
     /// <exception cref="ArgumentOutOfRangeException">The kind is none of a player's, or the lag is out of its range.</exception>

@@ -27,7 +27,7 @@ internal sealed partial class TimelineStore
         {
             hash.Add((ulong)holds[segment].Peer);
             hash.Add(holds[segment].Offset);
-            hash.Add(holds[segment].Knot - origin);
+            hash.Add(holds[segment].Keyframe - origin);
             hash.Add(motion.Acceleration);
             hash.Add(dense[segment].Cubic);
         }

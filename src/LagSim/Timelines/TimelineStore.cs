@@ -13,7 +13,7 @@ namespace LagSim.Timelines;
 /// when there is no room left: to look for them one by one, each long out of the cache, cost a quarter of an impact in a dense fluid. The arrays grow if that
 /// frees less than one part in 32, by a sixty-fourth once they are large, or to what is foretold: so a world takes little more than its window needs.</para>
 /// <para>It keeps a running hash of all events: the sum (modulo 2^64) of one hash a segment, so that appending and cutting are O(1) and the
-/// order in which the news came leaves no trace.</para>
+/// order in which the events came leaves no trace.</para>
 /// </remarks>
 internal sealed partial class TimelineStore
 {

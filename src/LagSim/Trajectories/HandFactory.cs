@@ -9,7 +9,7 @@ namespace LagSim.Trajectories;
 /// <summary>Opens the paths of held bodies: a hand takes one, tells now and then where it is, and lets go.</summary>
 /// <remarks>
 /// While it is held a body's path is the hand's: nothing it meets changes it, and it pushes others as if its mass were infinite. Static
-/// geometry does not stop a hand, and two held bodies pass through each other. Where it is at t depends on the grab and the knots up to t
+/// geometry does not stop a hand, and two held bodies pass through each other. Where it is at t depends on the grab and the keyframes up to t
 /// alone.
 /// </remarks>
 internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits, FlightFactory flights)
@@ -26,7 +26,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// Does what a hand does to a body that is there. To grab what is held has no effect, nor has a knot or a release of a hand that does
+    /// Does what a hand does to a body that is there. To grab what is held has no effect, nor has a keyframe or a release of a hand that does
     /// not hold it, nor what would move it faster than may be given. An event that comes late may change that.
     /// </summary>
     internal void Act(int slot, in EventKey key, in ExternalEvent external)
@@ -38,10 +38,10 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         Vector3D velocity = timelines.Segment(last).VelocityAt(seconds, dense);
         if (external.Kind == EventKind.Grab && !paths.IsHeld(last))
         {
-            // Until the first knot the hand is taken to be at rest where it took the body.
+            // Until the first keyframe the hand is taken to be at rest where it took the body.
             Converge(slot, key, position, velocity, position, Vector3D.Zero, new Hold(external.Peer, external.Position, key.Time));
         }
-        else if (external.Kind == EventKind.HoldKnot && IsHolding(slot, external.Peer))
+        else if (external.Kind == EventKind.HoldKeyframe && IsHolding(slot, external.Peer))
         {
             Vector3D offset = timelines.HoldOf(last).Offset;
             Converge(slot, key, position, velocity, external.Position - offset, external.Velocity, new Hold(external.Peer, offset, key.Time));
@@ -53,7 +53,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// Converges on the path that a knot foretells. A body that is on it already, as far as the scene resolves, follows it: so a hand that
+    /// Converges on the path that a keyframe foretells. A body that is on it already, as far as the scene resolves, follows it: so a hand that
     /// only says that it keeps still moves nothing.
     /// </summary>
     private void Converge(
@@ -77,9 +77,9 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     {
         // Slower than this it would not get as far as the scene resolves: what rounding leaves of a convergence on a hand that keeps still.
         bool isStill = velocity.Length * HandPath.Stops.ToSeconds() < scene.Resolution;
-        MotionSegment path = isStill || key.Time >= hold.Knot + HandPath.Stops
-            ? HandPath.Still(key.Time, hold.Knot, position)
-            : HandPath.Brake(key.Time, hold.Knot, position, velocity);
+        MotionSegment path = isStill || key.Time >= hold.Keyframe + HandPath.Stops
+            ? HandPath.Still(key.Time, hold.Keyframe, position)
+            : HandPath.Brake(key.Time, hold.Keyframe, position, velocity);
         limits.Check(bodies.Id(slot), key.Time, position, velocity);
         timelines.Append(slot, bodies.Id(slot), key, path, default, hold);
     }
@@ -94,7 +94,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         double seconds = paths.SecondsInto(last, key.Time);
         DenseOutput dense = timelines.Dense(last);
         Vector3D position = timelines.Segment(last).PositionAt(seconds, dense);
-        if (key.Time >= hold.Knot + HandPath.Lasts)
+        if (key.Time >= hold.Keyframe + HandPath.Lasts)
         {
             flights.Open(slot, key, PutOut(slot, position), Vector3D.Zero);
         }

@@ -40,7 +40,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
         ref readonly BodySpec spec = ref bodies.Spec(slot);
         Vector3D n = surfaces.Plane(supports[0]).Normal;
         double pressing = -Vector3D.Dot(n, scene.Gravity), mu = On(slot, supports[0]);
-        Rubbing at = new()
+        SlidingContact at = new()
         {
             Position = position,
             Velocity = velocity,
@@ -82,7 +82,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>Opens a piece of slipping in one direction and turning in another.</summary>
-    private void OpenSlipping(int slot, in EventKey key, in Rubbing at, in Vector3D slip, Vector3D along, Vector3D over)
+    private void OpenSlipping(int slot, in EventKey key, in SlidingContact at, in Vector3D slip, Vector3D along, Vector3D over)
     {
         Vector3D push = at.Pull + (over * (2.5 * at.Resistance)), rate = push - (along * (3.5 * at.Grip)), drive = along * (2.5 * at.Grip);
         SimTime end = SimTime.Min(EndOfTurning(key.Time, slip, along, push, Vector3D.Dot(along, rate)), EndOfPivoting(key.Time, at.Pivot, at.Slowing));
@@ -102,7 +102,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>Opens a piece of staying where it is, turning on the spot or not, or bouncing by less than counts for so long.</summary>
-    private void OpenStill(int slot, in EventKey key, in Rubbing at, SimDuration left)
+    private void OpenStill(int slot, in EventKey key, in SlidingContact at, SimDuration left)
     {
         SimTime still = EndOfPivoting(key.Time, at.Pivot, at.Slowing);
         bool turns = at.Slowing != Vector3D.Zero;
@@ -124,7 +124,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>Opens a piece of rolling in one direction.</summary>
-    private void OpenRolling(int slot, in EventKey key, in Rubbing at, in Vector3D start, Vector3D heading)
+    private void OpenRolling(int slot, in EventKey key, in SlidingContact at, in Vector3D start, Vector3D heading)
     {
         Vector3D change = (at.Pull - (heading * at.Resistance)) * (5.0 / 7);
         SimTime stop = SimTime.Min(EndOfTurning(key.Time, start, heading, at.Pull, Vector3D.Dot(heading, change)), EndOfPivoting(key.Time, at.Pivot, at.Slowing));
@@ -138,7 +138,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>A sphere on a plane with friction.</summary>
-    private struct Rubbing
+    private struct SlidingContact
     {
         internal Vector3D Position;
         internal Vector3D Velocity;

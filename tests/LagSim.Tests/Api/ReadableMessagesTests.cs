@@ -33,7 +33,7 @@ public sealed class ReadableMessagesTests
         ["window look-ahead"] = (() => _ = new LatencyCompensationWindow(Span(1), Span(7.3)), "7.3s"),
         ["window lag"] = (() => new LatencyCompensationWindow(Span(1), Span(0.1)).WithLocalLag(EventKind.Impulse, Span(0.3)), "0.3s"),
         ["live look-ahead"] = (() => _ = new LiveWorld(Drop(1, 1), new SimulationOptions(history: Span(1)), Span(1.1)), "1.1s"),
-        ["live picture"] = (() => _ = new LiveWorld(Drop(1, 1), new SimulationOptions(history: Span(1)), picturePast: Span(-0.1)), "-0.1s"),
+        ["live picture"] = (() => _ = new LiveWorld(Drop(1, 1), new SimulationOptions(history: Span(1)), renderedPast: Span(-0.1)), "-0.1s"),
         ["live history"] = (() => _ = new LiveWorld(Drop(1, 1), new SimulationOptions(history: Span(0.01)), Span(0.1)), "0.01s"),
         ["committed"] = (() => Commit(0.7, 0.3), "0.3s"),
         ["span of display"] = (() => _ = new DisplayOptions(fastest: Span(0.3), slowest: Span(0.2)), "0.2s"),

@@ -33,7 +33,7 @@ internal static class Layers
         [SessionWords],
         ["LagSim.Net/Sessions/Links"],
         ["LagSim.Net/Sessions/Core"],
-        ["LagSim.Net/Sessions/Hosts", "LagSim.Net/Sessions/Joiners"],
+        ["LagSim.Net/Sessions/Hosts", "LagSim.Net/Sessions/Clients"],
         ["LagSim.Net/Sessions"],
         ["LagSim.Net/Recordings", "LagSim.Net.LiteNetLib"],
 

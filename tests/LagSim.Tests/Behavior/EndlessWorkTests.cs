@@ -61,7 +61,7 @@ public sealed class EndlessWorkTests
         host.Start();
         Assert.True(isAtWork.Wait(TimeSpan.FromSeconds(30), TestContext.Current.CancellationToken));
         host.Dispose();
-        Assert.NotNull(host.Picture); // a step that is not interrupted goes on until the memory it may have is full, and has faulted
+        Assert.NotNull(host.RenderSnapshot); // a step that is not interrupted goes on until the memory it may have is full, and has faulted
     }
 
     [Fact]

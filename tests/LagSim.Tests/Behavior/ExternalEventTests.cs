@@ -37,22 +37,22 @@ public sealed class ExternalEventTests
     {
         ExternalEvent push = ExternalEvent.Impulse(At(1), 1, 1, First, V(0, 2)), shot = ExternalEvent.Impulse(At(1.5), 1, 2, First, V(0, 1e13));
         ExternalEvent gone = ExternalEvent.SetVelocity(At(1.5), 2, 1, Guest, V(1)), held = ExternalEvent.SetVelocity(At(2.5), 2, 2, First, V(1));
-        ExternalEvent grab = ExternalEvent.Grab(At(2), 1, 3, First), knot = ExternalEvent.HoldKnot(At(2.25), 1, 5, First, V(1, 2), V(0));
+        ExternalEvent grab = ExternalEvent.Grab(At(2), 1, 3, First), keyframe = ExternalEvent.HoldKeyframe(At(2.25), 1, 5, First, V(1, 2), V(0));
         ExternalEvent drop = ExternalEvent.Release(At(3), 2, 3, First), removal = ExternalEvent.Remove(At(4), 1, 4, First);
         Simulation simulation = new(Space, KeepAll);
         Assert.Equal(SubmitResult.Queued, simulation.Submit(push));
         Assert.Equal(SubmitResult.Queued, simulation.Submit(shot));
         Assert.False(simulation.TookEffect(push)); // its time has not come
-        foreach (ExternalEvent external in new[] { gone, held, grab, knot, drop, removal })
+        foreach (ExternalEvent external in new[] { gone, held, grab, keyframe, drop, removal })
         {
             simulation.Submit(external);
         }
 
         simulation.AdvanceTo(At(5));
-        Assert.Equal([true, false, false, false, true, true, false, true], new[] { push, shot, gone, held, grab, knot, drop, removal }.Select(e => simulation.TookEffect(e)));
+        Assert.Equal([true, false, false, false, true, true, false, true], new[] { push, shot, gone, held, grab, keyframe, drop, removal }.Select(e => simulation.TookEffect(e)));
         Assert.Equal(V(1, 1), Read(simulation, First, 1.6).Velocity); // what was too much has not been clamped
 
-        // Later news can change the answer.
+        // A later event can change the answer.
         simulation.Submit(ExternalEvent.Spawn(At(0.5), 1, 9, Ball(), V(0, 5), V(0)));
         simulation.AdvanceTo(At(5));
         Assert.False(simulation.TookEffect(gone)); // that is another body
@@ -138,10 +138,10 @@ public sealed class ExternalEventTests
     }
 
     [Fact]
-    public void Deeds_ToABodyThatIsNotThere_DoNothingUntilItsSpawnArrives()
+    public void ScriptedActions_ToABodyThatIsNotThere_DoNothingUntilItsSpawnArrives()
     {
-        ExternalEvent deed = ExternalEvent.SetVelocity(At(1), 2, 1, Guest, V(0, 0, -4));
-        Simulation simulation = With(Space, 2, deed);
+        ExternalEvent scripted = ExternalEvent.SetVelocity(At(1), 2, 1, Guest, V(0, 0, -4));
+        Simulation simulation = With(Space, 2, scripted);
         Simulation untouched = Run(Space, 2);
         Assert.Equal(untouched.StateHash(At(2)), simulation.StateHash(At(2)));
         Assert.Equal(untouched.EventHash(At(2)), simulation.EventHash(At(2)));
@@ -149,7 +149,7 @@ public sealed class ExternalEventTests
         Assert.Equal(SubmitResult.RolledBack, simulation.Submit(SpawnAt(0.5)));
         simulation.AdvanceTo(At(2));
         Assert.Equal(V(0, 5, 0.5 - 4), Read(simulation, Guest, 2).Position);
-        Simulation onTime = With(Space, 2, SpawnAt(0.5), deed);
+        Simulation onTime = With(Space, 2, SpawnAt(0.5), scripted);
         Assert.Equal(onTime.StateHash(At(2)), simulation.StateHash(At(2)));
         Assert.Equal(onTime.EventHash(At(2)), simulation.EventHash(At(2)));
     }
@@ -157,11 +157,11 @@ public sealed class ExternalEventTests
     [Fact]
     public void Retract_OfAnAppliedEvent_IsAsIfItHadNeverBeen()
     {
-        ExternalEvent deed = ExternalEvent.SetVelocity(At(1), 2, 1, First, V(0, 1));
-        Simulation simulation = With(Space, 2, deed);
+        ExternalEvent scripted = ExternalEvent.SetVelocity(At(1), 2, 1, First, V(0, 1));
+        Simulation simulation = With(Space, 2, scripted);
         Assert.NotEqual(Run(Space, 2).StateHash(At(2)), simulation.StateHash(At(2)));
-        Assert.True(simulation.Retract(deed));
-        Assert.False(simulation.Retract(deed));
+        Assert.True(simulation.Retract(scripted));
+        Assert.False(simulation.Retract(scripted));
         Assert.Equal(Run(Space, 2).StateHash(At(2)), simulation.StateHash(At(2)));
         Assert.Equal(Run(Space, 2).EventHash(At(2)), simulation.EventHash(At(2)));
     }
@@ -225,16 +225,16 @@ public sealed class ExternalEventTests
     [Fact]
     public void Submit_TheSameEventAgain_IsADuplicateQueuedOrApplied()
     {
-        ExternalEvent deed = ExternalEvent.Impulse(At(1), 2, 1, First, V(0, 2));
+        ExternalEvent scripted = ExternalEvent.Impulse(At(1), 2, 1, First, V(0, 2));
         Simulation simulation = new(Space, KeepAll);
-        Assert.Equal(SubmitResult.Queued, simulation.Submit(deed));
-        Assert.Equal(SubmitResult.Duplicate, simulation.Submit(deed));
+        Assert.Equal(SubmitResult.Queued, simulation.Submit(scripted));
+        Assert.Equal(SubmitResult.Duplicate, simulation.Submit(scripted));
         simulation.AdvanceTo(At(2));
-        Assert.Equal(SubmitResult.Duplicate, simulation.Submit(deed));
+        Assert.Equal(SubmitResult.Duplicate, simulation.Submit(scripted));
         Assert.Equal(V(1, 1), Read(simulation, First, 2).Velocity);
         Assert.Equal(0, simulation.Rollbacks);
 
-        // The control: another sequence number is another deed.
+        // The control: another sequence number is another scripted action.
         Assert.Equal(SubmitResult.RolledBack, simulation.Submit(ExternalEvent.Impulse(At(1), 2, 2, First, V(0, 2))));
         simulation.AdvanceTo(At(2));
         Assert.Equal(V(1, 2), Read(simulation, First, 2).Velocity);

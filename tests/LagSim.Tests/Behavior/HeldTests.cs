@@ -15,7 +15,7 @@ namespace LagSim.Tests.Behavior;
 public sealed class HeldTests
 {
     [Fact]
-    public void Path_OfRandomKnots_HasNoJumpAndConvergesOnWhatTheLastKnotForetells()
+    public void Path_OfRandomKeyframes_HasNoJumpAndConvergesOnWhatTheLastKeyframeForetells()
     {
         for (int seed = 0; seed < 60; seed++)
         {
@@ -26,7 +26,7 @@ public sealed class HeldTests
             for (uint n = 0; n < 20; n++)
             {
                 time += SimDuration.FromSeconds(random.NextDouble() * (n % 3 == 0 ? 0.4 : 0.06));
-                events.Add(ExternalEvent.HoldKnot(time, 1, n + 2, First, Draw(random, 1), Draw(random, 3)));
+                events.Add(ExternalEvent.HoldKeyframe(time, 1, n + 2, First, Draw(random, 1), Draw(random, 3)));
             }
 
             ExternalEvent last = events[^1];
@@ -64,12 +64,12 @@ public sealed class HeldTests
     }
 
     [Fact]
-    public void Path_OfAHandThatComesToRest_IsOneStillPieceAKnot()
+    public void Path_OfAHandThatComesToRest_IsOneStillPieceAKeyframe()
     {
         List<ExternalEvent> events = [ExternalEvent.Grab(At(0.1), 1, 1, First)];
         for (uint n = 1; n <= 10; n++)
         {
-            events.Add(ExternalEvent.HoldKnot(At(0.1 + (0.4 * n)), 1, n + 1, First, V(0.1, 0.7, 1e3), V(0)));
+            events.Add(ExternalEvent.HoldKeyframe(At(0.1 + (0.4 * n)), 1, n + 1, First, V(0.1, 0.7, 1e3), V(0)));
         }
 
         Simulation simulation = With(Lonely(), 6, events);
@@ -87,7 +87,7 @@ public sealed class HeldTests
     {
         // From 0.15 s on the path is x = 3 (s - s^2 / 0.6) exactly; the balls touch where that is 0.25.
         Scene scene = new SceneBuilder("strike").WithGravity(Floating).AddBody("held", Ball(0.5, 1e-3, e), V(0)).AddBody("free", Ball(0.5, 1e3, e), V(1.25)).Build();
-        ExternalEvent[] events = [ExternalEvent.Grab(At(0.1), 1, 1, First), ExternalEvent.HoldKnot(At(0.1), 1, 2, First, V(0), V(3))];
+        ExternalEvent[] events = [ExternalEvent.Grab(At(0.1), 1, 1, First), ExternalEvent.HoldKeyframe(At(0.1), 1, 2, First, V(0), V(3))];
         Simulation simulation = With(scene, 1, events);
         TimelineEntry impact = Assert.Single(Impacts(simulation, Second));
         double s = 0.3 - Math.Sqrt(0.09 - (0.25 * 0.6 / 3));
@@ -111,7 +111,7 @@ public sealed class HeldTests
             Scene scene = new SceneBuilder("cubic").AddBody("held", Ball(0.5, 1, 0.8), V(0)).AddBody("free", Ball(0.5, 1, 0.8), V(1.05, 0.3 * random.NextDouble()), V(-random.NextDouble())).Build();
             ExternalEvent[] events =
             [
-                ExternalEvent.Grab(At(0.01), 1, 1, First), ExternalEvent.HoldKnot(At(0.02), 1, 2, First, V(0.2, 0.1) + Draw(random, 0.1), Draw(random, 4)),
+                ExternalEvent.Grab(At(0.01), 1, 1, First), ExternalEvent.HoldKeyframe(At(0.02), 1, 2, First, V(0.2, 0.1) + Draw(random, 0.1), Draw(random, 4)),
             ];
             Simulation simulation = With(scene, 0.07, events);
             if (Impacts(simulation, Second).Count == 0 || Impacts(simulation, Second)[0].Key.Time < At(0.02))
@@ -146,7 +146,7 @@ public sealed class HeldTests
         })
         {
             Simulation simulation = With(scene, 2, [
-                ExternalEvent.Grab(At(0.1), 1, 1, First), ExternalEvent.HoldKnot(At(0.1), 1, 2, First, to, V(0)), ExternalEvent.Release(At(0.5), 1, 3, First)]);
+                ExternalEvent.Grab(At(0.1), 1, 1, First), ExternalEvent.HoldKeyframe(At(0.1), 1, 2, First, to, V(0)), ExternalEvent.Release(At(0.5), 1, 3, First)]);
             Near(to, Read(simulation, First, 0.4).Position, 1e-12);
             Near(expected, Read(simulation, First, At(0.5)).Position, 1e-9);
             Assert.True(simulation.EventsProcessed < 5_000, $"{simulation.EventsProcessed}");
@@ -159,7 +159,7 @@ public sealed class HeldTests
         Scene scene = new SceneBuilder("two").WithGravity(Floating).AddBody("one", Ball(), V(-2)).AddBody("other", Ball(), V(2)).Build();
         Simulation simulation = With(scene, 1, [
             ExternalEvent.Grab(At(0.1), 1, 1, First), ExternalEvent.Grab(At(0.1), 2, 1, Second),
-            ExternalEvent.HoldKnot(At(0.1), 1, 2, First, V(2, 0.1), V(0)), ExternalEvent.HoldKnot(At(0.1), 2, 2, Second, V(-2), V(0))]);
+            ExternalEvent.HoldKeyframe(At(0.1), 1, 2, First, V(2, 0.1), V(0)), ExternalEvent.HoldKeyframe(At(0.1), 2, 2, Second, V(-2), V(0))]);
         Assert.Empty(Impacts(simulation, First));
         Near(V(2, 0.1), Read(simulation, First, 0.5).Position, 1e-12);
     }
@@ -190,7 +190,7 @@ public sealed class HeldTests
             List<ExternalEvent> events = [ExternalEvent.Grab(At(0.1), 1, 1, held)];
             for (uint n = 0; n < 20; n++)
             {
-                events.Add(ExternalEvent.HoldKnot(At(0.1 + (0.1 * n)), 1, n + 2, held, V(-1 - (0.5 * balls) + (0.2 * n), 0.25), V(2)));
+                events.Add(ExternalEvent.HoldKeyframe(At(0.1 + (0.1 * n)), 1, n + 2, held, V(-1 - (0.5 * balls) + (0.2 * n), 0.25), V(2)));
             }
 
             Simulation simulation = With(scene, 2.1, events);
@@ -216,7 +216,7 @@ public sealed class HeldTests
         List<ExternalEvent> events = [ExternalEvent.Grab(At(0), 1, 1, Second)];
         for (uint n = 0; n < 20; n++)
         {
-            events.Add(ExternalEvent.HoldKnot(At(0.1 * n), 1, n + 2, Second, V(0, 0.75 - (speed * 0.1 * n)), V(0, -speed)));
+            events.Add(ExternalEvent.HoldKeyframe(At(0.1 * n), 1, n + 2, Second, V(0, 0.75 - (speed * 0.1 * n)), V(0, -speed)));
         }
 
         Simulation simulation = With(scene, 2, events);
@@ -237,7 +237,7 @@ public sealed class HeldTests
         List<ExternalEvent> events = [ExternalEvent.Grab(At(0.1), 1, 1, Third)];
         for (uint n = 0; n < 8; n++)
         {
-            events.Add(ExternalEvent.HoldKnot(At(0.1 + (0.05 * n)), 1, n + 2, Third, V(1, 1.2) + (way * Math.Min(1.2, speed * 0.05 * n)), way * speed));
+            events.Add(ExternalEvent.HoldKeyframe(At(0.1 + (0.05 * n)), 1, n + 2, Third, V(1, 1.2) + (way * Math.Min(1.2, speed * 0.05 * n)), way * speed));
         }
 
         Assert.True(IsDone(ignoresIslands: false));
@@ -282,7 +282,7 @@ public sealed class HeldTests
             for (uint n = 0; n < 10; n++)
             {
                 simulation.Submit(n == 0 ? ExternalEvent.Grab(At(0), 1, 1, Second)
-                    : ExternalEvent.HoldKnot(At(0.1 * n), 1, n + 1, Second, (normal * 0.5) + (lid * 1.00001), V(0)));
+                    : ExternalEvent.HoldKeyframe(At(0.1 * n), 1, n + 1, Second, (normal * 0.5) + (lid * 1.00001), V(0)));
             }
 
             long budget = 5_000;
@@ -301,9 +301,9 @@ public sealed class HeldTests
         List<ExternalEvent> events = [ExternalEvent.Grab(At(0), 1, 1, First), ExternalEvent.Grab(At(0), 2, 1, Third), ExternalEvent.Grab(At(0), 3, 1, above)];
         for (uint n = 0; n < 10; n++)
         {
-            events.Add(ExternalEvent.HoldKnot(At(0.1 * n), 1, n + 2, First, V(-1 + (0.1 * n), 3 - (0.5 * 9.81 * 0.01 * n * n)), V(1, -0.981 * n)));
-            events.Add(ExternalEvent.HoldKnot(At(0.1 * n), 2, n + 2, Third, V(1 - (0.1 * n), 3 - (0.5 * 9.81 * 0.01 * n * n)), V(-1, -0.981 * n)));
-            events.Add(ExternalEvent.HoldKnot(At(0.1 * n), 3, n + 2, above, V(5, 1.25 - (0.1 * n), 20), V(0, -1)));
+            events.Add(ExternalEvent.HoldKeyframe(At(0.1 * n), 1, n + 2, First, V(-1 + (0.1 * n), 3 - (0.5 * 9.81 * 0.01 * n * n)), V(1, -0.981 * n)));
+            events.Add(ExternalEvent.HoldKeyframe(At(0.1 * n), 2, n + 2, Third, V(1 - (0.1 * n), 3 - (0.5 * 9.81 * 0.01 * n * n)), V(-1, -0.981 * n)));
+            events.Add(ExternalEvent.HoldKeyframe(At(0.1 * n), 3, n + 2, above, V(5, 1.25 - (0.1 * n), 20), V(0, -1)));
         }
 
         Simulation simulation = With(scene, 1.5, events);
@@ -337,7 +337,7 @@ public sealed class HeldTests
             for (uint n = 1; n < 20; n++)
             {
                 double up = n < 5 ? 0 : 0.1 * (n - 5);
-                events.Add(ExternalEvent.HoldKnot(At(0.1 * n), 1, (uint)(100 * i) + n + 1, BodyId.OfScene(i), cup[i] + V(0.1 * up, up), n < 5 ? V(0) : V(0.1, 1)));
+                events.Add(ExternalEvent.HoldKeyframe(At(0.1 * n), 1, (uint)(100 * i) + n + 1, BodyId.OfScene(i), cup[i] + V(0.1 * up, up), n < 5 ? V(0) : V(0.1, 1)));
             }
         }
 
@@ -363,7 +363,7 @@ public sealed class HeldTests
         List<ExternalEvent> events = [ExternalEvent.Grab(At(0), 1, 1, First)];
         for (uint n = 1; n < 15; n++)
         {
-            events.Add(ExternalEvent.HoldKnot(At(0.1 * n), 1, n + 1, First, V(0.05 * (n % 2), 0.03 * n), V(0, 0.3)));
+            events.Add(ExternalEvent.HoldKeyframe(At(0.1 * n), 1, n + 1, First, V(0.05 * (n % 2), 0.03 * n), V(0, 0.3)));
         }
 
         Simulation simulation = With(builder.Build(), 1.5, events);
@@ -381,7 +381,7 @@ public sealed class HeldTests
             Assert.True(simulation.TryReadHold(First, At(0.7), out Hold hold));
             Assert.Equal(new Hold(1, V(0), At(0.5)), hold);
 
-            // Late news that the first never was, or had let go before.
+            // Late events: that the first never was, or had let go before.
             simulation.Retract(one);
             simulation.AdvanceTo(At(1));
             Assert.True(simulation.TryReadHold(First, At(0.7), out hold));
@@ -393,13 +393,13 @@ public sealed class HeldTests
     }
 
     [Fact]
-    public void Deeds_OfThoseWhoDoNotHold_HaveNoEffect()
+    public void ScriptedActions_OfThoseWhoDoNotHold_HaveNoEffect()
     {
-        ExternalEvent[] hold = [ExternalEvent.Grab(At(0.25), 1, 1, First), ExternalEvent.HoldKnot(At(0.3), 1, 2, First, V(1), V(1, 2))];
+        ExternalEvent[] hold = [ExternalEvent.Grab(At(0.25), 1, 1, First), ExternalEvent.HoldKeyframe(At(0.3), 1, 2, First, V(1), V(1, 2))];
         Simulation expected = With(Lonely(), 1.25, hold);
         ExternalEvent[] vain =
         [
-            ExternalEvent.HoldKnot(At(0.1), 2, 1, First, V(5), V(5)), ExternalEvent.Release(At(0.1), 1, 11, First, V(7)), ExternalEvent.HoldKnot(At(0.4), 2, 3, First, V(5), V(5)),
+            ExternalEvent.HoldKeyframe(At(0.1), 2, 1, First, V(5), V(5)), ExternalEvent.Release(At(0.1), 1, 11, First, V(7)), ExternalEvent.HoldKeyframe(At(0.4), 2, 3, First, V(5), V(5)),
             ExternalEvent.Release(At(0.4), 2, 4, First, V(7)), ExternalEvent.Grab(At(0.4), 2, 5, First), ExternalEvent.Grab(At(0.5), 1, 12, First, V(9)),
             ExternalEvent.Impulse(At(0.6), 2, 6, First, V(9)), ExternalEvent.SetVelocity(At(0.6), 0, 1, First, V(9)), ExternalEvent.Teleport(At(0.6), 1, 13, First, V(9)),
         ];
@@ -415,7 +415,7 @@ public sealed class HeldTests
             // The control: of a body that is not held, or of who holds it, each of them has one.
             ExternalEvent own = one.Kind switch
             {
-                EventKind.HoldKnot => ExternalEvent.HoldKnot(At(0.4), 1, 99, First, one.Position, one.Velocity),
+                EventKind.HoldKeyframe => ExternalEvent.HoldKeyframe(At(0.4), 1, 99, First, one.Position, one.Velocity),
                 EventKind.Release => ExternalEvent.Release(At(0.4), 1, 99, First, one.Velocity),
                 _ => one.At(At(0.2)),
             };
@@ -427,7 +427,7 @@ public sealed class HeldTests
     public void Remove_OfWhatIsHeld_EndsTheHold()
     {
         Simulation simulation = With(Lonely(), 1, [
-            ExternalEvent.Grab(At(0.25), 1, 1, First), ExternalEvent.Remove(At(0.5), 2, 1, First), ExternalEvent.HoldKnot(At(0.6), 1, 2, First, V(1), V(1))]);
+            ExternalEvent.Grab(At(0.25), 1, 1, First), ExternalEvent.Remove(At(0.5), 2, 1, First), ExternalEvent.HoldKeyframe(At(0.6), 1, 2, First, V(1), V(1))]);
         Assert.False(simulation.TryReadHold(First, At(0.5), out _));
         Assert.Equal(MotionLaw.Absent, Read(simulation, First, 1).Motion);
         Assert.True(simulation.TryReadHold(First, At(0.5) - SimDuration.OneTick, out _));
@@ -446,11 +446,11 @@ public sealed class HeldTests
     {
         Scene scene = new SceneBuilder("slow").WithGravity(Floating).WithSmallestRadius(1e-9).AddBody("ball", Ball(1e-9), V(0)).Build(); // at most 110 m/s
         Simulation simulation = With(scene, 1, [
-            ExternalEvent.Grab(At(0.1), 1, 1, First), ExternalEvent.HoldKnot(At(0.2), 1, 2, First, V(1.5), V(0)), ExternalEvent.HoldKnot(At(0.4), 1, 3, First, V(30), V(0))]);
+            ExternalEvent.Grab(At(0.1), 1, 1, First), ExternalEvent.HoldKeyframe(At(0.2), 1, 2, First, V(1.5), V(0)), ExternalEvent.HoldKeyframe(At(0.4), 1, 3, First, V(30), V(0))]);
         Near(V(1.5), Read(simulation, First, 1).Position, 1e-12);
         Assert.True(simulation.TryReadHold(First, At(0.9), out Hold hold));
-        Assert.Equal(At(0.2), hold.Knot);
-        Assert.Contains("at most", Assert.Throws<SceneException>(() => simulation.Submit(ExternalEvent.HoldKnot(At(1), 1, 4, First, V(3), V(200)))).Message, StringComparison.Ordinal);
+        Assert.Equal(At(0.2), hold.Keyframe);
+        Assert.Contains("at most", Assert.Throws<SceneException>(() => simulation.Submit(ExternalEvent.HoldKeyframe(At(1), 1, 4, First, V(3), V(200)))).Message, StringComparison.Ordinal);
         Assert.Contains("position", Assert.Throws<SceneException>(() => simulation.Submit(ExternalEvent.Grab(At(1), 1, 4, First, V(double.NaN)))).Message, StringComparison.Ordinal);
         Assert.Contains("velocity", Assert.Throws<SceneException>(() => simulation.Submit(ExternalEvent.Release(At(1), 1, 4, First, V(1e300)))).Message, StringComparison.Ordinal);
     }
@@ -461,17 +461,17 @@ public sealed class HeldTests
         Simulation simulation = new(Lonely(), KeepAll);
         simulation.AdvanceTo(At(0.5));
         simulation.SubmitForwarded(ExternalEvent.Grab(At(0.25), 1, 1, First), At(0.5));
-        simulation.SubmitForwarded(ExternalEvent.HoldKnot(At(0.3), 1, 2, First, V(1), V(1)), At(0.55));
+        simulation.SubmitForwarded(ExternalEvent.HoldKeyframe(At(0.3), 1, 2, First, V(1), V(1)), At(0.55));
         simulation.SubmitForwarded(ExternalEvent.Impulse(At(0.3), 2, 1, First, V(1)), At(0.6)); // in a hand it has no effect
         simulation.AdvanceTo(At(1));
-        Simulation expected = With(Lonely(), 1, [ExternalEvent.Grab(At(0.5), 1, 1, First), ExternalEvent.HoldKnot(At(0.55), 1, 2, First, V(1), V(1))]);
+        Simulation expected = With(Lonely(), 1, [ExternalEvent.Grab(At(0.5), 1, 1, First), ExternalEvent.HoldKeyframe(At(0.55), 1, 2, First, V(1), V(1))]);
         Assert.Equal(expected.StateHash(At(1)), simulation.StateHash(At(1)));
     }
 
     [Fact]
     public void Snapshot_WithAHoldThatCannotBe_IsRefusedByName()
     {
-        Simulation world = With(Lonely(), 1, [ExternalEvent.Grab(At(0.25), 1, 1, First), ExternalEvent.HoldKnot(At(0.4), 1, 2, First, V(1), V(1))]);
+        Simulation world = With(Lonely(), 1, [ExternalEvent.Grab(At(0.25), 1, 1, First), ExternalEvent.HoldKeyframe(At(0.4), 1, 2, First, V(1), V(1))]);
         WorldSnapshot good = world.Snapshot(At(0.42));
         BodySnapshot b = good.Bodies[0];
         Assert.Equal((MotionLaw.Held, new Hold(1, V(0), At(0.4))), (b.Law, b.Hold));

@@ -9,7 +9,7 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Behavior;
 
-/// <summary>Bodies in lasting contact move and rest as one: with friction against statics, without a gain of energy, and all of them wake when something happens to one.</summary>
+/// <summary>Bodies in persistent contact move and rest as one: with friction against statics, without a gain of energy, and all of them wake when something happens to one.</summary>
 public sealed class IslandTests
 {
     private const double R = 0.5;
@@ -210,7 +210,7 @@ public sealed class IslandTests
         {
             if (kind == EventKind.Grab)
             {
-                simulation.Submit(ExternalEvent.HoldKnot(At(1.1), 1, 2, First, V(5, R), V(0)));
+                simulation.Submit(ExternalEvent.HoldKeyframe(At(1.1), 1, 2, First, V(5, R), V(0)));
             }
 
             simulation.AdvanceTo(At(2));

@@ -161,7 +161,7 @@ public sealed class SupportTests
     }
 
     [Fact]
-    public void Rest_SqueezedFromAbove_StaysOnItsSupport()
+    public void Rest_JammedFromAbove_StaysOnItsSupport()
     {
         const double d = 1e-7;
         Scene scene = new SceneBuilder("hammer").WithContactTolerance(d).AddPlane("floor", Vector3D.Up, V(0), 0.5)

@@ -50,7 +50,7 @@ public sealed class ThrowingForceTests
         Assert.Equal(At(5), Run(Windy(Below(9), flight, tolerance), 5).SimulatedTo);
     }
 
-    /// <summary>In lasting contact it is asked by the step of an island, and where something is struck.</summary>
+    /// <summary>In persistent contact it is asked by the step of an island, and where something is struck.</summary>
     [Fact]
     public void Force_ThatThrowsInContact_IsNamed()
     {
@@ -63,7 +63,7 @@ public sealed class ThrowingForceTests
     }
 
     [Fact]
-    public void Session_OfAJoinerWhoseForceThrows_EndsWithTheReason()
+    public void Session_OfAClientWhoseForceThrows_EndsWithTheReason()
     {
         SessionGroup group = new(
             Windy(Below(99), MotionLaw.Automatic, 1e-9), 3, LinkProfiles.PureDelay(5),

@@ -2,7 +2,7 @@ using System;
 
 namespace LagSim.Tests.Behavior;
 
-/// <summary>What a contact tolerance d promises, computed here and not asked of the engine: bounds of tests of lasting contact.</summary>
+/// <summary>What a contact tolerance d promises, computed here and not asked of the engine: bounds of tests of persistent contact.</summary>
 internal static class Tolerance
 {
     /// <summary>

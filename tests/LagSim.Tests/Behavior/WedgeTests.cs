@@ -47,7 +47,7 @@ public sealed class WedgeTests
         Assert.True(Read(simulation, ball, 7.2).Position.Y > 0.2, $"{Read(simulation, ball, 7.2).Position}");
 
         simulation.Submit(ExternalEvent.Grab(At(5), 1, 1, ball));
-        simulation.Submit(ExternalEvent.HoldKnot(At(5.1), 1, 2, ball, V(0.3, 2, 0.3), V(0)));
+        simulation.Submit(ExternalEvent.HoldKeyframe(At(5.1), 1, 2, ball, V(0.3, 2, 0.3), V(0)));
         simulation.AdvanceTo(At(8));
         Near(V(0.3, 2, 0.3), Read(simulation, ball, 6).Position, 1e-9);
     }
@@ -77,7 +77,7 @@ public sealed class WedgeTests
         {
             double up = speed * Math.Max(0, (0.1 * n) - from); // from below
             Vector3D place = new(0.1, -0.6 + up, 0.1);
-            events.Add(ExternalEvent.HoldKnot(At(0.02 + (0.1 * n)), 1, n + 2, BodyId.OfScene(1), place, V(0, n > 15 ? speed : 0)));
+            events.Add(ExternalEvent.HoldKeyframe(At(0.02 + (0.1 * n)), 1, n + 2, BodyId.OfScene(1), place, V(0, n > 15 ? speed : 0)));
         }
 
         Assert.True(IsDone(scene, events, until, ignoresIslands: false, out Simulation simulation));
@@ -178,7 +178,7 @@ public sealed class WedgeTests
         for (uint k = 0; k < 60; k++)
         {
             double gone = Math.Min(depth, speed * k * 0.05);
-            events.Add(ExternalEvent.HoldKnot(At(0.02 + (0.05 * k)), 1, k + 2, held, from - V(0, gone), V(0, gone < depth ? -speed : 0)));
+            events.Add(ExternalEvent.HoldKeyframe(At(0.02 + (0.05 * k)), 1, k + 2, held, from - V(0, gone), V(0, gone < depth ? -speed : 0)));
         }
 
         return (scene, events);

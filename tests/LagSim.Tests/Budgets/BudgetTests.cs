@@ -37,9 +37,9 @@ public sealed class BudgetTests
     public void Step_AHeapOfAllHisBodiesAndAPush_HarmsNobody()
     {
         (double late, SessionGroup group) = Play(hasBudget: true, Heap);
-        Assert.Equal((true, 2), (late < 0.25, group.Host.JoinerCount));
+        Assert.Equal((true, 2), (late < 0.25, group.Host.ClientCount));
         Assert.True(group.RunUntil(() => Sleeps(group), 20));
-        byte peer = group.Joiner(1).Peer;
+        byte peer = group.Client(1).Peer;
         double before = group.Host.Costs.Single(c => c.Player == peer).Work;
         group.Do(1, PlayerAction.SetVelocity(new BodyId(peer, 10, 0), new Vector3D(0, 3, 1)));
         for (int n = 0; n < 100; n++)
@@ -50,7 +50,7 @@ public sealed class BudgetTests
 
         PlayerCost cost = group.Host.Costs.Single(c => c.Player == peer);
         Assert.True(cost.Work - before > 1000, $"{cost.Work - before}"); // it woke and moved
-        Assert.Equal((true, 2), (late < 0.25, group.Host.JoinerCount));
+        Assert.Equal((true, 2), (late < 0.25, group.Host.ClientCount));
         Assert.InRange(cost.MostAtOnce, 1000, 0.9 * PlayerBudget.Default.WorkAtOnce);
     }
 
@@ -62,7 +62,7 @@ public sealed class BudgetTests
     {
         (double late, SessionGroup group) = Play(hasBudget: false, Heap, workPerSecond);
         Assert.Equal(freezes, late > 0.25);
-        Assert.Equal(2, group.Host.JoinerCount);
+        Assert.Equal(2, group.Host.ClientCount);
     }
 
     /// <summary>A heap that a hand shakes is work without end: who shakes it is sent away.</summary>
@@ -78,7 +78,7 @@ public sealed class BudgetTests
     public void Step_AFastBallUnderABallThatAnotherHolds_SendsAwayWhoseBallIsFast()
     {
         SessionGroup group = Three();
-        byte victim = group.Joiner(2).Peer;
+        byte victim = group.Client(2).Peer;
         BodySpec ball = new(0.25, 1, 1);
         Vector3D above = new(0.9, 0.2505 + 0.501, 0.9);
         string said = "";
@@ -95,7 +95,7 @@ public sealed class BudgetTests
             Assert.True(group.Sessions[2].State == SessionState.Running, said);
             if (n % 5 == 0)
             {
-                group.Do(2, PlayerAction.HoldKnot(held, above, default));
+                group.Do(2, PlayerAction.HoldKeyframe(held, above, default));
             }
 
             group.Run(0.02);
@@ -182,8 +182,8 @@ public sealed class BudgetTests
         BodyId body = group.Do(1, PlayerAction.Spawn(new BodySpec(0.25, 1, 0.5), new Vector3D(0.5, 2, 0.5), default)).Body;
         group.Run(0.06);
         Assert.DoesNotContain(body, Bodies(group.Host));
-        Assert.Equal(1, group.Host.RemoveBodiesOf(group.Joiner(1).Peer));
-        Assert.Equal(0, group.Host.RemoveBodiesOf(group.Joiner(1).Peer));
+        Assert.Equal(1, group.Host.RemoveBodiesOf(group.Client(1).Peer));
+        Assert.Equal(0, group.Host.RemoveBodiesOf(group.Client(1).Peer));
         group.Run(1);
         Assert.All(group.Sessions, s => Assert.DoesNotContain(body, Bodies(s)));
         Assert.Null(group.Difference());
@@ -223,9 +223,9 @@ public sealed class BudgetTests
         Assert.True(watched.Work!.ChargedTo(1) > 1000 && watched.Work.ChargedTo(2) == 0);
     }
 
-    private static JoinerSession Again(SessionGroup group, ulong nonce)
+    private static ClientSession Again(SessionGroup group, ulong nonce)
     {
-        JoinerSession session = new(null, group.Ports[1], new SkewedClock(group.Clock, 0, default), new SessionOptions(), PeerAddress.Virtual(0), nonce);
+        ClientSession session = new(null, group.Ports[1], new SkewedClock(group.Clock, 0, default), new SessionOptions(), PeerAddress.Virtual(0), nonce);
         group.Steps.Replace(1, session, group.Ports[1]);
         group.Run(3);
         return session;
@@ -255,7 +255,7 @@ public sealed class BudgetTests
         }
 
         Assert.True(late < 0.25, $"{late} s");
-        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.Equal(1, group.Host.ClientCount);
         byte gone = group.Sessions[1].Peer;
         group.Run(2);
         Assert.True(Late(group) < 0.25, $"{Late(group)} s");
@@ -267,7 +267,7 @@ public sealed class BudgetTests
         }
     }
 
-    /// <summary>Joiner 1 does harm for one and a half seconds.</summary>
+    /// <summary>Client 1 does harm for one and a half seconds.</summary>
     /// <returns>How late the world of any other was at most, in s, and the group.</returns>
     private static (double Late, SessionGroup Group) Play(bool hasBudget, Action<SessionGroup, int> act, double workPerSecond = MicrosecondsASecond)
     {
@@ -295,7 +295,7 @@ public sealed class BudgetTests
     private static void Gap(SessionGroup group, int n)
     {
         BodySpec ball = new(0.25, 1, 1);
-        byte peer = group.Joiner(1).Peer;
+        byte peer = group.Client(1).Peer;
         if (n == 0)
         {
             BodyId held = group.Do(1, PlayerAction.Spawn(ball, new Vector3D(0.9, 0.2505 + 0.501, 0.9), default)).Body;
@@ -304,7 +304,7 @@ public sealed class BudgetTests
         }
         else if (n % 10 == 0)
         {
-            group.Do(1, PlayerAction.HoldKnot(new BodyId(peer, 1, 0), new Vector3D(0.9, 0.2505 + 0.501, 0.9), default));
+            group.Do(1, PlayerAction.HoldKeyframe(new BodyId(peer, 1, 0), new Vector3D(0.9, 0.2505 + 0.501, 0.9), default));
         }
     }
 
@@ -324,14 +324,14 @@ public sealed class BudgetTests
     private static void Shake(SessionGroup group, int n)
     {
         Heap(group, n);
-        BodyId body = new(group.Joiner(1).Peer, 22, 0);
+        BodyId body = new(group.Client(1).Peer, 22, 0);
         if (n == 5)
         {
             group.Do(1, PlayerAction.Grab(body, default));
         }
         else if (n > 5)
         {
-            group.Do(1, PlayerAction.HoldKnot(body, new Vector3D(0, 0.8 + (0.5 * (n % 2)), 0), default));
+            group.Do(1, PlayerAction.HoldKeyframe(body, new Vector3D(0, 0.8 + (0.5 * (n % 2)), 0), default));
         }
     }
 

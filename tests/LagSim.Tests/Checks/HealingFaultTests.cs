@@ -13,37 +13,37 @@ namespace LagSim.Tests.Checks;
 public sealed class HealingFaultTests
 {
     [Fact]
-    public void Run_CutsByTime_IsCaughtAndShrunkToTwoDeedsOfOneTick()
+    public void Run_CutsByTime_IsCaughtAndShrunkToTwoScriptedActionsOfOneTick()
     {
         CheckOptions options = new() { Sessions = 1, Seed = 2, Strategy = "full-rollback", Prepare = static (_, simulation) => simulation.CutsByTime = true };
         CheckReport report = Run(options);
         CheckFailure failure = Assert.Single(report.Failures);
-        Assert.True(failure.Least.Deeds.Count == 2 && failure.Least.Bodies.Count <= 2, failure.Command);
+        Assert.True(failure.Least.ScriptedActions.Count == 2 && failure.Least.Bodies.Count <= 2, failure.Command);
         Assert.StartsWith("lagsim check --seed 2 --sessions 1 --strategy full-rollback --bodies ", failure.Command, StringComparison.Ordinal);
         AssertLeast(failure.Least, options);
-        CheckCase least = new(2, options with { Bodies = failure.Least.Bodies, Events = failure.Least.Deeds });
-        Assert.Single(least.DeedIndices.Select(i => least.Deeds[i].AtSeconds).Distinct());
+        CheckCase least = new(2, options with { Bodies = failure.Least.Bodies, Events = failure.Least.ScriptedActions });
+        Assert.Single(least.ActionIndices.Select(i => least.ScriptedActions[i].AtSeconds).Distinct());
 
         // What it names plays again to the same; without the fault it does not fail.
-        CheckOptions again = options with { Bodies = failure.Least.Bodies, Events = failure.Least.Deeds, ShrinkingPlays = 0 };
+        CheckOptions again = options with { Bodies = failure.Least.Bodies, Events = failure.Least.ScriptedActions, ShrinkingPlays = 0 };
         Assert.Equal(failure.Least.Difference, Run(again).Failures.Single().Whole.Difference);
         Assert.Empty(Run(again with { Prepare = null }).Failures);
     }
 
     private static void AssertLeast(CheckOutcome least, CheckOptions options)
     {
-        foreach (int deed in least.Deeds)
+        foreach (int scripted in least.ScriptedActions)
         {
-            Assert.Null(Failure(least.Bodies, [.. least.Deeds.Where(d => d != deed)]));
+            Assert.Null(Failure(least.Bodies, [.. least.ScriptedActions.Where(d => d != scripted)]));
         }
 
         foreach (int body in least.Bodies)
         {
-            Assert.True(least.Bodies.Count == 1 || Failure([.. least.Bodies.Where(b => b != body)], least.Deeds) is null);
+            Assert.True(least.Bodies.Count == 1 || Failure([.. least.Bodies.Where(b => b != body)], least.ScriptedActions) is null);
         }
 
-        string? Failure(IReadOnlyList<int> bodies, IReadOnlyList<int> deeds) =>
-            CheckSession.Play(least.Seed, options with { Bodies = bodies, Events = deeds }, TestContext.Current.CancellationToken).Failure;
+        string? Failure(IReadOnlyList<int> bodies, IReadOnlyList<int> scriptedActions) =>
+            CheckSession.Play(least.Seed, options with { Bodies = bodies, Events = scriptedActions }, TestContext.Current.CancellationToken).Failure;
     }
 
     [Fact]

@@ -28,7 +28,7 @@ public sealed class InvariantCheckTests
         Assert.True(report.HealsThatChangedAnImpact >= 0.3 * report.Heals && report.Heals > 5_000, $"{report.HealsThatChangedAnImpact} of {report.Heals}");
         Assert.All(report.Outcomes, o => Assert.True(o.ExternalEvents >= 20, $"seed {o.Seed}: {o.ExternalEvents} events"));
         Assert.All(report.Outcomes, o => Assert.True(o.Compared > 100, $"seed {o.Seed}: {o.Compared} compared"));
-        Assert.True(report.Outcomes.Sum(o => o.LateJoiners) > 50 && report.Outcomes.Sum(o => o.Leavers) > 20);
+        Assert.True(report.Outcomes.Sum(o => o.LateClients) > 50 && report.Outcomes.Sum(o => o.Leavers) > 20);
         Assert.True(report.Outcomes.Sum(o => o.TiedEvents) > 500);
         Assert.True(report.Outcomes.Count(o => o.HasFullLinks) > 40 && report.Outcomes.Count(o => o.HasStops) > 10);
         Assert.Superset(Enumerable.Range(2, 7).ToHashSet(), report.Outcomes.Select(o => o.Peers).ToHashSet());
@@ -51,11 +51,11 @@ public sealed class InvariantCheckTests
     public void Run_CollapseInAHeap_IsHealed(ulong seed) => Assert.Empty(Run(new CheckOptions { Sessions = 1, Seed = seed, ShrinkingPlays = 0 }).Failures);
 
     /// <summary>
-    /// A joiner whose copy begins within a step in which a hand pressed a ball against a wall: it knows the hand's path from a later piece
+    /// A client whose copy begins within a step in which a hand pressed a ball against a wall: it knows the hand's path from a later piece
     /// on, and struck the ball against the wall once more.
     /// </summary>
     [Fact]
-    public void Run_JoinerWhoseCopyBeginsWhileAHandPresses_HasTheSameBits() =>
+    public void Run_ClientWhoseCopyBeginsWhileAHandPresses_HasTheSameBits() =>
         Assert.Empty(Run(new CheckOptions { Sessions = 1, Seed = 6_628, ShrinkingPlays = 0 }).Failures);
 
     [Fact]
@@ -80,7 +80,7 @@ public sealed class InvariantCheckTests
     [Fact]
     public void Run_HistoryTooShort_TooLateIsAFailure()
     {
-        // Half a second there, and a quarter of one is allowed: the host refuses what joiners do, and their senders take it back.
+        // Half a second there, and a quarter of one is allowed: the host refuses what clients do, and their senders take it back.
         CheckOptions options = new() { Sessions = 3, Profile = LinkProfiles.PureDelay(500), ShrinkingPlays = 0, History = SimDuration.FromMilliseconds(250) };
         CheckReport report = Run(options);
         Assert.Equal([1UL, 2, 3], report.Failures.Select(f => f.Whole.Seed));

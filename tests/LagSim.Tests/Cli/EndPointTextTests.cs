@@ -57,7 +57,7 @@ public sealed class EndPointTextTests
     [InlineData("[::ffff:0.0.0.0]:7", "'[::ffff:0:0]:7'")]
     public void Resolve_AddressOfNoMachine_IsRefusedAtOnce(string text, string named)
     {
-        // A joiner would wait out its time-out, ten minutes here, for an answer that cannot come.
+        // A client would wait out its time-out, ten minutes here, for an answer that cannot come.
         Tool.Refuses(3, ["join", text, "--timeout-s", "600"], $"{named} is no host to join: it takes the address of one machine and a port from 1 to 65535.");
         Tool.Refuses(3, ["relay", text, "--profile", "lan"], $"{named} is no host to relay to: it takes the address of one machine and a port from 1 to 65535.");
     }

@@ -46,7 +46,7 @@ public sealed class HoldCommandTests
         Assert.Equal(["peer", "simulated", "predicted", "hold_last_m", "velocity_m", "best_in_hindsight_m", "best_in_hindsight"], Names(held));
         HoldRun played = HoldTest.Run(new HoldOptions(HandMotions.Generate("slow", 7)) { HoldSeconds = 2, Seed = 7 });
         Assert.Equal(
-            (played.Views[0].Simulated.RmsMetres, played.Views[0].Predicted.RmsMetres, played.KnotsPerSecond, played.HolderSentPerSecond),
+            (played.Views[0].Simulated.RmsMetres, played.Views[0].Predicted.RmsMetres, played.KeyframesPerSecond, played.HolderSentPerSecond),
             (Number(held.GetProperty("simulated"), "rms_m"), Number(held.GetProperty("predicted"), "rms_m"), Number(run, "knots_per_s"), Number(run, "holder_bytes_sent_per_s")));
         JsonElement[] errors = root.GetProperty("prediction_error_m").EnumerateArray().ToArray();
         Assert.Equal(PredictionTest.DefaultHorizonsMilliseconds, errors.Select(error => error.GetProperty("horizon_ms").GetDouble()));
@@ -142,7 +142,7 @@ public sealed class HoldCommandTests
         CultureInfo.InvariantCulture, $"{n / 90.0},{x(n)},1,0\n")));
 
     [Theory]
-    [InlineData("2000", JsonValueKind.Null)] // longer than the motion: no knot comes while it lasts
+    [InlineData("2000", JsonValueKind.Null)] // longer than the motion: no keyframe comes while it lasts
     [InlineData("100", JsonValueKind.Number)]
     public void Json_OfWhatNoSampleWasMeasuredOf_IsNull(string delay, JsonValueKind kind)
     {

@@ -22,9 +22,9 @@ public sealed class HostAdminTests
     [InlineData("remove-bodies 7", "0 bodies of player 7 are removed.")]
     public void Do_WhatCannotBe_SaysWhatCan(string line, string answer)
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(10)).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(10)).Connect();
         Assert.Equal(answer, new HostAdmin().Do(line, group.Host));
-        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.Equal(1, group.Host.ClientCount);
     }
 
     /// <summary>Two processes, and a line on the host's standard input.</summary>

@@ -51,7 +51,7 @@ internal sealed class LineWriter : TextWriter
     }
 
     /// <summary>The first whole line that is as asked, waited for; null if none comes in time.</summary>
-    internal string? WaitFor(Func<string, bool> isIt, TimeSpan patience)
+    internal string? WaitFor(Func<string, bool> isIt, TimeSpan timeout)
     {
         long began = Stopwatch.GetTimestamp();
         lock (gate)
@@ -59,7 +59,7 @@ internal sealed class LineWriter : TextWriter
             while (true)
             {
                 string? found = Lines.FirstOrDefault(isIt);
-                TimeSpan left = patience - Stopwatch.GetElapsedTime(began);
+                TimeSpan left = timeout - Stopwatch.GetElapsedTime(began);
                 if (found is not null || left <= TimeSpan.Zero)
                 {
                     return found;

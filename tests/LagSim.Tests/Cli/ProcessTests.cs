@@ -16,7 +16,7 @@ public sealed class ProcessTests
     public void TwoProcesses_AgreeAndWhatIsWrongIsAnErrorAndControlCEndsTheSession()
     {
         using ToolProcess host = ToolProcess.Start("host --scene pair --key open-sesame --joiners 1 --history-s 0.2");
-        using ToolProcess joiner = ToolProcess.Start($"join {host.Address} --key open-sesame --do set-velocity@0.3:1,3,0");
+        using ToolProcess client = ToolProcess.Start($"join {host.Address} --key open-sesame --do set-velocity@0.3:1,3,0");
         string port = host.Address.Split(':')[1];
         using ToolProcess second = ToolProcess.Start($"host --scene pair --port {port}");
         using ToolProcess wrong = ToolProcess.Start($"join {host.Address} --key close-sesame");
@@ -29,18 +29,18 @@ public sealed class ProcessTests
         Assert.Contains("The host 'no-such-host.invalid' is not known", unknown.Error.ToString(), StringComparison.Ordinal);
         Assert.All(new[] { second, wrong, unknown }, process => Assert.Equal("", process.Output.ToString()));
 
-        joiner.Says("T 1 s ");
+        client.Says("T 1 s ");
         Assert.SkipWhen(OperatingSystem.IsWindows(), "Windows has no signal that a test can send.");
         Assert.SkipWhen(ToolProcess.IgnoresControlC(), "Ctrl-C is ignored here, and by what is started from here.");
         host.PressControlC();
         host.Ends(130);
-        joiner.Ends(0);
-        AssertSame([host, joiner], least: 1);
-        Assert.Contains($"ended: The host at {host.Address} ended the session.", joiner.Output.ToString(), StringComparison.Ordinal);
+        client.Ends(0);
+        AssertSame([host, client], least: 1);
+        Assert.Contains($"ended: The host at {host.Address} ended the session.", client.Output.ToString(), StringComparison.Ordinal);
     }
 
     [Fact]
-    public void ThreeProcesses_OneJoinerKilledThenTheHost_LeaveTheOthersToGoOnAndThenToEndWithASentence()
+    public void ThreeProcesses_OneClientKilledThenTheHost_LeaveTheOthersToGoOnAndThenToEndWithASentence()
     {
         using ToolProcess host = ToolProcess.Start("host --scene pair --joiners 2 --history-s 0.2 --timeout-s 1.5 --do impulse@0.4:1,4,0");
         using ToolProcess first = ToolProcess.Start($"join {host.Address} --timeout-s 1.5");
@@ -97,29 +97,29 @@ public sealed class ProcessTests
     }
 
     [Fact]
-    public void HostAndThreeJoiners_ThroughARelayThatPlaysAwful_Agree()
+    public void HostAndThreeClients_ThroughARelayThatPlaysAwful_Agree()
     {
         using TemporaryFolder folder = new();
         using ToolProcess host = ToolProcess.Start($"host --scene pair --joiners 3 --history-s 1.5 --for-s 2 --do impulse@1:0,5,0 --record {folder["0"]}");
         using ToolProcess relay = ToolProcess.Start($"relay {host.Address} --profile awful --for-s 60");
-        ToolProcess[] joiners = Enumerable.Range(1, 3)
+        ToolProcess[] clients = Enumerable.Range(1, 3)
             .Select(n => ToolProcess.Start($"join {relay.Address} --for-s 2 --do impulse@0.{n}:0,3,{n} --do set-velocity@1.{n}:{n},2,0 --record {folder[$"{n}"]}")).ToArray();
         try
         {
-            Assert.All(joiners, joiner => joiner.Ends(0));
+            Assert.All(clients, client => client.Ends(0));
             host.Ends(0);
-            AssertSame([host, .. joiners], least: 2);
+            AssertSame([host, .. clients], least: 2);
             foreach (string file in Enumerable.Range(1, 3).Select(n => folder[$"{n}"]))
             {
                 Assert.Contains("7 log entries", Tool.Run("diff", folder["0"], file).Done().Output, StringComparison.Ordinal);
                 Tool.Run("replay", file).Done();
             }
 
-            Assert.All(joiners, joiner => Assert.Matches("heals: [1-9]", joiner.Output.ToString())); // else nothing came late
+            Assert.All(clients, client => Assert.Matches("heals: [1-9]", client.Output.ToString())); // else nothing came late
         }
         finally
         {
-            Array.ForEach(joiners, joiner => joiner.Dispose());
+            Array.ForEach(clients, client => client.Dispose());
         }
     }
 
@@ -130,8 +130,8 @@ public sealed class ProcessTests
         Assert.SkipUnless(OperatingSystem.IsLinux(), "Linux locks files only for those who ask; Windows does by itself.");
         using TemporaryFolder folder = new();
         using ToolProcess host = ToolProcess.Start($"host --scene pair --joiners 1 --for-s 2 --record {folder["both"]}");
-        using ToolProcess joiner = ToolProcess.Start($"join {host.Address} --for-s 2 --record {folder["both"]}");
-        ToolProcess[] all = [host, joiner];
+        using ToolProcess client = ToolProcess.Start($"join {host.Address} --for-s 2 --record {folder["both"]}");
+        ToolProcess[] all = [host, client];
         Assert.Equal([0, 3], all.Select(process => process.ExitCode()).Order());
         Assert.Single(all, process => process.ToString().Contains("another process is writing it", StringComparison.Ordinal));
         Assert.Contains("2 committed states", Tool.Run("diff", folder["both"], folder["both"]).Done().Output, StringComparison.Ordinal);

@@ -32,21 +32,21 @@ public sealed class SessionCommandTests
         using LiveTool host = LiveTool.Run(Host + " --for-s 2 --do set-velocity@0.5:2,9,0 --record", folder["host.lagsim"]);
         string address = host.Address;
         Assert.StartsWith("127.0.0.1:", address, StringComparison.Ordinal);
-        using LiveTool joiner = LiveTool.Run($"join {address} --for-s 2 --do teleport@1.2:ball:0,12,0 --do remove@1.4 --record", folder["join.lagsim"]);
-        joiner.Ends(0);
+        using LiveTool client = LiveTool.Run($"join {address} --for-s 2 --do teleport@1.2:ball:0,12,0 --do remove@1.4 --record", folder["join.lagsim"]);
+        client.Ends(0);
         host.Ends(0);
 
         Dictionary<string, string> states = LineWriter.States(host.Output.Lines);
         Assert.Equal(["1", "2"], states.Keys);
         Assert.All(states.Values, state => Assert.Matches("^state [0-9a-f]{16} events [0-9a-f]{16}$", state));
-        Assert.Equal(states, LineWriter.States(joiner.Output.Lines));
-        Assert.Equal(2, joiner.Output.Lines.Count(line => line.StartsWith("clock offset ", StringComparison.Ordinal)));
-        Assert.Matches("\nclock offset -?[0-9.]+ ms bound [0-9.]+ ms delay [0-9.]+ ms\n", joiner.Output.ToString());
+        Assert.Equal(states, LineWriter.States(client.Output.Lines));
+        Assert.Equal(2, client.Output.Lines.Count(line => line.StartsWith("clock offset ", StringComparison.Ordinal)));
+        Assert.Matches("\nclock offset -?[0-9.]+ ms bound [0-9.]+ ms delay [0-9.]+ ms\n", client.Output.ToString());
         Assert.DoesNotContain(host.Output.Lines, line => line.StartsWith("clock ", StringComparison.Ordinal));
         Assert.Contains("events: 3 accepted, 0 refused; heals: ", host.Output.ToString(), StringComparison.Ordinal);
-        Assert.Contains($"last committed: 2 s, {states["2"].Replace(" events", ", events", StringComparison.Ordinal)}", joiner.Output.ToString(), StringComparison.Ordinal);
+        Assert.Contains($"last committed: 2 s, {states["2"].Replace(" events", ", events", StringComparison.Ordinal)}", client.Output.ToString(), StringComparison.Ordinal);
         Assert.Matches("peer 1 at 127.0.0.1:[0-9]+: [0-9.]+ B/s sent, [0-9.]+ B/s received", host.Output.ToString());
-        Assert.Contains("ended: This peer left.", joiner.Output.ToString(), StringComparison.Ordinal);
+        Assert.Contains("ended: This peer left.", client.Output.ToString(), StringComparison.Ordinal);
 
         // What each recorded is run again to the same end, and is the same.
         foreach (string name in new[] { "host.lagsim", "join.lagsim" })
@@ -69,12 +69,12 @@ public sealed class SessionCommandTests
         using LiveTool host = LiveTool.Run("host --scene drop --history-s 0.5 --joiners 0 --for-s 20");
         string address = host.Address;
         host.Output.WaitFor(line => line.StartsWith("T 1 ", StringComparison.Ordinal), LiveTool.Deadline);
-        using LiveTool joiner = LiveTool.Run($"join {address} --for-s 0.5 --pass", folder["pass"]);
-        joiner.Ends(3);
+        using LiveTool client = LiveTool.Run($"join {address} --for-s 0.5 --pass", folder["pass"]);
+        client.Ends(3);
         host.Stop();
         host.Ends(130);
-        Assert.Matches("--for-s 0.5 was over when this peer came in at T [0-9.]+ s[.]", joiner.Error.ToString());
-        Assert.Matches("The host does not know the pass of player 1 in '.+'; this is player 1 of its session, whose pass is kept there now; the former one is in '.+pass[.]old'[.]", joiner.Error.ToString());
+        Assert.Matches("--for-s 0.5 was over when this peer came in at T [0-9.]+ s[.]", client.Error.ToString());
+        Assert.Matches("The host does not know the pass of player 1 in '.+'; this is player 1 of its session, whose pass is kept there now; the former one is in '.+pass[.]old'[.]", client.Error.ToString());
         Assert.NotEqual(foreign, File.ReadAllText(folder["pass"]).Trim());
         Assert.Equal(foreign, File.ReadAllText(folder["pass.old"]));
     }
@@ -86,10 +86,10 @@ public sealed class SessionCommandTests
         bool isFull = File.Exists("/dev/full");
         using LiveTool host = LiveTool.Run(Host + " --for-s 1 --json --key secret --seed 7" + (isFull ? " --record /dev/full" : ""));
         string? listening = host.Error.WaitFor(line => line.StartsWith("listening on ", StringComparison.Ordinal), LiveTool.Deadline);
-        using LiveTool joiner = LiveTool.Run($"join {listening!.Split(' ')[2]} --for-s 1 --json --key secret");
-        joiner.Ends(0);
+        using LiveTool client = LiveTool.Run($"join {listening!.Split(' ')[2]} --for-s 1 --json --key secret");
+        client.Ends(0);
         host.Ends(isFull ? 3 : 0);
-        using JsonDocument one = JsonDocument.Parse(host.Output.ToString()), two = JsonDocument.Parse(joiner.Output.ToString());
+        using JsonDocument one = JsonDocument.Parse(host.Output.ToString()), two = JsonDocument.Parse(client.Output.ToString());
         foreach (JsonDocument document in new[] { one, two })
         {
             Assert.Equal(
@@ -110,20 +110,20 @@ public sealed class SessionCommandTests
     }
 
     [Fact]
-    public void Host_ThatIsStopped_EndsTheSessionForAllWhichIsAnErrorBeforeAJoinersTime()
+    public void Host_ThatIsStopped_EndsTheSessionForAllWhichIsAnErrorBeforeAClientsTime()
     {
         bool isSix = CanBind(IPAddress.IPv6Loopback);
         using LiveTool host = LiveTool.Run(Host + (isSix ? " --address ::1" : ""));
         Assert.StartsWith(isSix ? "[::1]:" : "127.0.0.1:", host.Address, StringComparison.Ordinal);
         using LiveTool timed = LiveTool.Run($"join {host.Address} --for-s 100");
-        using LiveTool joiner = LiveTool.Run($"join {host.Address}");
-        Assert.NotNull(joiner.Output.WaitFor(line => line.StartsWith("T 1 s ", StringComparison.Ordinal), LiveTool.Deadline));
+        using LiveTool client = LiveTool.Run($"join {host.Address}");
+        Assert.NotNull(client.Output.WaitFor(line => line.StartsWith("T 1 s ", StringComparison.Ordinal), LiveTool.Deadline));
         host.Stop();
         host.Ends(130);
         timed.Ends(3);
-        joiner.Ends(0);
+        client.Ends(0);
         Assert.Contains($"The host at {host.Address} ended the session.", timed.Error.ToString(), StringComparison.Ordinal);
-        Assert.Contains($"ended: The host at {host.Address} ended the session.", joiner.Output.ToString(), StringComparison.Ordinal);
+        Assert.Contains($"ended: The host at {host.Address} ended the session.", client.Output.ToString(), StringComparison.Ordinal);
         Assert.Contains("ended: This peer left.", host.Output.ToString(), StringComparison.Ordinal);
     }
 
@@ -135,10 +135,10 @@ public sealed class SessionCommandTests
         HostSession session = new(BuiltInScenes.Drop(), port, new StopwatchClock(), new SessionOptions { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
         using PeerThread host = new(session, port, "host");
         host.Start();
-        using LiveTool joiner = LiveTool.Run($"join {port.LocalAddress} --for-s 1");
-        joiner.Ends(1);
-        Assert.Contains("The committed state at T 1 s differs from the host's.", joiner.Error.ToString(), StringComparison.Ordinal);
-        Assert.Matches("states held against the host's: 0 agreed, [1-9] differed", joiner.Output.ToString());
+        using LiveTool client = LiveTool.Run($"join {port.LocalAddress} --for-s 1");
+        client.Ends(1);
+        Assert.Contains("The committed state at T 1 s differs from the host's.", client.Error.ToString(), StringComparison.Ordinal);
+        Assert.Matches("states held against the host's: 0 agreed, [1-9] differed", client.Output.ToString());
     }
 
     [Fact]
@@ -149,15 +149,15 @@ public sealed class SessionCommandTests
             BuiltInScenes.Drop(), port, new StopwatchClock(), new SessionOptions { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
         using PeerThread host = new(session, port, "host");
         host.Start();
-        using LiveTool joiner = LiveTool.Run($"join {port.LocalAddress} --for-s 2");
+        using LiveTool client = LiveTool.Run($"join {port.LocalAddress} --for-s 2");
         Assert.True(host.WaitUntilRunning(LiveTool.Deadline));
         await host.Do(PlayerAction.SetVelocity(BodyId.OfScene(0), new Vector3D(2, 5, 0)));
-        joiner.Ends(1);
-        Assert.Contains("The committed state at T 1 s differs from the host's.", joiner.Error.ToString(), StringComparison.Ordinal);
-        Assert.Contains("events: 0 accepted, 1 refused", joiner.Output.ToString(), StringComparison.Ordinal);
+        client.Ends(1);
+        Assert.Contains("The committed state at T 1 s differs from the host's.", client.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains("events: 0 accepted, 1 refused", client.Output.ToString(), StringComparison.Ordinal);
 
         // And which event it was, as the host has it and as it came here.
-        Assert.Matches("The first that differs: at the host entry 1 of the log, at T [0-9.]+ s, Accepted: .*; here entry 1 of the log, at T [0-9.]+ s, ", joiner.Error.ToString());
+        Assert.Matches("The first that differs: at the host entry 1 of the log, at T [0-9.]+ s, Accepted: .*; here entry 1 of the log, at T [0-9.]+ s, ", client.Error.ToString());
     }
 
     [Fact]
@@ -167,10 +167,10 @@ public sealed class SessionCommandTests
         byte[] buffer = new byte[IDatagramPort.MaxDatagramBytes];
         other.Arrived += () =>
         {
-            if (other.TryReceive(buffer, out int length, out PeerAddress from) && KnockDatagram.TryDecode(buffer.AsSpan(0, length), out KnockDatagram knock, out _))
+            if (other.TryReceive(buffer, out int length, out PeerAddress from) && ConnectRequestDatagram.TryDecode(buffer.AsSpan(0, length), out ConnectRequestDatagram request, out _))
             {
                 byte[] answer = new byte[WireFormat.RefusalBytes];
-                new RefusalDatagram(knock.Nonce, RefusalReason.VersionDiffers).Encode(answer);
+                new RefusalDatagram(request.Nonce, RefusalReason.VersionDiffers).Encode(answer);
                 answer[2] = 77;
                 other.Send(answer, from);
             }
@@ -212,12 +212,12 @@ public sealed class SessionCommandTests
             BuiltInScenes.Drop(), port, new StopwatchClock(), new SessionOptions { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
         using PeerThread host = new(session, port, "host");
         host.Start();
-        using LiveTool joiner = LiveTool.Run($"join {port.LocalAddress} --for-s 4 --record", folder["mine.lagsim"]);
-        Assert.NotNull(joiner.Output.WaitFor(line => line.StartsWith("T 1 s ", StringComparison.Ordinal), LiveTool.Deadline));
+        using LiveTool client = LiveTool.Run($"join {port.LocalAddress} --for-s 4 --record", folder["mine.lagsim"]);
+        Assert.NotNull(client.Output.WaitFor(line => line.StartsWith("T 1 s ", StringComparison.Ordinal), LiveTool.Deadline));
         await host.Do(PlayerAction.SetVelocity(BodyId.OfScene(0), new Vector3D(2, 5, 0)));
-        joiner.Ends(isAged ? 1 : 0);
-        string said = joiner.Output.ToString();
-        Assert.True(said.Contains(" 0 differed", StringComparison.Ordinal), $"{joiner}"); // the fresh copy came before anything was compared
+        client.Ends(isAged ? 1 : 0);
+        string said = client.Output.ToString();
+        Assert.True(said.Contains(" 0 differed", StringComparison.Ordinal), $"{client}"); // the fresh copy came before anything was compared
         Assert.Equal(isAged, said.Contains("events lost 1", StringComparison.Ordinal));
 
         // The recording goes on in another file with the fresh copy, and both are named.
@@ -227,32 +227,32 @@ public sealed class SessionCommandTests
     }
 
     [Fact]
-    public void Deed_WhoseVerdictAFreshCopyOvertook_IsToldOnceAndNotMistakenForALaterOne()
+    public void ScriptedAction_WhoseVerdictAFreshCopyOvertook_IsToldOnceAndNotMistakenForALaterOne()
     {
-        // What is done while nothing gets through is never heard of, and the next deed after it bears the same number.
+        // What is done while nothing gets through is never heard of, and the next scripted action after it bears the same number.
         using CutPort port = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0)));
         SessionOptions options = new() { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3), Timeout = SimDuration.FromSeconds(2) };
         HostSession session = new(BuiltInScenes.Drop(), port, new StopwatchClock(), options, 5);
         using ManualResetEventSlim gone = new();
-        session.JoinerGone += _ => gone.Set();
+        session.ClientGone += _ => gone.Set();
         using PeerThread host = new(session, port, "host");
         host.Start();
-        using LiveTool joiner = LiveTool.Run($"join {port.LocalAddress} --timeout-s 2 --for-s 9 --do set-velocity@2:1,3,0 --do set-velocity@8:0,3,0");
-        Assert.NotNull(joiner.Output.WaitFor(line => line.StartsWith("T 1 s ", StringComparison.Ordinal), LiveTool.Deadline));
+        using LiveTool client = LiveTool.Run($"join {port.LocalAddress} --timeout-s 2 --for-s 9 --do set-velocity@2:1,3,0 --do set-velocity@8:0,3,0");
+        Assert.NotNull(client.Output.WaitFor(line => line.StartsWith("T 1 s ", StringComparison.Ordinal), LiveTool.Deadline));
         port.IsCut = true;
-        Assert.NotNull(joiner.Error.WaitFor(line => line.EndsWith("Asking to be let in again.", StringComparison.Ordinal), LiveTool.Deadline));
+        Assert.NotNull(client.Error.WaitFor(line => line.EndsWith("Asking to be let in again.", StringComparison.Ordinal), LiveTool.Deadline));
         Assert.True(gone.Wait(LiveTool.Deadline, TestContext.Current.CancellationToken));
         port.IsCut = false;
-        joiner.Ends(3);
+        client.Ends(3);
         Assert.Equal(
             ["Done here, but a fresh copy took the place of the world before the host's verdict came: --do set-velocity@2:1,3,0."],
-            joiner.Error.Lines.Where(line => line.Contains("--do", StringComparison.Ordinal)));
-        Assert.Contains("events: 1 accepted, 0 refused", joiner.Output.ToString(), StringComparison.Ordinal);
-        Assert.Contains("events unanswered 1", joiner.Output.ToString(), StringComparison.Ordinal);
+            client.Error.Lines.Where(line => line.Contains("--do", StringComparison.Ordinal)));
+        Assert.Contains("events: 1 accepted, 0 refused", client.Output.ToString(), StringComparison.Ordinal);
+        Assert.Contains("events unanswered 1", client.Output.ToString(), StringComparison.Ordinal);
     }
 
     [Fact]
-    public void Deeds_ThatMayNotBeDone_AreToldAndAnError()
+    public void ScriptedActions_ThatMayNotBeDone_AreToldAndAnError()
     {
         using TemporaryFolder folder = new();
         File.WriteAllText(
@@ -264,33 +264,33 @@ public sealed class SessionCommandTests
             """);
         using LiveTool host = LiveTool.Run(
             "host --history-s 0.5 --joiners 1 --for-s 1 --do impulse@0.2:hers:0,1,0 --do impulse@0.3:his:0,1,0 --do teleport@0.4:his:0,-5,0 --scene", folder["mine.json"]);
-        using LiveTool joiner = LiveTool.Run($"join {host.Address} --for-s 1 --do impulse@0.2:hers:0,1,0");
-        Assert.NotNull(joiner.Error.WaitFor(line => line.StartsWith("in as a peer ", StringComparison.Ordinal), LiveTool.Deadline));
+        using LiveTool client = LiveTool.Run($"join {host.Address} --for-s 1 --do impulse@0.2:hers:0,1,0");
+        Assert.NotNull(client.Error.WaitFor(line => line.StartsWith("in as a peer ", StringComparison.Ordinal), LiveTool.Deadline));
         using LiveTool wrong = LiveTool.Run($"join {host.Address} --for-s 1 --do remove@0.2:theirs");
-        joiner.Ends(0);
+        client.Ends(0);
         host.Ends(3);
         wrong.Ends(2);
         Assert.Contains("--do impulse@0.2:hers:0,1,0 was not done. Peer 0 may not touch body 'hers'; those who may: 1.", host.Error.ToString(), StringComparison.Ordinal);
         Assert.Contains("--do teleport@0.4:his:0,-5,0 was not done. The position of the Teleport of body 0.0.1", host.Error.ToString(), StringComparison.Ordinal);
-        Assert.Contains("events: 2 accepted", joiner.Output.ToString(), StringComparison.Ordinal);
+        Assert.Contains("events: 2 accepted", client.Output.ToString(), StringComparison.Ordinal);
         Assert.Contains("scene 'mine' has no body 'theirs'; it has hers, his.", wrong.Error.ToString(), StringComparison.Ordinal);
     }
 
     [Fact]
-    public void Deed_ThatTheHostRefuses_IsToldAndAnError()
+    public void ScriptedAction_ThatTheHostRefuses_IsToldAndAnError()
     {
-        // News that is 200 ms old, to a host that takes what is 100 ms old.
+        // An event that is 200 ms old, to a host that takes what is 100 ms old.
         using LiveTool host = LiveTool.Run("host --scene drop --history-s 0.1 --joiners 1");
         using LiveTool relay = LiveTool.Run($"relay {host.Address} --profile delay-200ms");
-        using LiveTool joiner = LiveTool.Run($"join {relay.Address} --for-s 1.9 --do set-velocity@1.8:2,9,0 --do teleport@1.85:0,12,0");
-        joiner.Ends(3);
-        Assert.Contains("The host refused --do set-velocity@1.8:2,9,0: it came too late, ", joiner.Error.ToString(), StringComparison.Ordinal);
-        Assert.Contains("The host refused --do teleport@1.85:0,12,0: it came too late, ", joiner.Error.ToString(), StringComparison.Ordinal);
-        Assert.Contains("events: 0 accepted, 2 refused", joiner.Output.ToString(), StringComparison.Ordinal);
+        using LiveTool client = LiveTool.Run($"join {relay.Address} --for-s 1.9 --do set-velocity@1.8:2,9,0 --do teleport@1.85:0,12,0");
+        client.Ends(3);
+        Assert.Contains("The host refused --do set-velocity@1.8:2,9,0: it came too late, ", client.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains("The host refused --do teleport@1.85:0,12,0: it came too late, ", client.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains("events: 0 accepted, 2 refused", client.Output.ToString(), StringComparison.Ordinal);
     }
 
     [Fact]
-    public void Deeds_AfterTheHostsEndOrBeforeThePeerCameIn_AreNamedAndAnError()
+    public void ScriptedActions_AfterTheHostsEndOrBeforeThePeerCameIn_AreNamedAndAnError()
     {
         using LiveTool host = LiveTool.Run("host --scene drop --history-s 0.2 --for-s 3");
         Assert.NotNull(host.Output.WaitFor(line => line.StartsWith("T 1 s ", StringComparison.Ordinal), LiveTool.Deadline));
@@ -300,7 +300,7 @@ public sealed class SessionCommandTests
         host.Ends(0);
         early.Ends(3);
         late.Ends(3);
-        idle.Ends(0); // without a deed the host's orderly end is nobody's error
+        idle.Ends(0); // without a scripted action the host's orderly end is nobody's error
         Assert.Matches(
             @"Not done, for the time was past when this peer came in at T [0-9.]+ s: --do impulse@0\.1:0,1,0, --do remove@0\.2\.\r?\n", early.Error.ToString());
         Assert.Contains("Not done, for the session ended before: --do teleport@30:0,15,0, --do remove@31.", late.Error.ToString(), StringComparison.Ordinal);
@@ -309,11 +309,11 @@ public sealed class SessionCommandTests
     }
 
     [Fact]
-    public void Host_JoinerThatIsGoneAtOnce_IsToldOfNevertheless()
+    public void Host_ClientThatIsGoneAtOnce_IsToldOfNevertheless()
     {
         using LiveTool host = LiveTool.Run("host --scene drop");
         using UdpPort port = new(new IPEndPoint(IPAddress.Loopback, 0));
-        JoinerSession brief = new(null, port, new StopwatchClock(), new SessionOptions(), PeerAddress.From(IPEndPoint.Parse(host.Address)), 9);
+        ClientSession brief = new(null, port, new StopwatchClock(), new SessionOptions(), PeerAddress.From(IPEndPoint.Parse(host.Address)), 9);
         Assert.True(SpinWait.SpinUntil(
             () =>
             {
@@ -413,10 +413,10 @@ public sealed class SessionCommandTests
         }
     }
 
-    /// <summary>A port through which each event goes out as one of long ago, which nobody's history reaches back to; until its joiner comes in again.</summary>
+    /// <summary>A port through which each event goes out as one of long ago, which nobody's history reaches back to; until its client comes in again.</summary>
     private sealed class EventAgingPort(UdpPort inner) : ChangingPort(inner)
     {
-        private ulong? first; // the joiner's session by then
+        private ulong? first; // the client's session by then
 
         internal bool IsAging { get; init; }
 

@@ -221,7 +221,7 @@ public sealed class SessionUsageTests
         Assert.Contains("Usage:", tool.Output, StringComparison.Ordinal);
         if (command is "host" or "join")
         {
-            Assert.Contains(Deed.Syntax, tool.Output, StringComparison.Ordinal);
+            Assert.Contains(ScriptedAction.Syntax, tool.Output, StringComparison.Ordinal);
         }
     }
 
@@ -236,10 +236,10 @@ public sealed class SessionUsageTests
     [InlineData(SessionEnd.HostSilent, true, 0, 0, false, false, ExitCode.Input)]
     [InlineData(SessionEnd.HostSilent, true, 1, 0, false, false, ExitCode.CheckFailed)]
     [InlineData(SessionEnd.Refused, true, 0, 0, false, false, ExitCode.Input)]
-    [InlineData(SessionEnd.LetGo, true, 0, 0, false, false, ExitCode.Input)]
+    [InlineData(SessionEnd.Disconnect, true, 0, 0, false, false, ExitCode.Input)]
     [InlineData(SessionEnd.Failed, true, 0, 0, false, false, ExitCode.Input)]
     [InlineData(SessionEnd.Left, true, 0, 1, false, false, ExitCode.CheckFailed)]
     [InlineData(SessionEnd.HostSilent, true, 0, 1, true, true, ExitCode.CheckFailed)]
-    public void ExitCodeOf_EveryEnd_IsTheDocumentedOne(SessionEnd by, bool isTimeReached, long differed, long lost, bool hasFailedDeed, bool isInterrupted, int expected) =>
-        Assert.Equal(expected, SessionRunner.ExitCodeOf(by, isTimeReached, differed, lost, hasFailedDeed, isInterrupted));
+    public void ExitCodeOf_EveryEnd_IsTheDocumentedOne(SessionEnd by, bool isTimeReached, long differed, long lost, bool hasFailedAction, bool isInterrupted, int expected) =>
+        Assert.Equal(expected, SessionRunner.ExitCodeOf(by, isTimeReached, differed, lost, hasFailedAction, isInterrupted));
 }

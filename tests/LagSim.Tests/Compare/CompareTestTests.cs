@@ -32,7 +32,7 @@ public sealed class CompareTestTests
         Assert.True(run.Agrees);
         Assert.All(run.StateHashes, hash => Assert.Equal(run.TruthStateHash, hash));
         Assert.Equal(0, run.Seen.Before.ToStatistics().DifferingBits);
-        Assert.Equal(0, run.Seen.After.ToStatistics().DifferingBits); // as seen too: not a sample longer than the news was on its way
+        Assert.Equal(0, run.Seen.After.ToStatistics().DifferingBits); // as seen too: not a sample longer than the event was on its way
         Assert.True(run.Heals > 0);
         Assert.False((run with { TruthEventHash = run.TruthEventHash ^ 1 }).Agrees);
     }
@@ -94,7 +94,7 @@ public sealed class CompareTestTests
         Assert.All(LateEventStrategies.Names, name => Assert.True(Billiards(name).TimeToHeal is { P50: > 0 } time && time.Max >= time.P99));
 
     [Theory]
-    [InlineData("interpolation", 0.1, false)] // two hops of 40 ms: all news has come before it is drawn
+    [InlineData("interpolation", 0.1, false)] // two hops of 40 ms: all events have come before it is drawn
     [InlineData("interpolation", 0.05, true)]
     [InlineData("interpolation", 0, true)]
     [InlineData("healing", 0.1, true)]
@@ -148,7 +148,7 @@ public sealed class CompareTestTests
     public void Run_OfSpawnedBodies_ComparesThemToo()
     {
         Scene scene = BuiltInScenes.Pair();
-        PlannedDeed spawn = new(
+        PlannedAction spawn = new(
             SimDuration.FromSeconds(1), 1, EventKind.Spawn, new BodyId(1, 1, 0), new Vector3D(0, 9, 5), new Vector3D(1, 0, 0), scene.Bodies[0].Spec);
         CompareRun none = CompareTest.Run(new CompareOptions(scene, [spawn], "none", LinkProfiles.PureDelay(100)));
         CompareRun healing = CompareTest.Run(new CompareOptions(scene, [spawn], "healing", LinkProfiles.PureDelay(100)));
@@ -171,7 +171,7 @@ public sealed class CompareTestTests
     public void PhaseAt_OfSeveralEvents_IsDuringWhileAnyIsOnItsWay()
     {
         (SimTime, SimTime)[] windows = [(TestWorlds.At(1), TestWorlds.At(2)), (TestWorlds.At(1.5), TestWorlds.At(3)), (TestWorlds.At(4), SimTime.MaxValue)];
-        Phase[] phases = new[] { 0.5, 1, 1.9, 2.9, 3, 3.9, 4, 9 }.Select(time => NewsWatch.PhaseAt(windows, TestWorlds.At(time))).ToArray();
+        Phase[] phases = new[] { 0.5, 1, 1.9, 2.9, 3, 3.9, 4, 9 }.Select(time => LateEventWatch.PhaseAt(windows, TestWorlds.At(time))).ToArray();
         Assert.Equal([Phase.Before, Phase.During, Phase.During, Phase.During, Phase.After, Phase.After, Phase.During, Phase.During], phases);
     }
 

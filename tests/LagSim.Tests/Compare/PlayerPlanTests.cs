@@ -19,18 +19,18 @@ public sealed class PlayerPlanTests
     public void Draw_OnEveryBuiltInScene_IsTheSameForTheSameSeedOnly(string name)
     {
         BuiltInScenes.TryGet(name, out Scene? scene);
-        IReadOnlyList<PlannedDeed> plan = PlayerPlan.Draw(scene!, 4, 7);
+        IReadOnlyList<PlannedAction> plan = PlayerPlan.Draw(scene!, 4, 7);
         Assert.Equal(plan, PlayerPlan.Draw(scene!, 4, 7));
         Assert.NotEqual(plan, PlayerPlan.Draw(scene!, 4, 8));
         Assert.Equal(12, plan.Count);
-        Assert.Equal(plan.OrderBy(deed => deed.Time), plan);
-        Assert.All(plan, deed => Assert.InRange(deed.Time.ToSeconds(), 1, 6));
-        Assert.All(plan, deed => Assert.InRange(deed.Peer, 0, 3));
-        Assert.All(plan, deed => Assert.True(deed.Kind == EventKind.Teleport || deed.Velocity.Length > 0));
-        Assert.Contains(plan, deed => deed.Kind == EventKind.Impulse);
-        Assert.Contains(plan, deed => deed.Kind == EventKind.SetVelocity);
-        Assert.True(plan.Select(deed => deed.Peer).Distinct().Count() > 1);
-        Assert.Equal(plan.Count(deed => deed.Kind == EventKind.Spawn), plan.Where(deed => deed.Kind == EventKind.Spawn).Select(deed => deed.Body).Distinct().Count());
+        Assert.Equal(plan.OrderBy(scripted => scripted.Time), plan);
+        Assert.All(plan, scripted => Assert.InRange(scripted.Time.ToSeconds(), 1, 6));
+        Assert.All(plan, scripted => Assert.InRange(scripted.Peer, 0, 3));
+        Assert.All(plan, scripted => Assert.True(scripted.Kind == EventKind.Teleport || scripted.Velocity.Length > 0));
+        Assert.Contains(plan, scripted => scripted.Kind == EventKind.Impulse);
+        Assert.Contains(plan, scripted => scripted.Kind == EventKind.SetVelocity);
+        Assert.True(plan.Select(scripted => scripted.Peer).Distinct().Count() > 1);
+        Assert.Equal(plan.Count(scripted => scripted.Kind == EventKind.Spawn), plan.Where(scripted => scripted.Kind == EventKind.Spawn).Select(scripted => scripted.Body).Distinct().Count());
     }
 
     [Theory]
@@ -38,16 +38,16 @@ public sealed class PlayerPlanTests
     public void Draw_OverManySeeds_HasEveryKind(string name)
     {
         BuiltInScenes.TryGet(name, out Scene? scene);
-        EventKind[] kinds = Enumerable.Range(1, 5).SelectMany(seed => PlayerPlan.Draw(scene!, 3, (ulong)seed)).Select(deed => deed.Kind).Distinct().Order().ToArray();
+        EventKind[] kinds = Enumerable.Range(1, 5).SelectMany(seed => PlayerPlan.Draw(scene!, 3, (ulong)seed)).Select(scripted => scripted.Kind).Distinct().Order().ToArray();
         Assert.Equal(new[] { EventKind.Spawn, EventKind.Teleport, EventKind.SetVelocity, EventKind.Impulse }.Order(), kinds);
     }
 
     [Fact]
     public void Draw_OnATable_LeavesBallsOnIt()
     {
-        IReadOnlyList<PlannedDeed> plan = PlayerPlan.Draw(BuiltInScenes.Billiards(), 4, 1);
-        Assert.All(plan, deed => Assert.Equal(0, deed.Velocity.Y));
-        Assert.All(plan.Where(deed => deed.Kind is EventKind.Spawn or EventKind.Teleport), deed => Assert.Equal(0.028575, deed.Position.Y));
+        IReadOnlyList<PlannedAction> plan = PlayerPlan.Draw(BuiltInScenes.Billiards(), 4, 1);
+        Assert.All(plan, scripted => Assert.Equal(0, scripted.Velocity.Y));
+        Assert.All(plan.Where(scripted => scripted.Kind is EventKind.Spawn or EventKind.Teleport), scripted => Assert.Equal(0.028575, scripted.Position.Y));
     }
 
     [Fact]
@@ -55,22 +55,22 @@ public sealed class PlayerPlanTests
     {
         Scene scene = new SceneBuilder("rights").WithSpawners(PeerSet.Of(2))
             .AddBody("anybody's", Ball(), V(0)).AddBody("one's", Ball(), V(3), players: PeerSet.Of(1)).AddBody("nobody's", Ball(), V(6), players: PeerSet.Nobody).Build();
-        PlannedDeed[] plan = Enumerable.Range(1, 40).SelectMany(seed => PlayerPlan.Draw(scene, 3, (ulong)seed)).ToArray();
-        Assert.All(plan.Where(deed => deed.Kind == EventKind.Spawn), deed => Assert.Equal(2, deed.Peer));
-        Assert.All(plan.Where(deed => deed.Kind != EventKind.Spawn && deed.Body == Second), deed => Assert.Equal(1, deed.Peer));
-        Assert.DoesNotContain(plan, deed => deed.Kind != EventKind.Spawn && deed.Body == Third);
-        Assert.Contains(plan, deed => deed.Kind == EventKind.Spawn);
-        Assert.Contains(plan, deed => deed.Body == Second);
-        Assert.Equal(3, plan.Where(deed => deed.Body == First).Select(deed => deed.Peer).Distinct().Count());
+        PlannedAction[] plan = Enumerable.Range(1, 40).SelectMany(seed => PlayerPlan.Draw(scene, 3, (ulong)seed)).ToArray();
+        Assert.All(plan.Where(scripted => scripted.Kind == EventKind.Spawn), scripted => Assert.Equal(2, scripted.Peer));
+        Assert.All(plan.Where(scripted => scripted.Kind != EventKind.Spawn && scripted.Body == Second), scripted => Assert.Equal(1, scripted.Peer));
+        Assert.DoesNotContain(plan, scripted => scripted.Kind != EventKind.Spawn && scripted.Body == Third);
+        Assert.Contains(plan, scripted => scripted.Kind == EventKind.Spawn);
+        Assert.Contains(plan, scripted => scripted.Body == Second);
+        Assert.Equal(3, plan.Where(scripted => scripted.Body == First).Select(scripted => scripted.Peer).Distinct().Count());
     }
 
     [Fact]
     public void Draw_WhereNobodyMaySpawn_HasImpulsesInstead()
     {
         Scene scene = new SceneBuilder("no spawners").WithSpawners(PeerSet.Nobody).AddBody("ball", Ball(), V(0)).Build();
-        IReadOnlyList<PlannedDeed> plan = PlayerPlan.Draw(scene, 3, 1);
+        IReadOnlyList<PlannedAction> plan = PlayerPlan.Draw(scene, 3, 1);
         Assert.Equal(12, plan.Count);
-        Assert.DoesNotContain(plan, deed => deed.Kind == EventKind.Spawn);
+        Assert.DoesNotContain(plan, scripted => scripted.Kind == EventKind.Spawn);
     }
 
     [Fact]

@@ -57,7 +57,7 @@ public sealed class ContactSolverTests
         int sweeps = ContactSolver.Solve(cold, Tolerance, Most);
         for (int i = 0; i < warm.ContactCount; i++)
         {
-            (warm.Contacts[i].Impulse, warm.Contacts[i].Rub) = (cold.Contacts[i].Impulse, cold.Contacts[i].Rub);
+            (warm.Contacts[i].Impulse, warm.Contacts[i].FrictionImpulse) = (cold.Contacts[i].Impulse, cold.Contacts[i].FrictionImpulse);
         }
 
         ContactSolver.ApplyGiven(warm);
@@ -92,10 +92,10 @@ public sealed class ContactSolverTests
             double over = ContactSolver.Opening(problem, c) - c.Target;
             worst = Math.Max(worst, -over);
             worst = Math.Max(worst, c.Impulse > 1e-6 ? Math.Abs(over) : 0);
-            Assert.True(c.Impulse >= 0 && Math.Abs(Vector3D.Dot(c.Rub, c.Normal)) < 1e-9);
-            worst = Math.Max(worst, c.Rub.Length - (c.Friction * c.Impulse));
+            Assert.True(c.Impulse >= 0 && Math.Abs(Vector3D.Dot(c.FrictionImpulse, c.Normal)) < 1e-9);
+            worst = Math.Max(worst, c.FrictionImpulse.Length - (c.Friction * c.Impulse));
             double slip = Slip(problem, c).Length;
-            worst = Math.Max(worst, c.Rub.Length < (c.Friction * c.Impulse) - 1e-6 ? slip : 0);
+            worst = Math.Max(worst, c.FrictionImpulse.Length < (c.Friction * c.Impulse) - 1e-6 ? slip : 0);
             Assert.True(c.Turn.Length <= (Math.Sqrt(2) * c.Lever * c.Impulse) + 1e-9);
         }
 

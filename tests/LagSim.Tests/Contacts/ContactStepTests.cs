@@ -88,12 +88,12 @@ public sealed class ContactStepTests
     [InlineData(20, false)]
     [InlineData(150, true)]
     [InlineData(150, false)]
-    public void Row_SqueezedBetweenTwoWalls_StaysWhereItIs(int balls, bool isSqueezed)
+    public void Row_JammedBetweenTwoWalls_StaysWhereItIs(int balls, bool isJammed)
     {
         double east = (0.2 * balls) - (0.5 * Tolerance * (balls + 1));
         Scene walls = new SceneBuilder("walls").WithSmallestRadius(0.1).WithContactTolerance(Tolerance)
             .AddPlane("west", new Vector3D(1, 0, 0), Vector3D.Zero, 0)
-            .AddPlane("east", new Vector3D(-1, 0, 0), new Vector3D(isSqueezed ? east : east + 1, 0, 0), 0).Build();
+            .AddPlane("east", new Vector3D(-1, 0, 0), new Vector3D(isJammed ? east : east + 1, 0, 0), 0).Build();
         ContactStep step = new(walls, new ContactScale(Tolerance, Down, default));
         for (int n = 0; n < balls; n++)
         {
@@ -117,7 +117,7 @@ public sealed class ContactStepTests
             largest = Math.Max(largest, step.Problem.Contacts[i].Impulse);
         }
 
-        Assert.Equal(isSqueezed, fastest < 1e-6);
+        Assert.Equal(isJammed, fastest < 1e-6);
         Assert.InRange(largest, 0, 2 * balls * 9.81 * seconds); // and no impulse without end
     }
 

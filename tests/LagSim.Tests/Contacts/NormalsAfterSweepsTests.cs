@@ -30,7 +30,7 @@ public sealed class NormalsAfterSweepsTests
             Assert.True(Worst(problem) <= 2 * Tolerance, $"seed {seed}: {Worst(problem)}");
             for (int i = 0; i < problem.ContactCount; i++)
             {
-                before.Contacts[i].Rub = problem.Contacts[i].Rub;
+                before.Contacts[i].FrictionImpulse = problem.Contacts[i].FrictionImpulse;
             }
 
             ContactSolver.ApplyFriction(before);

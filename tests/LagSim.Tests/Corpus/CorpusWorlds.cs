@@ -35,13 +35,13 @@ internal static class CorpusWorlds
         Grooves(),
         Wake(),
         Together(),
-        Squeezed(),
+        Jammed(),
         FarAndLate(),
         Supplied(),
         Ties(),
         SmallAndFast(),
         Subnormal(),
-        Deeds(),
+        ScriptedActions(),
         Held(),
         Forces(),
         Orbits(),
@@ -70,7 +70,7 @@ internal static class CorpusWorlds
     }
 
     /// <summary>
-    /// Hands: one takes a ball, strikes another with it and throws it; two that want the same ball; one that presses a ball on the floor and falls silent; knots of
+    /// Hands: one takes a ball, strikes another with it and throws it; two that want the same ball; one that presses a ball on the floor and falls silent; keyframes of
     /// one that holds nothing.
     /// </summary>
     private static CorpusWorld Held()
@@ -83,9 +83,9 @@ internal static class CorpusWorlds
         for (uint n = 0; n < 14; n++)
         {
             double t = 0.3 + (0.07 * n);
-            events.Add(ExternalEvent.HoldKnot(At(t), 1, n + 2, bat, V(-2 + (0.13 * n), 0.4 + (0.01 * n * n), 0.003 * n), V(2, 0.3, 0.05)));
-            events.Add(ExternalEvent.HoldKnot(At(t + 0.21), 2, n + 2, wanted, V(3, 2 - (0.13 * n), 0.15 * n), V(0.1, -1.8, 2)));
-            events.Add(ExternalEvent.HoldKnot(At(t + 0.22), 3, n + 2, wanted, V(9, 9, 9), V(1)));
+            events.Add(ExternalEvent.HoldKeyframe(At(t), 1, n + 2, bat, V(-2 + (0.13 * n), 0.4 + (0.01 * n * n), 0.003 * n), V(2, 0.3, 0.05)));
+            events.Add(ExternalEvent.HoldKeyframe(At(t + 0.21), 2, n + 2, wanted, V(3, 2 - (0.13 * n), 0.15 * n), V(0.1, -1.8, 2)));
+            events.Add(ExternalEvent.HoldKeyframe(At(t + 0.22), 3, n + 2, wanted, V(9, 9, 9), V(1)));
         }
 
         events.Add(ExternalEvent.Release(At(1.3), 1, 20, bat, V(4, 3, -0.2)));
@@ -164,7 +164,7 @@ internal static class CorpusWorlds
     }
 
     /// <summary>What collapses: a row that just fits between walls, with a ball falling into it, and three balls below the threshold of inelastic collapse.</summary>
-    private static CorpusWorld Squeezed() => World(
+    private static CorpusWorld Jammed() => World(
         "squeezed",
         new SceneBuilder("squeezed").AddPlane("floor", Vector3D.Up, V(0, -20), 0.5).AddPlane("west", V(1), V(-1.5 - 1e-8), 0.5).AddPlane("east", V(-1), V(1.5 + 1e-8), 0.5)
             .AddBody("left", Ball(e: 0.8), V(-1, -19.5)).AddBody("right", Ball(e: 0.8), V(1, -19.5)).AddBody("falls", Ball(e: 0.8), V(0.003, -18.45))
@@ -309,7 +309,7 @@ internal static class CorpusWorlds
         5, ExternalEvent.Impulse(At(1), 1, 1, Third, V(1e-285, -3e-292, 4e-294)), ExternalEvent.Impulse(At(2), 1, 2, Third, V(7e-291, 1e-293, 0)));
 
     /// <summary>A hundred events drawn by a seed, at few different times, on balls of both laws in a box with a slope.</summary>
-    private static CorpusWorld Deeds()
+    private static CorpusWorld ScriptedActions()
     {
         SeededRandom random = new(4);
         SceneBuilder builder = new SceneBuilder("deeds").WithSmallestRadius(0.25).AddPlane("floor", Vector3D.Up, V(0), 0.7).AddPlane("slope", V(-0.6, 0.8), V(2), 0.5)

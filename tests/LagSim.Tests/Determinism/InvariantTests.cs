@@ -278,7 +278,7 @@ public sealed class InvariantTests
         Assert.True(seed < 1000, $"{fault} is not seen in 1000 worlds.");
     }
 
-    /// <summary>Who sleeps on what late news takes away wakes, and falls as on time. The control leaves it asleep; the random worlds are over before anybody sleeps.</summary>
+    /// <summary>Who sleeps on what a late event takes away wakes, and falls as on time. The control leaves it asleep; the random worlds are over before anybody sleeps.</summary>
     [Theory]
     [InlineData(false)]
     [InlineData(true)]

@@ -65,8 +65,8 @@ internal sealed class RandomWorld
 
     /// <summary>
     /// A world that hears of everything in some order, at any moment of its progress, some of it twice, and of some things that are taken back
-    /// again. With a history, never later than that allows. In pieces, it goes on by a few events at a time, and more news may come before what
-    /// late news takes back is simulated again.
+    /// again. With a history, never later than that allows. In pieces, it goes on by a few events at a time, and more events may come before what
+    /// a late event takes back is simulated again.
     /// </summary>
     internal Simulation Shuffled(
         int seed,
@@ -82,15 +82,15 @@ internal sealed class RandomWorld
         Simulation simulation = new(Scene, options.WithObserver(observer));
         prepare?.Invoke(simulation);
         double latest = history is SimDuration kept ? kept.ToSeconds() * 0.999 : End;
-        List<(double When, ExternalEvent Event, bool Retracts)> news = [];
+        List<(double When, ExternalEvent Event, bool Retracts)> lateEvents = [];
         foreach (ExternalEvent external in Events)
         {
             double stamp = external.Time.ToSeconds();
             double When() => Math.Max(0, Math.Min(stamp + latest, arrivals.Next(4) == 0 ? stamp : stamp + (latest * ((arrivals.NextDouble() * 1.5) - 0.5))));
-            news.Add((When(), external, false));
+            lateEvents.Add((When(), external, false));
             if (arrivals.Next(3) == 0)
             {
-                news.Add((When(), external, false)); // heard twice
+                lateEvents.Add((When(), external, false)); // heard twice
             }
         }
 
@@ -100,11 +100,11 @@ internal sealed class RandomWorld
             ExternalEvent never = Decoy(arrivals, i);
             double heard = Math.Min(never.Time.ToSeconds() + (latest * arrivals.NextDouble()), End);
             double takenBack = Math.Min(heard + (arrivals.NextDouble() * 0.3), never.Time.ToSeconds() + latest);
-            news.Add((Math.Min(heard, takenBack), never, false));
-            news.Add((takenBack, never, true));
+            lateEvents.Add((Math.Min(heard, takenBack), never, false));
+            lateEvents.Add((takenBack, never, true));
         }
 
-        foreach ((double when, ExternalEvent external, bool retracts) in news.OrderBy(n => n.When))
+        foreach ((double when, ExternalEvent external, bool retracts) in lateEvents.OrderBy(n => n.When))
         {
             SimTime now = At(Math.Min(when, End));
             long most = inPieces ? arrivals.Next(8) : long.MaxValue;
@@ -252,14 +252,14 @@ internal sealed class RandomWorld
             }
             else
             {
-                events.Add(Deed(random, time, peer, sequence, body));
+                events.Add(ScriptedAction(random, time, peer, sequence, body));
             }
         }
 
         return events;
     }
 
-    /// <summary>A few hands, most of them on the same bodies: knots in quick succession and slow, early, late and of who does not hold, with and without an end.</summary>
+    /// <summary>A few hands, most of them on the same bodies: keyframes in quick succession and slow, early, late and of who does not hold, with and without an end.</summary>
     private void DrawHands(Random from)
     {
         List<BodyId> known = [.. Events.Select(e => e.Body), BodyId.OfScene(0), BodyId.OfScene(1)];
@@ -273,12 +273,12 @@ internal sealed class RandomWorld
             BodyId body = from.Next(3) > 0 ? favourite : known[from.Next(known.Count)];
             SimTime time = times[from.Next(times.Length)];
             Events.Add(ExternalEvent.Grab(time, peer, ++sequence, body, V(from.Next(2) * 0.125, from.Next(2) * 0.125)));
-            int knots = from.Next(0, 9);
+            int keyframes = from.Next(0, 9);
             Vector3D at = V(from.Next(-2, 4) * 0.5, 0.5 + (from.Next(6) * 0.5), from.Next(2) * 0.125);
-            for (int knot = 0; knot < knots; knot++)
+            for (int keyframe = 0; keyframe < keyframes; keyframe++)
             {
                 Vector3D speed = V(from.Next(-3, 4), from.Next(-3, 4), from.Next(-1, 2) * 0.5);
-                Events.Add(ExternalEvent.HoldKnot(time, peer, ++sequence, body, at, speed));
+                Events.Add(ExternalEvent.HoldKeyframe(time, peer, ++sequence, body, at, speed));
                 double gap = from.Next(4) switch { 0 => 0.05, 1 => 0.2, 2 => from.NextDouble() * 0.03, _ => from.NextDouble() * 0.3 };
                 time += SimDuration.FromSeconds(gap);
                 at += (speed * (gap * 0.75)) + V(from.Next(-1, 2) * 0.0625, 0);
@@ -295,7 +295,7 @@ internal sealed class RandomWorld
 
     private Vector3D Place() => V(Pick(0.0, 0.5, 1, 2), Pick(4.0, 4, 3.5), Pick(0, 0.25));
 
-    private ExternalEvent Deed(Random from, SimTime time, byte peer, uint sequence, BodyId body) => from.Next(5) switch
+    private ExternalEvent ScriptedAction(Random from, SimTime time, byte peer, uint sequence, BodyId body) => from.Next(5) switch
     {
         0 => ExternalEvent.Remove(time, peer, sequence, body),
         1 => ExternalEvent.SetVelocity(time, peer, sequence, body, V(from.Next(-2, 3), from.Next(-2, 3))),
@@ -314,13 +314,13 @@ internal sealed class RandomWorld
             return arrivals.Next(3) switch
             {
                 0 => ExternalEvent.Grab(time, 9, (uint)i + 1, body),
-                1 => ExternalEvent.HoldKnot(time, hand.Peer, (uint)i + 9001, body, V(arrivals.Next(4), 2), V(arrivals.Next(3))),
+                1 => ExternalEvent.HoldKeyframe(time, hand.Peer, (uint)i + 9001, body, V(arrivals.Next(4), 2), V(arrivals.Next(3))),
                 _ => ExternalEvent.Release(time, hand.Peer, (uint)i + 9001, body, V(0, arrivals.Next(5))),
             };
         }
 
         return arrivals.Next(4) == 0
             ? ExternalEvent.Spawn(time, 9, (uint)i + 1, Ball(0.25), V(arrivals.Next(4), 4), V(0, -2))
-            : Deed(arrivals, time, 9, (uint)i + 1, BodyId.OfScene(arrivals.Next(Scene.Bodies.Count)));
+            : ScriptedAction(arrivals, time, 9, (uint)i + 1, BodyId.OfScene(arrivals.Next(Scene.Bodies.Count)));
     }
 }

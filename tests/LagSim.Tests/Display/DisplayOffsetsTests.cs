@@ -18,7 +18,7 @@ public sealed class DisplayOffsetsTests
     private static readonly Scene Alone = new SceneBuilder("alone").WithGravity(Floating).AddBody("ball", Ball(), V(0, 5)).Build();
 
     [Fact]
-    public void Update_MotionBouncesAndOnesOwnDeeds_AreNoCorrections()
+    public void Update_MotionBouncesAndOnesOwnScriptedActions_AreNoCorrections()
     {
         Screen screen = new(Drop(3, 0.9, MotionLaw.RungeKutta4));
         for (int n = 0; n < 600; n++)
@@ -55,7 +55,7 @@ public sealed class DisplayOffsetsTests
         Assert.Equal(0, drawn.Dropped);
         Assert.Equal((1, drawn.Jump), (screen.Offsets.Corrections, screen.Offsets.LargestJump));
 
-        screen.Frame(1.03); // a new picture that says the same
+        screen.Frame(1.03); // a new render snapshot that says the same
         Assert.Equal(0, screen.Drawn(First).Jump);
         Assert.Equal(1, screen.Offsets.Corrections);
     }
@@ -174,11 +174,11 @@ public sealed class DisplayOffsetsTests
         Corrected(0.5, out Screen screen);
         screen.Frame(1.01);
         DrawnBody before = screen.Drawn(First);
-        Assert.False(new DisplayOffsets(Alone).Update(new PictureExchange().Latest(), At(1)));
-        Picture picture = screen.Publish(1.02);
-        Assert.False(screen.Offsets.Update(picture, picture.From - SimDuration.OneTick));
+        Assert.False(new DisplayOffsets(Alone).Update(new RenderTripleBuffer().Latest(), At(1)));
+        RenderSnapshot snapshot = screen.Publish(1.02);
+        Assert.False(screen.Offsets.Update(snapshot, snapshot.From - SimDuration.OneTick));
         Assert.Equal(before, screen.Drawn(First));
-        Assert.True(screen.Offsets.Update(picture, At(1.02)));
+        Assert.True(screen.Offsets.Update(snapshot, At(1.02)));
         Assert.NotEqual(before, screen.Drawn(First));
     }
 
@@ -237,7 +237,7 @@ public sealed class DisplayOffsetsTests
 
     private static string? Refused(Func<DisplayOptions> make) => Assert.Throws<ArgumentOutOfRangeException>(make).ParamName;
 
-    /// <summary>The first body was shown at 1 s; then news came that it is elsewhere by so much, at rest.</summary>
+    /// <summary>The first body was shown at 1 s; then an event told that it is elsewhere by so much, at rest.</summary>
     private static Screen Corrected(double size, out Screen screen, DisplayOptions? options = null, double past = 0.25)
     {
         screen = new Screen(Alone, options, past);
@@ -330,11 +330,11 @@ public sealed class DisplayOffsetsTests
             screen.Do(1.1, PlayerAction.Spawn(Ball(), V(9, 5)));
         }
 
-        Picture picture = screen.Publish(1.5);
+        RenderSnapshot snapshot = screen.Publish(1.5);
         long before = GC.GetAllocatedBytesForCurrentThread();
         for (int n = 1; n <= 20; n++)
         {
-            screen.Offsets.Update(picture, At(1.25 + (n * 0.01)));
+            screen.Offsets.Update(snapshot, At(1.25 + (n * 0.01)));
             screen.Offsets.TryRead(First, out _);
         }
 

@@ -8,10 +8,10 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Display;
 
-/// <summary>A world, its pictures, and what is drawn of it frame by frame.</summary>
+/// <summary>A world, its render snapshots, and what is drawn of it frame by frame.</summary>
 internal sealed class Screen
 {
-    private readonly PictureExchange pictures = new();
+    private readonly RenderTripleBuffer snapshots = new();
     private readonly double past;
     private uint sequence;
 
@@ -28,14 +28,14 @@ internal sealed class Screen
 
     internal SubmitResult Do(double time, PlayerAction action) => World.Submit(action.Stamp(At(time), 1, ++sequence));
 
-    internal Picture Publish(double now)
+    internal RenderSnapshot Publish(double now)
     {
         World.AdvanceTo(SimTime.Max(At(now) + SimDuration.FromSeconds(0.05), World.SimulatedTo));
-        pictures.Publish(World, SimTime.Max(At(now - past), World.HistoryEdge));
-        return pictures.Latest();
+        snapshots.Publish(World, SimTime.Max(At(now - past), World.HistoryEdge));
+        return snapshots.Latest();
     }
 
-    /// <summary>A frame with a picture of its own.</summary>
+    /// <summary>A frame with a render snapshot of its own.</summary>
     internal void Frame(double now) => Xunit.Assert.True(Offsets.Update(Publish(now), At(now)));
 
     internal DrawnBody Drawn(BodyId body)

@@ -21,17 +21,17 @@ public sealed class SharedDisplayTests
     [InlineData("full-rollback")]
     public void Update_WhoHearsLate_SeesOneCorrectionThatComesRightAndWhoDidItNone(string strategy)
     {
-        (View host, View joiner) = Watch(strategy);
+        (View host, View client) = Watch(strategy);
         Assert.Equal((0, 0), (host.Offsets.Corrections, host.Offsets.LargestJump));
-        Assert.Equal(1, joiner.Offsets.Corrections);
-        Assert.InRange(joiner.Offsets.LargestJump, Kick * (0.1 - 0.02), Kick * 0.12); // what it has moved meanwhile, give or take a frame
-        Assert.True(joiner.RealStep > 0.2, $"{joiner.RealStep}"); // the control: without an offset the eye sees it jump
-        Assert.InRange(joiner.DrawnStep, 0.01, 0.1);
-        Assert.True(joiner.Last.Offset.Length < 0.001);
+        Assert.Equal(1, client.Offsets.Corrections);
+        Assert.InRange(client.Offsets.LargestJump, Kick * (0.1 - 0.02), Kick * 0.12); // what it has moved meanwhile, give or take a frame
+        Assert.True(client.RealStep > 0.2, $"{client.RealStep}"); // the control: without an offset the eye sees it jump
+        Assert.InRange(client.DrawnStep, 0.01, 0.1);
+        Assert.True(client.Last.Offset.Length < 0.001);
     }
 
     /// <summary>The longest way in one frame of the ball as it is and as it is drawn, and the last frame.</summary>
-    private static (View Host, View Joiner) Watch(string strategy)
+    private static (View Host, View Client) Watch(string strategy)
     {
         Scene scene = new SceneBuilder("one").WithGravity(Floating).AddBody("ball", Ball(), V(0)).Build();
         using VirtualPeers peers = new(scene, new PeerGroupOptions(2, LinkProfiles.PureDelay(100), strategy, Length: SimDuration.FromSeconds(4)));
@@ -68,7 +68,7 @@ public sealed class SharedDisplayTests
 
         internal void Look(Session session)
         {
-            if (!Offsets.Update(session.World!.Pictures.Latest(), session.SharedTime.Now))
+            if (!Offsets.Update(session.World!.RenderSnapshots.Latest(), session.SharedTime.Now))
             {
                 return;
             }

@@ -11,7 +11,7 @@ internal static class LiteNetLibSnippets
 {
     internal static void Host(Scene scene, ulong sessionId)
     {
-        // sessionId: a random number; a joiner is a JoinerSession in place of the HostSession
+        // sessionId: a random number; a client is a ClientSession in place of the HostSession
         using LiteNetLibPort port = new(new IPEndPoint(IPAddress.Any, 5000));
         using PeerThread host = new(new HostSession(scene, port, new StopwatchClock(), new SessionOptions(), sessionId), port, "host");
         host.Start();

@@ -91,20 +91,20 @@ public sealed partial class SnippetTests
     [InlineData(0, ", which is not here.")]
     [InlineData(2, "; here it is of version 2.")]
     [InlineData(1, null)]
-    public void OwnForce_OfAJoinerThatHasNone_IsRefusedAsThePageSays(int version, string? refusal)
+    public void OwnForce_OfAClientThatHasNone_IsRefusedAsThePageSays(int version, string? refusal)
     {
         VirtualClock clock = new(SimTime.FromSeconds(10));
         VirtualNetwork network = new(clock, 1, LinkProfiles.Lan);
         VirtualSteps steps = new(network);
         IDatagramPort hostPort = network.CreatePort(0), port = network.CreatePort(1);
         SessionOptions options = new() { Accelerations = version == 0 ? null : [new OtherWhirl(version)] };
-        JoinerSession joiner = new(null, port, clock, options, PeerAddress.Virtual(0), 4);
+        ClientSession client = new(null, port, clock, options, PeerAddress.Virtual(0), 4);
         steps.Add(new HostSession(ForceSnippets.Whirl(), hostPort, clock, new SessionOptions(), 1), hostPort);
-        steps.Add(joiner, port);
+        steps.Add(client, port);
         steps.RunFor(SimDuration.FromSeconds(5));
-        Assert.Equal(refusal is null ? SessionState.Running : SessionState.Ended, joiner.State);
+        Assert.Equal(refusal is null ? SessionState.Running : SessionState.Ended, client.State);
         string sentence = $"The scene needs the acceleration 'whirl' of version 1{refusal}";
-        Assert.Equal(refusal is null ? null : $"The copy of the world that the host at virtual:0 sent cannot be used: {sentence}", joiner.EndReason);
+        Assert.Equal(refusal is null ? null : $"The copy of the world that the host at virtual:0 sent cannot be used: {sentence}", client.EndReason);
         Assert.True(version > 0 || Read("docs/FORCES.md").Contains($"`{sentence}`", StringComparison.Ordinal));
     }
 

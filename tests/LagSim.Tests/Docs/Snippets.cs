@@ -26,8 +26,8 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         using SimulationHost host = new(scene, new StopwatchClock());
         host.Start();
 
-        // each frame; until the thread has made its first picture there is nothing to read
-        if (host.Picture.TryRead(ball, host.Now, out BodyState state))
+        // each frame; until the thread has made its first render snapshot there is nothing to read
+        if (host.RenderSnapshot.TryRead(ball, host.Now, out BodyState state))
         {
             Draw(state.Position);
         }
@@ -92,7 +92,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         BodyId ball = peer.Session.Scene!.BodyNamed("ball");
 
         // each frame
-        if (peer.Latest() is Picture picture && picture.TryRead(ball, peer.Session.DisplayTime, out BodyState state))
+        if (peer.Latest() is RenderSnapshot snapshot && snapshot.TryRead(ball, peer.Session.DisplayTime, out BodyState state))
         {
             Draw(state.Position);
         }
@@ -122,7 +122,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         DisplayOffsets display = new(peer.Session.Scene!);
 
         // each frame
-        if (peer.Latest() is Picture shown)
+        if (peer.Latest() is RenderSnapshot shown)
         {
             display.Update(shown, peer.Session.DisplayTime);
         }
@@ -162,7 +162,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         client.WaitUntilRunning(TimeSpan.FromSeconds(15));
 
         // each frame
-        if (client.Latest() is Picture picture && picture.TryRead(ball, client.Session.DisplayTime, out BodyState state))
+        if (client.Latest() is RenderSnapshot snapshot && snapshot.TryRead(ball, client.Session.DisplayTime, out BodyState state))
         {
             Draw(state.Position);
         }
@@ -178,7 +178,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
 
         // each frame
         session.Step();
-        if (session.World?.Pictures.Latest() is Picture picture && picture.TryRead(ball, session.DisplayTime, out BodyState state))
+        if (session.World?.RenderSnapshots.Latest() is RenderSnapshot snapshot && snapshot.TryRead(ball, session.DisplayTime, out BodyState state))
         {
             Draw(state.Position);
         }
@@ -212,7 +212,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         BodyId ball = peer.Session.Scene!.BodyNamed("ball");
 
         // each frame
-        if (peer.Latest() is Picture picture && picture.TryRead(ball, peer.Session.DisplayTime, out BodyState state))
+        if (peer.Latest() is RenderSnapshot snapshot && snapshot.TryRead(ball, peer.Session.DisplayTime, out BodyState state))
         {
             Draw(state.Position);
         }

@@ -22,11 +22,11 @@ public sealed class BunchTests
     public void News_ThatComesAtOnceInAnyOrder_CostsNoMoreThanAFullRollback(int count)
     {
         Random random = new(count);
-        ExternalEvent[] news = [.. Enumerable.Range(1, count).Select(n => ExternalEvent.Impulse(
+        ExternalEvent[] lateEvents = [.. Enumerable.Range(1, count).Select(n => ExternalEvent.Impulse(
             At(0.6 + (0.3 * random.NextDouble())), 1, (uint)n, BodyId.OfScene(random.Next(Bodies)), V(0.1, 0.05)))];
         (Simulation cone, HealReport healed, _) = Bring(HealingMode.CausalCone, together: true);
         (Simulation full, HealReport rolledBack, _) = Bring(HealingMode.FullRollback, together: true);
-        Assert.Equal(count, healed.News);
+        Assert.Equal(count, healed.LateEvents);
         Assert.Equal(full.StateHash(At(1.5)), cone.StateHash(At(1.5)));
         Assert.Equal(full.EventHash(At(1.5)), cone.EventHash(At(1.5)));
         Assert.True(healed.Events < 1.3 * rolledBack.Events, $"{healed.Events} of {rolledBack.Events}");
@@ -44,7 +44,7 @@ public sealed class BunchTests
             List<HealReport> reports = [];
             simulation.Healed += reports.Add;
             simulation.AdvanceTo(At(1.5));
-            foreach (ExternalEvent external in news)
+            foreach (ExternalEvent external in lateEvents)
             {
                 simulation.Submit(external);
                 simulation.AdvanceTo(together ? simulation.SimulatedTo : At(1.5));

@@ -90,7 +90,7 @@ public sealed class CrowdedIndexTests
         for (int n = 0; n < 4; n++)
         {
             Vector3D place = V(-0.3 + (0.1 * random.NextDouble()), 0.5 + (1.5 * random.NextDouble()), -0.3 + (0.1 * random.NextDouble()));
-            events.Add(ExternalEvent.HoldKnot(At(0.36 + (0.02 * n)), 1, sequence++, held, place, V(0)));
+            events.Add(ExternalEvent.HoldKeyframe(At(0.36 + (0.02 * n)), 1, sequence++, held, place, V(0)));
         }
 
         return events;

@@ -24,7 +24,7 @@ public sealed class HealReportTests
         simulation.AdvanceTo(At(1));
 
         HealReport report = Assert.Single(reports);
-        Assert.Equal((At(0.5), At(1), 1), (report.From, report.To, report.News));
+        Assert.Equal((At(0.5), At(1), 1), (report.From, report.To, report.LateEvents));
         Assert.Equal(mode == HealingMode.CausalCone ? 1 : 10, report.Bodies); // nobody meets anybody
         Assert.Equal(mode == HealingMode.CausalCone ? 1 : 10, report.SegmentsCut); // each bounced at 0.64 s
         Assert.Equal(mode == HealingMode.CausalCone ? 1 : 10, report.Events); // and the kicked one does not any more
@@ -44,7 +44,7 @@ public sealed class HealReportTests
         simulation.AdvanceTo(At(0.9));
         Assert.Empty(reports);
         simulation.AdvanceTo(At(1.5));
-        Assert.Equal((At(0.3), At(1), 3, 3), (Assert.Single(reports).From, reports[0].To, reports[0].News, reports[0].Bodies));
+        Assert.Equal((At(0.3), At(1), 3, 3), (Assert.Single(reports).From, reports[0].To, reports[0].LateEvents, reports[0].Bodies));
     }
 
     private static (Simulation Simulation, List<HealReport> Reports) Row(HealingMode mode, int count)

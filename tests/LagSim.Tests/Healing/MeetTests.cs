@@ -120,7 +120,7 @@ public sealed class MeetTests
         simulation.Submit(ExternalEvent.Release(At(0.6), 1, 2, Ball3, V(0)));
         simulation.AdvanceTo(At(4));
         Assert.Null(Assert.Single(reports).Met);
-        Assert.Equal(2, reports[0].News);
+        Assert.Equal(2, reports[0].LateEvents);
     }
 
     [Fact]

@@ -6,7 +6,7 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Healing;
 
-/// <summary>Late news for balls that lie on one another in a tube, where thousands of impacts look at who is near.</summary>
+/// <summary>Late events for balls that lie on one another in a tube, where thousands of impacts look at who is near.</summary>
 public sealed class PileTests
 {
     [Theory]

@@ -113,7 +113,7 @@ public sealed class ShellIndexTests
     public void Candidates_InAHeal_HaveWhoWasThereThen()
     {
         World world = new(5, false, 1);
-        ShellIndex index = world.Index(Near);
+        NeighbourLists index = world.Index(Near);
         for (int slot = 0; slot < Bodies; slot++)
         {
             index.Candidates(slot, world.Radius(slot), At(0), 0, out _);
@@ -157,7 +157,7 @@ public sealed class ShellIndexTests
     public void Forgotten_AndHistoryThatIsDropped_AreNotFound()
     {
         World world = new(6, false, 1);
-        ShellIndex index = world.Index(Near);
+        NeighbourLists index = world.Index(Near);
         for (int slot = 0; slot < Bodies; slot++)
         {
             index.Candidates(slot, world.Radius(slot), At(0), 0, out _);
@@ -198,7 +198,7 @@ public sealed class ShellIndexTests
     /// </summary>
     private static (int Touching, int Missed, int Listed) Count(World world, double near)
     {
-        ShellIndex index = world.Index(near);
+        NeighbourLists index = world.Index(near);
         HashSet<(int, int)> named = [];
         SimTime[] until = new SimTime[Bodies];
         int listed = 0;
@@ -260,7 +260,7 @@ public sealed class ShellIndexTests
 
         internal TimelineStore Timelines { get; } = new(default);
 
-        internal ShellIndex Index(double near) => new(Timelines, 2, 5 * faster, near, 1e-9, box);
+        internal NeighbourLists Index(double near) => new(Timelines, 2, 5 * faster, near, 1e-9, box);
 
         internal double Radius(int slot) => radii[slot];
 
@@ -272,7 +272,7 @@ public sealed class ShellIndexTests
             MotionSegment pathA = Timelines.Segment(Timelines.Last(a));
             MotionSegment pathB = Timelines.Segment(Timelines.Last(b));
             Vector3D apart = pathB.Position - pathA.Position;
-            return ContactFinder.WithSphere(
+            return TimeOfImpact.WithSphere(
                 pathA, default, pathB.At(pathB.Position + (box.Nearest(apart) - apart)), default, radii[a] + radii[b], At(0), until, out _);
         }
 

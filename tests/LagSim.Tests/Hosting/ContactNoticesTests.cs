@@ -75,9 +75,9 @@ public sealed class ContactNoticesTests
         Ledger[] ledgers = [.. Enumerable.Range(0, 3).Select(_ => new Ledger(0.2))];
         LinkProfile profile = link == "loss-20" ? new LinkProfile(link, new LinkLeg(30, 0, 20)) : LinkProfiles.TryGet(link, out LinkProfile? found, out _) ? found : throw new ArgumentException(link);
         SessionGroup group = new SessionGroup(
-            Deeds.Box(), 3, profile, (ulong)seed,
+            ScriptedActions.Box(), 3, profile, (ulong)seed,
             peer => new SessionOptions { Window = new(SimDuration.FromSeconds(3)), Strategy = strategy, Contacts = ledgers[peer].Notices }).Connect();
-        new Deeds(seed, mostSpawns: 4).DoIn(group, 24, 0.2);
+        new ScriptedActions(seed, mostSpawns: 4).DoIn(group, 24, 0.2);
         group.Run(12);
         int count = ledgers.Min(l => l.Confirmed.Count);
         Assert.True(count > 20, $"{count}");
@@ -94,14 +94,14 @@ public sealed class ContactNoticesTests
     public void Notices_OfOneWhoJoinsLater_AreThoseOfTheOthersFromThereOn()
     {
         Ledger early = new(), late = new();
-        SessionGroup group = new SessionGroup(Deeds.Box(), 1, LinkProfiles.PureDelay(20), 5, _ => new SessionOptions { Contacts = early.Notices }).Connect();
-        new Deeds(1, mostSpawns: 2).DoIn(group, 10, 0.2);
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 1, LinkProfiles.PureDelay(20), 5, _ => new SessionOptions { Contacts = early.Notices }).Connect();
+        new ScriptedActions(1, mostSpawns: 2).DoIn(group, 10, 0.2);
         group.Run(3);
-        JoinerSession joiner = group.Join(7, 77, new SessionOptions { Contacts = late.Notices });
-        Assert.True(group.RunUntil(() => joiner.State == SessionState.Running), joiner.EndReason);
-        new Deeds(2, mostSpawns: 2).DoIn(group, 20, 0.2);
+        ClientSession client = group.Join(7, 77, new SessionOptions { Contacts = late.Notices });
+        Assert.True(group.RunUntil(() => client.State == SessionState.Running), client.EndReason);
+        new ScriptedActions(2, mostSpawns: 2).DoIn(group, 20, 0.2);
         group.Run(5);
-        Assert.NotNull(joiner.BegunFrom);
+        Assert.NotNull(client.BegunFrom);
         Assert.True(late.Confirmed.Count > 10 && late.Confirmed.Count < early.Confirmed.Count, $"{late.Confirmed.Count} of {early.Confirmed.Count}");
         ContactNotice[] since = [.. early.Confirmed.SkipWhile(n => n.Key < late.Confirmed[0].Key)];
         Assert.All(since.Zip(late.Confirmed), pair => Assert.True(pair.First.IsSameContact(pair.Second)));

@@ -11,7 +11,7 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Hosting;
 
-/// <summary>A world kept ahead of a clock, in virtual time, and the pictures of it.</summary>
+/// <summary>A world kept ahead of a clock, in virtual time, and the render snapshots of it.</summary>
 public sealed class LiveWorldTests
 {
     private static readonly SimulationOptions Kept = new(default, SimDuration.FromSeconds(1));
@@ -24,10 +24,10 @@ public sealed class LiveWorldTests
         for (int i = 0; i < 200; i++)
         {
             SimTime due = world.Step(now);
-            Picture picture = world.Pictures.Latest();
-            Assert.True(picture.Covers(now) && picture.To > now, $"{now}: {picture.From} to {picture.To}");
+            RenderSnapshot snapshot = world.RenderSnapshots.Latest();
+            Assert.True(snapshot.Covers(now) && snapshot.To > now, $"{now}: {snapshot.From} to {snapshot.To}");
             Assert.True(due > now);
-            Assert.True(picture.Covers(SimTime.Min(due, At(1000))));
+            Assert.True(snapshot.Covers(SimTime.Min(due, At(1000))));
             now = SimTime.Min(due, now + SimDuration.FromSeconds(0.02));
         }
 
@@ -75,19 +75,19 @@ public sealed class LiveWorldTests
     {
         LiveWorld world = new(Drop(0, 0.5), Kept);
         Assert.Equal(SimTime.MaxValue, world.Step(At(0)));
-        long number = world.Pictures.Latest().Number;
+        long number = world.RenderSnapshots.Latest().Number;
         Assert.Equal(SimTime.MaxValue, world.Step(At(5000)));
-        Picture picture = world.Pictures.Latest();
-        Assert.Equal(number, picture.Number); // nothing changed, nothing published
-        Assert.True(picture.TryRead(First, At(5000), out BodyState state));
+        RenderSnapshot snapshot = world.RenderSnapshots.Latest();
+        Assert.Equal(number, snapshot.Number); // nothing changed, nothing published
+        Assert.True(snapshot.TryRead(First, At(5000), out BodyState state));
         Assert.Equal(MotionLaw.Resting, state.Motion);
 
         // The control: a push makes it move, and due.
         world.Submit(ExternalEvent.Impulse(At(5000), 1, 1, First, V(0, 3)));
         Assert.NotEqual(SimTime.MaxValue, world.Step(At(5000)));
-        picture = world.Pictures.Latest();
-        Assert.True(picture.Number > number && picture.Covers(At(5000.01)));
-        Assert.True(picture.TryRead(First, At(5000.01), out state));
+        snapshot = world.RenderSnapshots.Latest();
+        Assert.True(snapshot.Number > number && snapshot.Covers(At(5000.01)));
+        Assert.True(snapshot.TryRead(First, At(5000.01), out state));
         Assert.Equal(MotionLaw.Ballistic, state.Motion);
     }
 
@@ -100,23 +100,23 @@ public sealed class LiveWorldTests
         world.Step(horizon + SimDuration.FromSeconds(0.25));
         Assert.Equal(1, world.LateSteps);
         Assert.Equal(SimDuration.FromSeconds(0.25), world.MaxLateness);
-        Assert.True(world.Pictures.Latest().Covers(horizon + SimDuration.FromSeconds(0.25)));
+        Assert.True(world.RenderSnapshots.Latest().Covers(horizon + SimDuration.FromSeconds(0.25)));
     }
 
     [Fact]
     public void Picture_UnknownBodyOrTime_IsNotRead()
     {
         LiveWorld world = new(Drop(1, 1), Kept);
-        Assert.False(world.Pictures.Latest().TryRead(First, At(0), out _)); // before the first
+        Assert.False(world.RenderSnapshots.Latest().TryRead(First, At(0), out _)); // before the first
         world.Step(At(0));
-        Picture picture = world.Pictures.Latest();
-        Assert.True(picture.TryRead(First, At(0), out _));
-        Assert.False(picture.TryRead(Second, At(0), out _));
-        Assert.False(picture.TryRead(First, At(100), out BodyState state));
+        RenderSnapshot snapshot = world.RenderSnapshots.Latest();
+        Assert.True(snapshot.TryRead(First, At(0), out _));
+        Assert.False(snapshot.TryRead(Second, At(0), out _));
+        Assert.False(snapshot.TryRead(First, At(100), out BodyState state));
         Assert.Equal(MotionLaw.Absent, state.Motion);
-        Assert.False(picture.TryRead(First, At(0) - SimDuration.OneTick, out _));
-        Assert.Equal(1, picture.BodyCount);
-        Assert.Equal(First, picture.BodyAt(0));
+        Assert.False(snapshot.TryRead(First, At(0) - SimDuration.OneTick, out _));
+        Assert.Equal(1, snapshot.BodyCount);
+        Assert.Equal(First, snapshot.BodyAt(0));
     }
 
     [Fact]
@@ -125,7 +125,7 @@ public sealed class LiveWorldTests
         Scene scene = Drop(1, 1);
         Assert.Throws<ArgumentOutOfRangeException>(() => new LiveWorld(scene, Kept, SimDuration.Zero));
         Assert.Throws<ArgumentOutOfRangeException>(() => new LiveWorld(scene, Kept, SimDuration.FromSeconds(1.1)));
-        Assert.Throws<ArgumentOutOfRangeException>(() => new LiveWorld(scene, Kept, picturePast: -SimDuration.OneTick));
+        Assert.Throws<ArgumentOutOfRangeException>(() => new LiveWorld(scene, Kept, renderedPast: -SimDuration.OneTick));
         Assert.Throws<ArgumentOutOfRangeException>(() => new LiveWorld(scene, Kept, SimDuration.FromSeconds(1)));
         Assert.Throws<ArgumentNullException>(() => new LiveWorld(scene, null!));
     }
@@ -147,7 +147,7 @@ public sealed class LiveWorldTests
             SimTime due = bounded.Step(At(0));
             Assert.InRange(bounded.Simulation.EventsProcessed - before, 1, 500);
             Assert.Equal(bounded.IsBehind, due == At(0));
-            Assert.Equal(bounded.Simulation.Horizon, bounded.Pictures.Latest().To); // no more than is there
+            Assert.Equal(bounded.Simulation.Horizon, bounded.RenderSnapshots.Latest().To); // no more than is there
             Assert.True(bounded.Simulation.SimulatedTo > reached);
             reached = bounded.Simulation.SimulatedTo;
             steps++;
@@ -166,9 +166,9 @@ public sealed class LiveWorldTests
         for (int frame = 1; frame <= 10; frame++)
         {
             world.Step(At(0.1 * frame));
-            Picture picture = world.Pictures.Latest();
-            Assert.True(world.IsBehind && picture.To < At(0.1 * frame) && picture.From <= picture.To);
-            Assert.True(picture.TryRead(First, picture.To, out _));
+            RenderSnapshot snapshot = world.RenderSnapshots.Latest();
+            Assert.True(world.IsBehind && snapshot.To < At(0.1 * frame) && snapshot.From <= snapshot.To);
+            Assert.True(snapshot.TryRead(First, snapshot.To, out _));
             Assert.Equal(frame, world.LateSteps);
         }
 
@@ -215,7 +215,7 @@ public sealed class LiveWorldTests
         (LiveWorld world, Random random) = (new(BuiltInScenes.Gas(100), Kept) { Effort = 1 }, new(seed));
         SimTime now = At(0.9);
         Settle(world, now);
-        Vector3D sum = Sum(world.Pictures.Latest(), now, 100);
+        Vector3D sum = Sum(world.RenderSnapshots.Latest(), now, 100);
         uint sequence = 0;
         int steps = 0, kept = 0, healed = 0;
         for (int round = 0; round < 5; round++)
@@ -228,21 +228,21 @@ public sealed class LiveWorldTests
                 world.Submit(ExternalEvent.Impulse(stamp, 1, ++sequence, BodyId.OfScene((first + 1 + random.Next(99)) % 100), V(-0.02, -0.01)));
             }
 
-            Picture before = world.Pictures.Latest();
+            RenderSnapshot before = world.RenderSnapshots.Latest();
             SimTime shown = now + world.LookAhead;
             do
             {
                 world.Step(now);
-                Picture picture = world.Pictures.Latest();
-                Assert.True(picture.Covers(now) && picture.To >= shown, $"{picture.To}, and {shown} was shown before");
-                Assert.True((Sum(picture, now, 100) - sum).Length < 1e-12);
-                Assert.True((Sum(picture, picture.From, 100) - sum).Length < 1e-12);
+                RenderSnapshot snapshot = world.RenderSnapshots.Latest();
+                Assert.True(snapshot.Covers(now) && snapshot.To >= shown, $"{snapshot.To}, and {shown} was shown before");
+                Assert.True((Sum(snapshot, now, 100) - sum).Length < 1e-12);
+                Assert.True((Sum(snapshot, snapshot.From, 100) - sum).Length < 1e-12);
                 steps++;
-                kept += ReferenceEquals(picture, before) && world.Simulation.SimulatedTo < shown ? 1 : 0;
+                kept += ReferenceEquals(snapshot, before) && world.Simulation.SimulatedTo < shown ? 1 : 0;
             }
             while (world.IsBehind);
 
-            healed += ReferenceEquals(world.Pictures.Latest(), before) ? 0 : 1;
+            healed += ReferenceEquals(world.RenderSnapshots.Latest(), before) ? 0 : 1;
             now += SimDuration.FromSeconds(0.1);
             Settle(world, now);
         }
@@ -253,7 +253,7 @@ public sealed class LiveWorldTests
         // The control: half a pair is seen.
         world.Submit(ExternalEvent.Impulse(now - SimDuration.FromSeconds(0.1), 1, ++sequence, First, V(0.02, 0.01)));
         Settle(world, now);
-        Assert.True((Sum(world.Pictures.Latest(), now, 100) - sum).Length > 0.02);
+        Assert.True((Sum(world.RenderSnapshots.Latest(), now, 100) - sum).Length > 0.02);
     }
 
     /// <summary>A ball in a gap of 2 mm, which meets 500 times its speed in walls a second.</summary>
@@ -270,12 +270,12 @@ public sealed class LiveWorldTests
     }
 
     /// <summary>The velocities of so many bodies, all of which are there, added up.</summary>
-    private static Vector3D Sum(Picture picture, SimTime time, int bodies)
+    private static Vector3D Sum(RenderSnapshot snapshot, SimTime time, int bodies)
     {
         Vector3D sum = Vector3D.Zero;
         for (int n = 0; n < bodies; n++)
         {
-            Assert.True(picture.TryRead(BodyId.OfScene(n), time, out BodyState state), $"{n} at {time}");
+            Assert.True(snapshot.TryRead(BodyId.OfScene(n), time, out BodyState state), $"{n} at {time}");
             sum += state.Velocity;
         }
 
@@ -284,12 +284,12 @@ public sealed class LiveWorldTests
 
     private static Scene RandomScene => new RandomWorld(3).Scene;
 
-    /// <summary>Plays a world with events heard late, twice and taken back, and compares pictures with the simulation at random times.</summary>
+    /// <summary>Plays a world with events heard late, twice and taken back, and compares render snapshots with the simulation at random times.</summary>
     private static (int Compared, int Different) Follow(int seed, bool publishes)
     {
         Random random = new(seed);
         RandomWorld drawn = new(seed);
-        LiveWorld world = new(drawn.Scene, Kept, picturePast: SimDuration.FromSeconds(0.3));
+        LiveWorld world = new(drawn.Scene, Kept, renderedPast: SimDuration.FromSeconds(0.3));
         ExternalEvent[] events = drawn.Events.OrderBy(_ => random.Next()).ToArray();
         int compared = 0, different = 0, next = 0;
         for (int frame = 0; frame < 75; frame++)
@@ -320,19 +320,19 @@ public sealed class LiveWorldTests
 
             if (random.Next(3) == 0)
             {
-                continue; // the reader misses some pictures
+                continue; // the reader misses some render snapshots
             }
 
-            Picture picture = world.Pictures.Latest();
+            RenderSnapshot snapshot = world.RenderSnapshots.Latest();
             for (int k = 0; k < 8; k++)
             {
-                SimTime last = SimTime.Min(picture.To, now + world.LookAhead);
-                SimTime time = picture.From + SimDuration.FromTicks((long)(random.NextDouble() * (last - picture.From).Ticks));
-                time = k switch { 0 => picture.From, 1 => last, _ => time };
+                SimTime last = SimTime.Min(snapshot.To, now + world.LookAhead);
+                SimTime time = snapshot.From + SimDuration.FromTicks((long)(random.NextDouble() * (last - snapshot.From).Ticks));
+                time = k switch { 0 => snapshot.From, 1 => last, _ => time };
                 foreach (BodyId body in Bodies(world.Simulation))
                 {
                     bool there = world.Simulation.TryRead(body, time, out BodyState expected);
-                    bool shown = picture.TryRead(body, time, out BodyState actual);
+                    bool shown = snapshot.TryRead(body, time, out BodyState actual);
                     compared++;
                     different += there == shown && expected.IsSameBits(actual) ? 0 : 1;
                 }

@@ -118,15 +118,15 @@ public sealed class WorldThreadTests
         ManualClock clock = new() { Now = At(100) };
         using SimulationHost host = new(Drop(0, 0.5), clock);
         host.Start();
-        Assert.True(SpinWait.SpinUntil(() => host.Picture.Covers(clock.Now), Deadline));
-        Assert.True(host.Picture.TryRead(First, At(100), out BodyState before));
+        Assert.True(SpinWait.SpinUntil(() => host.RenderSnapshot.Covers(clock.Now), Deadline));
+        Assert.True(host.RenderSnapshot.TryRead(First, At(100), out BodyState before));
         Assert.Equal(MotionLaw.Resting, before.Motion);
 
         ExternalEvent pushed = host.Do(PlayerAction.Impulse(First, V(0, 3)));
         Assert.Equal((At(100), 1u), (pushed.Time, pushed.Sequence));
-        Assert.True(SpinWait.SpinUntil(() => host.Picture.TryRead(First, At(100), out BodyState s) && s.Velocity == V(0, 3), Deadline));
+        Assert.True(SpinWait.SpinUntil(() => host.RenderSnapshot.TryRead(First, At(100), out BodyState s) && s.Velocity == V(0, 3), Deadline));
         ExternalEvent spawned = host.Do(PlayerAction.Spawn(Ball(), V(0, 9)));
-        Assert.True(SpinWait.SpinUntil(() => host.Picture.TryRead(spawned.Body, At(100), out _), Deadline));
+        Assert.True(SpinWait.SpinUntil(() => host.RenderSnapshot.TryRead(spawned.Body, At(100), out _), Deadline));
     }
 
     [Fact]
@@ -154,9 +154,9 @@ public sealed class WorldThreadTests
         ManualClock clock = new();
         using SimulationHost host = new(Drop(0, 0.5), clock);
         host.Start();
-        Assert.True(SpinWait.SpinUntil(() => host.Picture.Number > 0, Deadline));
+        Assert.True(SpinWait.SpinUntil(() => host.RenderSnapshot.Number > 0, Deadline));
         clock.Now = At(1000);
-        Assert.True(host.Picture.TryRead(First, clock.Now, out _)); // what it published covers all of the future
+        Assert.True(host.RenderSnapshot.TryRead(First, clock.Now, out _)); // what it published covers all of the future
         Assert.InRange(host.Steps, 0, 1);
     }
 
@@ -172,7 +172,7 @@ public sealed class WorldThreadTests
         {
             try
             {
-                _ = host.Picture;
+                _ = host.RenderSnapshot;
                 return false;
             }
             catch (InvalidOperationException e)
@@ -187,12 +187,12 @@ public sealed class WorldThreadTests
 
     /// <summary>Nothing in the loop but the reading, so that a compiler may move that out of it where it is an ordinary one.</summary>
     [MethodImpl(MethodImplOptions.AggressiveOptimization)]
-    private static bool GrowsBefore(WorldThread thread, long patience, ManualResetEventSlim reads)
+    private static bool GrowsBefore(WorldThread thread, long timeout, ManualResetEventSlim reads)
     {
         reads.Set();
         while (thread.Steps == 0)
         {
-            if (--patience == 0)
+            if (--timeout == 0)
             {
                 return false;
             }

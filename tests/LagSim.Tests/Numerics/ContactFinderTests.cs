@@ -30,7 +30,7 @@ public sealed class ContactFinderTests
         Prop.ForAll(Paths, p =>
         {
             SimTime from = SimTime.Max(p.A.Epoch, p.B.Epoch);
-            bool found = ContactFinder.WithSphere(p.A, p.Da, p.B, p.Db, p.Reach, from, Until, out ContactTime contact);
+            bool found = TimeOfImpact.WithSphere(p.A, p.Da, p.B, p.Db, p.Reach, from, Until, out ContactTime contact);
             double Gap(double t) => (Position(p.A, p.Da, from, t) - Position(p.B, p.Db, from, t)).Length - p.Reach;
             return IsFirst(Gap, found, contact, from);
         }).Check(Many);
@@ -43,7 +43,7 @@ public sealed class ContactFinderTests
         Prop.ForAll(Paths, p =>
         {
             double radius = p.Reach;
-            bool found = ContactFinder.WithPlane(p.A, p.Da, radius, plane, p.A.Epoch, Until, out ContactTime contact);
+            bool found = TimeOfImpact.WithPlane(p.A, p.Da, radius, plane, p.A.Epoch, Until, out ContactTime contact);
             double Gap(double t) => plane.Gap(Position(p.A, p.Da, p.A.Epoch, t), radius);
             return IsFirst(Gap, found, contact, p.A.Epoch);
         }).Check(Many);
@@ -56,8 +56,8 @@ public sealed class ContactFinderTests
         Prop.ForAll(Paths, p =>
         {
             SimTime from = SimTime.Max(p.A.Epoch, p.B.Epoch);
-            bool found = ContactFinder.WithSphere(p.A, p.Da, p.B, p.Db, p.Reach, from, Until, out ContactTime contact);
-            bool swapped = ContactFinder.WithSphere(p.B, p.Db, p.A, p.Da, p.Reach, from, Until, out ContactTime other);
+            bool found = TimeOfImpact.WithSphere(p.A, p.Da, p.B, p.Db, p.Reach, from, Until, out ContactTime contact);
+            bool swapped = TimeOfImpact.WithSphere(p.B, p.Db, p.A, p.Da, p.Reach, from, Until, out ContactTime other);
             return found == swapped && Math.Abs((contact.Tick - other.Tick).Ticks) <= 1;
         }).Check(Many);
     }
@@ -66,7 +66,7 @@ public sealed class ContactFinderTests
     public void IsFirst_ContactAThousandTicksLate_IsSeenToFail()
     {
         MotionSegment a = Flight(V(0), V(1)), b = Flight(V(5), V(-1));
-        Assert.True(ContactFinder.WithSphere(a, default, b, default, 1, default, Until, out ContactTime contact));
+        Assert.True(TimeOfImpact.WithSphere(a, default, b, default, 1, default, Until, out ContactTime contact));
         double Gap(double t) => (a.PositionAt(t, default) - b.PositionAt(t, default)).Length - 1;
         Assert.True(IsFirst(Gap, true, contact, default));
         Assert.True(ContactTime.TryMake(default, Until, 2 + 1e-9, out ContactTime late));
@@ -81,7 +81,7 @@ public sealed class ContactFinderTests
     public void WithSphere_PassingBy_IsHitOnlyWhenNearerThanTheRadii(double offset, bool hits)
     {
         MotionSegment a = Flight(V(-2, offset), V(1)), b = Flight(V(0), V(0));
-        Assert.Equal(hits, ContactFinder.WithSphere(a, default, b, default, 1, default, Until, out _));
+        Assert.Equal(hits, TimeOfImpact.WithSphere(a, default, b, default, 1, default, Until, out _));
     }
 
     [Fact]
@@ -89,8 +89,8 @@ public sealed class ContactFinderTests
     {
         StaticPlane ceiling = new SceneBuilder("c").AddPlane("ceiling", V(0, -1), V(0, 5)).Build().Planes[0];
         MotionSegment rising = new(MotionLaw.Ballistic, default, SimTime.MaxValue, V(0), V(0, 8), V(0, -8)); // apex at 4 m
-        Assert.False(ContactFinder.WithPlane(rising, default, 1, ceiling, default, SimTime.MaxValue, out _));
-        Assert.True(ContactFinder.WithPlane(rising, default, 1.000001, ceiling, default, SimTime.MaxValue, out _));
+        Assert.False(TimeOfImpact.WithPlane(rising, default, 1, ceiling, default, SimTime.MaxValue, out _));
+        Assert.True(TimeOfImpact.WithPlane(rising, default, 1.000001, ceiling, default, SimTime.MaxValue, out _));
     }
 
     private static bool IsFirst(Func<double, double> gap, bool found, ContactTime contact, SimTime from)

@@ -19,14 +19,14 @@ public sealed class FirstDescentTests
     /// <summary>Polynomials of every degree: random ones, products with many roots in the interval, and ones that start in an overlap.</summary>
     private static readonly Arbitrary<(double[] F, double Length)> Polynomials = (
         from kind in Gen.Choose(0, 3)
-        from degree in Gen.Choose(0, FirstDescent.MaxDegree)
-        from draws in Gen.Choose(-1_000_000, 1_000_000).Select(x => x / 1e6).ArrayOf(FirstDescent.MaxDegree + 2)
+        from degree in Gen.Choose(0, RootIsolation.MaxDegree)
+        from draws in Gen.Choose(-1_000_000, 1_000_000).Select(x => x / 1e6).ArrayOf(RootIsolation.MaxDegree + 2)
         from length in Gen.Elements(0.005, 1.0, 1.0, 3.0, 1000.0)
         select (Make(kind, degree, draws, length), length)).ToArbitrary();
 
     /// <summary>Polynomials whose terms are positive, but for one in half of them.</summary>
     private static readonly Arbitrary<(double[] F, double Length)> MostlyGrowing = (
-        from terms in Gen.Choose(2, FirstDescent.MaxDegree + 1)
+        from terms in Gen.Choose(2, RootIsolation.MaxDegree + 1)
         from sizes in Gen.Choose(0, 1_000).Select(x => Math.Pow(10, (x / 100.0) - 8)).ArrayOf(terms)
         from isZero in Gen.Choose(0, 4).ArrayOf(terms)
         from down in Gen.Choose(0, (2 * terms) - 1)
@@ -36,7 +36,7 @@ public sealed class FirstDescentTests
     [Fact]
     public void Find_AnyPolynomial_IsTheFirstDescentAndNoOther()
     {
-        Check((f, length) => FirstDescent.Find((double[])f.Clone(), length));
+        Check((f, length) => RootIsolation.Find((double[])f.Clone(), length));
     }
 
     [Fact]
@@ -60,15 +60,15 @@ public sealed class FirstDescentTests
     [Fact]
     public void Check_FinderThatMovesTheRootByAMillionth_IsSeenToFail()
     {
-        Assert.ThrowsAny<Exception>(() => Check((f, length) => FirstDescent.Find((double[])f.Clone(), length) * (1 + 1e-6)));
+        Assert.ThrowsAny<Exception>(() => Check((f, length) => RootIsolation.Find((double[])f.Clone(), length) * (1 + 1e-6)));
     }
 
     [Fact]
     public void OnlyGrows_AnyPolynomial_HasNoDescentThen()
     {
         // Curved paths are not searched where this says so: it may say so only where the search would find nothing.
-        Assert.True(Growing((f, terms) => ContactFinder.OnlyGrows(f, terms)) > 100);
-        Assert.ThrowsAny<Exception>(() => Growing((f, terms) => ContactFinder.OnlyGrows(f, terms - 1))); // the control
+        Assert.True(Growing((f, terms) => TimeOfImpact.OnlyGrows(f, terms)) > 100);
+        Assert.ThrowsAny<Exception>(() => Growing((f, terms) => TimeOfImpact.OnlyGrows(f, terms - 1))); // the control
 
         static int Growing(Func<double[], int, bool> onlyGrows)
         {
@@ -77,7 +77,7 @@ public sealed class FirstDescentTests
             {
                 bool grows = onlyGrows((double[])p.F.Clone(), p.F.Length);
                 growing += grows ? 1 : 0;
-                return !grows || double.IsNaN(FirstDescent.Find((double[])p.F.Clone(), p.Length));
+                return !grows || double.IsNaN(RootIsolation.Find((double[])p.F.Clone(), p.Length));
             }).Check(Many);
             return growing;
         }
@@ -89,7 +89,7 @@ public sealed class FirstDescentTests
         Prop.ForAll(Polynomials, p =>
         {
             double[] f = [p.F[0], p.F.Length > 1 ? p.F[1] : 0, p.F.Length > 2 ? p.F[2] : 0];
-            double closed = Quadratic.FirstDescent(f[0], f[1], f[2]);
+            double closed = Quadratic.RootIsolation(f[0], f[1], f[2]);
             return closed > p.Length || Satisfies(f, p.Length, closed) == "";
         }).Check(Many);
     }
@@ -111,9 +111,9 @@ public sealed class FirstDescentTests
     [InlineData(-0.25, 1.25, -1, 1)] // opening, free, back
     public void FirstDescent_CornerCases_AreAsDocumented(double c0, double c1, double c2, double expected)
     {
-        Assert.Equal(expected, Quadratic.FirstDescent(c0, c1, c2), 1e-15);
-        Assert.Equal(expected, FirstDescent.Find([c0, c1, c2], 10), 1e-15);
-        Assert.Equal(expected, FirstDescent.Find([c0, c1, c2, 0, 0, 0, 0, 0, 0, 0, 0], 10), 1e-15);
+        Assert.Equal(expected, Quadratic.RootIsolation(c0, c1, c2), 1e-15);
+        Assert.Equal(expected, RootIsolation.Find([c0, c1, c2], 10), 1e-15);
+        Assert.Equal(expected, RootIsolation.Find([c0, c1, c2, 0, 0, 0, 0, 0, 0, 0, 0], 10), 1e-15);
     }
 
     [Fact]
@@ -122,7 +122,7 @@ public sealed class FirstDescentTests
         Prop.ForAll(Gen.Choose(1, 1023).ToArbitrary(), root =>
         {
             double r = root / 1024.0;
-            return double.IsNaN(FirstDescent.Find([r * r, -2 * r, 1], 1)) && double.IsNaN(Quadratic.FirstDescent(r * r, -2 * r, 1));
+            return double.IsNaN(RootIsolation.Find([r * r, -2 * r, 1], 1)) && double.IsNaN(Quadratic.RootIsolation(r * r, -2 * r, 1));
         }).Check(Many);
     }
 
@@ -131,7 +131,7 @@ public sealed class FirstDescentTests
     {
         // The negative control of the graze: two roots 2^-20 apart.
         double r = 0.5, s = r + Math.Pow(2, -20);
-        Assert.Equal(r, FirstDescent.Find([r * s, -(r + s), 1], 1), 1e-10);
+        Assert.Equal(r, RootIsolation.Find([r * s, -(r + s), 1], 1), 1e-10);
     }
 
     [Fact]
@@ -148,7 +148,7 @@ public sealed class FirstDescentTests
             }
 
             double[] f = Times(q, q);
-            double root = FirstDescent.Find((double[])f.Clone(), 1);
+            double root = RootIsolation.Find((double[])f.Clone(), 1);
             Assert.True(double.IsNaN(root) || Value(f, root) <= Bound(f, root));
         }
     }

@@ -144,7 +144,7 @@ public sealed class FreeFlightsTests
     }
 
     [Fact]
-    public void AreApart_WhatItIsNotTold_IsInDoubt()
+    public void AreApart_WhatItIsNotTold_IsInDesyncQuery()
     {
         FreeFlights flights = Two(V(0, -1), default);
         Assert.True(flights.AreApart(0, 1, At(1), At(2)));
@@ -168,7 +168,7 @@ public sealed class FreeFlightsTests
     }
 
     [Fact]
-    public void AreApart_WithinTheDistanceThatIsNear_IsInDoubt()
+    public void AreApart_WithinTheDistanceThatIsNear_IsInDesyncQuery()
     {
         FreeFlights flights = new(V(0), 0.5, default);
         flights.AddSlot(0, 1);
@@ -241,9 +241,9 @@ public sealed class FreeFlightsTests
 
         internal bool Touches(SimTime from, SimTime until) => Touches(from, until, out _);
 
-        internal bool Touches(SimTime from, SimTime until, out ContactTime contact) => ContactFinder.WithSphere(a, default, b, default, reach, from, until, out contact);
+        internal bool Touches(SimTime from, SimTime until, out ContactTime contact) => TimeOfImpact.WithSphere(a, default, b, default, reach, from, until, out contact);
 
-        internal bool TouchesPlane(in StaticPlane plane) => ContactFinder.WithPlane(a, default, radius, plane, From, Until, out _);
+        internal bool TouchesPlane(in StaticPlane plane) => TimeOfImpact.WithPlane(a, default, radius, plane, From, Until, out _);
 
         internal (Vector3D Position, Vector3D Velocity) StateAt(SimTime time, double after)
         {

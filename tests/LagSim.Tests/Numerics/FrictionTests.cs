@@ -174,10 +174,10 @@ public sealed class FrictionTests
         for (int i = 0; i < steps; i++)
         {
             Vector3D middle = u + ((pull - (u * (3.5 * mu * 0.8 * Gravity / u.Length))) * (h / 2));
-            Vector3D rub = middle * (mu * 0.8 * Gravity / middle.Length);
-            x += (v + ((pull - rub) * (h / 2))) * h;
-            v += (pull - rub) * h;
-            u += (pull - (rub * 3.5)) * h;
+            Vector3D frictionImpulse = middle * (mu * 0.8 * Gravity / middle.Length);
+            x += (v + ((pull - frictionImpulse) * (h / 2))) * h;
+            v += (pull - frictionImpulse) * h;
+            u += (pull - (frictionImpulse * 3.5)) * h;
         }
 
         BodyState end = Read(world, First, 0.25);

@@ -81,7 +81,7 @@ public sealed class ImpactSolverTests
     }
 
     [Fact]
-    public void Solve_SqueezedBetweenWallsThatCannotGiveWay_ComesToRestBetweenThem()
+    public void Solve_JammedBetweenWallsThatCannotGiveWay_ComesToRestBetweenThem()
     {
         ContactPoint left = new(0, ContactPoint.Static, 0, default) { Normal = V(1), Target = 1 };
         ContactPoint right = new(0, ContactPoint.Static, 1, default) { Normal = V(-1), Target = 1 };

@@ -100,7 +100,7 @@ public sealed class MassRatioTests
     [InlineData(1e12, 0.9)]
     [InlineData(1e13, 0.5)]
     [InlineData(1e30, 0.9)]
-    public void LightBallSqueezedAgainstAWall_ByAHeavyOne_EndsWithoutPassing(double ratio, double e)
+    public void LightBallJammedAgainstAWall_ByAHeavyOne_EndsWithoutPassing(double ratio, double e)
     {
         Simulation simulation = Run(Squeeze(ratio, e), 3);
         Assert.InRange(simulation.EventsProcessed, 2, 10_000);
@@ -110,7 +110,7 @@ public sealed class MassRatioTests
 
     /// <summary>By the square root of the mass ratio, 3e15 impacts, and nothing is lost in any: it stops, with a sentence.</summary>
     [Fact]
-    public void LightBallSqueezedAgainstAWall_WithoutALoss_StopsWithASentence()
+    public void LightBallJammedAgainstAWall_WithoutALoss_StopsWithASentence()
     {
         string message = Assert.Throws<SimulationException>(() => Run(Squeeze(1e30, 1), 3)).Message;
         Assert.Contains("'light'", message, StringComparison.Ordinal);
@@ -141,9 +141,9 @@ public sealed class MassRatioTests
         Assert.Equal(restitution == 1, failure is SimulationException && failure.Message.Contains("no end", StringComparison.Ordinal));
     }
 
-    /// <summary>A world that waits stands before that instant, and goes on once news takes the light ball away; to the bits of one that knew it before.</summary>
+    /// <summary>A world that waits stands before that instant, and goes on once a late event takes the light ball away; to the bits of one that knew it before.</summary>
     [Fact]
-    public void LightBallSqueezedAgainstAWall_RemovedLate_LetsAWorldThatWaitsGoOn()
+    public void LightBallJammedAgainstAWall_RemovedLate_LetsAWorldThatWaitsGoOn()
     {
         ExternalEvent gone = ExternalEvent.Remove(At(0.3), 1, 1, First);
         Simulation inTime = new(Squeeze(1e30, 1));

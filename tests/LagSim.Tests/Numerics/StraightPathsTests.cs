@@ -82,7 +82,7 @@ public sealed class StraightPathsTests
             flights.Set(0, a, SimTime.Zero);
             flights.Set(1, b, SimTime.Zero);
             MotionSegment bent = new(a.Law, a.Epoch, a.End, a.Position, a.Velocity, a.Acceleration + bend);
-            bool touches = ContactFinder.WithSphere(bent, default, b, default, reach, from, until, out _);
+            bool touches = TimeOfImpact.WithSphere(bent, default, b, default, reach, from, until, out _);
             bool isTold = flights.AreApart(0, 1, from, until);
             (apart, touching) = (apart + (isTold ? 1 : 0), touching + (touches ? 1 : 0));
             (wrong, missed) = (wrong + (isTold && touches ? 1 : 0), missed + (touches ? 0 : 1));

@@ -83,7 +83,7 @@ public sealed class DropTestTests
         Assert.Equal(rewrites ? peers - 1 : 0, run.Heals); // all but the one who lifted it
         Assert.InRange(run.Seen.During.ToStatistics().MaxMetres, 14.49, 14.5);
 
-        // Only those rewrite what was before the news as well.
+        // Only those rewrite what was before the late event as well.
         Assert.Equal(rewrites, run.Agrees);
         Assert.Equal(rewrites, Differing(run.Settled.During) == (0, 0));
 
@@ -96,7 +96,7 @@ public sealed class DropTestTests
     [InlineData(MotionLaw.Ballistic, 4)]
     public void Run_TeleportWithHealing_IsWrongBetweenStampAndArrivalAndNowhereElse(MotionLaw motion, int peers)
     {
-        // Fig 3 of the thesis has a residual of 0.029 m rms after the news; here it is 0 bits, before, during and after, as settled.
+        // Fig 3 of the thesis has a residual of 0.029 m rms after the late event; here it is 0 bits, before, during and after, as settled.
         DropRun run = DropTest.Run(Default with { Motion = motion, Peers = peers })[1];
         Assert.All(All(run.Settled), errors => Assert.Equal((0, 0), (errors.DifferingBits, errors.StalledSamples)));
         Assert.All(run.Trace.SettledError, error => Assert.Equal(0, error));
@@ -119,7 +119,7 @@ public sealed class DropTestTests
     {
         DropRun run = DropTest.Run(Default with { Strategy = "interpolation" })[1], soon = DropTest.Run(Default with { Strategy = "interpolation", DisplayDelay = SimDuration.FromMilliseconds(10) })[1];
         Assert.All(All(run.Seen), errors => Assert.Equal((0, 0), (errors.DifferingBits, errors.StalledSamples)));
-        Assert.True(soon.Seen.During.ToStatistics().MaxMetres > 14); // the control: 10 ms are less than the 25 that the news takes
+        Assert.True(soon.Seen.During.ToStatistics().MaxMetres > 14); // the control: 10 ms are less than the 25 that the event takes
         Assert.True(run.Agrees && soon.Agrees);
         Assert.InRange(ShownAfter(run), 0.1, 0.1051);
         Assert.InRange(ShownAfter(DropTest.Run(Default)[1]), 0, 0.0051);
@@ -195,7 +195,7 @@ public sealed class DropTestTests
         Assert.All(runs, run => Assert.Equal(0, run.Seen.Before.ToStatistics().DifferingBits));
         Assert.InRange(runs[1].Heals, link == "delay-0ms" ? 0 : 2, 2); // without a delay it is the clocks that say whether it came late at all
 
-        // What is seen too late to be shown is counted: beyond half a second, or after losses, joiners hear of the start when it is past.
+        // What is seen too late to be shown is counted: beyond half a second, or after losses, clients hear of the start when it is past.
         double late = profile!.FromHost.DelayMilliseconds - 500;
         long stalled = runs[0].Seen.Before.ToStatistics().StalledSamples;
         bool isLateByLuck = profile.Name == "awful" || profile.HasBulkTransfer; // losses; a queue that somebody else fills
@@ -219,7 +219,7 @@ public sealed class DropTestTests
     [InlineData(4UL)]
     public void Run_BallThatNeverRestsOnABadLink_IsComparedToTheEnd(ulong seed)
     {
-        // The joiners' clocks are tens of milliseconds off; the run ends when the last of them has got there.
+        // The clients' clocks are tens of milliseconds off; the run ends when the last of them has got there.
         IReadOnlyList<DropRun> runs = DropTest.Run(
             Default with { Restitution = 1, Link = LinkProfiles.Awful, DelayMilliseconds = null, Motion = MotionLaw.Ballistic, Peers = 4, Seed = seed });
         Assert.True(runs[0].ClockErrorMilliseconds > 5);

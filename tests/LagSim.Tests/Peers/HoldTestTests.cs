@@ -33,7 +33,7 @@ public sealed class HoldTestTests
         Assert.Equal(0, run.Seen.Before.ToStatistics().DifferingBits);
         Assert.Equal(0, run.Seen.After.ToStatistics().DifferingBits);
         Assert.True(run.Seen.After.ToStatistics().Samples > 500);
-        Assert.True(run.Heals >= (peers - 1) * run.Knots);
+        Assert.True(run.Heals >= (peers - 1) * run.Keyframes);
         Assert.Equal(peers - 1, run.Views.Count);
         Assert.NotNull(run.Trace.Known);
 
@@ -45,13 +45,13 @@ public sealed class HoldTestTests
     }
 
     [Fact]
-    public void Truth_WithOneKnotWithheld_IsAnotherWorld()
+    public void Truth_WithOneKeyframeWithheld_IsAnotherWorld()
     {
         HoldRun run = HoldTest.Run(Options("random", "delay-100ms"));
         Assert.Equal((run.TruthStateHash, run.TruthEventHash), Hashes(run, run.Accepted));
-        ExternalEvent[] knots = run.Accepted.Where(e => e.Kind == EventKind.HoldKnot).ToArray();
-        Assert.Equal(run.Knots, knots.Length);
-        foreach (ExternalEvent withheld in new[] { knots[1], knots[knots.Length / 2], knots[^1] })
+        ExternalEvent[] keyframes = run.Accepted.Where(e => e.Kind == EventKind.HoldKeyframe).ToArray();
+        Assert.Equal(run.Keyframes, keyframes.Length);
+        foreach (ExternalEvent withheld in new[] { keyframes[1], keyframes[keyframes.Length / 2], keyframes[^1] })
         {
             Assert.NotEqual(run.TruthEventHash, Hashes(run, run.Accepted.Where(e => !e.Equals(withheld))).Events);
         }
@@ -74,9 +74,9 @@ public sealed class HoldTestTests
             Assert.Equal(2360, host.Predicted.Samples); // 11.8 s, the throw left out
             Assert.InRange(host.RatioToBest, 0.9, 1.15);
             Assert.True(host.Predicted.RmsMetres < host.Simulated.RmsMetres);
-            Assert.InRange(host.Simulated.RmsMetres, before, 0.3); // later news, further off
+            Assert.InRange(host.Simulated.RmsMetres, before, 0.3); // later events, further off
             before = host.Simulated.RmsMetres;
-            Assert.InRange(run.Own.RmsMetres, 1e-3, 0.02); // what knots leave out, whatever the delay
+            Assert.InRange(run.Own.RmsMetres, 1e-3, 0.02); // what keyframes leave out, whatever the delay
             if (delay == 100)
             {
                 Assert.True(host.HoldLastMetres > 1.15 * host.BestInHindsightMetres); // the control: the bound excludes somebody
@@ -89,20 +89,20 @@ public sealed class HoldTestTests
     {
         HoldRun slow = HoldTest.Run(Options("slow", "delay-100ms") with { HoldSeconds = 10 });
         HoldRun random = HoldTest.Run(Options("random", "delay-100ms") with { HoldSeconds = 10 });
-        HoldRun coarse = HoldTest.Run(Options("random", "delay-100ms") with { HoldSeconds = 10, KnotDistanceMetres = 0.03 });
+        HoldRun coarse = HoldTest.Run(Options("random", "delay-100ms") with { HoldSeconds = 10, KeyframeDistanceMetres = 0.03 });
         Assert.InRange(slow.HolderBytesPerSecond, 1000, 4812); // 4.7 KiB, both ways
         Assert.InRange(random.HolderBytesPerSecond, 1000, 4812);
         Assert.InRange(coarse.HolderBytesPerSecond, 1000, 4812);
         Assert.True(random.HolderBytesPerSecond > coarse.HolderBytesPerSecond);
-        Assert.True(random.KnotsPerSecond > 1.5 * slow.KnotsPerSecond);
-        Assert.InRange(random.KnotsPerSecond, 5, 20); // at most every 50 ms
+        Assert.True(random.KeyframesPerSecond > 1.5 * slow.KeyframesPerSecond);
+        Assert.InRange(random.KeyframesPerSecond, 5, 20); // at most every 50 ms
     }
 
     [Fact]
     public void Release_ComesAtTheHandsVelocity_AndTheBallFlies()
     {
         HoldRun run = HoldTest.Run(Options("slow", "delay-100ms"));
-        Assert.Equal([EventKind.Grab, EventKind.HoldKnot], run.Accepted.Take(2).Select(e => e.Kind));
+        Assert.Equal([EventKind.Grab, EventKind.HoldKeyframe], run.Accepted.Take(2).Select(e => e.Kind));
         ExternalEvent release = run.Accepted[^1];
         Assert.Equal(EventKind.Release, release.Kind);
         Assert.InRange(release.Velocity.Length, 2.5, 4.5); // 1.875 times 0.71 m in 0.4 s, and the motion's own
@@ -174,27 +174,27 @@ public sealed class HoldTestTests
     }
 
     [Fact]
-    public void HandView_OfASmoothMotion_IsNearItThoughKnotsAreLateAndSeldom()
+    public void HandView_OfASmoothMotion_IsNearItThoughKeyframesAreLateAndSeldom()
     {
         HandView view = new();
         Assert.False(view.TryDraw(TestWorlds.At(1), out _));
         HandSender sender = new(BodyId.OfScene(0));
-        Queue<HandNews> news = new();
+        Queue<HandUpdate> lateEvents = new();
         for (double time = 1; time < 6; time += 1 / 120.0)
         {
-            if (sender.TrySample(TestWorlds.At(time), Hand(time), Velocity(time), out PlayerAction knot))
+            if (sender.TrySample(TestWorlds.At(time), Hand(time), Velocity(time), out PlayerAction keyframe))
             {
-                news.Enqueue(new HandNews(TestWorlds.At(time + 0.1), knot.Stamp(TestWorlds.At(time), 1, 1)));
+                lateEvents.Enqueue(new HandUpdate(TestWorlds.At(time + 0.1), keyframe.Stamp(TestWorlds.At(time), 1, 1)));
             }
         }
 
-        Assert.InRange(news.Count, 15, 50); // seldom
+        Assert.InRange(lateEvents.Count, 15, 50); // seldom
         ErrorAccumulator errors = new(), last = new();
         for (double time = 1; time < 6; time += 0.005)
         {
-            while (news.TryPeek(out HandNews next) && next.Heard <= TestWorlds.At(time))
+            while (lateEvents.TryPeek(out HandUpdate next) && next.Heard <= TestWorlds.At(time))
             {
-                view.Hear(news.Dequeue());
+                view.Hear(lateEvents.Dequeue());
             }
 
             bool isDrawn = view.TryDraw(TestWorlds.At(time), out Vector3D drawn);

@@ -10,7 +10,7 @@ namespace LagSim.Tests.Peers;
 public sealed class PeerSamplesTests
 {
     private static readonly SimDuration Interval = SimDuration.FromMilliseconds(10);
-    private static readonly SimDuration Patience = SimDuration.FromMilliseconds(4);
+    private static readonly SimDuration Timeout = SimDuration.FromMilliseconds(4);
 
     private readonly LiveWorld world = new(TestWorlds.Drop(5, 0.8), KeepAll, SimDuration.FromMilliseconds(33), SimDuration.FromMilliseconds(50));
     private readonly PeerSamples samples = new(new SampleGrid(At(0), Interval, 10), [First]);
@@ -32,7 +32,7 @@ public sealed class PeerSamplesTests
     }
 
     [Fact]
-    public void Take_LateWithinPatience_IsShown()
+    public void Take_LateWithinTimeout_IsShown()
     {
         Look(0.0139);
         Assert.True(samples.IsShown(0));
@@ -40,16 +40,16 @@ public sealed class PeerSamplesTests
     }
 
     [Fact]
-    public void Take_LaterThanPatienceWithANewPicture_HasStalled()
+    public void Take_LaterThanTimeoutWithANewPicture_HasStalled()
     {
-        // What this picture shows of that instant is not what was shown then.
+        // What this render snapshot shows of that instant is not what was shown then.
         Look(0.0141);
         Assert.False(samples.IsShown(0));
         Assert.Equal(1, samples.Next);
     }
 
     [Fact]
-    public void Take_LaterThanPatienceWithThePictureOfTheLastLook_IsShown()
+    public void Take_LaterThanTimeoutWithThePictureOfTheLastLook_IsShown()
     {
         Look(0.010);
         Look(0.029, step: false);
@@ -63,7 +63,7 @@ public sealed class PeerSamplesTests
         double end = world.Simulation.Horizon.ToSeconds(); // the ball hits the floor
         SampleGrid grid = new(At(end - 0.005), Interval, 2);
         PeerSamples late = new(grid, [First]);
-        late.Take(world.Pictures.Latest(), grid.At(0), Patience);
+        late.Take(world.RenderSnapshots.Latest(), grid.At(0), Timeout);
         Assert.False(late.IsShown(0));
         Assert.Equal(1, late.Next);
     }
@@ -71,7 +71,7 @@ public sealed class PeerSamplesTests
     [Fact]
     public void Take_NoPicture_HasStalled()
     {
-        samples.Take(null, At(0.1001), Patience);
+        samples.Take(null, At(0.1001), Timeout);
         Assert.True(samples.IsComplete);
         Assert.False(samples.IsShown(0) || samples.IsShown(9));
     }
@@ -90,7 +90,7 @@ public sealed class PeerSamplesTests
         SimDuration delay = SimDuration.FromMilliseconds(25);
         PeerSamples past = new(new SampleGrid(At(0), Interval, 10), [First], delay);
         world.Step(At(0.05));
-        past.Take(world.Pictures.Latest(), At(0.0501), SimDuration.FromSeconds(1));
+        past.Take(world.RenderSnapshots.Latest(), At(0.0501), SimDuration.FromSeconds(1));
         for (int n = 0; n < 5; n++)
         {
             SimTime shown = SimTime.Max(At(0), At(0) + (Interval * (n + 1)) - delay);
@@ -98,7 +98,7 @@ public sealed class PeerSamplesTests
             SameBits(Read(world.Simulation, First, shown), past.State(n, 0));
         }
 
-        past.TakeAt(5, world.Pictures.Latest(), At(0.055));
+        past.TakeAt(5, world.RenderSnapshots.Latest(), At(0.055));
         SameBits(Read(world.Simulation, First, At(0.055) - delay), past.State(5, 0));
     }
 
@@ -119,7 +119,7 @@ public sealed class PeerSamplesTests
     {
         Look(0.010);
         PeerSamples never = new(new SampleGrid(At(0), Interval, 10), [First]);
-        never.Take(null, At(0.010), Patience);
+        never.Take(null, At(0.010), Timeout);
         Assert.True(double.IsNaN(PeerComparison.Distance([samples, never], 1, 0, out bool differs)));
         Assert.False(differs);
         Harness.Experiments.Metrics.PhaseErrors errors = PeerComparison.Errors([samples, never], new SampleGrid(At(0), Interval, 10), 1, 0, 1, null, At(0));
@@ -184,10 +184,10 @@ public sealed class PeerSamplesTests
     {
         if (step)
         {
-            world.Submit(Events.ExternalEvent.SetVelocity(At(now + 1), 0, (uint)(now * 1e6), First, V(1))); // so that there is a new picture
+            world.Submit(Events.ExternalEvent.SetVelocity(At(now + 1), 0, (uint)(now * 1e6), First, V(1))); // so that there is a new render snapshot
             world.Step(At(now));
         }
 
-        samples.Take(world.Pictures.Latest(), At(now), Patience);
+        samples.Take(world.RenderSnapshots.Latest(), At(now), Timeout);
     }
 }

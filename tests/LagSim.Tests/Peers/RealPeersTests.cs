@@ -47,7 +47,7 @@ public sealed class RealPeersTests
     }
 
     [Fact(Timeout = 60_000)]
-    public async System.Threading.Tasks.Task Connect_ProfileWithAClockOffset_SetsTheJoinersClockThatMuchFurtherAhead()
+    public async System.Threading.Tasks.Task Connect_ProfileWithAClockOffset_SetsTheClientsClockThatMuchFurtherAhead()
     {
         await System.Threading.Tasks.Task.Run(
             () =>

@@ -51,17 +51,17 @@ public sealed class VirtualPeersTests
         peers.RunQuietlyUntil(SimDuration.FromSeconds(4), null);
         peers.Finish();
         Assert.All(peers.Seen, s => Assert.True(s.IsComplete));
-        int news = peers.Grid.FirstAfter(peers.Start + SimDuration.FromSeconds(1.1));
+        int lateEvents = peers.Grid.FirstAfter(peers.Start + SimDuration.FromSeconds(1.1));
         for (int n = 0; n < peers.Grid.Count; n++)
         {
             PeerComparison.Distance(peers.Settled, 2, n, out bool settled);
             PeerComparison.Distance(peers.Seen, 2, n, out bool seen);
             Assert.False(settled);
-            Assert.True(!seen || (n >= 199 && n < news), $"sample {n}");
+            Assert.True(!seen || (n >= 199 && n < lateEvents), $"sample {n}");
         }
 
         PeerComparison.Distance(peers.Seen, 2, 202, out bool during);
-        Assert.True(during); // before the news had come
+        Assert.True(during); // before the event had come
     }
 
     [Fact]
@@ -80,7 +80,7 @@ public sealed class VirtualPeersTests
     }
 
     [Fact]
-    public void Connect_ProfileWithAClockOffset_SetsJoinersClocksThatMuchFurtherAhead()
+    public void Connect_ProfileWithAClockOffset_SetsClientsClocksThatMuchFurtherAhead()
     {
         double[] plain = Offsets(LinkProfiles.Lan), skewed = Offsets(LinkProfiles.SkewedClock);
         Assert.Equal(plain[0], skewed[0]);

@@ -20,9 +20,9 @@ public sealed class VirtualStepsTests
     {
         network = new VirtualNetwork(clock, 1, LinkProfiles.PureDelay(5));
         steps = new VirtualSteps(network) { BeforeStep = number => stepped[number]++ };
-        IDatagramPort host = network.CreatePort(0), joiner = network.CreatePort(1);
-        steps.Add(new HostSession(BuiltInScenes.Billiards(), host, clock, new SessionOptions { ExpectedJoiners = 1 }, 7), host);
-        steps.Add(new JoinerSession(null, joiner, clock, new SessionOptions(), PeerAddress.Virtual(0), 1), joiner);
+        IDatagramPort host = network.CreatePort(0), client = network.CreatePort(1);
+        steps.Add(new HostSession(BuiltInScenes.Billiards(), host, clock, new SessionOptions { ExpectedClients = 1 }, 7), host);
+        steps.Add(new ClientSession(null, client, clock, new SessionOptions(), PeerAddress.Virtual(0), 1), client);
         steps.RunFor(SimDuration.FromSeconds(2));
     }
 
@@ -53,14 +53,14 @@ public sealed class VirtualStepsTests
     public void Replace_ASessionThatWasKilled_AnotherStandsInItsPlace()
     {
         steps.Freeze(1);
-        PlayerPass pass = ((JoinerSession)steps.Sessions[1]).Pass!.Value;
+        PlayerPass pass = ((ClientSession)steps.Sessions[1]).Pass!.Value;
         IDatagramPort port = network.CreatePort(2);
-        JoinerSession again = new(null, port, clock, new SessionOptions { Pass = pass }, PeerAddress.Virtual(0), 2);
+        ClientSession again = new(null, port, clock, new SessionOptions { Pass = pass }, PeerAddress.Virtual(0), 2);
         steps.RunFor(SimDuration.FromSeconds(1));
         steps.Replace(1, again, port);
         steps.RunFor(SimDuration.FromSeconds(2));
         Assert.Same(again, steps.Sessions[1]);
         Assert.Equal((SessionState.Running, 1), (again.State, again.Peer));
-        Assert.Equal(1, ((HostSession)steps.Sessions[0]).JoinerCount);
+        Assert.Equal(1, ((HostSession)steps.Sessions[0]).ClientCount);
     }
 }

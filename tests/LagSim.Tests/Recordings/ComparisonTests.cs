@@ -161,7 +161,7 @@ public sealed class ComparisonTests
     }
 
     [Fact]
-    public void Of_LateJoiner_IsComparedWhereBothCover()
+    public void Of_LateClient_IsComparedWhereBothCover()
     {
         JoinedState joined = Joined(3, 1);
         RecordingComparison compared = Compare(Small(), Small(Log[2..], joined: joined));
@@ -212,7 +212,7 @@ public sealed class ComparisonTests
     [Fact]
     public void Of_OtherFoldVersions_IsSaidBeforeAnythingThatWasComputed()
     {
-        // Of one session, as builds of two versions would record it: the states differ, and that is no news.
+        // Of one session, as builds of two versions would record it: the states differ, and that is nothing new.
         RecordingComparison compared = Compare(Small(), OfFold(Small(truth: Log[1..]), OtherFold));
         Assert.Equal((ComparisonOutcome.FoldVersionDiffers, 0, 0), (compared.Outcome, compared.EntriesCompared, compared.StatesCompared));
         string library = Read(Small()).Header!.LibraryVersion;

@@ -74,7 +74,7 @@ public sealed class RecordingTests
     }
 
     [Fact]
-    public void Read_LateJoiner_HasItsStateAndTheLogFromThere()
+    public void Read_LateClient_HasItsStateAndTheLogFromThere()
     {
         JoinedState joined = Joined(4, 1);
         Recording recording = Read(Small(Log[3..], 3, joined: joined));

@@ -154,7 +154,7 @@ public sealed class ReplayTests
     }
 
     [Fact]
-    public void Run_LateJoiner_GoesOnFromItsSnapshot()
+    public void Run_LateClient_GoesOnFromItsSnapshot()
     {
         // Entry 2 is of a time that the snapshot covers, so it is in it and not submitted again.
         RecordingReplay replay = Replayed(Read(Small(Log[1..], 3, joined: Joined(2, 0.6))));
@@ -172,7 +172,7 @@ public sealed class ReplayTests
     }
 
     [Fact]
-    public void Run_LateJoinerBeforeTheFirstStep_BeginsFromTheScene()
+    public void Run_LateClientBeforeTheFirstStep_BeginsFromTheScene()
     {
         LogEntry refused = new(1, Verdict.Invalid, ExternalEvent.Remove(Start - Seconds(1), 2, 1, First));
         LogEntry[] log = [refused, .. Log.Select(entry => new LogEntry(entry.Index + 1, entry.Verdict, entry.Event))];

@@ -26,18 +26,18 @@ public sealed class SessionRecorderTests
     public void Recordings_OfAllPeersALateOneIncluded_AgreeAndReplay(string link, int seed)
     {
         Assert.True(LinkProfiles.TryGet(link, out LinkProfile? profile, out _));
-        SessionGroup group = new(Deeds.Box(), 4, profile, (ulong)seed, expected: 2);
+        SessionGroup group = new(ScriptedActions.Box(), 4, profile, (ulong)seed, expected: 2);
         MemoryStream[] streams = Record(group, out SessionRecorder[] recorders);
         group.Cut(3, 0);
         Assert.True(group.RunUntil(() => group.Sessions.Take(3).All(s => s.State == SessionState.Running)));
-        Deed(group, 0, PlayerAction.Teleport(First, V(0, 4)));
-        Deed(group, 1, PlayerAction.Spawn(Ball(0.3), V(1, 4)));
+        ScriptedAction(group, 0, PlayerAction.Teleport(First, V(0, 4)));
+        ScriptedAction(group, 1, PlayerAction.Spawn(Ball(0.3), V(1, 4)));
         group.Run(3);
         group.Network.SetLink(3, 0, profile.ToHost);
         Assert.True(group.RunUntil(() => group.Sessions[3].State == SessionState.Running), group.Sessions[3].EndReason);
-        Deed(group, 3, PlayerAction.Impulse(Second, V(1, 5)));
-        Deed(group, 2, PlayerAction.Remove(Third));
-        Deed(group, 0, PlayerAction.SetVelocity(First, V(2, 3)));
+        ScriptedAction(group, 3, PlayerAction.Impulse(Second, V(1, 5)));
+        ScriptedAction(group, 2, PlayerAction.Remove(Third));
+        ScriptedAction(group, 0, PlayerAction.SetVelocity(First, V(2, 3)));
         group.Run(8);
         group.Sessions[2].Leave();
         group.Run(1);
@@ -69,12 +69,12 @@ public sealed class SessionRecorderTests
     [Fact]
     public void Recording_OfWhatCameBeforeTheStart_HasItsPlaceInTheLog()
     {
-        // A joiner that acts before there is a world is refused; the entry stands in the host's log, and one that comes later does not get it.
-        SessionGroup group = new(Deeds.Box(), 3, LinkProfiles.PureDelay(2), expected: 2);
+        // A client that acts before there is a world is refused; the entry stands in the host's log, and one that comes later does not get it.
+        SessionGroup group = new(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(2), expected: 2);
         MemoryStream[] streams = Record(group, out SessionRecorder[] recorders);
         group.Cut(1, 0);
         group.Cut(2, 0);
-        RawJoiner raw = new(group);
+        RawClient raw = new(group);
         raw.Claim(1, ExternalEvent.Teleport(At(1), raw.Peer, 1, First, V(0, 3)));
         Assert.Equal(Verdict.Invalid, group.Log[1].Verdict);
         group.Run(1.5); // the copy that was made for it serves the next for a second
@@ -83,7 +83,7 @@ public sealed class SessionRecorderTests
         Assert.True(group.RunUntil(() => group.Host.World is not null));
         group.Restore(2, 0);
         group.Connect();
-        Deed(group, 2, PlayerAction.Teleport(First, V(0, 4)));
+        ScriptedAction(group, 2, PlayerAction.Teleport(First, V(0, 4)));
         group.Run(4);
         Array.ForEach(recorders, recorder => recorder.Dispose());
 
@@ -99,7 +99,7 @@ public sealed class SessionRecorderTests
     [Fact]
     public void Record_DiskThatFillsUp_TellsOnceAndTheSessionGoesOn()
     {
-        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(2));
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(2));
         FullStream full = new(1500);
         using SessionRecorder recorder = new(group.Host, _ => full);
         List<string> told = [];
@@ -109,7 +109,7 @@ public sealed class SessionRecorderTests
         Assert.Null(recorder.Failure);
         for (int i = 0; i < 15; i++)
         {
-            Deed(group, 1, PlayerAction.Teleport(First, V(0, 4)));
+            ScriptedAction(group, 1, PlayerAction.Teleport(First, V(0, 4)));
         }
 
         group.Run(3);
@@ -131,7 +131,7 @@ public sealed class SessionRecorderTests
     [InlineData(-1)] // cannot even be opened
     public void Record_FileThatCannotBeMade_TellsAndTheSessionGoesOn(int room)
     {
-        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(2));
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(2));
         using SessionRecorder recorder = new(group.Host, _ => room < 0 ? throw new UnauthorizedAccessException("Not you.") : new FullStream(room));
         group.Connect();
         group.Run(3);
@@ -142,7 +142,7 @@ public sealed class SessionRecorderTests
     [Fact]
     public void Dispose_DiskThatFailsAtTheEnd_TellsAndDoesNotThrow()
     {
-        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(2));
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(2));
         FullStream full = new(100_000);
         SessionRecorder recorder = new(group.Host, _ => full);
         group.Connect();
@@ -157,7 +157,7 @@ public sealed class SessionRecorderTests
     {
         using TemporaryFolder folder = new();
         File.WriteAllText(folder["kept.lagsim"], "of yesterday");
-        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(2), expected: 2);
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(2), expected: 2);
         using (SessionRecorder recorder = new(group.Sessions[1], folder["kept.lagsim"]))
         {
             group.Run(3);
@@ -171,7 +171,7 @@ public sealed class SessionRecorderTests
     public void Record_ToAFile_IsThereWhileTheSessionGoesOn()
     {
         using TemporaryFolder folder = new();
-        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(2));
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(2));
         using SessionRecorder recorder = new(group.Sessions[1], folder["mine.lagsim"]);
         group.Connect();
         group.Run(5);
@@ -183,7 +183,7 @@ public sealed class SessionRecorderTests
     public void Files_AfterAFreshCopy_NameTheFurtherFileToo()
     {
         using TemporaryFolder folder = new();
-        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(2));
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(2));
         using SessionRecorder recorder = new(group.Sessions[1], folder["mine.lagsim"]), hosts = new(group.Host, folder["hosts.lagsim"]);
         Assert.Empty(recorder.Files);
         group.Connect();
@@ -205,12 +205,12 @@ public sealed class SessionRecorderTests
     [Fact]
     public void Record_ForALength_LeavesLaterStatesOut()
     {
-        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(2));
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(2));
         MemoryStream some = new(), all = new();
         using (SessionRecorder first = new(group.Host, _ => some, Seconds(2)), second = new(group.Host, _ => all))
         {
             group.Connect();
-            Deed(group, 1, PlayerAction.Teleport(First, V(0, 4)));
+            ScriptedAction(group, 1, PlayerAction.Teleport(First, V(0, 4)));
             group.Run(6);
         }
 
@@ -222,7 +222,7 @@ public sealed class SessionRecorderTests
     [Fact]
     public void Constructor_SessionThatHasBegunOrNone_IsRefused()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(2)).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(2)).Connect();
         Assert.Contains("from its beginning on", Assert.Throws<InvalidOperationException>(() => new SessionRecorder(group.Host, "x.lagsim")).Message, StringComparison.Ordinal);
         Assert.Throws<ArgumentNullException>(() => new SessionRecorder(null!, "x.lagsim"));
         Assert.Throws<ArgumentNullException>(() => new SessionRecorder(group.Host, (string)null!));
@@ -256,7 +256,7 @@ public sealed class SessionRecorderTests
         return streams;
     }
 
-    private static void Deed(SessionGroup group, int peer, PlayerAction action)
+    private static void ScriptedAction(SessionGroup group, int peer, PlayerAction action)
     {
         group.Do(peer, action);
         group.Run(0.2);

@@ -47,12 +47,12 @@ public sealed class AgreementTests
     {
         static SessionGroup Group(HealingFault fault, string strategy)
         {
-            SessionGroup group = new(Deeds.Box(), 3, LinkProfiles.PureDelay(150), 2, _ => new SessionOptions { SyncTest = true, Strategy = strategy });
+            SessionGroup group = new(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(150), 2, _ => new SessionOptions { SyncTest = true, Strategy = strategy });
             group.Sessions[1].Begun += () => group.Sessions[1].World!.Simulation.Fault = fault;
             group.Connect();
             try
             {
-                new Deeds(5).DoIn(group, Count);
+                new ScriptedActions(5).DoIn(group, Count);
             }
             catch (InvalidOperationException) when (group.Sessions[1].State == SessionState.Ended)
             {
@@ -116,7 +116,7 @@ public sealed class AgreementTests
     [Fact]
     public void Check_OneEventLostForGood_IsSeenToFail()
     {
-        // Everything that carries one certain entry of the log is lost on its way to one joiner, for ever.
+        // Everything that carries one certain entry of the log is lost on its way to one client, for ever.
         int seen = 0;
         for (ulong seed = 1; seed <= 10; seed++)
         {
@@ -124,7 +124,7 @@ public sealed class AgreementTests
             UpdateDatagram read = new();
             group.Network.Lose((from, to, datagram) => from == 0 && to == 2 && read.TryDecode(datagram.Span, out _)
                 && read.FirstIndex <= 12 && read.FirstIndex + read.Entries.Length > 12);
-            new Deeds((int)seed).DoIn(group, Count);
+            new ScriptedActions((int)seed).DoIn(group, Count);
             Assert.False(group.Settle(Count, 5));
             Assert.InRange(group.Sessions[2].Counters.EventsAccepted, 0, 11);
             Assert.Equal(Count, group.Sessions[1].Counters.EventsAccepted);
@@ -173,8 +173,8 @@ public sealed class AgreementTests
     [Fact]
     public void Joining_LongAfterTheStart_ComesToTheSameWorld()
     {
-        // The second joiner is there all the time, but the host hears nothing of it for two seconds.
-        SessionGroup group = new(Deeds.Box(), 3, LinkProfiles.PureDelay(20), 4, LongHistory, expected: 1);
+        // The second client is there all the time, but the host hears nothing of it for two seconds.
+        SessionGroup group = new(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(20), 4, LongHistory, expected: 1);
         group.Cut(2, 0);
         Assert.True(group.RunUntil(() => group.Host.State == SessionState.Running && group.Sessions[1].State == SessionState.Running));
         group.Do(0, PlayerAction.Teleport(TestWorlds.First, TestWorlds.V(0, 4)));
@@ -187,13 +187,13 @@ public sealed class AgreementTests
         group.Do(2, PlayerAction.SetVelocity(TestWorlds.Third, TestWorlds.V(-2, 3)));
         Assert.True(group.Settle(3));
         Assert.Null(group.Difference());
-        Assert.Equal(2, group.Host.JoinerCount);
+        Assert.Equal(2, group.Host.ClientCount);
     }
 
     internal static SessionGroup Play(string link, int peers, ulong seed, Func<int, SessionOptions> options)
     {
         SessionGroup group = Connected(link, peers, seed, options);
-        List<ExternalEvent> done = new Deeds((int)seed).DoIn(group, Count);
+        List<ExternalEvent> done = new ScriptedActions((int)seed).DoIn(group, Count);
         Assert.True(group.Settle(Count), $"{link}, {peers} peers, seed {seed}: {string.Join("; ", group.Sessions.Select(s => $"{s.State} {s.EndReason} {s.Counters.EventsAccepted}"))}");
         Assert.Equal(done.OrderBy(e => e.Key), group.Log.Values.Select(e => e.Event).OrderBy(e => e.Key));
         return group;
@@ -202,7 +202,7 @@ public sealed class AgreementTests
     private static SessionOptions LongHistory(int peer) => new() { Window = new(SimDuration.FromSeconds(5)) };
 
     private static SessionGroup Connected(string link, int peers, ulong seed, Func<int, SessionOptions> options) =>
-        new SessionGroup(Deeds.Box(), peers, Link(link), seed, options).Connect();
+        new SessionGroup(ScriptedActions.Box(), peers, Link(link), seed, options).Connect();
 
     internal static LinkProfile Link(string name) => name switch
     {

@@ -24,7 +24,7 @@ public sealed class BlockedWorldTests
         VirtualNetwork network = new(clock, 1, LinkProfiles.Lan);
         SessionOptions options = new()
         {
-            ExpectedJoiners = 0,
+            ExpectedClients = 0,
             PlayerBudget = null,
             Window = new(SimDuration.FromSeconds(3), SimDuration.FromMilliseconds(100)),
             Cancellation = TestContext.Current.CancellationToken,

@@ -56,10 +56,10 @@ public sealed class CancellationTests
         group.Connect();
         stop.Cancel();
         group.Host.Step();
-        Assert.Throws<OperationCanceledException>(() => group.Joiner(1).Step());
-        group.Joiner(1).Leave();
+        Assert.Throws<OperationCanceledException>(() => group.Client(1).Step());
+        group.Client(1).Leave();
         group.Run(1);
-        Assert.Equal((SessionState.Running, SessionState.Ended), (group.Host.State, group.Joiner(1).State));
+        Assert.Equal((SessionState.Running, SessionState.Ended), (group.Host.State, group.Client(1).State));
     }
 
     private sealed class StopAt(int last, CancellationTokenSource stop) : IImpactObserver

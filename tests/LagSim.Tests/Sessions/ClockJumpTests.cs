@@ -25,19 +25,19 @@ public sealed class ClockJumpTests
         VirtualNetwork network = new(clock, 1, LinkProfiles.Lan);
         VirtualSteps steps = new(network);
         IDatagramPort hostPort = network.CreatePort(0), port = network.CreatePort(1);
-        HostSession host = new(Deeds.Box(), hostPort, clock, new SessionOptions(), 1);
+        HostSession host = new(ScriptedActions.Box(), hostPort, clock, new SessionOptions(), 1);
         JumpingClock own = new(clock);
-        JoinerSession joiner = new(null, port, own, new SessionOptions(), PeerAddress.Virtual(0), 4);
+        ClientSession client = new(null, port, own, new SessionOptions(), PeerAddress.Virtual(0), 4);
         steps.Add(host, hostPort);
-        steps.Add(joiner, port);
+        steps.Add(client, port);
         steps.RunFor(SimDuration.FromSeconds(5));
-        Assert.Equal(SessionState.Running, joiner.State);
+        Assert.Equal(SessionState.Running, client.State);
 
         List<string> renewed = [];
-        joiner.Renewed += renewed.Add;
+        client.Renewed += renewed.Add;
         own.Jump += SimDuration.FromSeconds(seconds);
         steps.RunFor(SimDuration.FromSeconds(30));
-        Assert.Equal((SessionState.Running, 1), (joiner.State, joiner.Peer));
+        Assert.Equal((SessionState.Running, 1), (client.State, client.Peer));
         if (isReplaced)
         {
             Assert.Matches(
@@ -49,10 +49,10 @@ public sealed class ClockJumpTests
             Assert.Empty(renewed);
         }
 
-        ExternalEvent external = joiner.Do(PlayerAction.Impulse(First, V(0, 1)));
+        ExternalEvent external = client.Do(PlayerAction.Impulse(First, V(0, 1)));
         steps.RunFor(SimDuration.FromSeconds(5));
-        Assert.Equal((1L, 0L, 0L), (host.Counters.EventsAccepted, host.Counters.EventsRefused, joiner.Counters.StatesDiffered));
-        Assert.Equal(joiner.Peer, external.Peer);
+        Assert.Equal((1L, 0L, 0L), (host.Counters.EventsAccepted, host.Counters.EventsRefused, client.Counters.StatesDiffered));
+        Assert.Equal(client.Peer, external.Peer);
     }
 
     private sealed class JumpingClock(IClock inner) : IClock

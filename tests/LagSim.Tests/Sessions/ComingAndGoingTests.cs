@@ -7,13 +7,13 @@ using Xunit;
 
 namespace LagSim.Tests.Sessions;
 
-/// <summary>A host tells of each joiner that comes and goes, once, whatever the reason.</summary>
+/// <summary>A host tells of each client that comes and goes, once, whatever the reason.</summary>
 public sealed class ComingAndGoingTests
 {
     [Fact]
-    public void Events_JoinersThatComeLeaveFallSilentAndComeAnew_AreToldOnceEachInOrder()
+    public void Events_ClientsThatComeLeaveFallSilentAndComeAnew_AreToldOnceEachInOrder()
     {
-        SessionGroup group = new(Deeds.Box(), 3, LinkProfiles.PureDelay(5), 2, _ => new SessionOptions
+        SessionGroup group = new(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), 2, _ => new SessionOptions
         {
             Timeout = SimDuration.FromSeconds(3),
             KeepAlive = SimDuration.FromSeconds(0.5),
@@ -29,42 +29,42 @@ public sealed class ComingAndGoingTests
         Assert.Equal([$"{group.Sessions[1].Peer} gone"], told);
         group.Run(5);
         Assert.Equal([$"{group.Sessions[1].Peer} gone", $"{group.Sessions[2].Peer} gone"], told);
-        Assert.Equal(0, group.Host.JoinerCount);
+        Assert.Equal(0, group.Host.ClientCount);
     }
 
     [Fact]
     public void Events_SameAddressUnderANewNonce_TellsThatTheFormerIsGoneFirst()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
         List<string> told = Listen(group.Host);
         group.DropLast(); // it crashed, and nobody was told
         group.Join(1, 4242);
         group.Run(1);
         Assert.Equal(["1 gone", "2 came"], told); // the number is kept for the former, who may come back from elsewhere
-        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.Equal(1, group.Host.ClientCount);
     }
 
     /// <summary>Routers give a port to another machine when the former one has been silent: the player who had it is still somebody.</summary>
     [Fact]
     public void Pass_OfOneWhosePortAnotherGot_GivesItsNumberBack()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
-        PlayerPass pass = group.Joiner(1).Pass!.Value;
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
+        PlayerPass pass = group.Client(1).Pass!.Value;
         group.DropLast();
-        JoinerSession other = group.Join(1, 4242);
+        ClientSession other = group.Join(1, 4242);
         group.Run(1);
-        JoinerSession former = group.Join(2, 77, new SessionOptions { Pass = pass });
+        ClientSession former = group.Join(2, 77, new SessionOptions { Pass = pass });
         group.Run(1);
         Assert.Equal((2, 1), (other.Peer, former.Peer));
-        Assert.Equal(2, group.Host.JoinerCount);
+        Assert.Equal(2, group.Host.ClientCount);
     }
 
     [Fact]
-    public void JoinerGone_AtItsEnd_TellsAllThatWentOverTheLink()
+    public void ClientGone_AtItsEnd_TellsAllThatWentOverTheLink()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
         LinkTraffic? gone = null;
-        group.Host.JoinerGone += link => gone = link;
+        group.Host.ClientGone += link => gone = link;
         group.Run(3);
         LinkTraffic last = group.Host.Links.Single();
         group.Sessions[1].Leave();
@@ -74,11 +74,11 @@ public sealed class ComingAndGoingTests
     }
 
     [Fact]
-    public void Events_KnocksAndWrongKeys_AreNobodyComing()
+    public void Events_ConnectRequestsAndWrongKeys_AreNobodyComing()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
         List<string> told = Listen(group.Host);
-        JoinerSession wrong = group.Join(100, 77, new SessionOptions { ConnectKey = "wrong" });
+        ClientSession wrong = group.Join(100, 77, new SessionOptions { ConnectKey = "wrong" });
         group.Run(1);
         Assert.Equal(SessionEnd.Refused, wrong.EndedBy);
         Assert.Empty(told);
@@ -87,8 +87,8 @@ public sealed class ComingAndGoingTests
     private static List<string> Listen(HostSession host)
     {
         List<string> told = [];
-        host.JoinerCame += link => told.Add($"{link.Peer} came");
-        host.JoinerGone += link => told.Add($"{link.Peer} gone");
+        host.ClientCame += link => told.Add($"{link.Peer} came");
+        host.ClientGone += link => told.Add($"{link.Peer} gone");
         return told;
     }
 }

@@ -22,13 +22,13 @@ public sealed class ComingBackTests
     [InlineData(35, 0, false)]
     public void Join_WithAPassWhileTheHostStandsStill_AsksForAsLongAsTheOptionSays(double frozenSeconds, double rejoinSeconds, bool isLetIn)
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5), options: _ => Asking(rejoinSeconds)).Connect();
-        PlayerPass pass = group.Joiner(1).Pass!.Value;
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5), options: _ => Asking(rejoinSeconds)).Connect();
+        PlayerPass pass = group.Client(1).Pass!.Value;
         group.Steps.Freeze(0);
         group.Steps.Freeze(1);
         SessionOptions options = Asking(rejoinSeconds);
         options.Pass = pass;
-        JoinerSession again = group.Join(7, 99, options);
+        ClientSession again = group.Join(7, 99, options);
         group.Run(frozenSeconds);
         group.Steps.Thaw(0);
         group.Run(5);
@@ -39,21 +39,21 @@ public sealed class ComingBackTests
     [Fact]
     public void Join_WithoutAPass_EndsAfterTheTimeout()
     {
-        SessionGroup group = new(Deeds.Box(), 1, LinkProfiles.PureDelay(5));
+        SessionGroup group = new(ScriptedActions.Box(), 1, LinkProfiles.PureDelay(5));
         group.Steps.Freeze(0);
-        JoinerSession joiner = group.Join(7, 99, Asking(60));
+        ClientSession client = group.Join(7, 99, Asking(60));
         group.Run(11);
-        Assert.Equal((SessionState.Ended, SessionEnd.HostSilent), (joiner.State, joiner.EndedBy));
+        Assert.Equal((SessionState.Ended, SessionEnd.HostSilent), (client.State, client.EndedBy));
     }
 
     [Fact]
     public void Join_WithAPassAndWelcomedByAHostThatThenStops_AsksAgainOnceItIsThere()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
         SessionOptions options = Asking(60);
-        options.Pass = group.Joiner(1).Pass!.Value;
+        options.Pass = group.Client(1).Pass!.Value;
         group.Steps.Freeze(1);
-        JoinerSession again = group.Join(7, 99, options);
+        ClientSession again = group.Join(7, 99, options);
         Assert.True(group.RunUntil(() => again.State == SessionState.Synchronising));
         group.Steps.Freeze(0);
         group.Run(30);
@@ -65,31 +65,31 @@ public sealed class ComingBackTests
     [Fact]
     public void Rejoining_OneWhoSleepsMeanwhile_DoesNotCountItsSleep()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5), options: _ => Asking(30)).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5), options: _ => Asking(30)).Connect();
         group.Steps.Freeze(0);
         group.Run(15);
-        Assert.Equal(SessionState.Rejoining, group.Joiner(1).State);
+        Assert.Equal(SessionState.Rejoining, group.Client(1).State);
         group.Steps.Freeze(1);
         group.Run(60);
         group.Steps.Thaw(1);
         group.Run(5); // it has asked for 10 s of 30
         group.Steps.Thaw(0);
         group.Run(5);
-        Assert.Equal((SessionState.Running, 1), (group.Joiner(1).State, group.Joiner(1).Peer));
+        Assert.Equal((SessionState.Running, 1), (group.Client(1).State, group.Client(1).Peer));
     }
 
     [Fact]
     public void FellBehind_OneWhoStandsStillWhileOthersPlay_IsSilentAndNotTooSlow()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 3, LinkProfiles.PureDelay(50)).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(50)).Connect();
         List<string> interruptions = [];
-        group.Joiner(1).Interrupted += interruptions.Add;
+        group.Client(1).Interrupted += interruptions.Add;
         for (int round = 0; round < 3; round++)
         {
             for (int n = 0; n < 400; n++)
             {
                 group.Do(2, PlayerAction.SetVelocity(BodyId.OfScene(0), V(0.1)));
-                group.Run(0.05); // news is always on its way
+                group.Run(0.05); // an event is always on its way
                 if (n == 50)
                 {
                     group.Steps.Freeze(1);
@@ -98,34 +98,34 @@ public sealed class ComingBackTests
 
             group.Steps.Thaw(1);
             group.Run(10);
-            Assert.Equal((SessionState.Running, 1 + round), (group.Joiner(1).State, interruptions.Count));
+            Assert.Equal((SessionState.Running, 1 + round), (group.Client(1).State, interruptions.Count));
         }
 
         Assert.DoesNotContain(interruptions, why => why.Contains("too slow", System.StringComparison.Ordinal));
-        Assert.Equal(group.Host.LogLength, group.Joiner(1).LogLength);
+        Assert.Equal(group.Host.LogLength, group.Client(1).LogLength);
     }
 
     [Fact]
     public void Rejoin_ManyFreezesSoonAfterEachOther_AreNotTakenForCopiesOfNoUse()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
         for (int round = 0; round < 6; round++)
         {
             group.Steps.Freeze(1);
             group.Run(15);
             group.Steps.Thaw(1);
             group.Run(10);
-            Assert.Equal((SessionState.Running, 1), (group.Joiner(1).State, group.Joiner(1).Peer));
+            Assert.Equal((SessionState.Running, 1), (group.Client(1).State, group.Client(1).Peer));
         }
 
-        Assert.Equal(6, group.Joiner(1).Counters.Renewals);
-        Assert.Equal(0, group.Joiner(1).Counters.StatesDiffered);
+        Assert.Equal(6, group.Client(1).Counters.Renewals);
+        Assert.Equal(0, group.Client(1).Counters.StatesDiffered);
     }
 
     [Fact]
     public void Join_AnOldOneThatComesLate_DoesNotDisturbThePlayerWhoIsInAgain()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
         byte[]? late = null;
         group.Network.Lose((from, _, datagram) =>
         {
@@ -140,21 +140,21 @@ public sealed class ComingBackTests
         group.Cut(1, 0);
         group.Cut(0, 1);
         group.Run(12);
-        Assert.Equal(SessionState.Rejoining, group.Joiner(1).State);
+        Assert.Equal(SessionState.Rejoining, group.Client(1).State);
         group.Restore(1, 0);
         group.Restore(0, 1);
-        Assert.True(group.RunUntil(() => group.Joiner(1).State == SessionState.Running && late is not null), "it was not let in again");
+        Assert.True(group.RunUntil(() => group.Client(1).State == SessionState.Running && late is not null), "it was not let in again");
         group.Run(1);
         List<string> interruptions = [];
-        group.Joiner(1).Interrupted += interruptions.Add;
-        long renewals = group.Joiner(1).Counters.Renewals;
+        group.Client(1).Interrupted += interruptions.Add;
+        long renewals = group.Client(1).Counters.Renewals;
 
         // As its first attempt's, of another nonce than the one that was welcome: the cookie is good for it, so the host takes it for one that starts anew.
-        PlayerPass pass = group.Joiner(1).Pass!.Value;
+        PlayerPass pass = group.Client(1).Pass!.Value;
         Token128 cookie = default;
         const ulong old = 0x01D;
-        byte[] knock = new byte[WireFormat.KnockBytes];
-        new KnockDatagram(old).Encode(knock);
+        byte[] request = new byte[WireFormat.ConnectRequestBytes];
+        new ConnectRequestDatagram(old).Encode(request);
         group.Network.Lose((from, to, datagram) =>
         {
             if (from == 0 && to == 1 && ChallengeDatagram.TryDecode(datagram.Span, out ChallengeDatagram challenge, out _) && challenge.Nonce == old)
@@ -164,7 +164,7 @@ public sealed class ComingBackTests
 
             return false;
         });
-        group.Ports[1].Send(knock, PeerAddress.Virtual(0));
+        group.Ports[1].Send(request, PeerAddress.Virtual(0));
         group.Run(0.1);
         byte[] join = new byte[WireFormat.JoinBytes];
         new JoinDatagram(
@@ -173,14 +173,14 @@ public sealed class ComingBackTests
         group.Ports[1].Send(join, PeerAddress.Virtual(0));
         group.Run(30);
         Assert.Empty(interruptions);
-        Assert.Equal((SessionState.Running, renewals), (group.Joiner(1).State, group.Joiner(1).Counters.Renewals));
-        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.Equal((SessionState.Running, renewals), (group.Client(1).State, group.Client(1).Counters.Renewals));
+        Assert.Equal(1, group.Host.ClientCount);
     }
 
     [Fact]
-    public void Fetch_FromAnotherAddress_IsAnsweredByAChallengeUntilTheAddressIsShown()
+    public void SnapshotRequest_FromAnotherAddress_IsAnsweredByAChallengeUntilTheAddressIsShown()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(20)).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(20)).Connect();
         group.Run(3);
         List<(int Length, DatagramType Type)> toNewAddress = [];
         bool hasMoved = false, isShown = false;
@@ -197,7 +197,7 @@ public sealed class ComingBackTests
 
             return from == 2 && hasMoved && !isShown && type == DatagramType.Update; // its fetches alone tell where it is
         });
-        JoinerSession late = group.Join(2, 99);
+        ClientSession late = group.Join(2, 99);
         Assert.True(group.RunUntil(() => late.State == SessionState.Synchronising));
         group.Network.Move(2, 1002);
         hasMoved = true;
@@ -205,15 +205,15 @@ public sealed class ComingBackTests
         Assert.True(isShown);
         Assert.Contains(toNewAddress, d => d.Type == DatagramType.Challenge);
         Assert.True(toNewAddress.Sum(d => d.Length) <= 3 * asked, $"{toNewAddress.Sum(d => d.Length)} bytes for {asked}");
-        Assert.DoesNotContain(toNewAddress, d => d.Type == DatagramType.Chunk && d.Length > 3 * WireFormat.FetchBytes);
+        Assert.DoesNotContain(toNewAddress, d => d.Type == DatagramType.SnapshotChunk && d.Length > 3 * WireFormat.SnapshotRequestBytes);
     }
 
     [Fact]
     public void Move_EveryTenSecondsOverALinkOfFourThereAndBack_IsNoSilence()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(2000)).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(2000)).Connect();
         List<string> interruptions = [];
-        group.Joiner(1).Interrupted += interruptions.Add;
+        group.Client(1).Interrupted += interruptions.Add;
         for (int n = 0; n < 12; n++)
         {
             group.Network.Move(1, 1000 + n);
@@ -222,18 +222,18 @@ public sealed class ComingBackTests
 
         group.Run(10);
         Assert.Empty(interruptions);
-        Assert.Equal(SessionState.Running, group.Joiner(1).State);
-        Assert.Equal(0, group.Joiner(1).Counters.StatesDiffered);
-        Assert.True(group.Joiner(1).Counters.StatesAgreed > 90);
+        Assert.Equal(SessionState.Running, group.Client(1).State);
+        Assert.Equal(0, group.Client(1).Counters.StatesDiffered);
+        Assert.True(group.Client(1).Counters.StatesAgreed > 90);
     }
 
     [Fact]
     public void Join_AnAddressThatChangesBeforeTheWelcome_GetsAnotherCookieSoon()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(20)).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(20)).Connect();
         bool hasMoved = false;
         group.Network.Lose((from, _, datagram) => from == 2 && !hasMoved && datagram.Span[3] == (byte)DatagramType.Join);
-        JoinerSession late = group.Join(2, 99);
+        ClientSession late = group.Join(2, 99);
         group.Run(0.5);
         group.Network.Move(2, 1002); // its cookie is of the former address
         hasMoved = true;
@@ -243,15 +243,15 @@ public sealed class ComingBackTests
     [Fact]
     public void PassGiven_BeforeThereIsAWorld_IsWhatComesBackWithTheNumber()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(20)).Connect();
-        JoinerSession late = group.Join(2, 99);
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(20)).Connect();
+        ClientSession late = group.Join(2, 99);
         List<(PlayerPass Pass, bool HasWorld)> given = [];
         late.PassGiven += pass => given.Add((pass, late.World is not null));
         Assert.True(group.RunUntil(() => given.Count > 0));
         group.Steps.Freeze(2); // killed at once
         Assert.Equal([(late.Pass!.Value, false)], given);
         group.Ports[2].Dispose();
-        JoinerSession again = group.Join(3, 100, new SessionOptions { Pass = given[0].Pass });
+        ClientSession again = group.Join(3, 100, new SessionOptions { Pass = given[0].Pass });
         Assert.True(group.RunUntil(() => again.State == SessionState.Running));
         Assert.Equal(late.Peer, again.Peer);
     }
@@ -259,24 +259,24 @@ public sealed class ComingBackTests
     [Fact]
     public void Join_AHostThatWasStartedAnew_GivesTheNumberThatOneHadIfItIsFree()
     {
-        SessionGroup first = new SessionGroup(Deeds.Box(), 3, LinkProfiles.PureDelay(5)).Connect();
-        PlayerPass pass = first.Sessions.OfType<JoinerSession>().Single(j => j.Peer == 2).Pass!.Value;
+        SessionGroup first = new SessionGroup(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5)).Connect();
+        PlayerPass pass = first.Sessions.OfType<ClientSession>().Single(j => j.Peer == 2).Pass!.Value;
 
-        SessionGroup second = new(Deeds.Box(), 1, LinkProfiles.PureDelay(5), options: _ => Asking(60));
+        SessionGroup second = new(ScriptedActions.Box(), 1, LinkProfiles.PureDelay(5), options: _ => Asking(60));
         second.Run(1);
-        JoinerSession back = second.Join(1, 5, new SessionOptions { Pass = pass });
+        ClientSession back = second.Join(1, 5, new SessionOptions { Pass = pass });
         Assert.True(second.RunUntil(() => back.State == SessionState.Running));
         Assert.Equal(2, back.Peer);
         Assert.NotEqual(pass, back.Pass); // of this host
 
-        JoinerSession other = second.Join(2, 6, new SessionOptions { Pass = pass }); // the number is taken, and the pass shows nothing
+        ClientSession other = second.Join(2, 6, new SessionOptions { Pass = pass }); // the number is taken, and the pass shows nothing
         Assert.True(second.RunUntil(() => other.State == SessionState.Running));
         Assert.Equal((1, SessionState.Running), (other.Peer, back.State));
 
         second.Run(60); // from then on a number cannot be chosen any more
         PlayerPass foreign = default;
         Assert.True(PlayerPass.TryParse("7-" + new string('a', 32), out foreign));
-        JoinerSession late = second.Join(3, 7, new SessionOptions { Pass = foreign });
+        ClientSession late = second.Join(3, 7, new SessionOptions { Pass = foreign });
         Assert.True(second.RunUntil(() => late.State == SessionState.Running));
         Assert.Equal(3, late.Peer);
     }

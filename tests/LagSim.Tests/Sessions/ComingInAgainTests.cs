@@ -18,7 +18,7 @@ public sealed class ComingInAgainTests
     [Theory]
     [InlineData(DatagramType.Challenge)]
     [InlineData(DatagramType.Welcome)]
-    [InlineData(DatagramType.Chunk)]
+    [InlineData(DatagramType.SnapshotChunk)]
     [InlineData(DatagramType.Seat)]
     public void Join_AddressThatChangesOnTheWayIn_GetsInWithinASecondMore(DatagramType after)
     {
@@ -37,8 +37,8 @@ public sealed class ComingInAgainTests
 
             return false;
         });
-        JoinerSession joiner = group.Join(Node, 99);
-        Assert.True(group.RunUntil(() => joiner.State == SessionState.Running, 1.5), $"{joiner.State} {joiner.EndReason}");
+        ClientSession client = group.Join(Node, 99);
+        Assert.True(group.RunUntil(() => client.State == SessionState.Running, 1.5), $"{client.State} {client.EndReason}");
         Assert.True(hasMoved);
         Assert.Equal(NatPort.Address(1, 2000), group.Host.Links.Single().Address);
     }
@@ -51,18 +51,18 @@ public sealed class ComingInAgainTests
         nat.Place(Node, 1, 1000);
         group.Network.Connect(Node, 0, LinkProfiles.PureDelay(200));
         Intruder[] others = Enumerable.Range(0, 16).Select(n => Neighbour(group, nat, n)).ToArray();
-        JoinerSession joiner = group.Join(Node, 99);
-        Assert.True(group.RunUntil(() => joiner.State == SessionState.Synchronising, 2));
+        ClientSession client = group.Join(Node, 99);
+        Assert.True(group.RunUntil(() => client.State == SessionState.Synchronising, 2));
         for (int n = 0; n < 10; n++)
         {
-            Array.ForEach(others, one => one.Knock());
+            Array.ForEach(others, one => one.ConnectRequest());
             group.Run(0.1);
-            Assert.NotEqual(SessionState.Ended, joiner.State);
+            Assert.NotEqual(SessionState.Ended, client.State);
         }
 
         Assert.Equal(16, group.Host.ComingCount); // it is not among them, or has just come back
-        Assert.True(group.RunUntil(() => joiner.State == SessionState.Running, 5), $"{joiner.State} {joiner.EndReason}");
-        Assert.Equal(0, joiner.Counters.Renewals);
+        Assert.True(group.RunUntil(() => client.State == SessionState.Running, 5), $"{client.State} {client.EndReason}");
+        Assert.Equal(0, client.Counters.Renewals);
     }
 
     [Fact]
@@ -72,17 +72,17 @@ public sealed class ComingInAgainTests
         nat.Place(Node, 1, 1000);
         group.Network.Connect(Node, 0, LinkProfiles.PureDelay(200));
         Intruder[] others = Enumerable.Range(0, 16).Select(n => Neighbour(group, nat, n)).ToArray();
-        JoinerSession joiner = group.Join(
+        ClientSession client = group.Join(
             Node, 99, new SessionOptions { RejoinTime = SimDuration.Zero, Timeout = SimDuration.FromSeconds(3) });
         SimTime began = group.Clock.Now;
-        while (joiner.State != SessionState.Ended && group.Clock.Now - began < SimDuration.FromSeconds(20))
+        while (client.State != SessionState.Ended && group.Clock.Now - began < SimDuration.FromSeconds(20))
         {
-            Array.ForEach(others, one => one.Knock());
+            Array.ForEach(others, one => one.ConnectRequest());
             group.Run(0.1);
         }
 
-        Assert.Equal((SessionState.Ended, SessionEnd.LetGo), (joiner.State, joiner.EndedBy));
-        Assert.Equal("The host at virtual:0 does not have this peer among its joiners, or no longer.", joiner.EndReason);
+        Assert.Equal((SessionState.Ended, SessionEnd.Disconnect), (client.State, client.EndedBy));
+        Assert.Equal("The host at virtual:0 does not have this peer among its joiners, or no longer.", client.EndReason);
     }
 
     private static Intruder Neighbour(SessionGroup group, NatPort nat, int n)
@@ -95,7 +95,7 @@ public sealed class ComingInAgainTests
     {
         NatPort? nat = null;
         SessionGroup group = new(
-            scene ?? Deeds.Box(), 1, LinkProfiles.PureDelay(20), wrap: (node, port) => node == 0 ? nat = new NatPort(port) : port);
+            scene ?? ScriptedActions.Box(), 1, LinkProfiles.PureDelay(20), wrap: (node, port) => node == 0 ? nat = new NatPort(port) : port);
         group.Connect();
         return (group, nat!);
     }

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Sessions.Core;
-using LagSim.Net.Sessions.Joiners;
+using LagSim.Net.Sessions.Clients;
 using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
 using LagSim.Time;
@@ -21,14 +21,14 @@ public sealed class DatagramIntakeTests : IDatagramHandler
     public void Take_EachKind_GoesWhereItBelongs()
     {
         DatagramIntake intake = new(counters, this);
-        byte[] knock = new byte[WireFormat.KnockBytes];
-        new KnockDatagram(1).Encode(knock);
-        byte[] other = (byte[])knock.Clone();
+        byte[] request = new byte[WireFormat.ConnectRequestBytes];
+        new ConnectRequestDatagram(1).Encode(request);
+        byte[] other = (byte[])request.Clone();
         other[2]++;
         UpdateLink link = new LinkFactory(SimDuration.FromMilliseconds(30)).To(PeerAddress.Virtual(1), 1, 0, SimTime.Zero);
         link.Compose(SimTime.FromSeconds(1));
         ReadOnlySpan<byte> update = link.Seal(new OwnEvents(0), SimTime.FromSeconds(1), SimDuration.FromSeconds(1), isUrgent: false);
-        intake.Take(knock, PeerAddress.Virtual(1));
+        intake.Take(request, PeerAddress.Virtual(1));
         intake.Take(other, PeerAddress.Virtual(1));
         intake.Take(update, PeerAddress.Virtual(1));
         intake.Take(update.Slice(0, update.Length - 1), PeerAddress.Virtual(1));

@@ -5,7 +5,7 @@ using LagSim.Events;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Sessions.Core;
-using LagSim.Net.Sessions.Joiners;
+using LagSim.Net.Sessions.Clients;
 using LagSim.Net.Wire;
 using LagSim.Testing.Links;
 using LagSim.Time;
@@ -15,16 +15,16 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Sessions;
 
-/// <summary>A joiner whose committed state is not the host's says since when, and which event makes the difference, in both versions; nobody else notices.</summary>
+/// <summary>A client whose committed state is not the host's says since when, and which event makes the difference, in both versions; nobody else notices.</summary>
 public sealed class DivergenceTests
 {
     private readonly SessionGroup group = new SessionGroup(
-        Deeds.Box(), 3, LinkProfiles.PureDelay(20), options: _ => new SessionOptions { Window = new(SimDuration.FromMilliseconds(200)) }).Connect();
+        ScriptedActions.Box(), 3, LinkProfiles.PureDelay(20), options: _ => new SessionOptions { Window = new(SimDuration.FromMilliseconds(200)) }).Connect();
     private readonly List<Divergence> told = [];
     private readonly UpdateDatagram read = new();
     private readonly byte[] buffer = new byte[WireFormat.MaxBytes];
 
-    public DivergenceTests() => group.Joiner(2).Diverged += told.Add;
+    public DivergenceTests() => group.Client(2).Diverged += told.Add;
 
     private SimTime Start => group.Host.World!.Simulation.Start;
 
@@ -34,7 +34,7 @@ public sealed class DivergenceTests
         Play(40);
         Assert.Empty(told);
         Assert.All(group.Sessions.Skip(1), s => Assert.True(s.Counters.StatesAgreed >= 2 && s.Counters.StatesDiffered == 0));
-        Assert.Null(group.Joiner(2).Divergence);
+        Assert.Null(group.Client(2).Divergence);
     }
 
     [Theory]
@@ -42,10 +42,10 @@ public sealed class DivergenceTests
     [InlineData(150)] // more than one answer tells
     public void Event_ThatARelayTurnsIntoARefusedOne_IsNamedInBothVersions(int before)
     {
-        // The joiner is told that an accepted event was refused, and so goes on without it.
+        // The client is told that an accepted event was refused, and so goes on without it.
         uint place = (uint)before + 1;
         List<(byte Peer, SimTime At)> said = [];
-        group.Host.JoinerDiverged += (peer, at) => said.Add((peer, at));
+        group.Host.ClientDiverged += (peer, at) => said.Add((peer, at));
         group.IsTapped = false;
         Change(update => update.FirstIndex <= place && update.FirstIndex + update.Entries.Length > place, update =>
         {
@@ -75,8 +75,8 @@ public sealed class DivergenceTests
         Assert.True(found.After < changed.Time && changed.Time <= found.At);
         Assert.Equal(before, found.Events.Count);
         Assert.NotEqual(found.OwnHash, found.HostHash);
-        Assert.Same(found, group.Joiner(2).Divergence);
-        Assert.Equal([(group.Joiner(2).Peer, found.At)], said);
+        Assert.Same(found, group.Client(2).Divergence);
+        Assert.Equal([(group.Client(2).Peer, found.At)], said);
         string sentences = found.ToString();
         Assert.Contains($"at the host entry {place} of the log", sentences, StringComparison.Ordinal);
         Assert.Contains("Invalid: ", sentences, StringComparison.Ordinal);
@@ -135,7 +135,7 @@ public sealed class DivergenceTests
         Play(30);
         Divergence found = Assert.Single(told);
         Assert.Equal((DivergenceFinding.EventsAgree, found.OwnHash ^ 1), (found.Finding, found.HostHash));
-        SessionCounters counters = group.Joiner(2).Counters;
+        SessionCounters counters = group.Client(2).Counters;
         Assert.True(counters.StatesDiffered is > 0 and < 8 && counters.StatesAgreed > 0, $"{counters.StatesDiffered} {counters.StatesAgreed}");
         Assert.Equal(found.At, counters.FirstDifference);
         Assert.Null(group.Difference());
@@ -145,11 +145,11 @@ public sealed class DivergenceTests
     [Fact]
     public void Host_ThatDoesNotAnswer_IsSaidNotToAfterTheTimeout()
     {
-        group.Network.Lose((from, to, datagram) => from == 0 && to == 2 && datagram.Span[3] == (byte)DatagramType.Evidence);
+        group.Network.Lose((from, to, datagram) => from == 0 && to == 2 && datagram.Span[3] == (byte)DatagramType.DesyncReport);
         group.Sessions[2].World!.Simulation.Submit(ExternalEvent.SetVelocity(group.Host.SharedTime.Now, 9, 1, First, V(0, 3))); // what nobody knows of
-        Assert.True(group.RunUntil(() => group.Joiner(2).Divergence is not null));
+        Assert.True(group.RunUntil(() => group.Client(2).Divergence is not null));
         group.Run(2);
-        Assert.Equal(DivergenceFinding.Asking, group.Joiner(2).Divergence!.Finding);
+        Assert.Equal(DivergenceFinding.Asking, group.Client(2).Divergence!.Finding);
         Assert.Empty(told);
         Assert.True(group.RunUntil(() => told.Count > 0, 60));
         Assert.Equal(DivergenceFinding.Unanswered, Assert.Single(told).Finding);
@@ -157,9 +157,9 @@ public sealed class DivergenceTests
     }
 
     [Fact]
-    public void Doubt_OfAStrangerOrOfWhatIsNotCommittedOrTooOften_IsCountedAndNotAnswered()
+    public void DesyncQuery_OfAStrangerOrOfWhatIsNotCommittedOrTooOften_IsCountedAndNotAnswered()
     {
-        RawJoiner raw = new(group);
+        RawClient raw = new(group);
         group.Run(1.5);
         raw.Received();
         SimTime now = group.Host.SharedTime.Now, past = Start + SimDuration.FromSeconds(1);
@@ -169,14 +169,14 @@ public sealed class DivergenceTests
         Ask(raw, raw.SessionId, raw.Peer, 0, past);
         Ask(raw, raw.SessionId, raw.Peer, 1, now);
         Assert.Equal(ignored + 4, group.Host.Counters.DatagramsIgnored);
-        Assert.DoesNotContain(raw.Received(), d => d.Type == DatagramType.Evidence);
+        Assert.DoesNotContain(raw.Received(), d => d.Type == DatagramType.DesyncReport);
 
         // The control: in its own name, of what is committed; and then as often as it likes.
         int answers = 0;
         for (uint n = 1; n <= 100; n++)
         {
             Ask(raw, raw.SessionId, raw.Peer, n, past);
-            answers += raw.Received().Count(d => d.Type == DatagramType.Evidence);
+            answers += raw.Received().Count(d => d.Type == DatagramType.DesyncReport);
         }
 
         Assert.InRange(answers, 16, 20);
@@ -185,22 +185,22 @@ public sealed class DivergenceTests
     }
 
     [Fact]
-    public void Evidence_ThatNobodyAskedForOrThatDoesNotFit_IsCountedAndChangesNothing()
+    public void DesyncReport_ThatNobodyAskedForOrThatDoesNotFit_IsCountedAndChangesNothing()
     {
         Inquiry inquiry = new(At(1), At(2), At(0));
-        Assert.False(inquiry.Take(new EvidenceDatagram(1, 2000, 0, 1, ExternalEvent.Remove(At(1.5), 1, 1, First)), At(0))); // more than a host keeps
-        Assert.False(inquiry.Take(new EvidenceDatagram(1, 2, 1, 1, ExternalEvent.Remove(At(1.5), 1, 1, First)), At(0))); // not the next
-        Assert.False(inquiry.Take(new EvidenceDatagram(1, 2, 0, 1, ExternalEvent.Remove(At(2.5), 1, 1, First)), At(0))); // not asked for
-        Assert.True(inquiry.Take(new EvidenceDatagram(1, 2, 0, 1, ExternalEvent.Remove(At(1.5), 1, 1, First)), At(0)));
-        Assert.False(inquiry.Take(new EvidenceDatagram(1, true), At(0))); // none after all
+        Assert.False(inquiry.Take(new DesyncReportDatagram(1, 2000, 0, 1, ExternalEvent.Remove(At(1.5), 1, 1, First)), At(0))); // more than a host keeps
+        Assert.False(inquiry.Take(new DesyncReportDatagram(1, 2, 1, 1, ExternalEvent.Remove(At(1.5), 1, 1, First)), At(0))); // not the next
+        Assert.False(inquiry.Take(new DesyncReportDatagram(1, 2, 0, 1, ExternalEvent.Remove(At(2.5), 1, 1, First)), At(0))); // not asked for
+        Assert.True(inquiry.Take(new DesyncReportDatagram(1, 2, 0, 1, ExternalEvent.Remove(At(1.5), 1, 1, First)), At(0)));
+        Assert.False(inquiry.Take(new DesyncReportDatagram(1, true), At(0))); // none after all
         Assert.False(inquiry.IsComplete);
-        Assert.True(inquiry.Take(new EvidenceDatagram(1, 2, 1, 2, ExternalEvent.Remove(At(2), 1, 2, First)), At(0)));
+        Assert.True(inquiry.Take(new DesyncReportDatagram(1, 2, 1, 2, ExternalEvent.Remove(At(2), 1, 2, First)), At(0)));
         Assert.True(inquiry.IsComplete && inquiry.IsWhole && inquiry.Events.Count == 2);
 
-        long ignored = group.Joiner(2).Counters.DatagramsIgnored;
-        group.Ports[0].Send(AnyEvidence(), PeerAddress.Virtual(2));
+        long ignored = group.Client(2).Counters.DatagramsIgnored;
+        group.Ports[0].Send(AnyDesyncReport(), PeerAddress.Virtual(2));
         group.Run(0.1);
-        Assert.Equal(ignored + 1, group.Joiner(2).Counters.DatagramsIgnored);
+        Assert.Equal(ignored + 1, group.Client(2).Counters.DatagramsIgnored);
         Assert.Empty(told);
         AssertOthersGoOn();
     }
@@ -221,17 +221,17 @@ public sealed class DivergenceTests
         Assert.False(recent.TryFind(ExternalEvent.Remove(At(5), 1, 5, First), out _, out _));
     }
 
-    private static byte[] AnyEvidence()
+    private static byte[] AnyDesyncReport()
     {
-        byte[] bytes = new byte[WireFormat.EmptyEvidenceBytes];
-        new EvidenceDatagram(1, true).Encode(bytes);
+        byte[] bytes = new byte[WireFormat.EmptyDesyncReportBytes];
+        new DesyncReportDatagram(1, true).Encode(bytes);
         return bytes;
     }
 
-    private void Ask(RawJoiner raw, ulong session, byte peer, uint number, SimTime upTo)
+    private void Ask(RawClient raw, ulong session, byte peer, uint number, SimTime upTo)
     {
-        byte[] bytes = new byte[WireFormat.DoubtBytes];
-        new DoubtDatagram(session, peer, number, Start, upTo, 0).Encode(bytes);
+        byte[] bytes = new byte[WireFormat.DesyncQueryBytes];
+        new DesyncQueryDatagram(session, peer, number, Start, upTo, 0).Encode(bytes);
         raw.Send(bytes);
         group.Run(0.005);
     }
@@ -248,7 +248,7 @@ public sealed class DivergenceTests
         group.Run(1);
     }
 
-    /// <summary>Has what is true of the host's updates to the second joiner said otherwise on their way.</summary>
+    /// <summary>Has what is true of the host's updates to the second client said otherwise on their way.</summary>
     private void Change(Func<UpdateDatagram, bool> isIt, Action<UpdateDatagram> change)
     {
         bool isOwn = false;
@@ -271,7 +271,7 @@ public sealed class DivergenceTests
     {
         group.Run(1);
         Assert.All(group.Sessions, s => Assert.Equal(SessionState.Running, s.State));
-        Assert.Equal((0L, 0L), (group.Joiner(1).Counters.StatesDiffered, group.Host.Counters.StatesDiffered));
+        Assert.Equal((0L, 0L), (group.Client(1).Counters.StatesDiffered, group.Host.Counters.StatesDiffered));
         ExternalEvent last = group.Do(2, PlayerAction.SetVelocity(First, V(0, 1))); // and the one that differs still takes part
         Assert.True(group.RunUntil(() => group.Log.Values.Any(e => e.Event.Equals(last)) && group.Sessions.All(s => s.LogLength == group.Host.LogLength), 3));
     }

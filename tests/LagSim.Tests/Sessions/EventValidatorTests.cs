@@ -33,39 +33,39 @@ public sealed class EventValidatorTests
     }
 
     [Fact]
-    public void Judge_BeforeThereIsAWorld_IsInvalid() => Assert.Equal(Verdict.Invalid, Judge(0));
+    public void Validate_BeforeThereIsAWorld_IsInvalid() => Assert.Equal(Verdict.Invalid, Validate(0));
 
     [Theory]
     [InlineData(0, Verdict.Accepted)]
     [InlineData(-0.001, Verdict.Accepted)]
     [InlineData(-1000, Verdict.TooLate)]
     [InlineData(1000, Verdict.TooEarly)]
-    public void Judge_ByItsTime(double seconds, Verdict verdict)
+    public void Validate_ByItsTime(double seconds, Verdict verdict)
     {
         world.Begin(SimTime.FromSeconds(99));
         world.Step(clock.Now);
-        Assert.Equal(verdict, Judge(seconds));
+        Assert.Equal(verdict, Validate(seconds));
     }
 
     [Fact]
-    public void Judge_BeforeTheStart_IsTooLate()
+    public void Validate_BeforeTheStart_IsTooLate()
     {
         world.Begin(clock.Now);
-        Assert.Equal(Verdict.TooLate, Judge(-0.001));
+        Assert.Equal(Verdict.TooLate, Validate(-0.001));
     }
 
     [Fact]
-    public void Judge_FasterThanAPlayerMayGive_IsInvalid()
+    public void Validate_FasterThanAPlayerMayGive_IsInvalid()
     {
         world.Begin(SimTime.FromSeconds(99));
         world.Step(clock.Now);
-        Assert.Equal(Verdict.Invalid, Judge(0, options.MaxGivenSpeed + 1));
-        Assert.Equal(Verdict.Accepted, Judge(0, options.MaxGivenSpeed));
+        Assert.Equal(Verdict.Invalid, Validate(0, options.MaxGivenSpeed + 1));
+        Assert.Equal(Verdict.Accepted, Validate(0, options.MaxGivenSpeed));
     }
 
-    private Verdict Judge(double seconds, double speed = 1)
+    private Verdict Validate(double seconds, double speed = 1)
     {
         SimTime time = clock.Now + SimDuration.FromSeconds(seconds);
-        return validator.Judge(PlayerAction.SetVelocity(Body, new Vector3D(speed, 0, 0)).Stamp(time, 1, 1));
+        return validator.Validate(PlayerAction.SetVelocity(Body, new Vector3D(speed, 0, 0)).Stamp(time, 1, 1));
     }
 }

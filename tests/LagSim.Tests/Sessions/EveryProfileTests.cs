@@ -10,7 +10,7 @@ using Xunit;
 
 namespace LagSim.Tests.Sessions;
 
-/// <summary>A host with eight joiners for a minute of virtual time, on every kind of link.</summary>
+/// <summary>A host with eight clients for a minute of virtual time, on every kind of link.</summary>
 /// <remarks>
 /// Without any extra history: who heard of an event after its own watermark would lose it, and a hash of each second's committed state, which is compared with the
 /// host's, tells of the time that nobody keeps any more.
@@ -23,7 +23,7 @@ public sealed class EveryProfileTests
 
     [Theory]
     [MemberData(nameof(Profiles))]
-    public void Worlds_HostWithEightJoinersForAMinute_HaveNotOneDifferingBit(string profile)
+    public void Worlds_HostWithEightClientsForAMinute_HaveNotOneDifferingBit(string profile)
     {
         SessionGroup group = Play(profile, 1);
         Assert.All(group.Sessions, s => Assert.Equal(SessionState.Running, s.State));
@@ -51,7 +51,7 @@ public sealed class EveryProfileTests
     [Fact]
     public void Check_RelayThatLosesOneEventForGood_IsSeenToFail()
     {
-        // Every datagram that holds it: the joiner waits for it from then on, and stands still.
+        // Every datagram that holds it: the client waits for it from then on, and stands still.
         UpdateDatagram read = new();
         SessionGroup group = Play("4g", 2, 60, (group, from, to, datagram) => from == 0 && to == 4 && read.TryDecode(datagram.Span, out _)
             && read.Entries.Length > 0 && read.FirstIndex <= 40 && read.FirstIndex + read.Entries.Length > 40);
@@ -62,7 +62,7 @@ public sealed class EveryProfileTests
     [Fact]
     public void Check_RelayThatTakesOneEventOutOfItsDatagrams_IsSeenByTheSessionItself()
     {
-        // The joiner is told that it was refused, and goes on: the hashes that it compares with the host's are what tells.
+        // The client is told that it was refused, and goes on: the hashes that it compares with the host's are what tells.
         UpdateDatagram read = new();
         byte[] buffer = new byte[WireFormat.MaxBytes];
         bool isOwn = false;
@@ -107,7 +107,7 @@ public sealed class EveryProfileTests
     private static SessionGroup Play(string profile, ulong seed, double extraHistory = 0, Func<SessionGroup, int, int, ReadOnlyMemory<byte>, bool>? loses = null)
     {
         Assert.True(LinkProfiles.TryGet(profile, out LinkProfile? link, out _));
-        SessionGroup group = new(Deeds.Box(), 9, link, seed, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(5)), ExtraHistory = SimDuration.FromSeconds(extraHistory), Timeout = SimDuration.FromSeconds(loses is null ? 10 : 600) });
+        SessionGroup group = new(ScriptedActions.Box(), 9, link, seed, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(5)), ExtraHistory = SimDuration.FromSeconds(extraHistory), Timeout = SimDuration.FromSeconds(loses is null ? 10 : 600) });
         group.Connect();
         if (loses is not null)
         {
@@ -116,11 +116,11 @@ public sealed class EveryProfileTests
         }
 
         SimTime end = group.Clock.Now + SimDuration.FromSeconds(Seconds);
-        Deeds deeds = new((int)seed, mostSpawns: 4); // a heap of dozens in that box would take longer than all the rest
+        ScriptedActions scriptedActions = new((int)seed, mostSpawns: 4); // a heap of dozens in that box would take longer than all the rest
         int done = 0;
         while (group.Clock.Now < end)
         {
-            done += deeds.DoIn(group, 1).Count;
+            done += scriptedActions.DoIn(group, 1).Count;
             group.Run(0.25);
         }
 

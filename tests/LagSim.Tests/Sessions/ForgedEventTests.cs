@@ -12,13 +12,13 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Sessions;
 
-/// <summary>A joiner that lies is refused and counted, and nobody else notices.</summary>
+/// <summary>A client that lies is refused and counted, and nobody else notices.</summary>
 public sealed class ForgedEventTests
 {
-    private readonly SessionGroup group = new SessionGroup(Deeds.Box(), 3, LinkProfiles.PureDelay(5)).Connect();
-    private readonly RawJoiner liar;
+    private readonly SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5)).Connect();
+    private readonly RawClient liar;
 
-    public ForgedEventTests() => liar = new RawJoiner(group);
+    public ForgedEventTests() => liar = new RawClient(group);
 
     private SimTime Now => group.Host.SharedTime.Now;
 

@@ -18,7 +18,7 @@ public sealed class GarbageTests
     private const int Stranger = 60;
 
     private readonly List<byte[]> seen = [];
-    private readonly SessionGroup group = new(Deeds.Box(), 3, LinkProfiles.PureDelay(5), 9);
+    private readonly SessionGroup group = new(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), 9);
 
     public GarbageTests() => group.Network.Lose((_, _, datagram) =>
     {
@@ -29,8 +29,8 @@ public sealed class GarbageTests
     [Theory]
     [InlineData(Stranger, 0)]
     [InlineData(Stranger, 1)]
-    [InlineData(1, 0)] // a joiner to the host
-    [InlineData(0, 1)] // the host to a joiner
+    [InlineData(1, 0)] // a client to the host
+    [InlineData(0, 1)] // the host to a client
     public void Receive_RandomBytes_AreAllCountedAndTheSessionGoesOn(int from, int to)
     {
         group.Connect();
@@ -63,7 +63,7 @@ public sealed class GarbageTests
     {
         Record();
         long before = group.Sessions[to].Counters.DatagramsIgnored;
-        byte[][] others = seen.Where(bytes => bytes[3] != (byte)DatagramType.Knock).ToArray(); // who knocks is answered, whoever it is
+        byte[][] others = seen.Where(bytes => bytes[3] != (byte)DatagramType.ConnectRequest).ToArray(); // a connect request is answered, whoever it is
         foreach (byte[] bytes in others)
         {
             Port(Stranger).Send(bytes, PeerAddress.Virtual(to));
@@ -78,7 +78,7 @@ public sealed class GarbageTests
     [Fact]
     public void Receive_EveryDatagramOfTheSessionAgain_ChangesNothing()
     {
-        // From and to whom they were, hours of a slow network later: all are old, none is news.
+        // From and to whom they were, hours of a slow network later: all are old, none is new.
         List<(int From, int To, byte[] Bytes)> all = [];
         group.Network.Lose((from, to, datagram) =>
         {
@@ -171,7 +171,7 @@ public sealed class GarbageTests
     private void Record()
     {
         group.Connect();
-        new Deeds(3).DoIn(group, 30);
+        new ScriptedActions(3).DoIn(group, 30);
         Assert.True(group.Settle(30));
     }
 

@@ -20,10 +20,10 @@ namespace LagSim.Tests.Sessions;
 public sealed class GettingInTests
 {
     [Fact]
-    public void SessionId_OfAJoiner_TellsNothingOfAnothers()
+    public void SessionId_OfAClient_TellsNothingOfAnothers()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 1, LinkProfiles.PureDelay(1)).Connect();
-        ulong[] ids = Enumerable.Range(100, 8).Select(address => new RawJoiner(group, address).SessionId).ToArray();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 1, LinkProfiles.PureDelay(1)).Connect();
+        ulong[] ids = Enumerable.Range(100, 8).Select(address => new RawClient(group, address).SessionId).ToArray();
         Assert.Equal(8, ids.Distinct().Count());
         Assert.DoesNotContain(ids, id => ids.Any(other => id != other && (id ^ other) <= uint.MaxValue));
 
@@ -33,56 +33,56 @@ public sealed class GettingInTests
         new LeaveDatagram(ids[0] + 1, 1, LeaveReason.Left).Encode(bytes);
         spoofed.Send(bytes, PeerAddress.Virtual(0));
         group.Run(0.1);
-        Assert.Equal(8, group.Host.JoinerCount);
+        Assert.Equal(8, group.Host.ClientCount);
     }
 
     [Fact]
-    public void Fetch_AgainAndAgain_GetsTheCopyAFewTimesAndNoMore()
+    public void SnapshotRequest_AgainAndAgain_GetsTheCopyAFewTimesAndNoMore()
     {
         SessionGroup group = new SessionGroup(BuiltInScenes.Crowd(400), 2, LinkProfiles.PureDelay(5)).Connect();
-        RawJoiner greedy = new(group, sits: false);
-        long most = (8 * ((greedy.CopyLength / ChunkDatagram.MaxData) + FetchDatagram.MaxChunks)) + 64;
-        byte[] bytes = new byte[WireFormat.FetchBytes];
+        RawClient greedy = new(group, sits: false);
+        long most = (8 * ((greedy.CopyLength / SnapshotChunkDatagram.MaxData) + SnapshotRequestDatagram.MaxChunks)) + 64;
+        byte[] bytes = new byte[WireFormat.SnapshotRequestBytes];
         long got = 0;
         for (uint second = 0; second < 8; second++)
         {
             long inThisSecond = 0;
             for (uint n = 1; n <= 100; n++)
             {
-                new FetchDatagram(greedy.SessionId, greedy.Peer, (second * 100) + n, 0, ulong.MaxValue).Encode(bytes);
+                new SnapshotRequestDatagram(greedy.SessionId, greedy.Peer, (second * 100) + n, 0, ulong.MaxValue).Encode(bytes);
                 greedy.Send(bytes);
                 group.Run(0.01);
-                inThisSecond += greedy.Received().Count(d => d.Type == DatagramType.Chunk);
+                inThisSecond += greedy.Received().Count(d => d.Type == DatagramType.SnapshotChunk);
             }
 
-            Assert.InRange(inThisSecond, 0, 2000 + (4 * FetchDatagram.MaxChunks)); // of the 6,400 it asked for
+            Assert.InRange(inThisSecond, 0, 2000 + (4 * SnapshotRequestDatagram.MaxChunks)); // of the 6,400 it asked for
             got += inThisSecond;
         }
 
-        Assert.InRange(got, FetchDatagram.MaxChunks, most);
+        Assert.InRange(got, SnapshotRequestDatagram.MaxChunks, most);
     }
 
     [Fact]
     public void Join_ManyTimesFromOneAddress_TakesNobodysPlace()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 1, LinkProfiles.PureDelay(1)).Connect();
-        RawJoiner restless = new(group);
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 1, LinkProfiles.PureDelay(1)).Connect();
+        RawClient restless = new(group);
         DatagramType?[] answers = Enumerable.Range(0, 1200).Select(n => restless.Ask((ulong)n + 1)).ToArray();
         Assert.All(answers, answer => Assert.Equal(DatagramType.Welcome, answer));
-        Assert.Equal(0, group.Host.JoinerCount);
-        JoinerSession honest = group.Join(7, 99);
+        Assert.Equal(0, group.Host.ClientCount);
+        ClientSession honest = group.Join(7, 99);
         Assert.True(group.RunUntil(() => honest.State == SessionState.Running, 2));
     }
 
     [Fact]
     public void Join_HalfOpenOnesOfAThousandAddresses_IsLetInAtOnce()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 1, LinkProfiles.PureDelay(1)).Connect();
-        RawJoiner[] halfOpen = Enumerable.Range(1000, 1000).Select(address => new RawJoiner(group, address, sits: false)).ToArray();
-        Assert.Equal((1000, 0), (halfOpen.Select(s => s.SessionId).Distinct().Count(), group.Host.JoinerCount));
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 1, LinkProfiles.PureDelay(1)).Connect();
+        RawClient[] halfOpen = Enumerable.Range(1000, 1000).Select(address => new RawClient(group, address, sits: false)).ToArray();
+        Assert.Equal((1000, 0), (halfOpen.Select(s => s.SessionId).Distinct().Count(), group.Host.ClientCount));
         for (int i = 0; i < 20; i++)
         {
-            JoinerSession honest = group.Join(7 + i, 99 + (ulong)i);
+            ClientSession honest = group.Join(7 + i, 99 + (ulong)i);
             Assert.True(group.RunUntil(() => honest.State == SessionState.Running, 2), $"{i}");
             honest.Leave();
             group.Run(0.1);
@@ -93,15 +93,15 @@ public sealed class GettingInTests
     [Fact]
     public void Join_WhereSilentOnesHaveAllPlaces_IsLetInOnceTheyAreGivenUp()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 1, LinkProfiles.PureDelay(1)).Connect();
-        RawJoiner[] silent = Enumerable.Range(100, 8).Select(address => new RawJoiner(group, address)).ToArray();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 1, LinkProfiles.PureDelay(1)).Connect();
+        RawClient[] silent = Enumerable.Range(100, 8).Select(address => new RawClient(group, address)).ToArray();
         Assert.Equal(8, silent.Select(s => s.Peer).Distinct().Count());
-        JoinerSession early = group.Join(7, 99);
+        ClientSession early = group.Join(7, 99);
         Assert.True(group.RunUntil(() => early.State == SessionState.Ended, 1));
         Assert.Equal("The host at virtual:0 refused: the session is full.", early.EndReason);
         group.DropLast();
         group.Run(11); // their numbers are kept for them, but not from who needs one
-        JoinerSession later = group.Join(8, 98);
+        ClientSession later = group.Join(8, 98);
         Assert.True(group.RunUntil(() => later.State == SessionState.Running, 1));
     }
 
@@ -109,16 +109,16 @@ public sealed class GettingInTests
     public void Events_OfOneWhoComesAgain_AreNotMoreThanAllowed()
     {
         SessionGroup group = new SessionGroup(
-            Deeds.Box(), 1, LinkProfiles.PureDelay(1), options: _ => new SessionOptions { MaxEventsPerSecond = 10 }).Connect();
-        RawJoiner joiner = new(group);
+            ScriptedActions.Box(), 1, LinkProfiles.PureDelay(1), options: _ => new SessionOptions { MaxEventsPerSecond = 10 }).Connect();
+        RawClient client = new(group);
         SimTime began = group.Clock.Now;
         for (ulong n = 1; n <= 10; n++)
         {
-            joiner.Claim(
-                joiner.LastSequence + 1,
-                Enumerable.Range(1, 10).Select(k => ExternalEvent.Impulse(group.Host.SharedTime.Now, joiner.Peer, joiner.LastSequence + (uint)k, First, V(0.01))).ToArray());
-            joiner.Leave();
-            joiner.Join(n);
+            client.Claim(
+                client.LastSequence + 1,
+                Enumerable.Range(1, 10).Select(k => ExternalEvent.Impulse(group.Host.SharedTime.Now, client.Peer, client.LastSequence + (uint)k, First, V(0.01))).ToArray());
+            client.Leave();
+            client.Join(n);
         }
 
         double seconds = (group.Clock.Now - began).ToSeconds();
@@ -142,13 +142,13 @@ public sealed class GettingInTests
         group.Run(0.1);
         Assert.Equal((3, SessionState.Running), (again.Peer, again.State));
         Assert.Equal("This player came in from elsewhere; the host at virtual:0 let this peer go.", carol.EndReason);
-        JoinerSession nobody = group.Join(15, 15, new SessionOptions { ConnectKey = "dave" });
+        ClientSession nobody = group.Join(15, 15, new SessionOptions { ConnectKey = "dave" });
         Assert.True(group.RunUntil(() => nobody.State == SessionState.Ended, 1));
         Assert.Equal("The host at virtual:0 refused: the key is wrong.", nobody.EndReason);
 
         Session Run(int address, string key)
         {
-            JoinerSession session = group.Join(address, (ulong)address, new SessionOptions { ConnectKey = key });
+            ClientSession session = group.Join(address, (ulong)address, new SessionOptions { ConnectKey = key });
             Assert.True(group.RunUntil(() => session.State == SessionState.Running, 5));
             return session;
         }
@@ -163,7 +163,7 @@ public sealed class GettingInTests
     {
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
         SessionOptions options = new() { ConnectKey = "the connect key", PlayerKeys = new Dictionary<byte, string> { [number] = key } };
-        ArgumentException refused = Assert.ThrowsAny<ArgumentException>(() => new HostSession(Deeds.Box(), port, new VirtualClock(), options, 1));
+        ArgumentException refused = Assert.ThrowsAny<ArgumentException>(() => new HostSession(ScriptedActions.Box(), port, new VirtualClock(), options, 1));
         Assert.Equal("PlayerKeys", refused.ParamName);
     }
 
@@ -179,8 +179,8 @@ public sealed class GettingInTests
         {
             SlowClock clock = new();
             AnsweringPort port = new();
-            SessionOptions options = new() { ExpectedJoiners = 0, Window = new(SimDuration.FromSeconds(history)), StartLead = SimDuration.Zero };
-            HostSession host = new(Deeds.Box(), port, clock, options, 1);
+            SessionOptions options = new() { ExpectedClients = 0, Window = new(SimDuration.FromSeconds(history)), StartLead = SimDuration.Zero };
+            HostSession host = new(ScriptedActions.Box(), port, clock, options, 1);
             host.Step();
             clock.Time += SimDuration.OneTick;
             ExternalEvent first = host.Do(PlayerAction.Impulse(First, V(1, 1)));
@@ -205,15 +205,15 @@ public sealed class GettingInTests
     public void Join_CookieThatWasOfNoUseForLong_IsUsedAgainOnceTheHostGivesItAgain()
     {
         // Every join is lost for so long that the cookie is asked for anew; in its half minute the host gives the same one.
-        SessionGroup group = new SessionGroup(Deeds.Box(), 1, LinkProfiles.PureDelay(1)).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 1, LinkProfiles.PureDelay(1)).Connect();
         group.Run(30.001 - (group.Clock.Now.ToSeconds() % 30)); // a half minute begins
         bool isLost = true;
         group.Network.Lose((from, _, datagram) => isLost && from == 7 && datagram.Span[3] == (byte)DatagramType.Join);
-        JoinerSession joiner = group.Join(7, 99, new SessionOptions { Timeout = SimDuration.FromSeconds(60) });
+        ClientSession client = group.Join(7, 99, new SessionOptions { Timeout = SimDuration.FromSeconds(60) });
         group.Run(20.5);
-        Assert.Equal(SessionState.Joining, joiner.State);
+        Assert.Equal(SessionState.Joining, client.State);
         isLost = false;
-        Assert.True(group.RunUntil(() => joiner.State == SessionState.Running, 1), joiner.EndReason);
+        Assert.True(group.RunUntil(() => client.State == SessionState.Running, 1), client.EndReason);
     }
 
     [Fact]
@@ -221,10 +221,10 @@ public sealed class GettingInTests
     {
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
         Assert.Contains("The clock reads 2000001 s; a session takes one that reads less than 2000000 s", Assert.Throws<ArgumentException>(
-            () => new HostSession(Deeds.Box(), port, new VirtualClock(SimTime.FromSeconds(2_000_001)), new SessionOptions(), 1)).Message, StringComparison.Ordinal);
+            () => new HostSession(ScriptedActions.Box(), port, new VirtualClock(SimTime.FromSeconds(2_000_001)), new SessionOptions(), 1)).Message, StringComparison.Ordinal);
 
         VirtualClock clock = new(SimTime.FromSeconds(1_999_999));
-        HostSession host = new(Deeds.Box(), port, clock, new SessionOptions { ExpectedJoiners = 0 }, 1);
+        HostSession host = new(ScriptedActions.Box(), port, clock, new SessionOptions { ExpectedClients = 0 }, 1);
         host.Step();
         Assert.NotEqual(SessionState.Ended, host.State);
         clock.Now += SimDuration.FromSeconds(2);
@@ -235,7 +235,7 @@ public sealed class GettingInTests
     [Fact]
     public void Copy_OfATimeThatCannotTravel_IsRefusedWithASentence()
     {
-        byte[] scene = SceneFormat.Encode(Deeds.Box());
+        byte[] scene = SceneFormat.Encode(ScriptedActions.Box());
         foreach ((long start, long time, bool isGood) in new[] { (-(3L << 61), 3L << 61, false), (-(3L << 61), 10L << 40, false), (5L << 40, 10L << 40, true) })
         {
             byte[] state = SnapshotFormat.Encode(new WorldSnapshot(SimTime.FromTicks(start), SimTime.FromTicks(time), 0, []));
@@ -254,7 +254,7 @@ public sealed class GettingInTests
         public SimTime Now => Time += PerReading;
     }
 
-    /// <summary>A port at which one joiner knocks and joins.</summary>
+    /// <summary>A port at which one client asks to connect and joins.</summary>
     private sealed class AnsweringPort : IDatagramPort
     {
         private readonly Queue<byte[]> waiting = [];
@@ -284,8 +284,8 @@ public sealed class GettingInTests
 
         internal WelcomeDatagram Join(HostSession host)
         {
-            byte[] bytes = new byte[WireFormat.KnockBytes];
-            new KnockDatagram(1).Encode(bytes);
+            byte[] bytes = new byte[WireFormat.ConnectRequestBytes];
+            new ConnectRequestDatagram(1).Encode(bytes);
             waiting.Enqueue(bytes);
             host.Step();
             ChallengeDatagram challenge = default;

@@ -12,7 +12,7 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Sessions;
 
-/// <summary>When a knot is due, and what that costs.</summary>
+/// <summary>When a keyframe is due, and what that costs.</summary>
 public sealed class HandSenderTests
 {
     private const int UdpAndIp = 28;
@@ -31,10 +31,10 @@ public sealed class HandSenderTests
             for (int frame = 0; frame < 60 * 30; frame++)
             {
                 (SimTime time, Vector3D position, Vector3D velocity) = Sample(hand, frame);
-                if (sender.TrySample(time, position, velocity, out PlayerAction knot))
+                if (sender.TrySample(time, position, velocity, out PlayerAction keyframe))
                 {
                     sent.Add((time, position, velocity));
-                    Assert.Equal(ExternalEvent.HoldKnot(time, 1, 1, First, position, velocity), knot.Stamp(time, 1, 1));
+                    Assert.Equal(ExternalEvent.HoldKeyframe(time, 1, 1, First, position, velocity), keyframe.Stamp(time, 1, 1));
                 }
 
                 errors.Add((HandPath.Position(sent[^1].Position, sent[^1].Velocity, time - sent[^1].Time) - position).Length);
@@ -42,7 +42,7 @@ public sealed class HandSenderTests
 
             Assert.InRange(errors.Max(), 0, distance);
             Assert.InRange(sender.GreatestError, distance, 0.2); // the control: there was something to be sent
-            Assert.Equal(sent.Count, sender.Knots);
+            Assert.Equal(sent.Count, sender.Keyframes);
             Assert.All(sent.Zip(sent.Skip(1)), pair => Assert.True(pair.Second.Time - pair.First.Time < SimDuration.FromMilliseconds(420)));
         }
     }
@@ -56,16 +56,16 @@ public sealed class HandSenderTests
             sender.TrySample(At(frame / 60.0), V(1), V(0), out _);
         }
 
-        Assert.Equal(40, sender.Knots);
+        Assert.Equal(40, sender.Keyframes);
         Assert.Equal(0, sender.GreatestError);
     }
 
     [Fact]
-    public void TrySample_SameSamples_GivesTheSameKnots()
+    public void TrySample_SameSamples_GivesTheSameKeyframes()
     {
-        long[] knots = [Count(3), Count(3), Count(4)];
-        Assert.Equal(knots[0], knots[1]);
-        Assert.NotEqual(knots[0], knots[2]);
+        long[] keyframes = [Count(3), Count(3), Count(4)];
+        Assert.Equal(keyframes[0], keyframes[1]);
+        Assert.NotEqual(keyframes[0], keyframes[2]);
 
         static long Count(int seed)
         {
@@ -77,7 +77,7 @@ public sealed class HandSenderTests
                 sender.TrySample(time, position, velocity, out _);
             }
 
-            return sender.Knots;
+            return sender.Keyframes;
         }
     }
 
@@ -102,12 +102,12 @@ public sealed class HandSenderTests
     [Theory]
     [InlineData(100, true, 3_000)]
     [InlineData(100, false, 4_812)]
-    [InlineData(500, false, 4_812)] // each knot travels twice, however many are under way
+    [InlineData(500, false, 4_812)] // each keyframe travels twice, however many are under way
     public void Traffic_OfOneHand_IsBelowTheAim(int milliseconds, bool isSlow, double bytesASecond)
     {
         Scene scene = new SceneBuilder("hand").AddPlane("floor", Vector3D.Up, V(0, -2), 0.5).AddBody("ball", Ball(0.1), V(0)).Build();
         SessionGroup group = new SessionGroup(scene, 2, LinkProfiles.PureDelay(milliseconds), 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(3)) }).Connect();
-        JoinerSession player = group.Joiner(1);
+        ClientSession player = group.Client(1);
         HandMotion hand = new(5, isSlow);
         HandSender sender = new(First);
         group.Do(1, PlayerAction.Grab(First));
@@ -118,9 +118,9 @@ public sealed class HandSenderTests
         for (int frame = 0; frame < 60 * seconds; frame++)
         {
             (SimTime _, Vector3D position, Vector3D velocity) = Sample(hand, frame);
-            if (sender.TrySample(player.SharedTime.Now, position, velocity, out PlayerAction knot))
+            if (sender.TrySample(player.SharedTime.Now, position, velocity, out PlayerAction keyframe))
             {
-                group.Do(1, knot);
+                group.Do(1, keyframe);
             }
 
             double error = (Read(group.Host.World!.Simulation, First, group.Host.SharedTime.Now).Position - position).Length;
@@ -132,7 +132,7 @@ public sealed class HandSenderTests
         (long Up, long Down) after = Traffic();
         double up = (after.Up - before.Up) / (double)seconds, down = (after.Down - before.Down) / (double)seconds;
         string figures = FormattableString.Invariant(
-            $"{(isSlow ? "slow" : "random")}: {sender.Knots / (double)seconds:F1} knots/s, up {up:F0} B/s, down {down:F0} B/s, error mean {errors.Average():F4} m, worst {worst:F3} m");
+            $"{(isSlow ? "slow" : "random")}: {sender.Keyframes / (double)seconds:F1} knots/s, up {up:F0} B/s, down {down:F0} B/s, error mean {errors.Average():F4} m, worst {worst:F3} m");
         TestContext.Current.TestOutputHelper?.WriteLine(figures);
         Assert.True(up + down < bytesASecond, figures); // 4.7 KiB, both ways together
         Assert.True(up > 300, figures);

@@ -11,22 +11,22 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Sessions;
 
-/// <summary>Hands over a network: whose the body is, on every peer, whatever became of the news and of who holds it.</summary>
+/// <summary>Hands over a network: whose the body is, on every peer, whatever became of the events and of who holds it.</summary>
 public sealed class HoldTests
 {
     [Fact]
-    public void Grab_ByTwoAtOnce_IsTheFirstsOnEveryPeerAndTheOthersDeedsHaveNoEffect()
+    public void Grab_ByTwoAtOnce_IsTheFirstsOnEveryPeerAndTheOthersScriptedActionsHaveNoEffect()
     {
         SessionGroup group = Group(3);
         ExternalEvent mine = group.Do(1, PlayerAction.Grab(First));
         group.Run(0.02);
         group.Do(2, PlayerAction.Grab(First, V(0, 0.1))); // has not heard of it
-        group.Do(2, PlayerAction.HoldKnot(First, V(2, 4), V(1)));
+        group.Do(2, PlayerAction.HoldKeyframe(First, V(2, 4), V(1)));
         Assert.Equal((1, 2), (Holder(group, 1), Holder(group, 2))); // each sees its own hand
         group.Run(0.15);
         Assert.All(group.Sessions, (_, peer) => Assert.Equal(1, Holder(group, peer)));
-        group.Do(1, PlayerAction.HoldKnot(First, V(-1, 4), V(0)));
-        group.Do(2, PlayerAction.HoldKnot(First, V(2, 4), V(1)));
+        group.Do(1, PlayerAction.HoldKeyframe(First, V(-1, 4), V(0)));
+        group.Do(2, PlayerAction.HoldKeyframe(First, V(2, 4), V(1)));
         group.Do(2, PlayerAction.Release(First, V(9)));
         group.Run(0.5);
         Assert.All(group.Sessions, s => Near(V(-1, 4), Read(s.World!.Simulation, First, s.SharedTime.Now).Position, 1e-9));
@@ -48,7 +48,7 @@ public sealed class HoldTests
         group.Do(2, PlayerAction.Grab(First));
         for (int i = 0; i < 8; i++)
         {
-            group.Do(2, PlayerAction.HoldKnot(First, V(0.2 * i, 5), V(2)));
+            group.Do(2, PlayerAction.HoldKeyframe(First, V(0.2 * i, 5), V(2)));
             group.Run(0.03);
         }
 
@@ -62,14 +62,14 @@ public sealed class HoldTests
     }
 
     [Fact]
-    public void Holder_LostInTheMiddleOfAMove_LetsGoASecondAfterItsLastKnotOnAllOthersAlike()
+    public void Holder_LostInTheMiddleOfAMove_LetsGoASecondAfterItsLastKeyframeOnAllOthersAlike()
     {
         SessionGroup group = Group(3);
         group.Do(1, PlayerAction.Grab(First));
         ExternalEvent last = default;
         for (int i = 0; i < 10; i++)
         {
-            last = group.Do(1, PlayerAction.HoldKnot(First, V(0.1 * i, 4), V(1)));
+            last = group.Do(1, PlayerAction.HoldKeyframe(First, V(0.1 * i, 4), V(1)));
             group.Run(0.1);
         }
 
@@ -81,7 +81,7 @@ public sealed class HoldTests
         {
             Simulation world = session.World!.Simulation;
             Assert.True(world.TryReadHold(First, end - SimDuration.OneTick, out Hold hold));
-            Assert.Equal((1, last.Time), (hold.Peer, hold.Knot));
+            Assert.Equal((1, last.Time), (hold.Peer, hold.Keyframe));
             Assert.False(world.TryReadHold(First, end, out _));
             Near(V(1.05, 4), Read(world, First, end).Position, 1e-9); // 0.9 m, and half of 0.3 s of its speed
         }
@@ -97,7 +97,7 @@ public sealed class HoldTests
     [Theory]
     [InlineData(1, 0)]
     [InlineData(0, 2)]
-    public void LastKnot_OfWhichManyDatagramsInARowAreLost_IsThereWithinTwoSeconds(int from, int to)
+    public void LastKeyframe_OfWhichManyDatagramsInARowAreLost_IsThereWithinTwoSeconds(int from, int to)
     {
         SessionGroup group = new SessionGroup(Scene(PeerSet.Everyone), 3, LinkProfiles.PureDelay(200), 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(3)) }).Connect();
         int left = 0;
@@ -107,7 +107,7 @@ public sealed class HoldTests
         Assert.Equal(1u, group.Sessions[to].LogLength);
 
         left = 8; // were each only sent again when its answer is overdue, after 0.5 s here, this would take 4 s
-        group.Do(1, PlayerAction.HoldKnot(First, V(0, 4), V(0)));
+        group.Do(1, PlayerAction.HoldKeyframe(First, V(0, 4), V(0)));
         Assert.True(group.RunUntil(() => group.Sessions[to].LogLength == 2, seconds: 2), $"{left} are still to be lost");
         Assert.True(left <= 0, "not all were lost");
     }
@@ -131,17 +131,17 @@ public sealed class HoldTests
         SessionGroup group = new SessionGroup(Scene(PeerSet.Of(0, 1, 2)), 3, LinkProfiles.PureDelay(20), 3, _ => Long()).Connect();
         group.Do(1, PlayerAction.Grab(First));
         group.Run(0.1);
-        RawJoiner liar = new(group);
+        RawClient liar = new(group);
         SimTime now = group.Host.SharedTime.Now;
         liar.Claim(
             1,
-            ExternalEvent.HoldKnot(now, liar.Peer, 1, Second, V(9, 9), V(9)),
+            ExternalEvent.HoldKeyframe(now, liar.Peer, 1, Second, V(9, 9), V(9)),
             ExternalEvent.Release(now, liar.Peer, 2, Second, V(9)),
-            ExternalEvent.HoldKnot(now, liar.Peer, 3, First, V(9, 9), V(9)),
+            ExternalEvent.HoldKeyframe(now, liar.Peer, 3, First, V(9, 9), V(9)),
             ExternalEvent.Release(now, liar.Peer, 4, Second, V(2_000)),
             ExternalEvent.Grab(now + SimDuration.OneTick, liar.Peer, 5, Second),
-            ExternalEvent.HoldKnot(now + (SimDuration.OneTick * 2), liar.Peer, 6, Second, V(1e3, 9), V(0)),
-            ExternalEvent.HoldKnot(now, 1, 7, First, V(9, 9), V(0)));
+            ExternalEvent.HoldKeyframe(now + (SimDuration.OneTick * 2), liar.Peer, 6, Second, V(1e3, 9), V(0)),
+            ExternalEvent.HoldKeyframe(now, 1, 7, First, V(9, 9), V(0)));
         group.Run(0.2);
         Verdict[] verdicts = group.Log.Values.Where(e => e.Event.Peer == liar.Peer).Select(e => e.Verdict).ToArray();
         Assert.Equal([Verdict.Accepted, Verdict.Accepted, Verdict.NoRight, Verdict.Invalid, Verdict.Accepted, Verdict.Invalid], verdicts);
@@ -155,12 +155,12 @@ public sealed class HoldTests
     }
 
     [Fact]
-    public void Do_AKnotFartherThanTheLimitOfSpeed_ThrowsASentence()
+    public void Do_AKeyframeFartherThanTheLimitOfSpeed_ThrowsASentence()
     {
         SessionGroup group = Group(2);
         group.Do(1, PlayerAction.Grab(First));
-        Assert.Contains("HoldKnot", Assert.Throws<SceneException>(() => group.Do(1, PlayerAction.HoldKnot(First, V(0, 100), V(0)))).Message, StringComparison.Ordinal);
-        group.Do(1, PlayerAction.HoldKnot(First, V(0, 40), V(0)));
+        Assert.Contains("HoldKnot", Assert.Throws<SceneException>(() => group.Do(1, PlayerAction.HoldKeyframe(First, V(0, 100), V(0)))).Message, StringComparison.Ordinal);
+        group.Do(1, PlayerAction.HoldKeyframe(First, V(0, 40), V(0)));
     }
 
     [Fact]
@@ -170,15 +170,15 @@ public sealed class HoldTests
         group.Do(1, PlayerAction.Grab(First));
         for (int i = 0; i < 30; i++)
         {
-            group.Do(1, PlayerAction.HoldKnot(First, V(0.05 * i, 4), V(0.5)));
+            group.Do(1, PlayerAction.HoldKeyframe(First, V(0.05 * i, 4), V(0.5)));
             group.Run(0.2);
         }
 
-        JoinerSession late = group.Join(7, 77, Long());
+        ClientSession late = group.Join(7, 77, Long());
         Assert.True(group.RunUntil(() => late.State == SessionState.Running));
         Assert.NotNull(late.BegunFrom);
         Assert.Equal(MotionLaw.Held, late.BegunFrom.Bodies[0].Law);
-        group.Do(1, PlayerAction.HoldKnot(First, V(1, 4), V(0)));
+        group.Do(1, PlayerAction.HoldKeyframe(First, V(1, 4), V(0)));
         group.Run(0.3);
         Assert.All(group.Sessions, (_, peer) => Assert.Equal(1, Holder(group, peer)));
         Assert.Null(group.Difference());
@@ -193,12 +193,12 @@ public sealed class HoldTests
         int holds = 0;
         for (ulong seed = 1; seed <= 5; seed++)
         {
-            SessionGroup group = new SessionGroup(Deeds.Box(), peers, AgreementTests.Link(link), seed, _ => Long()).Connect();
-            new Deeds((int)seed) { HasHands = true }.DoIn(group, 60);
+            SessionGroup group = new SessionGroup(ScriptedActions.Box(), peers, AgreementTests.Link(link), seed, _ => Long()).Connect();
+            new ScriptedActions((int)seed) { HasHands = true }.DoIn(group, 60);
             Assert.True(group.Settle(60), $"{link} {seed}");
             string? difference = group.Difference();
             Assert.True(difference is null, $"{link}, seed {seed}: {difference}");
-            holds += Bodies(group.Alone()).Sum(body => group.Alone().Timeline(body).Count(e => e.Key.Kind is EventKind.HoldKnot));
+            holds += Bodies(group.Alone()).Sum(body => group.Alone().Timeline(body).Count(e => e.Key.Kind is EventKind.HoldKeyframe));
         }
 
         Assert.True(holds > 2, $"{holds} knots that had an effect");

@@ -11,7 +11,7 @@ namespace LagSim.Tests.Sessions;
 /// Somebody who comes in as the rules have it, and then only costs: it answers at once whatever it needs to be answered, and asks for the
 /// rest when told to.
 /// </summary>
-/// <remarks>Unlike <see cref="RawJoiner"/> it lets no time pass, so a thousand of them can be at it at once.</remarks>
+/// <remarks>Unlike <see cref="RawClient"/> it lets no time pass, so a thousand of them can be at it at once.</remarks>
 internal sealed class Intruder
 {
     private readonly IDatagramPort port;
@@ -49,19 +49,19 @@ internal sealed class Intruder
     internal long BytesOut { get; private set; }
 
     /// <summary>Begins to come in, under another nonce each time.</summary>
-    internal void Knock()
+    internal void ConnectRequest()
     {
         nonce++;
-        byte[] bytes = new byte[WireFormat.KnockBytes];
-        new KnockDatagram(nonce).Encode(bytes);
+        byte[] bytes = new byte[WireFormat.ConnectRequestBytes];
+        new ConnectRequestDatagram(nonce).Encode(bytes);
         Send(bytes);
     }
 
     /// <summary>Asks for as many pieces of the copy as can be asked for.</summary>
     internal void Fetch(ulong wanted = ulong.MaxValue)
     {
-        byte[] bytes = new byte[WireFormat.FetchBytes];
-        new FetchDatagram(SessionId, Peer, ++fetches, 0, wanted).Encode(bytes);
+        byte[] bytes = new byte[WireFormat.SnapshotRequestBytes];
+        new SnapshotRequestDatagram(SessionId, Peer, ++fetches, 0, wanted).Encode(bytes);
         Send(bytes);
     }
 

@@ -32,20 +32,20 @@ public sealed class JoinAnyTimeTests
                 group.Run(random.NextDouble() * 0.3);
             }
 
-            JoinerSession joiner = group.Join(100 + i, (ulong)(1000 + i));
-            Assert.True(group.RunUntil(() => joiner.State == SessionState.Running, 5), joiner.EndReason);
+            ClientSession client = group.Join(100 + i, (ulong)(1000 + i));
+            Assert.True(group.RunUntil(() => client.State == SessionState.Running, 5), client.EndReason);
             Kick(group, random);
             group.Do(2, PlayerAction.SetVelocity(BodyId.OfScene(random.Next(16)), V(random.NextDouble() - 0.5, 0, random.NextDouble() - 0.5)));
             Kick(group, random);
             group.Run(0.5);
-            loggedBefore = Math.Max(loggedBefore, joiner.World!.Simulation.HistoryEdge > group.Host.World!.Simulation.Start ? 1 : 0);
+            loggedBefore = Math.Max(loggedBefore, client.World!.Simulation.HistoryEdge > group.Host.World!.Simulation.Start ? 1 : 0);
             string? difference = group.Difference();
             Assert.True(difference is null, $"join {i}: {difference}");
-            Assert.Equal(0, joiner.Counters.EventsLost + joiner.Counters.StatesDiffered);
-            moving += Enumerable.Range(0, 16).Count(n => Read(joiner.World.Simulation, BodyId.OfScene(n), joiner.World.Simulation.SimulatedTo).Velocity != Vector3D.Zero);
-            joiner.Leave();
+            Assert.Equal(0, client.Counters.EventsLost + client.Counters.StatesDiffered);
+            moving += Enumerable.Range(0, 16).Count(n => Read(client.World.Simulation, BodyId.OfScene(n), client.World.Simulation.SimulatedTo).Velocity != Vector3D.Zero);
+            client.Leave();
             group.Run(0.05);
-            Assert.Equal(1, group.Host.JoinerCount);
+            Assert.Equal(1, group.Host.ClientCount);
             group.DropLast();
         }
 
@@ -65,8 +65,8 @@ public sealed class JoinAnyTimeTests
         const int joins = 9;
         Assert.True(LinkProfiles.TryGet(link, out LinkProfile? profile, out _));
         SessionOptions Options() => new() { Window = new(SimDuration.FromSeconds(3)) };
-        SessionGroup group = new SessionGroup(Deeds.Box(), 3, profile, (ulong)seed, _ => Options()).Connect();
-        Deeds deeds = new(seed, mostSpawns: 20);
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, profile, (ulong)seed, _ => Options()).Connect();
+        ScriptedActions scriptedActions = new(seed, mostSpawns: 20);
         Random random = new(seed);
         HashSet<(byte Peer, uint Sequence)> judged = [];
         group.Host.Logged += entry => judged.Add((entry.Event.Peer, entry.Event.Sequence));
@@ -74,10 +74,10 @@ public sealed class JoinAnyTimeTests
         int late = 0;
         for (int i = 0; i < joins; i++)
         {
-            done.AddRange(deeds.DoIn(group, 3));
+            done.AddRange(scriptedActions.DoIn(group, 3));
             group.Run(random.NextDouble() * 2);
-            JoinerSession joiner = group.Join(100 + (i % 3), (ulong)(1000 + i + (100 * seed)), Options());
-            for (int tries = 0; tries < 200 && joiner.State is not (SessionState.Running or SessionState.Ended); tries++)
+            ClientSession client = group.Join(100 + (i % 3), (ulong)(1000 + i + (100 * seed)), Options());
+            for (int tries = 0; tries < 200 && client.State is not (SessionState.Running or SessionState.Ended); tries++)
             {
                 if (tries % 3 == 0)
                 {
@@ -87,9 +87,9 @@ public sealed class JoinAnyTimeTests
                 group.Run(0.1);
             }
 
-            Assert.True(joiner.State == SessionState.Running, $"join {i}: {joiner.State} {joiner.EndReason}");
-            late += joiner.BegunFrom is null ? 0 : 1;
-            done.AddRange(deeds.DoIn(group, 6));
+            Assert.True(client.State == SessionState.Running, $"join {i}: {client.State} {client.EndReason}");
+            late += client.BegunFrom is null ? 0 : 1;
+            done.AddRange(scriptedActions.DoIn(group, 6));
             Assert.True(group.RunUntil(() => done.All(e => judged.Contains((e.Peer, e.Sequence))) && group.Sessions.All(s => s.LogLength == group.Host.LogLength), 30), $"join {i} does not settle");
             group.Run(0.5);
             string? difference = group.Difference();
@@ -97,7 +97,7 @@ public sealed class JoinAnyTimeTests
             Assert.All(group.Sessions, s => Assert.Equal(0, s.Counters.EventsLost + s.Counters.StatesDiffered + s.Counters.EventsForged));
             if (i % 2 == 0)
             {
-                joiner.Leave();
+                client.Leave();
             }
 
             group.Run(0.01 * random.Next(3));
@@ -114,21 +114,21 @@ public sealed class JoinAnyTimeTests
     [InlineData("loopback")]
     [InlineData("awful")]
     [InlineData("delay-1000ms")]
-    public void Join_BigRunningWorldWhateverTheLink_FetchesItWhole(string link)
+    public void Join_BigRunningWorldWhateverTheLink_DownloadsItWhole(string link)
     {
         // 400 bodies are some 80 KB: seventy pieces, more than a window.
         Assert.True(LinkProfiles.TryGet(link, out LinkProfile? profile, out _));
         SessionGroup group = new SessionGroup(
             BuiltInScenes.Crowd(400), 2, profile, 3, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(5)) }).Connect();
         group.Run(6);
-        JoinerSession joiner = group.Join(100, 77);
-        Assert.True(group.RunUntil(() => joiner.State == SessionState.Running), joiner.EndReason);
+        ClientSession client = group.Join(100, 77);
+        Assert.True(group.RunUntil(() => client.State == SessionState.Running), client.EndReason);
         group.Do(1, PlayerAction.SetVelocity(First, V(3, 1)));
         group.Do(2, PlayerAction.SetVelocity(Second, V(-3, 1)));
         Assert.True(group.Settle(2));
         group.Run(0.2);
-        Assert.True(joiner.World!.Simulation.HistoryEdge > group.Host.World!.Simulation.Start);
-        Simulation host = group.Host.World.Simulation, late = joiner.World.Simulation;
+        Assert.True(client.World!.Simulation.HistoryEdge > group.Host.World!.Simulation.Start);
+        Simulation host = group.Host.World.Simulation, late = client.World.Simulation;
         SimTime time = SimTime.Min(host.SimulatedTo, late.SimulatedTo);
         Assert.Equal(host.StateHash(time), late.StateHash(time));
         Assert.Equal(host.EventHash(time), late.EventHash(time));
@@ -137,14 +137,14 @@ public sealed class JoinAnyTimeTests
     [Fact]
     public void Join_CopyWithAByteChangedOnItsWay_EndsWithASentence()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5), 3).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5), 3).Connect();
         group.Run(3);
-        JoinerSession joiner = group.Join(100, 77);
+        ClientSession client = group.Join(100, 77);
         List<byte[]> chunks = [];
         bool isLosing = true;
         group.Network.Lose((from, to, datagram) =>
         {
-            bool isChunk = isLosing && from == 0 && to == 100 && datagram.Span[3] == (byte)DatagramType.Chunk;
+            bool isChunk = isLosing && from == 0 && to == 100 && datagram.Span[3] == (byte)DatagramType.SnapshotChunk;
             if (isChunk)
             {
                 chunks.Add(datagram.ToArray());
@@ -158,28 +158,28 @@ public sealed class JoinAnyTimeTests
         isLosing = false;
         group.Ports[0].Send(changed, PeerAddress.Virtual(100));
         group.Run(0.1);
-        Assert.Equal(SessionState.Ended, joiner.State);
-        Assert.Contains("its hash is another one than was announced", joiner.EndReason, StringComparison.Ordinal);
+        Assert.Equal(SessionState.Ended, client.State);
+        Assert.Contains("its hash is another one than was announced", client.EndReason, StringComparison.Ordinal);
     }
 
     [Fact]
-    public void Joiner_FellSilentAndEndedAndCameBackAsANewOne_HasTheSameWorld()
+    public void Client_FellSilentAndEndedAndCameBackAsANewOne_HasTheSameWorld()
     {
         SessionGroup group = new SessionGroup(
-            Deeds.Box(), 2, LinkProfiles.PureDelay(10), 3,
+            ScriptedActions.Box(), 2, LinkProfiles.PureDelay(10), 3,
             _ => new SessionOptions { Timeout = SimDuration.FromSeconds(2), KeepAlive = SimDuration.FromSeconds(0.5), RejoinTime = SimDuration.Zero }).Connect();
-        new Deeds(1).DoIn(group, 5);
+        new ScriptedActions(1).DoIn(group, 5);
         group.Cut(0, 1);
         group.Cut(1, 0);
         group.Run(3);
         Assert.Equal(SessionState.Ended, group.Sessions[1].State);
-        Assert.Equal(0, group.Host.JoinerCount);
+        Assert.Equal(0, group.Host.ClientCount);
         group.Do(0, PlayerAction.SetVelocity(Second, V(1, 4)));
         uint before = group.Log.Values.Where(e => e.Event.Peer == 1).Max(e => e.Sequence);
         group.Restore(0, 1);
         group.Restore(1, 0);
         group.DropLast();
-        JoinerSession again = group.Join(1, 4242);
+        ClientSession again = group.Join(1, 4242);
         Assert.True(group.RunUntil(() => again.State == SessionState.Running), again.EndReason);
         ExternalEvent external = group.Do(1, PlayerAction.SetVelocity(First, V(-1, 4)));
         Assert.Equal((1, before + 1), (external.Peer, external.Sequence));

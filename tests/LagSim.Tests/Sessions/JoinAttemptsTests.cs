@@ -1,11 +1,11 @@
 using System.Collections.Generic;
-using LagSim.Net.Sessions.Joiners;
+using LagSim.Net.Sessions.Clients;
 using LagSim.Time;
 using Xunit;
 
 namespace LagSim.Tests.Sessions;
 
-/// <summary>A joiner's tries to come in: each has a nonce of its own, and the time for an answer runs while its machine is awake.</summary>
+/// <summary>A client's tries to come in: each has a nonce of its own, and the time for an answer runs while its machine is awake.</summary>
 public sealed class JoinAttemptsTests
 {
     [Fact]

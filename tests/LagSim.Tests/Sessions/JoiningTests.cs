@@ -21,7 +21,7 @@ public sealed class JoiningTests
     [InlineData("awful", 100)]
     public void Join_ClocksAnHourApart_SetsItsClockBeforeItsFirstTick(string link, double boundMilliseconds)
     {
-        SessionGroup group = new(Deeds.Box(), 3, Profile(link), 3);
+        SessionGroup group = new(ScriptedActions.Box(), 3, Profile(link), 3);
         bool hadWorld = false;
         group.BeforeStep = peer =>
         {
@@ -30,7 +30,7 @@ public sealed class JoiningTests
             if (peer != 0 && session.World is not null)
             {
                 hadWorld = true;
-                Assert.True(group.Joiner(peer).ClockSync.SampleCount >= 8);
+                Assert.True(group.Client(peer).ClockSync.SampleCount >= 8);
             }
         };
         group.Connect().Run(0.1);
@@ -47,9 +47,9 @@ public sealed class JoiningTests
     }
 
     [Fact]
-    public void SharedTime_OfARunningJoiner_NeverStepsNorGoesBack()
+    public void SharedTime_OfARunningClient_NeverStepsNorGoesBack()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.Awful, 7).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.Awful, 7).Connect();
         SimTime before = group.Sessions[1].SharedTime.Now, beforeTrue = group.Clock.Now;
         group.BeforeStep = _ =>
         {
@@ -65,17 +65,17 @@ public sealed class JoiningTests
     [Fact]
     public void Join_WrongKey_EndsWithASentence()
     {
-        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.Lan, options: peer => new SessionOptions { ConnectKey = $"key {peer}" });
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.Lan, options: peer => new SessionOptions { ConnectKey = $"key {peer}" });
         Assert.True(group.RunUntil(() => group.Sessions[1].State == SessionState.Ended, 5));
         Assert.Equal("The host at virtual:0 refused: the key is wrong.", group.Sessions[1].EndReason);
-        Assert.Equal(0, group.Host.JoinerCount);
+        Assert.Equal(0, group.Host.ClientCount);
         Assert.Equal(SessionState.Waiting, group.Host.State);
     }
 
     [Fact]
     public void Join_AnotherScene_EndsWithASentence()
     {
-        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.Lan, scenes: peer => Deeds.Box(peer == 0 ? 0.8 : 0.81));
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.Lan, scenes: peer => ScriptedActions.Box(peer == 0 ? 0.8 : 0.81));
         Assert.True(group.RunUntil(() => group.Sessions[1].State == SessionState.Ended, 5));
         Assert.Equal("The host at virtual:0 refused: its scene is another one.", group.Sessions[1].EndReason);
     }
@@ -83,16 +83,16 @@ public sealed class JoiningTests
     [Fact]
     public void Join_SessionFull_EndsWithASentenceAndTheOthersGoOn()
     {
-        SessionGroup group = new(Deeds.Box(), 10, LinkProfiles.Lan, expected: SessionOptions.MaxJoiners);
+        SessionGroup group = new(ScriptedActions.Box(), 10, LinkProfiles.Lan, expected: SessionOptions.MaxClients);
         Assert.True(group.RunUntil(() => group.Sessions.Count(s => s.State == SessionState.Running) == 9 && group.Sessions.Any(s => s.State == SessionState.Ended), 5));
         Assert.Equal("The host at virtual:0 refused: the session is full.", group.Sessions.Single(s => s.State == SessionState.Ended).EndReason);
-        Assert.Equal(8, group.Host.JoinerCount);
+        Assert.Equal(8, group.Host.ClientCount);
     }
 
     [Fact]
     public void Join_HostOfAnotherVersion_EndsWithASentence()
     {
-        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(5));
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5));
         group.Cut(1, 0);
         group.Run(0.1);
         byte[] bytes = new byte[WireFormat.RefusalBytes];
@@ -106,7 +106,7 @@ public sealed class JoiningTests
     [Fact]
     public void Join_RefusalOfAnotherNonce_IsIgnoredAndCounted()
     {
-        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(5));
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5));
         byte[] bytes = new byte[WireFormat.RefusalBytes];
         new RefusalDatagram(99, RefusalReason.Full).Encode(bytes);
         group.Ports[0].Send(bytes, PeerAddress.Virtual(1));
@@ -117,7 +117,7 @@ public sealed class JoiningTests
     [Fact]
     public void Join_NobodyThere_EndsAfterTheTimeoutWithASentence()
     {
-        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.Lan, options: _ => new SessionOptions { Timeout = SimDuration.FromSeconds(1.5), KeepAlive = SimDuration.FromSeconds(0.5) });
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.Lan, options: _ => new SessionOptions { Timeout = SimDuration.FromSeconds(1.5), KeepAlive = SimDuration.FromSeconds(0.5) });
         group.Cut(1, 0);
         group.Run(1.4);
         Assert.Equal(SessionState.Joining, group.Sessions[1].State);
@@ -127,22 +127,22 @@ public sealed class JoiningTests
     }
 
     [Fact]
-    public void Join_WrongKeyFromTheAddressOfAJoiner_DoesNotThrowThatOneOut()
+    public void Join_WrongKeyFromTheAddressOfAClient_DoesNotThrowThatOneOut()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.Lan).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.Lan).Connect();
         byte[] bytes = new byte[WireFormat.JoinBytes];
         new JoinDatagram(777, default, JoinCookies.Prove("wrong", 777, default), group.Scene.Hash, (uint)Simulation.FoldVersion).Encode(bytes);
         group.Ports[1].Send(bytes, PeerAddress.Virtual(0));
         group.Run(0.2);
-        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.Equal(1, group.Host.ClientCount);
         group.Do(1, Events.PlayerAction.Teleport(First, V(0, 4)));
         Assert.True(group.Settle(1, 5));
     }
 
     [Fact]
-    public void Host_ExpectsTwoJoinersAndHasOne_DoesNotStart()
+    public void Host_ExpectsTwoClientsAndHasOne_DoesNotStart()
     {
-        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.Lan, expected: 2);
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.Lan, expected: 2);
         group.Run(5);
         Assert.Equal([SessionState.Waiting, SessionState.Waiting], group.Sessions.Select(s => s.State));
         Assert.Throws<InvalidOperationException>(() => group.Do(1, Events.PlayerAction.Teleport(First, V(0, 4))));
@@ -158,7 +158,7 @@ public sealed class JoiningTests
         SessionOptions options = new() { Timeout = SimDuration.FromSeconds(timeout) };
         options.KeepAlive = keepAlive is double given ? SimDuration.FromSeconds(given) : options.KeepAlive;
         ArgumentOutOfRangeException refused = Assert.Throws<ArgumentOutOfRangeException>(
-            () => new HostSession(Deeds.Box(), port, new VirtualClock(), options, 1));
+            () => new HostSession(ScriptedActions.Box(), port, new VirtualClock(), options, 1));
         Assert.Equal(named, refused.ParamName);
         Assert.Contains("must lie between", refused.Message, StringComparison.Ordinal);
     }
@@ -166,14 +166,14 @@ public sealed class JoiningTests
     [Fact]
     public void Threads_OfASessionOrAHost_AreThoseOfItsWorld()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 3, LinkProfiles.PureDelay(5), options: peer => new SessionOptions { Threads = peer == 0 ? null : 10 + peer }).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), options: peer => new SessionOptions { Threads = peer == 0 ? null : 10 + peer }).Connect();
         Assert.Equal([new SimulationOptions().Threads, 11, 12], group.Sessions.Select(s => s.World!.Simulation.Engine.Threads));
-        using SimulationHost host = new(Deeds.Box(), new VirtualClock(), threads: 13);
+        using SimulationHost host = new(ScriptedActions.Box(), new VirtualClock(), threads: 13);
         Assert.Equal(13, host.World.Simulation.Engine.Threads);
 
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
         ArgumentOutOfRangeException refused = Assert.Throws<ArgumentOutOfRangeException>(
-            () => new HostSession(Deeds.Box(), port, new VirtualClock(), new SessionOptions { Threads = 65 }, 1));
+            () => new HostSession(ScriptedActions.Box(), port, new VirtualClock(), new SessionOptions { Threads = 65 }, 1));
         Assert.Equal(("Threads", 65), (refused.ParamName, refused.ActualValue));
     }
 
@@ -182,7 +182,7 @@ public sealed class JoiningTests
     {
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
         ArgumentException refused = Assert.Throws<ArgumentException>(
-            () => new HostSession(Deeds.Box(), port, new VirtualClock(), new SessionOptions { Strategy = "guess" }, 1));
+            () => new HostSession(ScriptedActions.Box(), port, new VirtualClock(), new SessionOptions { Strategy = "guess" }, 1));
         Assert.Contains("'guess'; there are none, latency-forward, interpolation, full-rollback, healing", refused.Message, StringComparison.Ordinal);
     }
 

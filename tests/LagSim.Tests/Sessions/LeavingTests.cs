@@ -15,7 +15,7 @@ namespace LagSim.Tests.Sessions;
 public sealed class LeavingTests
 {
     [Fact]
-    public void Leave_Host_EndsTheJoinersWithASentenceAndLeavesTheWorldReadable()
+    public void Leave_Host_EndsTheClientsWithASentenceAndLeavesTheWorldReadable()
     {
         SessionGroup group = Three();
         group.Do(0, PlayerAction.Teleport(First, V(0, 4)));
@@ -30,7 +30,7 @@ public sealed class LeavingTests
     }
 
     [Fact]
-    public void Leave_HostWhoseGoodbyeIsLost_EndsTheJoinersWithTheSameSentence()
+    public void Leave_HostWhoseGoodbyeIsLost_EndsTheClientsWithTheSameSentence()
     {
         SessionGroup group = Three();
         group.Cut(0, 1);
@@ -56,31 +56,31 @@ public sealed class LeavingTests
     }
 
     [Fact]
-    public void Leave_Joiner_LeavesTheOthersRunning()
+    public void Leave_Client_LeavesTheOthersRunning()
     {
         SessionGroup group = Three();
         group.Sessions[1].Leave();
         group.Run(0.2);
-        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.Equal(1, group.Host.ClientCount);
         GoesOn(group);
     }
 
     [Fact]
-    public void Silence_OfAJoiner_LeavesTheOthersRunningAndTellsIt()
+    public void Silence_OfAClient_LeavesTheOthersRunningAndTellsIt()
     {
         SessionGroup group = Three(timeout: 3);
         group.Cut(1, 0);
         group.Run(2.5);
-        Assert.Equal(2, group.Host.JoinerCount);
+        Assert.Equal(2, group.Host.ClientCount);
         group.Run(1);
-        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.Equal(1, group.Host.ClientCount);
         Assert.Equal("The host at virtual:0 heard nothing from this peer for too long.", group.Sessions[1].EndReason);
-        Assert.Equal(SessionEnd.LetGo, group.Sessions[1].EndedBy);
+        Assert.Equal(SessionEnd.Disconnect, group.Sessions[1].EndedBy);
         GoesOn(group);
     }
 
     [Fact]
-    public void Silence_OfTheHost_EndsTheJoinerWithASentence()
+    public void Silence_OfTheHost_EndsTheClientWithASentence()
     {
         SessionGroup group = Three(timeout: 3);
         group.Cut(0, 1);
@@ -92,17 +92,17 @@ public sealed class LeavingTests
     }
 
     [Fact]
-    public void Leave_JoinerWhoseGoodbyeIsLost_IsHeardInAnswerToTheNextUpdate()
+    public void Leave_ClientWhoseGoodbyeIsLost_IsHeardInAnswerToTheNextUpdate()
     {
         SessionGroup group = Three();
         group.Cut(1, 0);
         group.Sessions[1].Leave();
         group.Run(0.05);
-        Assert.Equal(2, group.Host.JoinerCount);
+        Assert.Equal(2, group.Host.ClientCount);
         group.Restore(1, 0);
         group.Do(0, PlayerAction.Impulse(First, V(1))); // else the host would write of itself only once the keep-alive is overdue
         group.Run(0.05);
-        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.Equal(1, group.Host.ClientCount);
         GoesOn(group);
     }
 
@@ -115,7 +115,7 @@ public sealed class LeavingTests
         group.Network.Lose((from, _, datagram) => from == 1 && datagram.Span[3] == (byte)DatagramType.Leave && lost-- > 0);
         group.Sessions[1].Leave();
         group.Run(0.05);
-        Assert.Equal(isHeard ? 1 : 2, group.Host.JoinerCount);
+        Assert.Equal(isHeard ? 1 : 2, group.Host.ClientCount);
     }
 
     [Fact]
@@ -125,21 +125,21 @@ public sealed class LeavingTests
         bool isLost = true;
         group.Network.Lose((_, to, datagram) => isLost && to == 1 && datagram.Span[3] == (byte)DatagramType.Leave);
         group.Cut(1, 0);
-        Assert.True(group.RunUntil(() => group.Host.JoinerCount == 1, 4));
+        Assert.True(group.RunUntil(() => group.Host.ClientCount == 1, 4));
         group.Run(0.1);
         Assert.Equal(SessionState.Running, group.Sessions[1].State);
         isLost = false;
         group.Restore(1, 0);
         group.Run(0.1);
         Assert.Equal("The host at virtual:0 heard nothing from this peer for too long.", group.Sessions[1].EndReason); // the reason is said again
-        Assert.Equal(SessionEnd.LetGo, group.Sessions[1].EndedBy);
+        Assert.Equal(SessionEnd.Disconnect, group.Sessions[1].EndedBy);
         GoesOn(group);
     }
 
     [Fact]
     public void Update_OfAFormerSessionOrInAnothersNumber_PutsNobodyOut()
     {
-        // From a joiner's own address, as somebody may send who gives that address: what it is told is not about the session that it has.
+        // From a client's own address, as somebody may send who gives that address: what it is told is not about the session that it has.
         SessionGroup group = Three();
         ulong own = 0;
         bool isOwn = true;
@@ -195,7 +195,7 @@ public sealed class LeavingTests
         // Bursts are counted in datagrams: at one keep-alive in two seconds a burst of five would last as long as the timeout.
         for (ulong seed = 1; seed <= 20; seed++)
         {
-            SessionGroup group = new SessionGroup(Deeds.Box(), 3, LinkProfiles.Awful, seed).Connect();
+            SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, LinkProfiles.Awful, seed).Connect();
             group.Run(120);
             Assert.All(group.Sessions, s => Assert.Equal(SessionState.Running, s.State));
         }
@@ -215,7 +215,7 @@ public sealed class LeavingTests
     public void Step_WorldThatCannotGoOn_EndsEverySessionWithASentenceAndDoesNotThrow()
     {
         SessionGroup group = Three(scene: Poisoned());
-        RawJoiner other = new(group);
+        RawClient other = new(group);
         other.Claim(1, ExternalEvent.Spawn(group.Host.SharedTime.Now, other.Peer, 1, Ball(flight: MotionLaw.RungeKutta4, force: 1), V(-20, 5)));
         group.Run(0.1);
         Assert.All(group.Sessions, s => Assert.Equal(SessionState.Running, s.State)); // the control: it is the place that ends it
@@ -232,7 +232,7 @@ public sealed class LeavingTests
         Assert.Throws<SimulationException>(() => group.Do(1, PlayerAction.Spawn(Ball(flight: MotionLaw.RungeKutta4, force: 1), V(20, 5))));
         Assert.Equal(SessionState.Ended, group.Sessions[1].State);
         group.Run(1);
-        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.Equal(1, group.Host.ClientCount);
         GoesOn(group);
     }
 
@@ -242,7 +242,7 @@ public sealed class LeavingTests
         // The light one would leave the impact faster than a state means something.
         SessionGroup group = Three(most: double.PositiveInfinity);
         double limit = 0.1 * group.Scene.SmallestRadius * SimDuration.TicksPerSecond;
-        RawJoiner other = new(group);
+        RawClient other = new(group);
         SimTime now = group.Host.SharedTime.Now;
         other.Claim(
             1,
@@ -260,7 +260,7 @@ public sealed class LeavingTests
     private static Scene Poisoned() => new SceneBuilder("poisoned").WithSmallestRadius(0.25).AddForce(Force.Supplied(new FunctionForce((_, x, _) => V(x.X > 10 ? double.NaN : 0))))
         .AddPlane("floor", Vector3D.Up, V(0), 0.9).AddBody("a", Ball(0.3), V(0, 1)).AddBody("b", Ball(0.3), V(2, 1)).Build();
 
-    private static SessionGroup Three(double timeout = 10, Scene? scene = null, double most = 1_000) => new SessionGroup(scene ?? Deeds.Box(), 3, LinkProfiles.PureDelay(5), 2, _ => new SessionOptions
+    private static SessionGroup Three(double timeout = 10, Scene? scene = null, double most = 1_000) => new SessionGroup(scene ?? ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), 2, _ => new SessionOptions
     {
         Timeout = SimDuration.FromSeconds(timeout),
         RejoinTime = SimDuration.Zero, // what is asked for after an end is RejoinTests' part

@@ -20,7 +20,7 @@ public sealed class MovingTests
     {
         (SessionGroup group, NatPort nat) = Two();
         List<string> told = [];
-        group.Joiner(1).Interrupted += told.Add;
+        group.Client(1).Interrupted += told.Add;
         int done = 0;
         for (int n = 1; n <= times; n++)
         {
@@ -35,12 +35,12 @@ public sealed class MovingTests
         Assert.True(group.Settle(done, 2));
         group.Run(3);
         Assert.Empty(told);
-        Assert.Equal((done, 1), (group.Host.Counters.EventsAccepted, group.Host.JoinerCount));
+        Assert.Equal((done, 1), (group.Host.Counters.EventsAccepted, group.Host.ClientCount));
         Assert.Null(group.Difference());
         Assert.All(group.Sessions, s => Assert.Equal((0L, 0L), (s.Counters.EventsLost, s.Counters.StatesDiffered)));
     }
 
-    /// <summary>Somebody who knows the session, as whoever listens does, but is not where the joiner is.</summary>
+    /// <summary>Somebody who knows the session, as whoever listens does, but is not where the client is.</summary>
     [Fact]
     public void Move_WithoutTheCookieOfThatAddress_IsIgnored()
     {
@@ -111,7 +111,7 @@ public sealed class MovingTests
     private static (SessionGroup Group, NatPort Nat) Two()
     {
         NatPort? nat = null;
-        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.Loopback, wrap: (node, port) => node == 0 ? nat = new NatPort(port) : port);
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.Loopback, wrap: (node, port) => node == 0 ? nat = new NatPort(port) : port);
         nat!.Place(1, 1, 2000);
         group.Connect().Run(0.5);
         return (group, nat);

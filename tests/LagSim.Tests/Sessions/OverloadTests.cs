@@ -27,16 +27,16 @@ public sealed class OverloadTests
             Assert.Equal(SessionState.Running, s.State);
             Assert.True(s.World!.IsBehind);
             Assert.True(s.SharedTime.Now - s.World.Simulation.SimulatedTo > SimDuration.FromSeconds(15));
-            Assert.True(s.World.Pictures.Latest().To < s.SharedTime.Now);
+            Assert.True(s.World.RenderSnapshots.Latest().To < s.SharedTime.Now);
             Assert.True(s.World.LateSteps > 50);
         });
 
-        // Who knocks is answered, what is done is judged, and heard by the others.
+        // a connect request is answered, what is done is validated, and heard by the others.
         SimTime asked = group.Clock.Now;
-        JoinerSession late = group.Join(7, 77, Options());
+        ClientSession late = group.Join(7, 77, Options());
         Assert.True(group.RunUntil(() => late.Scene is not null, 3), $"{group.Clock.Now - asked}");
-        ExternalEvent deed = group.Do(2, PlayerAction.SetVelocity(Second, V(0, 0, 1)));
-        Assert.True(group.RunUntil(() => group.Accepted.Contains(deed) && group.Sessions[1].LogLength == group.Host.LogLength, 1));
+        ExternalEvent scripted = group.Do(2, PlayerAction.SetVelocity(Second, V(0, 0, 1)));
+        Assert.True(group.RunUntil(() => group.Accepted.Contains(scripted) && group.Sessions[1].LogLength == group.Host.LogLength, 1));
     }
 
     [Fact]
@@ -50,7 +50,7 @@ public sealed class OverloadTests
         group.Run(0.2);
         Assert.All(group.Sessions, s => Assert.True(s.World!.IsBehind));
         group.Do(2, PlayerAction.Impulse(Second, V(0, 0, 3)));
-        JoinerSession late = group.Join(7, 77, Options(0.1));
+        ClientSession late = group.Join(7, 77, Options(0.1));
         late.Begun += () => Weaken(late);
         Assert.True(group.RunUntil(() => late.World is not null, 3));
         group.Do(0, PlayerAction.SetVelocity(First, V(0)));
@@ -64,7 +64,7 @@ public sealed class OverloadTests
     }
 
     [Fact]
-    public void Start_LongAgoWithoutAState_EndsTheJoinerWithASentence()
+    public void Start_LongAgoWithoutAState_EndsTheClientWithASentence()
     {
         SessionGroup group = Forged(SimDuration.FromSeconds(10 * 86_400));
         group.Run(0.1);
@@ -90,7 +90,7 @@ public sealed class OverloadTests
         Assert.NotEqual(SubmitResult.TooOld, world.Submit(ExternalEvent.Remove(world.Start, 0, 1, Second)));
     }
 
-    /// <summary>A joiner that waits for the start and is told, in the host's name, that it was that long ago; the host says no more.</summary>
+    /// <summary>A client that waits for the start and is told, in the host's name, that it was that long ago; the host says no more.</summary>
     private static SessionGroup Forged(SimDuration ago, Scene? scene = null)
     {
         SessionGroup group = new(scene ?? Gap(), 2, LinkProfiles.PureDelay(5), 3, _ => Options(), expected: 2) { IsTapped = false };

@@ -8,49 +8,49 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Sessions;
 
-/// <summary>There are as many numbers as joiners. Who gets one that others had goes on where their events ended, so no two are ever the same.</summary>
+/// <summary>There are as many numbers as clients. Who gets one that others had goes on where their events ended, so no two are ever the same.</summary>
 public sealed class PeerNumberTests
 {
-    private readonly SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
+    private readonly SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
 
     [Fact]
     public void Join_AfterHundredsWhoDidNothing_IsLetIn()
     {
         for (int i = 0; i < 300; i++)
         {
-            RawJoiner joiner = new(group, 100 + i);
-            joiner.Claim(1);
-            joiner.Leave();
+            RawClient client = new(group, 100 + i);
+            client.Claim(1);
+            client.Leave();
         }
 
-        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.Equal(1, group.Host.ClientCount);
     }
 
     [Fact]
     public void Join_AfterHundredsOfRestartsAtOneAddress_IsLetIn()
     {
-        RawJoiner restless = new(group);
+        RawClient restless = new(group);
         for (ulong nonce = 1; nonce <= 300; nonce++)
         {
             group.Run(2); // more than some thirty a minute are not let in
             restless.Join(nonce);
         }
 
-        Assert.NotEqual(restless.Peer, new RawJoiner(group, 100).Peer);
-        Assert.Equal(3, group.Host.JoinerCount);
+        Assert.NotEqual(restless.Peer, new RawClient(group, 100).Peer);
+        Assert.Equal(3, group.Host.ClientCount);
     }
 
     [Fact]
     public void Join_NumberThatStandsInEvents_GoesOnWithTheNextSequence()
     {
-        RawJoiner joiner = new(group);
+        RawClient client = new(group);
         for (uint n = 1; n <= 300; n++)
         {
-            Assert.Equal((2, n - 1), (joiner.Peer, joiner.LastSequence));
-            joiner.Claim(n, ExternalEvent.SetVelocity(group.Host.SharedTime.Now, joiner.Peer, n, First, V(0, 1)));
-            joiner.Leave();
+            Assert.Equal((2, n - 1), (client.Peer, client.LastSequence));
+            client.Claim(n, ExternalEvent.SetVelocity(group.Host.SharedTime.Now, client.Peer, n, First, V(0, 1)));
+            client.Leave();
             group.Run(2); // more than some thirty a minute are not let in
-            joiner.Join(n);
+            client.Join(n);
         }
 
         Assert.Equal(300, group.Host.Counters.EventsAccepted);
@@ -61,11 +61,11 @@ public sealed class PeerNumberTests
     [Fact]
     public void Join_NumberOfOneWhoseEventWasRefused_GoesOnToo()
     {
-        RawJoiner liar = new(group);
+        RawClient liar = new(group);
         liar.Claim(1, ExternalEvent.SetVelocity(group.Host.SharedTime.Now, liar.Peer, 1, First, V(1e300)));
         Assert.Equal(Verdict.Invalid, group.Log[1].Verdict);
         liar.Leave();
-        RawJoiner next = new(group, 100);
+        RawClient next = new(group, 100);
         Assert.Equal((liar.Peer, 1u), (next.Peer, next.LastSequence));
     }
 }

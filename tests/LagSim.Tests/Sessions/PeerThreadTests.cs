@@ -149,19 +149,19 @@ public sealed class PeerThreadTests
     public async Task Step_ThatThrows_TellsTheOthersAtOnceAndThenTheProgram()
     {
         using PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), bind: IPAddress.Loopback);
-        using PeerThread joiner = PeerThread.Join(new IPEndPoint(IPAddress.Loopback, host.LocalAddress.ToEndPoint().Port));
-        Assert.True(joiner.WaitUntilRunning(Deadline), joiner.Session.EndReason);
+        using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Loopback, host.LocalAddress.ToEndPoint().Port));
+        Assert.True(client.WaitUntilRunning(Deadline), client.Session.EndReason);
         using ManualResetEventSlim ended = new();
-        joiner.Session.Ended += ended.Set;
+        client.Session.Ended += ended.Set;
         await host.Ask(session =>
         {
             session.Logged += _ => throw new FormatException("a handler that breaks its promise");
             return true;
         });
-        _ = joiner.Do(PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, 1, 0)));
+        _ = client.Do(PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, 1, 0)));
 
         Assert.True(ended.Wait(Deadline, TestContext.Current.CancellationToken)); // long before the time-out, whose sentence is another
-        Assert.EndsWith(" ended the session.", joiner.Session.EndReason, StringComparison.Ordinal);
+        Assert.EndsWith(" ended the session.", client.Session.EndReason, StringComparison.Ordinal);
         Exception? told = null;
         Assert.True(SpinWait.SpinUntil(() => (told = Record.Exception(host.Latest)) is not null, Deadline)); // the others are told first
         Assert.IsType<FormatException>(Assert.IsType<InvalidOperationException>(told).InnerException);

@@ -26,15 +26,15 @@ public sealed class PlacesOverUdpTests
         }
 
         using Group group = new();
-        JoinerSession[] greedy = Enumerable.Range(0, 6).Select(n => group.Join(2)).ToArray();
+        ClientSession[] greedy = Enumerable.Range(0, 6).Select(n => group.Join(2)).ToArray();
         Assert.True(group.RunUntil(() => greedy.All(s => s.State is SessionState.Running or SessionState.Ended)));
         Assert.Equal(4, greedy.Count(s => s.State == SessionState.Running));
         Assert.All(
             greedy.Where(s => s.State == SessionState.Ended),
             s => Assert.Contains("as many as may join from one address", s.EndReason, StringComparison.Ordinal));
-        JoinerSession[] honest = [group.Join(3), group.Join(4)];
+        ClientSession[] honest = [group.Join(3), group.Join(4)];
         Assert.True(group.RunUntil(() => honest.All(s => s.State == SessionState.Running)), honest[0].EndReason);
-        Assert.Equal(6, group.Host.JoinerCount);
+        Assert.Equal(6, group.Host.ClientCount);
     }
 
     /// <summary>Sessions over sockets of their own, stepped by the test's thread whenever something has arrived.</summary>
@@ -47,7 +47,7 @@ public sealed class PlacesOverUdpTests
         internal Group()
         {
             UdpPort port = new(new IPEndPoint(IPAddress.Parse("127.0.0.1"), 0));
-            Add(new HostSession(Deeds.Box(), port, clock, new SessionOptions(), 1), port);
+            Add(new HostSession(ScriptedActions.Box(), port, clock, new SessionOptions(), 1), port);
         }
 
         internal HostSession Host => (HostSession)all[0].Session;
@@ -62,10 +62,10 @@ public sealed class PlacesOverUdpTests
             arrived.Dispose();
         }
 
-        internal JoinerSession Join(int machine)
+        internal ClientSession Join(int machine)
         {
             UdpPort port = new(new IPEndPoint(new IPAddress([127, 0, 0, (byte)machine]), 0));
-            JoinerSession session = new(null, port, clock, new SessionOptions(), all[0].Port.LocalAddress, Session.DrawNumber());
+            ClientSession session = new(null, port, clock, new SessionOptions(), all[0].Port.LocalAddress, Session.DrawNumber());
             Add(session, port);
             return session;
         }

@@ -35,14 +35,14 @@ public sealed class PlacesTests(ITestOutputHelper output)
             Intruder[] halfOpen = Enumerable.Range(0, Thousand).Select(n => Intrude(group, nat, n, ofOneMachine)).ToArray();
             foreach (Intruder one in halfOpen)
             {
-                one.Knock();
+                one.ConnectRequest();
             }
 
             group.Run(0.01);
             Assert.All(halfOpen, one => Assert.NotEqual(0ul, one.SessionId));
-            Assert.Equal((remembered, 0), (group.Host.ComingCount, group.Host.JoinerCount));
+            Assert.Equal((remembered, 0), (group.Host.ComingCount, group.Host.ClientCount));
             int next = 0;
-            took.Add(GetIn(group, nat, seed, () => halfOpen[next++ % Thousand].Knock(), 0.005)); // 200 more a second meanwhile
+            took.Add(GetIn(group, nat, seed, () => halfOpen[next++ % Thousand].ConnectRequest(), 0.005)); // 200 more a second meanwhile
         }
 
         Report($"1,000 half-open joins of {(ofOneMachine ? "one machine" : "as many machines")}", took);
@@ -54,7 +54,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
         (SessionGroup group, NatPort nat) = Host(1, door: new DoorLimits { Coming = int.MaxValue, ComingOfOne = int.MaxValue });
         foreach (int n in Enumerable.Range(0, Thousand))
         {
-            Intrude(group, nat, n, n % 2 == 0).Knock();
+            Intrude(group, nat, n, n % 2 == 0).ConnectRequest();
         }
 
         group.Run(0.01);
@@ -63,22 +63,22 @@ public sealed class PlacesTests(ITestOutputHelper output)
 
     [Theory]
     [InlineData(null, Seeds)]
-    [InlineData(SessionOptions.MaxJoiners, 0)] // the limit taken away
+    [InlineData(SessionOptions.MaxClients, 0)] // the limit taken away
     public void OneMachineThatTakesAllPlacesItCan_HonestPlayersGetIn(int? perAddress, int expected)
     {
         List<double> took = [];
         for (int seed = 1; seed <= Seeds; seed++)
         {
             (SessionGroup group, NatPort nat) = Host(seed, perAddress: perAddress);
-            Intruder[] takers = Enumerable.Range(0, 3 * SessionOptions.MaxJoiners)
+            Intruder[] takers = Enumerable.Range(0, 3 * SessionOptions.MaxClients)
                 .Select(n => Intrude(group, nat, n, true, sits: true)).ToArray();
             foreach (Intruder one in takers)
             {
-                one.Knock();
+                one.ConnectRequest();
             }
 
             group.Run(0.01);
-            Assert.Equal(perAddress ?? SessionOptions.MaxJoiners / 2, group.Host.JoinerCount);
+            Assert.Equal(perAddress ?? SessionOptions.MaxClients / 2, group.Host.ClientCount);
             took.Add(GetIn(group, nat, seed, () => Array.ForEach(takers, Keep), 0.1));
         }
 
@@ -92,7 +92,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
             }
             else
             {
-                one.Knock();
+                one.ConnectRequest();
             }
         }
     }
@@ -100,14 +100,14 @@ public sealed class PlacesTests(ITestOutputHelper output)
     [Theory]
     [InlineData(1_000, true)]
     [InlineData(1e-3, false)] // the limit taken away
-    public void SlowFetches_HoldNoPlaceAndAreGivenUp(double slowest, bool areGone)
+    public void SlowDownloads_HoldNoPlaceAndAreGivenUp(double slowest, bool areGone)
     {
         List<double> took = [];
         for (int seed = 1; seed <= (areGone ? Seeds : 1); seed++)
         {
             (SessionGroup group, NatPort nat) = Host(seed, door: new DoorLimits { SlowestCopy = slowest });
             Intruder[] slow = Enumerable.Range(0, 200).Select(n => Intrude(group, nat, n, false)).ToArray();
-            Array.ForEach(slow, one => one.Knock());
+            Array.ForEach(slow, one => one.ConnectRequest());
             group.Run(0.01);
             took.Add(GetIn(group, nat, seed, () => Array.ForEach(slow, one => one.Fetch(1)), 1));
             for (int second = 0; second < 40; second++)
@@ -116,7 +116,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
                 group.Run(1);
             }
 
-            Assert.Equal((areGone ? 0 : slow.Length, 1), (group.Host.ComingCount, group.Host.JoinerCount));
+            Assert.Equal((areGone ? 0 : slow.Length, 1), (group.Host.ComingCount, group.Host.ClientCount));
         }
 
         Report("200 slow fetches", took, took.Count);
@@ -135,7 +135,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
         for (int n = 0; n < 4; n++)
         {
             Intruder one = Intrude(group, nat, n, false);
-            one.Knock();
+            one.ConnectRequest();
             group.Run(1.05);
             hashes.Add(one.CopyHash);
             door.CopyBytes = (long)(room * one.CopyBytes);
@@ -155,7 +155,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
         for (int n = 0; n < 20; n++)
         {
             Intruder one = Intrude(group, nat, n, false);
-            one.Knock();
+            one.ConnectRequest();
             group.Run(3);
             hashes.Add(one.CopyHash);
             door.CopyBytes = (long)(1.5 * one.CopyBytes);
@@ -169,7 +169,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
     [Theory]
     [InlineData(true)]
     [InlineData(false)] // the limit taken away
-    public void GreedyFetchesOfOneMachine_ShareOnePace(bool isPaced)
+    public void GreedyDownloadsOfOneMachine_ShareOnePace(bool isPaced)
     {
         DoorLimits door = isPaced ? new DoorLimits() : new DoorLimits { PiecesPerSecond = 1e9, PiecesAtOnce = int.MaxValue };
         List<double> took = [];
@@ -178,7 +178,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
         {
             (SessionGroup group, NatPort nat) = Host(seed, door: door, isLarge: true);
             Intruder[] greedy = Enumerable.Range(0, 16).Select(n => Intrude(group, nat, n, true)).ToArray();
-            Array.ForEach(greedy, one => one.Knock());
+            Array.ForEach(greedy, one => one.ConnectRequest());
             group.Run(0.01);
             SimTime began = group.Clock.Now;
             int n = 0;
@@ -198,7 +198,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
             void Greed()
             {
                 Array.ForEach(greedy, one => one.Fetch());
-                greedy[n++ % greedy.Length].Knock(); // who comes again gets no more for it
+                greedy[n++ % greedy.Length].ConnectRequest(); // who comes again gets no more for it
             }
         }
 
@@ -217,7 +217,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
         {
             (SessionGroup group, _) = Host(seed);
             Random random = new(seed);
-            JoinerSession player = group.Join(Honest, (ulong)seed);
+            ClientSession player = group.Join(Honest, (ulong)seed);
             Assert.True(group.RunUntil(() => player.State == SessionState.Running));
             ulong session = 0;
             group.Network.Lose((from, _, datagram) =>
@@ -252,7 +252,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
         // The same sum after it: the meter shows what a copy is beside the bytes that ask for it.
         (SessionGroup large, NatPort there) = Host(1, isLarge: true);
         Intruder confirmed = Intrude(large, there, 0, true);
-        confirmed.Knock();
+        confirmed.ConnectRequest();
         large.Run(0.01);
         confirmed.Fetch();
         large.Run(0.01);
@@ -261,13 +261,13 @@ public sealed class PlacesTests(ITestOutputHelper output)
 
     private static byte[] Forged(Random random, ulong session, int kind)
     {
-        byte[] bytes = new byte[WireFormat.KnockBytes];
+        byte[] bytes = new byte[WireFormat.ConnectRequestBytes];
         Token128 token = new(Enumerable.Range(0, Token128.Bytes).Select(_ => (byte)random.Next(256)).ToArray());
         byte peer = (byte)random.Next(3);
         switch (kind)
         {
             case 0:
-                new KnockDatagram((ulong)random.NextInt64()).Encode(bytes);
+                new ConnectRequestDatagram((ulong)random.NextInt64()).Encode(bytes);
                 bytes[2] = (byte)(random.Next(3) == 0 ? bytes[2] + 1 : bytes[2]); // of another version
                 return bytes;
             case 1:
@@ -281,8 +281,8 @@ public sealed class PlacesTests(ITestOutputHelper output)
                 update.Encode(bytes);
                 return bytes;
             case 3:
-                bytes = new byte[WireFormat.FetchBytes];
-                new FetchDatagram(session, peer, 1 + (uint)random.Next(999), 0, ulong.MaxValue).Encode(bytes);
+                bytes = new byte[WireFormat.SnapshotRequestBytes];
+                new SnapshotRequestDatagram(session, peer, 1 + (uint)random.Next(999), 0, ulong.MaxValue).Encode(bytes);
                 return bytes;
             case 4:
                 bytes = new byte[WireFormat.MoveBytes];
@@ -300,7 +300,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
     {
         NatPort? nat = null;
         SessionGroup group = new(
-            isLarge ? BuiltInScenes.Crowd(400) : Deeds.Box(),
+            isLarge ? BuiltInScenes.Crowd(400) : ScriptedActions.Box(),
             1,
             LinkProfiles.FourG,
             (ulong)seed,
@@ -312,7 +312,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
         SessionOptions Options()
         {
             SessionOptions options = new() { Door = door ?? new DoorLimits() };
-            options.MaxJoinersPerAddress = perAddress ?? options.MaxJoinersPerAddress;
+            options.MaxClientsPerAddress = perAddress ?? options.MaxClientsPerAddress;
             return options;
         }
     }
@@ -330,7 +330,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
     {
         group.Run(new Random(seed).NextDouble() * 0.1);
         nat.Place(Honest, 5_000, 5000);
-        JoinerSession honest = group.Join(Honest, (ulong)seed);
+        ClientSession honest = group.Join(Honest, (ulong)seed);
         SimTime began = group.Clock.Now;
         SimTime next = began;
         bool isIn = group.RunUntil(

@@ -17,7 +17,7 @@ public sealed class PlayerLimitsTests
     public void Claim_FasterThanAPlayerMayGive_IsInvalidWhateverItIs()
     {
         SessionGroup group = Group();
-        RawJoiner fast = new(group);
+        RawClient fast = new(group);
         SimTime now = group.Host.SharedTime.Now;
         fast.Claim(
             1,
@@ -43,7 +43,7 @@ public sealed class PlayerLimitsTests
     public void Claim_ManySmallImpulses_CountWithTheSpeedThatIsThere()
     {
         SessionGroup group = Group();
-        RawJoiner fast = new(group);
+        RawClient fast = new(group);
         SimTime now = group.Host.SharedTime.Now;
         for (uint n = 1; n <= 4; n++)
         {
@@ -60,7 +60,7 @@ public sealed class PlayerLimitsTests
     public void Claim_WhereTheHostSetsNoLimit_IsAccepted()
     {
         SessionGroup group = Group(double.PositiveInfinity, 100);
-        RawJoiner fast = new(group);
+        RawClient fast = new(group);
         SimTime now = group.Host.SharedTime.Now;
         fast.Claim(1, ExternalEvent.SetVelocity(now, fast.Peer, 1, First, V(0, 1e6)), ExternalEvent.Spawn(now, fast.Peer, 2, Ball(0.3), V(0, 8), V(0, 1e6)));
         Assert.Equal([1, 2], Said(group, Verdict.Accepted));
@@ -70,7 +70,7 @@ public sealed class PlayerLimitsTests
     public void Claim_MoreBodiesThanAPlayerMaySpawn_IsRefusedUntilSomeAreRemoved()
     {
         SessionGroup group = Group();
-        RawJoiner many = new(group);
+        RawClient many = new(group);
         SimTime now = group.Host.SharedTime.Now;
         many.Claim(1, [.. Enumerable.Range(1, 4).Select(n => Spawn(now, many.Peer, (uint)n))]);
         Assert.Equal([4], Said(group, Verdict.NoRight));
@@ -119,7 +119,7 @@ public sealed class PlayerLimitsTests
     [Fact]
     public void Do_WithinOnesOwnLimitsButNotTheHosts_IsTakenBack()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5), 1, peer => Options(peer == 0 ? 100 : 1_000, 3)).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5), 1, peer => Options(peer == 0 ? 100 : 1_000, 3)).Connect();
         group.Do(1, PlayerAction.SetVelocity(First, V(0, 500)));
         Assert.True(group.Settle(1));
         Assert.Equal(1, group.Sessions[1].Counters.EventsRefused);
@@ -132,10 +132,10 @@ public sealed class PlayerLimitsTests
     [InlineData(1, -1)]
     [InlineData(1, 1_000_001)]
     public void Options_OutOfRange_AreRefused(double speed, int bodies) =>
-        Assert.Throws<System.ArgumentOutOfRangeException>(() => new SessionGroup(Deeds.Box(), 1, LinkProfiles.Lan, 1, _ => Options(speed, bodies)));
+        Assert.Throws<System.ArgumentOutOfRangeException>(() => new SessionGroup(ScriptedActions.Box(), 1, LinkProfiles.Lan, 1, _ => Options(speed, bodies)));
 
     private static SessionGroup Group(double speed = 100, int bodies = 3) =>
-        new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(5), 1, _ => Options(speed, bodies)).Connect();
+        new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5), 1, _ => Options(speed, bodies)).Connect();
 
     private static SessionOptions Options(double speed, int bodies) =>
         new() { MaxGivenSpeed = speed, MaxSpawned = bodies, ExtraHistory = SimDuration.FromSeconds(60) };

@@ -24,7 +24,7 @@ public sealed class PlayerPlacesTests
             Random random = new(seed);
             byte keyed = (byte)random.Next(0, 9);
             Dictionary<byte, string> keys = keyed == 0 ? [] : new() { [keyed] = "key" };
-            SessionOptions options = new() { RejoinTime = Kept, PlayerKeys = keys, MaxJoinersPerAddress = SessionOptions.MaxJoiners };
+            SessionOptions options = new() { RejoinTime = Kept, PlayerKeys = keys, MaxClientsPerAddress = SessionOptions.MaxClients };
             SimTime now = SimTime.FromSeconds(100);
             PlayerPlaces places = new(options, now);
             Dictionary<byte, SimTime?> left = []; // of those that nobody has: since when kept, or null
@@ -32,7 +32,7 @@ public sealed class PlayerPlacesTests
             for (int step = 0; step < 300; step++)
             {
                 now += SimDuration.FromSeconds(random.NextDouble() * 4);
-                IEnumerable<byte> numbers = Enumerable.Range(1, SessionOptions.MaxJoiners).Select(n => (byte)n);
+                IEnumerable<byte> numbers = Enumerable.Range(1, SessionOptions.MaxClients).Select(n => (byte)n);
                 byte[] free = [.. numbers.Where(n => !taken.Contains(n) && n != keyed)];
                 byte[] unkept = [.. free.Where(n => left.GetValueOrDefault(n) is not SimTime since || now - since > Kept)];
                 byte expected = unkept.Length > 0 ? unkept.Min() : free.OrderBy(n => left[n]).FirstOrDefault();
@@ -109,10 +109,10 @@ public sealed class PlayerPlacesTests
     /// <summary>Whoever comes again and again from one machine, each time as somebody else, uses up its own numbers, and not that of one who stands still meanwhile.</summary>
     [Theory]
     [InlineData(4, true)]
-    [InlineData(SessionOptions.MaxJoiners, false)] // the limit taken away
+    [InlineData(SessionOptions.MaxClients, false)] // the limit taken away
     public void Free_OneMachineThatComesAgainAndAgain_TakesNobodyElsesNumber(int perAddress, bool isLeft)
     {
-        SessionOptions options = new() { RejoinTime = Kept, MaxJoinersPerAddress = perAddress };
+        SessionOptions options = new() { RejoinTime = Kept, MaxClientsPerAddress = perAddress };
         SimTime now = SimTime.FromSeconds(100);
         PlayerPlaces places = new(options, now);
         PeerAddress honest = PeerAddress.Virtual(1).Machine, greedy = PeerAddress.Virtual(2).Machine;
@@ -135,7 +135,7 @@ public sealed class PlayerPlacesTests
     public void Free_NumberWithAKey_IsNotGivenToItsMachineEither()
     {
         PeerAddress machine = PeerAddress.Virtual(1).Machine;
-        SessionOptions options = new() { MaxJoinersPerAddress = 1, RejoinTime = Kept, PlayerKeys = new Dictionary<byte, string> { [3] = "three" } };
+        SessionOptions options = new() { MaxClientsPerAddress = 1, RejoinTime = Kept, PlayerKeys = new Dictionary<byte, string> { [3] = "three" } };
         PlayerPlaces places = new(options, SimTime.Zero);
         places[3].Take(isSamePlayer: false, machine);
         places[3].Leave(isKept: true, 1, LeaveReason.TimedOut, SimTime.Zero);

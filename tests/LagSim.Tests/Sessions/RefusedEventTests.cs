@@ -37,7 +37,7 @@ public sealed class RefusedEventTests
             group.Run(0.1);
             ExternalEvent spawn = group.Do(1, PlayerAction.Spawn(Ball(0.25), V(0, 4)));
             group.Run(0.5);
-            group.Do(0, PlayerAction.Impulse(Second, V(-1, 4))); // and the others have the host's news meanwhile
+            group.Do(0, PlayerAction.Impulse(Second, V(-1, 4))); // and the others have the host's event meanwhile
             group.Run(0.5);
             Assert.True(group.Sessions[1].World!.Simulation.TryRead(spawn.Body, group.Sessions[1].World!.Simulation.SimulatedTo, out _));
             group.Restore(1, 0);
@@ -68,7 +68,7 @@ public sealed class RefusedEventTests
     }
 
     [Fact]
-    public void Commit_WhileAnOwnEventIsNotJudged_KeepsWhatTakingItBackNeedsAndNoMore()
+    public void Commit_WhileAnOwnEventIsNotValidated_KeepsWhatTakingItBackNeedsAndNoMore()
     {
         SessionGroup group = Group(3, 0);
         group.Cut(1, 0);
@@ -130,7 +130,7 @@ public sealed class RefusedEventTests
     {
         // The way from the host becomes shorter all at once: until the clock has been bent, it is behind by more than the history.
         SessionGroup group = new SessionGroup(
-            Deeds.Box(), 2, new LinkProfile("uneven", toHost: new LinkLeg(5), fromHost: new LinkLeg(300)), 1,
+            ScriptedActions.Box(), 2, new LinkProfile("uneven", toHost: new LinkLeg(5), fromHost: new LinkLeg(300)), 1,
             _ => new SessionOptions { Window = new(SimDuration.FromSeconds(0.05)), KeepAlive = SimDuration.FromSeconds(0.02) }).Connect();
         group.Run(3);
         group.Restore(0, 1);
@@ -188,6 +188,6 @@ public sealed class RefusedEventTests
     }
 
     private static SessionGroup Group(ulong seed, double extra) => new SessionGroup(
-        Deeds.Box(), 3, LinkProfiles.PureDelay(5), seed,
+        ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), seed,
         _ => new SessionOptions { Window = new(SimDuration.FromSeconds(History)), ExtraHistory = SimDuration.FromSeconds(extra), KeepAlive = SimDuration.FromSeconds(0.1) }).Connect();
 }

@@ -24,22 +24,22 @@ public sealed class RejoiningTests
     public void Silence_LongerThanTheTimeout_BringsTheSamePlayerBackWithTheSameWorld(int seed)
     {
         SessionGroup group = Group(3, seed: seed);
-        JoinerSession joiner = group.Joiner(1);
-        byte number = joiner.Peer;
-        PlayerPass? pass = joiner.Pass;
-        List<string> told = Listen(joiner);
+        ClientSession client = group.Client(1);
+        byte number = client.Peer;
+        PlayerPass? pass = client.Pass;
+        List<string> told = Listen(client);
         group.Do(1, PlayerAction.Impulse(First, V(0.2, 1)));
         group.Run(0.5);
         Cut(group, 1);
         group.Do(2, PlayerAction.Impulse(Second, V(-0.3, 1)));
         ExternalEvent unheard = group.Do(1, PlayerAction.Impulse(First, V(0.1, 2)));
         group.Run(Timeout.ToSeconds() + seed);
-        Assert.Equal((SessionState.Rejoining, 1), (joiner.State, group.Host.JoinerCount));
+        Assert.Equal((SessionState.Rejoining, 1), (client.State, group.Host.ClientCount));
         Mend(group, 1);
-        Assert.True(group.RunUntil(() => joiner.State == SessionState.Running, 2), joiner.EndReason);
-        Assert.Equal((number, pass, 2), (joiner.Peer, joiner.Pass, group.Host.JoinerCount));
+        Assert.True(group.RunUntil(() => client.State == SessionState.Running, 2), client.EndReason);
+        Assert.Equal((number, pass, 2), (client.Peer, client.Pass, group.Host.ClientCount));
         Assert.Equal(["interrupted", "renewed"], told);
-        Assert.Equal((1L, 1L), (joiner.Counters.Renewals, joiner.Counters.EventsUnanswered));
+        Assert.Equal((1L, 1L), (client.Counters.Renewals, client.Counters.EventsUnanswered));
 
         // What it does from then on bears numbers that nobody used, those of what was never heard apart.
         ExternalEvent next = group.Do(1, PlayerAction.Impulse(First, V(0, 1)));
@@ -48,12 +48,12 @@ public sealed class RejoiningTests
         Assert.DoesNotContain(unheard, group.Accepted);
         Assert.Null(group.Difference());
         Assert.All(group.Sessions, s => Assert.Equal((0L, 0L), (s.Counters.StatesDiffered, s.Counters.EventsLost)));
-        Assert.True(joiner.Counters.StatesAgreed > 0);
+        Assert.True(client.Counters.StatesAgreed > 0);
     }
 
     /// <summary>
-    /// The host is heard again in the very moment in which the joiner is let in anew: its answer to a knock overtakes its update. It goes
-    /// on in one way or the other, and is not let go for having asked.
+    /// The host is heard again in the very moment in which the client is let in anew: its answer to a connect request overtakes its update. It goes
+    /// on in one way or the other, and is not disconnected for having asked.
     /// </summary>
     [Fact]
     public void Silence_OneWay_ThatEndsWhileItAsks_InterruptsOnce()
@@ -62,8 +62,8 @@ public sealed class RejoiningTests
         for (int seed = 1; seed <= 40; seed++)
         {
             SessionGroup group = Group(2, seed: seed);
-            JoinerSession joiner = group.Joiner(1);
-            List<string> told = Listen(joiner);
+            ClientSession client = group.Client(1);
+            List<string> told = Listen(client);
             bool hasJoined = false;
             group.Network.Lose((from, _, datagram) =>
             {
@@ -72,18 +72,18 @@ public sealed class RejoiningTests
             });
             hasJoined = false;
             group.Cut(0, 1);
-            Assert.True(group.RunUntil(() => joiner.State == SessionState.Rejoining, 10));
+            Assert.True(group.RunUntil(() => client.State == SessionState.Rejoining, 10));
             group.Do(0, PlayerAction.Impulse(First, V(0, 1))); // repeated until it is heard: an update is soon on its way
             group.Run(0.0537 * seed);
             group.Restore(0, 1, 20);
-            Assert.True(group.RunUntil(() => joiner.State is SessionState.Running or SessionState.Ended, 2), $"{seed}: {joiner.State}");
+            Assert.True(group.RunUntil(() => client.State is SessionState.Running or SessionState.Ended, 2), $"{seed}: {client.State}");
             bool isRegained = told.Contains("regained");
             overtaken += isRegained && hasJoined ? 1 : 0;
             regained += isRegained ? 1 : 0;
             renewed += isRegained ? 0 : 1;
             group.Run(8);
-            Assert.Equal((SessionState.Running, 2), (joiner.State, told.Count));
-            Assert.Equal(1, group.Host.JoinerCount);
+            Assert.Equal((SessionState.Running, 2), (client.State, told.Count));
+            Assert.Equal(1, group.Host.ClientCount);
             Assert.Null(group.Difference());
         }
 
@@ -98,13 +98,13 @@ public sealed class RejoiningTests
         SessionGroup group = Group(3);
         group.Do(2, PlayerAction.Impulse(First, V(0, 1)));
         group.Run(1);
-        JoinerSession before = group.Joiner(2);
+        ClientSession before = group.Client(2);
         PlayerPass pass = before.Pass!.Value;
         group.DropLast(); // killed: it says nothing
         Assert.True(PlayerPass.TryParse(pass.ToString(), out PlayerPass kept));
-        JoinerSession after = group.Join(7, 77, new SessionOptions { Pass = kept });
+        ClientSession after = group.Join(7, 77, new SessionOptions { Pass = kept });
         Assert.True(group.RunUntil(() => after.State == SessionState.Running, 2));
-        Assert.Equal((before.Peer, pass, 2), (after.Peer, after.Pass, group.Host.JoinerCount)); // at once: nobody waits for the time-out
+        Assert.Equal((before.Peer, pass, 2), (after.Peer, after.Pass, group.Host.ClientCount)); // at once: nobody waits for the time-out
         ExternalEvent next = after.Do(PlayerAction.Impulse(First, V(0, 1)));
         Assert.Equal(2u, next.Sequence);
         group.Run(1);
@@ -115,10 +115,10 @@ public sealed class RejoiningTests
     public void Pass_OfOneWhoIsStillThere_TakesItsPlaceAndTellsIt()
     {
         SessionGroup group = Group(3);
-        JoinerSession before = group.Joiner(1);
-        JoinerSession after = group.Join(7, 77, new SessionOptions { Pass = before.Pass!.Value });
+        ClientSession before = group.Client(1);
+        ClientSession after = group.Join(7, 77, new SessionOptions { Pass = before.Pass!.Value });
         Assert.True(group.RunUntil(() => after.State == SessionState.Running && before.State == SessionState.Ended, 2));
-        Assert.Equal((before.Peer, 2, SessionEnd.LetGo), (after.Peer, group.Host.JoinerCount, before.EndedBy));
+        Assert.Equal((before.Peer, 2, SessionEnd.Disconnect), (after.Peer, group.Host.ClientCount, before.EndedBy));
         Assert.Equal("This player came in from elsewhere; the host at virtual:0 let this peer go.", before.EndReason);
     }
 
@@ -130,9 +130,9 @@ public sealed class RejoiningTests
         for (int n = 0; n < 20; n++)
         {
             Assert.True(PlayerPass.TryParse($"1-{random.NextInt64():x16}{random.NextInt64():x16}", out PlayerPass guessed));
-            JoinerSession stranger = group.Join(7, 77 + (ulong)n, new SessionOptions { Pass = guessed });
+            ClientSession stranger = group.Join(7, 77 + (ulong)n, new SessionOptions { Pass = guessed });
             Assert.True(group.RunUntil(() => stranger.State == SessionState.Running, 2));
-            Assert.Equal((3, 3), (stranger.Peer, group.Host.JoinerCount));
+            Assert.Equal((3, 3), (stranger.Peer, group.Host.ClientCount));
             Assert.NotEqual(guessed, stranger.Pass);
             stranger.Leave();
             group.Run(0.1);
@@ -146,11 +146,11 @@ public sealed class RejoiningTests
     public void Pass_OfOneWhoLeft_OrWhoseNumberAnotherGot_IsOfNoUse()
     {
         SessionGroup group = Group(2);
-        PlayerPass left = group.Joiner(1).Pass!.Value;
-        group.Joiner(1).Leave();
+        PlayerPass left = group.Client(1).Pass!.Value;
+        group.Client(1).Leave();
         group.Run(0.1);
         group.DropLast();
-        JoinerSession next = Running(group, 10, left);
+        ClientSession next = Running(group, 10, left);
         Assert.Equal(1, next.Peer); // as anybody: the least that is free
         Assert.NotEqual(left, next.Pass);
 
@@ -158,10 +158,10 @@ public sealed class RejoiningTests
         PlayerPass former = next.Pass!.Value;
         group.DropLast();
         group.Run(Timeout.ToSeconds() + 1);
-        Assert.Equal(0, group.Host.JoinerCount);
-        List<JoinerSession> others = [.. Enumerable.Range(20, SessionOptions.MaxJoiners).Select(node => Running(group, node, default))];
+        Assert.Equal(0, group.Host.ClientCount);
+        List<ClientSession> others = [.. Enumerable.Range(20, SessionOptions.MaxClients).Select(node => Running(group, node, default))];
         Assert.Equal(Enumerable.Range(2, 7).Append(1), others.Select(s => (int)s.Peer)); // its number last of all
-        JoinerSession again = group.Join(40, 40, new SessionOptions { Pass = former, RejoinTime = SimDuration.FromSeconds(3) });
+        ClientSession again = group.Join(40, 40, new SessionOptions { Pass = former, RejoinTime = SimDuration.FromSeconds(3) });
         group.Run(2);
         Assert.Equal(SessionState.Joining, again.State); // who had a place asks on: somebody may leave
         Assert.True(group.RunUntil(() => again.State == SessionState.Ended, 4));
@@ -173,16 +173,16 @@ public sealed class RejoiningTests
     public void Full_WhileItAsksToBeLetInAgain_IsWaitedFor()
     {
         SessionGroup group = Group(2);
-        JoinerSession joiner = group.Joiner(1);
+        ClientSession client = group.Client(1);
         Cut(group, 1);
         group.Run(Timeout.ToSeconds() + 1);
-        List<JoinerSession> others = [.. Enumerable.Range(20, SessionOptions.MaxJoiners).Select(node => Running(group, node, default))];
+        List<ClientSession> others = [.. Enumerable.Range(20, SessionOptions.MaxClients).Select(node => Running(group, node, default))];
         Mend(group, 1);
         group.Run(5);
-        Assert.Equal(SessionState.Rejoining, joiner.State);
+        Assert.Equal(SessionState.Rejoining, client.State);
         others[3].Leave();
-        Assert.True(group.RunUntil(() => joiner.State == SessionState.Running, 3), joiner.EndReason);
-        Assert.Equal(5, joiner.Peer); // the number that is free now: its own is another's
+        Assert.True(group.RunUntil(() => client.State == SessionState.Running, 3), client.EndReason);
+        Assert.Equal(5, client.Peer); // the number that is free now: its own is another's
     }
 
     [Theory]
@@ -192,12 +192,12 @@ public sealed class RejoiningTests
     {
         SessionGroup group = Group(2, _ => SimDuration.FromSeconds(20));
         int gone = 0;
-        group.Host.JoinerGone += _ => gone++;
+        group.Host.ClientGone += _ => gone++;
         group.DropLast();
         group.Run(Timeout.ToSeconds() - 0.5);
-        Assert.Equal((0, 1), (gone, group.Host.JoinerCount));
+        Assert.Equal((0, 1), (gone, group.Host.ClientCount));
         group.Run(0.6 + seconds);
-        Assert.Equal((1, 0), (gone, group.Host.JoinerCount));
+        Assert.Equal((1, 0), (gone, group.Host.ClientCount));
         Assert.Equal(3 - expected, Running(group, 7, default).Peer);
     }
 
@@ -208,7 +208,7 @@ public sealed class RejoiningTests
         group.Cut(0, 1);
         group.Cut(2, 0);
         group.Run(Timeout.ToSeconds() + 1);
-        Assert.Equal([SessionEnd.None, SessionEnd.HostSilent, SessionEnd.LetGo], group.Sessions.Select(s => s.EndedBy));
+        Assert.Equal([SessionEnd.None, SessionEnd.HostSilent, SessionEnd.Disconnect], group.Sessions.Select(s => s.EndedBy));
         Assert.Equal("The host at virtual:0 fell silent for 3 s.", group.Sessions[1].EndReason);
     }
 
@@ -221,13 +221,13 @@ public sealed class RejoiningTests
             MaxSegments = peer == 1 ? 60 : SimulationOptions.DefaultMaxSegments,
             RejoinTime = peer == 1 ? SimDuration.Zero : SimDuration.FromSeconds(60),
         }).Connect();
-        JoinerSession full = group.Joiner(1);
+        ClientSession full = group.Client(1);
         Assert.True(group.RunUntil(() => full.State == SessionState.Ended, 20));
         Assert.Equal(SessionEnd.TimelinesFull, full.EndedBy);
         Assert.StartsWith(
             "This peer has no more room for what may still change, and left; it can join again. ", full.EndReason, StringComparison.Ordinal);
         group.Run(0.1);
-        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.Equal(1, group.Host.ClientCount);
     }
 
     [Fact]
@@ -242,15 +242,15 @@ public sealed class RejoiningTests
     }
 
     private static SessionGroup Group(int peers, Func<int, SimDuration>? rejoinTime = null, int seed = 1) => new SessionGroup(
-        Deeds.Box(),
+        ScriptedActions.Box(),
         peers,
         LinkProfiles.PureDelay(5),
         (ulong)seed,
         peer => new SessionOptions { Timeout = Timeout, RejoinTime = rejoinTime?.Invoke(peer) ?? SimDuration.FromSeconds(120) }).Connect();
 
-    private static JoinerSession Running(SessionGroup group, int node, PlayerPass pass)
+    private static ClientSession Running(SessionGroup group, int node, PlayerPass pass)
     {
-        JoinerSession session = group.Join(node, (ulong)node, new SessionOptions { Pass = pass });
+        ClientSession session = group.Join(node, (ulong)node, new SessionOptions { Pass = pass });
         Assert.True(group.RunUntil(() => session.State == SessionState.Running, 2), session.EndReason);
         return session;
     }
@@ -267,12 +267,12 @@ public sealed class RejoiningTests
         group.Restore(peer, 0);
     }
 
-    private static List<string> Listen(JoinerSession joiner)
+    private static List<string> Listen(ClientSession client)
     {
         List<string> told = [];
-        joiner.Interrupted += _ => told.Add("interrupted");
-        joiner.Renewed += _ => told.Add("renewed");
-        joiner.Regained += () => told.Add("regained");
+        client.Interrupted += _ => told.Add("interrupted");
+        client.Renewed += _ => told.Add("renewed");
+        client.Regained += () => told.Add("regained");
         return told;
     }
 }

@@ -35,7 +35,7 @@ public sealed class RightsTests
     [Fact]
     public void Claim_WithoutTheRight_IsRefusedByTheHost()
     {
-        RawJoiner liar = new(group);
+        RawClient liar = new(group);
         Assert.Equal(3, liar.Peer);
         liar.Claim(
             1,

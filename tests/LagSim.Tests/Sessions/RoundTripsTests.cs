@@ -16,7 +16,7 @@ public sealed class RoundTripsTests(ITestOutputHelper output)
     private static readonly SimDuration Pause = SimDuration.FromMilliseconds(30);
 
     [Fact]
-    public void Mean_Deviation_AndPatience_AreThoseOfTcp()
+    public void Mean_Deviation_AndTimeout_AreThoseOfTcp()
     {
         for (int seed = 0; seed < 40; seed++)
         {
@@ -41,7 +41,7 @@ public sealed class RoundTripsTests(ITestOutputHelper output)
                 Assert.Equal(!isFirst, trips.IsMeasured);
                 Assert.Equal(mean, trips.Mean.ToSeconds(), 1e-8);
                 Assert.Equal(deviation, trips.Deviation.ToSeconds(), 1e-8);
-                Assert.Equal(mean + (4 * deviation), trips.Patience.ToSeconds(), 1e-8);
+                Assert.Equal(mean + (4 * deviation), trips.Timeout.ToSeconds(), 1e-8);
             }
         }
     }

@@ -10,7 +10,7 @@ public sealed class SendPacerTests
     private static readonly SimTime Start = SimTime.FromSeconds(1);
 
     [Fact]
-    public void Hasten_AgainAndAgain_KeepsTheDistanceInTheMean()
+    public void Flush_AgainAndAgain_KeepsTheDistanceInTheMean()
     {
         SendPacer pacer = new(Start);
         SimDuration apart = SimDuration.FromMilliseconds(10);
@@ -19,7 +19,7 @@ public sealed class SendPacerTests
             SimTime now = SimTime.Max(Start, pacer.Due);
             pacer.NoteSent(now, apart);
             pacer.Rest(now, SimDuration.FromSeconds(1));
-            pacer.Hasten(now);
+            pacer.Flush(now);
         }
 
         Assert.Equal(Start + (apart * 98), pacer.Due); // two are ahead

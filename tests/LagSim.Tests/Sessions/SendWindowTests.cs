@@ -151,10 +151,10 @@ public sealed class SendWindowTests
     }
 
     [Fact]
-    public void Knots_TravelTwiceAndThenWait()
+    public void Keyframes_TravelTwiceAndThenWait()
     {
         SendWindow window = new(0);
-        Entries entries = new() { Last = 1, AreKnots = true };
+        Entries entries = new() { Last = 1, AreKeyframes = true };
         Assert.Equal((1u, 1u), Next(window, entries));
         entries.Last = 2;
         Assert.Equal((1u, 2u), Next(window, entries));
@@ -167,13 +167,13 @@ public sealed class SendWindowTests
     [Theory]
     [InlineData(false)]
     [InlineData(true)]
-    public void NumbersUpToTheGreatest_AreSentAsAnyOthers(bool areKnots)
+    public void NumbersUpToTheGreatest_AreSentAsAnyOthers(bool areKeyframes)
     {
         SendWindow window = new(uint.MaxValue - 2);
-        Entries entries = new() { Last = uint.MaxValue, AreKnots = areKnots };
+        Entries entries = new() { Last = uint.MaxValue, AreKeyframes = areKeyframes };
         Assert.Equal((uint.MaxValue - 1, uint.MaxValue), Next(window, entries));
         window.Acknowledge(uint.MaxValue - 1);
-        if (!areKnots)
+        if (!areKeyframes)
         {
             Assert.Equal((uint.MaxValue, uint.MaxValue), Next(window, entries));
         }
@@ -234,12 +234,12 @@ public sealed class SendWindowTests
 
     private sealed class Entries : IEntrySource
     {
-        internal bool AreKnots { get; init; }
+        internal bool AreKeyframes { get; init; }
 
         public uint Last { get; set; }
 
-        public UpdateEntry this[uint number] => AreKnots
-            ? new UpdateEntry(Verdict.Accepted, ExternalEvent.HoldKnot(SimTime.Zero, 1, number, BodyId.OfScene(0), Vector3D.Zero, Vector3D.Zero))
+        public UpdateEntry this[uint number] => AreKeyframes
+            ? new UpdateEntry(Verdict.Accepted, ExternalEvent.HoldKeyframe(SimTime.Zero, 1, number, BodyId.OfScene(0), Vector3D.Zero, Vector3D.Zero))
             : new UpdateEntry(Verdict.Accepted, number);
     }
 }

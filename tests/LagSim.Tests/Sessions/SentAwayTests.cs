@@ -26,7 +26,7 @@ public sealed class SentAwayTests
             group.Cut(0, 1);
         }
 
-        byte player = group.Joiner(1).Peer;
+        byte player = group.Client(1).Peer;
         Assert.True(group.Host.Kick(player));
         group.Run(0.2);
         if (isLost)
@@ -37,7 +37,7 @@ public sealed class SentAwayTests
 
         Assert.Equal((SessionState.Ended, SessionEnd.Kicked), (group.Sessions[1].State, group.Sessions[1].EndedBy));
         Assert.Equal("The host at virtual:0 sent this player away.", group.Sessions[1].EndReason);
-        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.Equal(1, group.Host.ClientCount);
         Assert.False(group.Host.Kick(player));
         group.Do(2, PlayerAction.SetVelocity(BodyId.OfScene(0), new Vector3D(1, 0, 0)));
         group.Settle(1);
@@ -51,10 +51,10 @@ public sealed class SentAwayTests
     public void Kick_OrBan_ItComesAgain_OnlyIfNotBanned(bool isBanned)
     {
         SessionGroup group = Three();
-        byte player = group.Joiner(1).Peer;
+        byte player = group.Client(1).Peer;
         PeerAddress? machine = isBanned ? group.Host.Ban(player) : group.Host.Kick(player) ? null : throw new InvalidOperationException();
         group.Run(0.2);
-        JoinerSession again = Again(group, 77);
+        ClientSession again = Again(group, 77);
         Assert.Equal(isBanned ? (SessionState.Ended, SessionEnd.Refused) : (SessionState.Running, SessionEnd.None), (again.State, again.EndedBy));
         if (isBanned)
         {
@@ -71,17 +71,17 @@ public sealed class SentAwayTests
     [InlineData(false)]
     public void Kick_APlayer_VoidsItsPass(bool isKicked)
     {
-        SessionGroup group = new(Deeds.Box(), 3, LinkProfiles.PureDelay(20));
+        SessionGroup group = new(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(20));
         List<PlayerPass> passes = [];
-        group.Joiner(1).PassGiven += passes.Add;
+        group.Client(1).PassGiven += passes.Add;
         group.Connect();
         if (isKicked)
         {
-            group.Host.Kick(group.Joiner(1).Peer);
+            group.Host.Kick(group.Client(1).Peer);
             group.Run(0.2);
         }
 
-        JoinerSession again = Again(group, 79, new SessionOptions { Pass = passes[^1] }, passes.Add);
+        ClientSession again = Again(group, 79, new SessionOptions { Pass = passes[^1] }, passes.Add);
         Assert.Equal(SessionState.Running, again.State);
         Assert.Equal((2, isKicked), (passes.Count, passes[0] != passes[1]));
     }
@@ -97,7 +97,7 @@ public sealed class SentAwayTests
 
         BodyId other = group.Do(2, PlayerAction.Spawn(Ball, new Vector3D(0, 4, -0.5), default)).Body;
         group.Settle(6);
-        byte player = group.Joiner(1).Peer;
+        byte player = group.Client(1).Peer;
         group.Host.Kick(player);
         group.Run(0.5);
         Assert.Equal(5, group.Host.RemoveBodiesOf(player));
@@ -118,28 +118,28 @@ public sealed class SentAwayTests
     public void Kick_NoPlayersNumber_IsRefusedWithTheRange()
     {
         SessionGroup group = Three();
-        foreach (Action call in new Action[] { () => group.Host.Kick(0), () => group.Host.Ban(SessionOptions.MaxJoiners + 1), () => group.Host.RemoveBodiesOf(255) })
+        foreach (Action call in new Action[] { () => group.Host.Kick(0), () => group.Host.Ban(SessionOptions.MaxClients + 1), () => group.Host.RemoveBodiesOf(255) })
         {
-            Assert.Contains($"1 to {SessionOptions.MaxJoiners}", Assert.Throws<ArgumentOutOfRangeException>(call).Message);
+            Assert.Contains($"1 to {SessionOptions.MaxClients}", Assert.Throws<ArgumentOutOfRangeException>(call).Message);
         }
 
-        Assert.False(group.Host.Kick(SessionOptions.MaxJoiners));
-        Assert.Null(group.Host.Ban(SessionOptions.MaxJoiners));
+        Assert.False(group.Host.Kick(SessionOptions.MaxClients));
+        Assert.Null(group.Host.Ban(SessionOptions.MaxClients));
     }
 
     /// <summary>From the address of the one that was sent away.</summary>
-    private static JoinerSession Again(SessionGroup group, ulong nonce, SessionOptions? options = null, Action<PlayerPass>? onPass = null)
+    private static ClientSession Again(SessionGroup group, ulong nonce, SessionOptions? options = null, Action<PlayerPass>? onPass = null)
     {
-        JoinerSession session = new(null, group.Ports[1], new SkewedClock(group.Clock, 0, default), options ?? new SessionOptions(), PeerAddress.Virtual(0), nonce);
+        ClientSession session = new(null, group.Ports[1], new SkewedClock(group.Clock, 0, default), options ?? new SessionOptions(), PeerAddress.Virtual(0), nonce);
         session.PassGiven += pass => onPass?.Invoke(pass);
         group.Steps.Replace(1, session, group.Ports[1]);
         group.Run(3);
-        return group.Joiner(1);
+        return group.Client(1);
     }
 
     private static SessionGroup Three()
     {
-        SessionGroup group = new(Deeds.Box(), 3, LinkProfiles.PureDelay(20));
+        SessionGroup group = new(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(20));
         group.Connect();
         return group;
     }

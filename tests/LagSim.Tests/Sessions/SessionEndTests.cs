@@ -13,9 +13,9 @@ namespace LagSim.Tests.Sessions;
 public sealed class SessionEndTests
 {
     [Fact]
-    public void Leave_OfJoinerAndHost_IsToldApart()
+    public void Leave_OfClientAndHost_IsToldApart()
     {
-        SessionGroup group = new(Deeds.Box(), 3, LinkProfiles.PureDelay(5));
+        SessionGroup group = new(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5));
         List<string> told = Listen(group);
         group.Connect();
         Assert.All(group.Sessions, s => Assert.Equal(SessionEnd.None, s.EndedBy));
@@ -32,21 +32,21 @@ public sealed class SessionEndTests
     [Fact]
     public void Silence_OfTheHost_IsToldApartFromThatOfThePeer()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 3, LinkProfiles.PureDelay(5), options: _ => new SessionOptions { RejoinTime = SimDuration.FromSeconds(20) }).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), options: _ => new SessionOptions { RejoinTime = SimDuration.FromSeconds(20) }).Connect();
         group.Cut(0, 1);
         group.Cut(2, 0);
         group.Run(15);
         Assert.All(group.Sessions.Skip(1), s => Assert.Equal(SessionState.Rejoining, s.State)); // they ask to be let in again
         Assert.True(group.RunUntil(() => group.Sessions.Skip(1).All(s => s.State == SessionState.Ended), 40));
         Assert.EndsWith("It asked for 20 s to be let in again, in vain.", group.Sessions[1].EndReason, System.StringComparison.Ordinal);
-        Assert.Equal([SessionEnd.None, SessionEnd.HostSilent, SessionEnd.LetGo], group.Sessions.Select(s => s.EndedBy));
+        Assert.Equal([SessionEnd.None, SessionEnd.HostSilent, SessionEnd.Disconnect], group.Sessions.Select(s => s.EndedBy));
     }
 
     [Fact]
     public void Join_RefusedOrWithoutAnswer_IsToldApart()
     {
         SessionGroup group = new(
-            Deeds.Box(), 3, LinkProfiles.PureDelay(5), options: peer => new SessionOptions { ConnectKey = peer == 1 ? "wrong" : "" }, expected: 2);
+            ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), options: peer => new SessionOptions { ConnectKey = peer == 1 ? "wrong" : "" }, expected: 2);
         List<string> told = Listen(group);
         group.Cut(0, 2);
         Assert.True(group.RunUntil(() => group.Sessions.Skip(1).All(s => s.State == SessionState.Ended), 40));
@@ -59,20 +59,20 @@ public sealed class SessionEndTests
     {
         VirtualClock clock = new(SimTime.FromSeconds(10));
         using Net.Carriers.IDatagramPort port = new VirtualNetwork(clock, 1).CreatePort(1);
-        JoinerSession joiner = new(null, port, clock, new SessionOptions(), Net.Carriers.PeerAddress.Virtual(0), 1);
+        ClientSession client = new(null, port, clock, new SessionOptions(), Net.Carriers.PeerAddress.Virtual(0), 1);
         clock.Now += SimDuration.FromSeconds(11);
-        joiner.Step();
-        Assert.Equal(SessionState.Joining, joiner.State);
+        client.Step();
+        Assert.Equal(SessionState.Joining, client.State);
         clock.Now += SimDuration.FromSeconds(11); // it sleeps again
-        joiner.Step();
-        Assert.Equal(SessionState.Joining, joiner.State);
+        client.Step();
+        Assert.Equal(SessionState.Joining, client.State);
         for (int second = 0; second < 11; second++)
         {
             clock.Now += SimDuration.FromSeconds(1); // and now it listens
-            joiner.Step();
+            client.Step();
         }
 
-        Assert.Equal(SessionEnd.HostSilent, joiner.EndedBy);
+        Assert.Equal(SessionEnd.HostSilent, client.EndedBy);
     }
 
     [Fact]
@@ -86,9 +86,9 @@ public sealed class SessionEndTests
     }
 
     [Fact]
-    public void LogStart_OfALateJoiner_IsWhatItsSnapshotHas()
+    public void LogStart_OfALateClient_IsWhatItsSnapshotHas()
     {
-        SessionGroup group = new(Deeds.Box(), 3, LinkProfiles.PureDelay(5), expected: 1);
+        SessionGroup group = new(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), expected: 1);
         group.Cut(2, 0);
         Assert.True(group.RunUntil(() => group.Sessions.Take(2).All(s => s.State == SessionState.Running)));
         group.Do(0, PlayerAction.Teleport(First, V(0, 4)));
@@ -109,8 +109,8 @@ public sealed class SessionEndTests
     [Fact]
     public void Begin_WithoutEvents_TakesFewDatagrams()
     {
-        // Until a joiner says that it has begun, the host tells it the start again and again; so it says so at once.
-        SessionGroup group = new(Deeds.Box(), 2, LinkProfiles.PureDelay(5));
+        // Until a client says that it has begun, the host tells it the start again and again; so it says so at once.
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5));
         Assert.True(group.RunUntil(() => group.Host.World is not null));
         long before = group.Host.Counters.DatagramsSent;
         group.Run(1.5);
@@ -118,17 +118,17 @@ public sealed class SessionEndTests
     }
 
     [Fact]
-    public void Hasten_OfTheHost_HasJoinersCommitAtOnce()
+    public void Flush_OfTheHost_HasClientsCommitAtOnce()
     {
         SimTime[] committed = new SimTime[2];
         for (int n = 0; n < 2; n++)
         {
             SessionGroup group = new SessionGroup(
-                Deeds.Box(), 2, LinkProfiles.PureDelay(5), options: _ => new SessionOptions { KeepAlive = SimDuration.FromSeconds(3) }).Connect();
+                ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5), options: _ => new SessionOptions { KeepAlive = SimDuration.FromSeconds(3) }).Connect();
             group.Run(3.9);
             if (n == 1)
             {
-                group.Host.Hasten();
+                group.Host.Flush();
             }
 
             group.Run(0.05);

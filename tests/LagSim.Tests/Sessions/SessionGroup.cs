@@ -13,7 +13,7 @@ using Xunit;
 
 namespace LagSim.Tests.Sessions;
 
-/// <summary>A host and joiners in virtual time, with every option at hand, and with the host's log as it was seen on the wire.</summary>
+/// <summary>A host and clients in virtual time, with every option at hand, and with the host's log as it was seen on the wire.</summary>
 internal sealed class SessionGroup
 {
     internal const ulong SessionId = 0x5E55_1017;
@@ -26,7 +26,7 @@ internal sealed class SessionGroup
     private SimTime promised = SimTime.MinValue; // the greatest watermark sent: whatever the host logs from then on is not before it
     private uint promisedFrom; // the least place in the log from which on it was promised to anybody
 
-    /// <summary>Peers that are not connected yet: the host has number 0 in the network, the joiners 1 and up.</summary>
+    /// <summary>Peers that are not connected yet: the host has number 0 in the network, the clients 1 and up.</summary>
     internal SessionGroup(
         Scene scene,
         int peers,
@@ -50,7 +50,7 @@ internal sealed class SessionGroup
         for (int peer = 0; peer < peers; peer++)
         {
             SessionOptions chosen = options?.Invoke(peer) ?? new SessionOptions();
-            chosen.ExpectedJoiners = expected ?? peers - 1;
+            chosen.ExpectedClients = expected ?? peers - 1;
             Add(peer, scenes?.Invoke(peer) ?? scene, chosen, seed + (ulong)peer);
         }
 
@@ -99,11 +99,11 @@ internal sealed class SessionGroup
         set => steps.BusyStep = SimDuration.FromMilliseconds(value);
     }
 
-    internal JoinerSession Joiner(int peer) => (JoinerSession)Sessions[peer];
+    internal ClientSession Client(int peer) => (ClientSession)Sessions[peer];
 
-    /// <summary>One more joiner, which knows nothing of the scene, at an address of its own.</summary>
-    internal JoinerSession Join(int address, ulong nonce, SessionOptions? options = null) =>
-        (JoinerSession)Add(address, null, options ?? new SessionOptions(), nonce);
+    /// <summary>One more client, which knows nothing of the scene, at an address of its own.</summary>
+    internal ClientSession Join(int address, ulong nonce, SessionOptions? options = null) =>
+        (ClientSession)Add(address, null, options ?? new SessionOptions(), nonce);
 
     /// <summary>Takes the peer that came last out of the group, gone or not.</summary>
     internal void DropLast()
@@ -150,7 +150,7 @@ internal sealed class SessionGroup
         return external;
     }
 
-    /// <summary>Until every joiner has heard of the whole log, and the host of every event that was done.</summary>
+    /// <summary>Until every client has heard of the whole log, and the host of every event that was done.</summary>
     internal bool Settle(int done, double seconds = 60) => RunUntil(
         () => Host.Counters.EventsAccepted + Host.Counters.EventsRefused == done
             && Sessions.All(s => s.State == SessionState.Ended || s.LogLength == Host.LogLength),
@@ -209,7 +209,7 @@ internal sealed class SessionGroup
         ports.Add(port);
         Session session = Sessions.Count == 0
             ? new HostSession(scene!, port, own, options, SessionId)
-            : new JoinerSession(scene, port, own, options, PeerAddress.Virtual(0), nonce);
+            : new ClientSession(scene, port, own, options, PeerAddress.Virtual(0), nonce);
         steps.Add(session, port);
         return session;
     }

@@ -24,15 +24,15 @@ public sealed class SessionWarmupTests
         SessionWarmup warmup = SessionWarmup.Run(strategy, SessionWarmup.EveryKind, few);
 
         Assert.Equal(PlayersKinds, warmup.HeardByHost);
-        Assert.Equal(PlayersKinds, warmup.HeardByJoiner);
+        Assert.Equal(PlayersKinds, warmup.HeardByClient);
         Assert.NotEqual(0, warmup.HostCounters.EventsRefused); // a host's verdict of no, which is taken back
-        Assert.Equal(warmup.HostCounters.EventsRefused, warmup.JoinerCounters.EventsRefused);
-        Assert.Equal((0, 0), (warmup.HostCounters.DatagramsMalformed, warmup.JoinerCounters.DatagramsMalformed));
-        Assert.NotEqual(0, warmup.JoinerCounters.StatesAgreed + warmup.JoinerCounters.StatesDiffered);
+        Assert.Equal(warmup.HostCounters.EventsRefused, warmup.ClientCounters.EventsRefused);
+        Assert.Equal((0, 0), (warmup.HostCounters.DatagramsMalformed, warmup.ClientCounters.DatagramsMalformed));
+        Assert.NotEqual(0, warmup.ClientCounters.StatesAgreed + warmup.ClientCounters.StatesDiffered);
         ILateEventStrategy late = LateEventStrategies.Create(strategy);
         Assert.Equal(late.RewritesPast, warmup.HostCounters.Heals > 0);
-        Assert.Equal(late.RewritesPast, warmup.JoinerCounters.Heals > 0);
-        Assert.True(!late.PromisesAgreement || warmup.JoinerCounters.StatesDiffered == 0);
+        Assert.Equal(late.RewritesPast, warmup.ClientCounters.Heals > 0);
+        Assert.True(!late.PromisesAgreement || warmup.ClientCounters.StatesDiffered == 0);
     }
 
     [Fact]
@@ -42,7 +42,7 @@ public sealed class SessionWarmupTests
         {
             SessionWarmup warmup = SessionWarmup.Run(LateEventStrategies.Default, [.. SessionWarmup.EveryKind.Where(k => k != missing)], few: true);
             Assert.Equal(PlayersKinds.Where(k => k != missing), warmup.HeardByHost);
-            Assert.Equal(PlayersKinds.Where(k => k != missing), warmup.HeardByJoiner);
+            Assert.Equal(PlayersKinds.Where(k => k != missing), warmup.HeardByClient);
         }
     }
 
@@ -69,17 +69,17 @@ public sealed class SessionWarmupTests
     [Fact]
     public void Run_InTheMiddleOfASession_ChangesNoBitOfItAndNoDatagram()
     {
-        string[] alone = Play(warmups: false, deeds: 40);
+        string[] alone = Play(warmups: false, scriptedActions: 40);
 
-        Assert.Equal(alone, Play(warmups: true, deeds: 40));
-        Assert.NotEqual(alone, Play(warmups: false, deeds: 41));
+        Assert.Equal(alone, Play(warmups: true, scriptedActions: 40));
+        Assert.NotEqual(alone, Play(warmups: false, scriptedActions: 41));
     }
 
     private static IReadOnlyList<EventKind> PlayersKinds { get; } = [.. Enum.GetValues<EventKind>().Where(k => k is >= EventKind.Spawn and < EventKind.Impact)];
 
-    private static string[] Play(bool warmups, int deeds)
+    private static string[] Play(bool warmups, int scriptedActions)
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 3, LinkProfiles.Transatlantic).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, LinkProfiles.Transatlantic).Connect();
         int steps = 0;
         group.BeforeStep = _ =>
         {
@@ -88,8 +88,8 @@ public sealed class SessionWarmupTests
                 SessionWarmup.Run(LateEventStrategies.Default, SessionWarmup.EveryKind, few: steps % 200 == 1);
             }
         };
-        new Deeds(1) { HasHands = true }.DoIn(group, deeds);
-        Assert.True(group.Settle(deeds));
+        new ScriptedActions(1) { HasHands = true }.DoIn(group, scriptedActions);
+        Assert.True(group.Settle(scriptedActions));
         SimTime end = group.Sessions.Min(s => s.World!.Simulation.SimulatedTo);
         return
         [

@@ -21,7 +21,7 @@ public sealed class StallTests
     [InlineData(59.5)]
     [InlineData(59.9)]
     [InlineData(61)]
-    public void Stall_OfAJoiner_IsNoJumpOfItsClock(double seconds)
+    public void Stall_OfAClient_IsNoJumpOfItsClock(double seconds)
     {
         for (int seed = 1; seed <= 3; seed++)
         {
@@ -30,20 +30,20 @@ public sealed class StallTests
             VirtualSteps steps = new(network);
             IDatagramPort hostPort = network.CreatePort(0), port = network.CreatePort(1);
             SessionOptions options = new() { Timeout = SimDuration.FromSeconds(300) };
-            steps.Add(new HostSession(Deeds.Box(), hostPort, clock, options, 1), hostPort);
-            JoinerSession joiner = new(null, port, clock, options, PeerAddress.Virtual(0), 4);
-            int number = steps.Add(joiner, port);
+            steps.Add(new HostSession(ScriptedActions.Box(), hostPort, clock, options, 1), hostPort);
+            ClientSession client = new(null, port, clock, options, PeerAddress.Virtual(0), 4);
+            int number = steps.Add(client, port);
             steps.RunFor(SimDuration.FromSeconds(5 + (0.21 * seed)));
-            Assert.Equal(SessionState.Running, joiner.State);
+            Assert.Equal(SessionState.Running, client.State);
             List<string> interrupted = [];
-            joiner.Interrupted += interrupted.Add;
+            client.Interrupted += interrupted.Add;
             steps.Freeze(number);
             steps.RunFor(SimDuration.FromSeconds(seconds));
             steps.Thaw(number);
             steps.RunFor(SimDuration.FromSeconds(10));
             Assert.Empty(interrupted);
-            Assert.Equal(SessionState.Running, joiner.State);
-            Assert.InRange((joiner.SharedTime.Now - clock.Now).ToSeconds(), -0.001, 0.001);
+            Assert.Equal(SessionState.Running, client.State);
+            Assert.InRange((client.SharedTime.Now - clock.Now).ToSeconds(), -0.001, 0.001);
         }
     }
 }

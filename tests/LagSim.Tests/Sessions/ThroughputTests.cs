@@ -34,7 +34,7 @@ public sealed class ThroughputTests(ITestOutputHelper output)
         Report(profile, group);
         Assert.Equal(Count(rate), group.Host.Counters.EventsAccepted);
         Assert.Equal(0, group.Host.Counters.EventsRefused);
-        Assert.Equal(0, group.Joiner(1).UnjudgedEvents);
+        Assert.Equal(0, group.Client(1).UnconfirmedEvents);
         AssertAgreed(group);
     }
 
@@ -67,25 +67,25 @@ public sealed class ThroughputTests(ITestOutputHelper output)
     [InlineData("transatlantic", 60)]
     [InlineData("satellite", 15)]
     [InlineData("awful", 15)]
-    public void Log_EightJoinersActAllTheTime_ReachesEveryoneAndIsCommittedMeanwhile(string profile, double rate)
+    public void Log_EightClientsActAllTheTime_ReachesEveryoneAndIsCommittedMeanwhile(string profile, double rate)
     {
         const double history = 3;
         SessionGroup group = Group(profile, 9, history);
         double kept = 0;
-        int unjudged = 0, log = 0;
+        int unconfirmed = 0, log = 0;
         SimTime begun = group.Clock.Now;
         Play(group, PlayerAction.Teleport(First, V(0, 4)), rate, 8, () =>
         {
-            unjudged = Math.Max(unjudged, group.Sessions.Skip(1).Max(s => ((JoinerSession)s).UnjudgedEvents));
+            unconfirmed = Math.Max(unconfirmed, group.Sessions.Skip(1).Max(s => ((ClientSession)s).UnconfirmedEvents));
             log = Math.Max(log, group.Host.KeptLogEntries);
             if (group.Clock.Now - begun > SimDuration.FromSeconds(history))
             {
                 kept = Math.Max(kept, group.Sessions.Max(s => (s.SharedTime.Now - s.World!.Simulation.HistoryEdge).ToSeconds()));
             }
         });
-        Report($"{profile}: history kept for {kept:0.00} s, {unjudged} not judged, {log} of the log kept", group);
+        Report($"{profile}: history kept for {kept:0.00} s, {unconfirmed} not judged, {log} of the log kept", group);
         Assert.InRange(kept, history, history + 3);
-        Assert.InRange(unjudged, 1, rate * 3);
+        Assert.InRange(unconfirmed, 1, rate * 3);
         Assert.InRange(log, 1, 8 * rate * (history + 3) * 2);
         Assert.All(group.Sessions, s => Assert.True(s.Counters.StatesAgreed > 3 || s is HostSession, $"{s.Counters.StatesAgreed} compared while all act"));
         group.Run(history + 5);
@@ -104,7 +104,7 @@ public sealed class ThroughputTests(ITestOutputHelper output)
         group.Network.Lose((from, to, datagram) => isLost && from == 0 && to == 2 && read.TryDecode(datagram.Span, out _)
             && read.FirstIndex <= missing && read.FirstIndex + read.Entries.Length > missing);
         Play(group, Push, 200, 2);
-        group.Run(1); // a joiner that is ten seconds behind gets a fresh copy
+        group.Run(1); // a client that is ten seconds behind gets a fresh copy
         Assert.InRange(group.Sessions[2].LogLength, missing - 30, missing - 1); // those before it in its datagrams are lost with it
         Assert.True(group.Sessions[2].Committed!.Value.Time <= group.Log[missing].Event.Time);
         Assert.True(group.Sessions[1].Committed!.Value.Time > group.Log[missing].Event.Time + SimDuration.FromSeconds(5));
@@ -119,7 +119,7 @@ public sealed class ThroughputTests(ITestOutputHelper output)
         // Without a budget: so many events at once are more than a player may cost by default.
         SessionGroup group = new SessionGroup(
             Floating(), 2, LinkProfiles.PureDelay(5), 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(5)), MaxEventsPerSecond = 100_000, PlayerBudget = null }).Connect();
-        for (int i = 0; i < JoinerSession.MaxUnjudgedEvents; i++)
+        for (int i = 0; i < ClientSession.MaxUnconfirmedEvents; i++)
         {
             group.Sessions[1].Do(Push);
         }
@@ -127,17 +127,17 @@ public sealed class ThroughputTests(ITestOutputHelper output)
         InvalidOperationException refused = Assert.Throws<InvalidOperationException>(() => group.Do(1, Push));
         Assert.Equal("Nothing more can be done yet: 16384 events of this peer wait for the host's verdict, and that is the most that may.", refused.Message);
         Assert.Equal(SessionState.Running, group.Sessions[1].State);
-        Assert.True(group.Settle(JoinerSession.MaxUnjudgedEvents, 4));
-        Assert.Equal(JoinerSession.MaxUnjudgedEvents + 1u, group.Do(1, Push).Sequence);
-        Assert.True(group.Settle(JoinerSession.MaxUnjudgedEvents + 1, 1));
+        Assert.True(group.Settle(ClientSession.MaxUnconfirmedEvents, 4));
+        Assert.Equal(ClientSession.MaxUnconfirmedEvents + 1u, group.Do(1, Push).Sequence);
+        Assert.True(group.Settle(ClientSession.MaxUnconfirmedEvents + 1, 1));
         Assert.Equal(0, group.Host.Counters.EventsRefused);
     }
 
     [Fact]
-    public void Updates_ToAJoinerThatAcknowledgesNothing_BecomeFew()
+    public void Updates_ToAClientThatAcknowledgesNothing_BecomeFew()
     {
         SessionGroup group = Group("delay-5ms", 2, 1);
-        RawJoiner deaf = new(group);
+        RawClient deaf = new(group);
         deaf.Claim(1);
         byte[] ready = deaf.Bytes(1);
         ready[WireFormat.EmptyUpdateBytes - 6] = 2; // the flag
@@ -169,11 +169,11 @@ public sealed class ThroughputTests(ITestOutputHelper output)
 
     private static int Count(double rate) => (int)(Seconds * rate);
 
-    private static void Play(SessionGroup group, PlayerAction action, double rate, int joiners, Action? look = null)
+    private static void Play(SessionGroup group, PlayerAction action, double rate, int clients, Action? look = null)
     {
         for (int i = 0; i < Count(rate); i++)
         {
-            for (int peer = 1; peer <= joiners; peer++)
+            for (int peer = 1; peer <= clients; peer++)
             {
                 group.Do(peer, action);
             }
@@ -193,7 +193,7 @@ public sealed class ThroughputTests(ITestOutputHelper output)
 
     private void Report(string what, SessionGroup group) => output.WriteLine(string.Create(
         CultureInfo.InvariantCulture,
-        $"{what}: accepted {group.Host.Counters.EventsAccepted}, refused {group.Host.Counters.EventsRefused}, at the host {Latest(group.Host):0.00} s late, at joiners {group.Sessions.Skip(1).Max(Latest):0.00} s; up {group.Joiner(1).Links[0].BytesSent} B, down {group.Joiner(1).Links[0].BytesReceived} B"));
+        $"{what}: accepted {group.Host.Counters.EventsAccepted}, refused {group.Host.Counters.EventsRefused}, at the host {Latest(group.Host):0.00} s late, at joiners {group.Sessions.Skip(1).Max(Latest):0.00} s; up {group.Client(1).Links[0].BytesSent} B, down {group.Client(1).Links[0].BytesReceived} B"));
 
     private static double Latest(Session session) => session.Counters.Lateness.Count == 0 ? 0 : session.Counters.Lateness.Max().ToSeconds();
 }

@@ -17,13 +17,13 @@ public sealed class TrafficTests
     [Fact]
     public void Copy_OfCounters_StaysAsItIsWhileTheSessionGoesOn()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 2, LinkProfiles.PureDelay(50), 4).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(50), 4).Connect();
         int done = 0;
         SessionCounters[] copies = new SessionCounters[40];
         string[] then = new string[copies.Length];
         for (int n = 0; n < copies.Length; n++)
         {
-            done += new Deeds(n, mostSpawns: 0).DoIn(group, 2).Count;
+            done += new ScriptedActions(n, mostSpawns: 0).DoIn(group, 2).Count;
             group.Run(0.1);
             copies[n] = group.Host.Counters.Copy();
             then[n] = Everything(group.Host.Counters);
@@ -41,9 +41,9 @@ public sealed class TrafficTests
     }
 
     [Fact]
-    public void Idle_HostWithEightJoiners_SendsLessThanFiftyBytesASecondOnALink()
+    public void Idle_HostWithEightClients_SendsLessThanFiftyBytesASecondOnALink()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 9, LinkProfiles.Lan, 1).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 9, LinkProfiles.Lan, 1).Connect();
         group.Run(20); // the balls come to rest, the clocks are set
         LinkTraffic[] before = All();
         group.Run(100);
@@ -62,8 +62,8 @@ public sealed class TrafficTests
     [Fact]
     public void Links_CountWhatWentOverThem()
     {
-        SessionGroup group = new SessionGroup(Deeds.Box(), 3, LinkProfiles.PureDelay(30), 1).Connect();
-        new Deeds(1).DoIn(group, 20);
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(30), 1).Connect();
+        new ScriptedActions(1).DoIn(group, 20);
         group.Settle(20);
         LinkTraffic toHost = Assert.Single(group.Sessions[1].Links);
         LinkTraffic fromHost = group.Host.Links.Single(l => l.Peer == group.Sessions[1].Peer);
@@ -78,7 +78,7 @@ public sealed class TrafficTests
     public void Do_MoreThanTheHostTakes_IsTakenLaterAndAllOfIt()
     {
         SessionGroup group = new SessionGroup(
-            Deeds.Box(), 3, LinkProfiles.PureDelay(5), 1,
+            ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), 1,
             _ => new SessionOptions { MaxEventsPerSecond = 50, Window = new(SimDuration.FromSeconds(5)) }).Connect();
         for (int i = 0; i < 200; i++)
         {
@@ -95,11 +95,11 @@ public sealed class TrafficTests
     }
 
     [Fact]
-    public void Joiner_ThatAcknowledgesNothing_IsToldToGoAndTheLogIsForgotten()
+    public void Client_ThatAcknowledgesNothing_IsToldToGoAndTheLogIsForgotten()
     {
         SessionGroup group = new SessionGroup(
             Floating(), 2, LinkProfiles.PureDelay(1), 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(0.1)), MaxEventsPerSecond = 100_000 }).Connect();
-        RawJoiner deaf = new(group);
+        RawClient deaf = new(group);
         for (int i = 0; i < 70_000; i++)
         {
             group.Do(0, PlayerAction.SetVelocity(First, V(0.001 * (i % 7))));
@@ -110,7 +110,7 @@ public sealed class TrafficTests
         }
 
         group.Run(1);
-        Assert.Equal(1, group.Host.JoinerCount);
+        Assert.Equal(1, group.Host.ClientCount);
         Assert.Equal(DatagramType.Leave, deaf.Received().Last(d => d.Type == DatagramType.Leave).Type);
         Assert.True(group.RunUntil(() => group.Sessions[1].LogLength == 70_000, 60));
         group.Run(1);

@@ -15,19 +15,19 @@ public sealed class UpdateLinkTests
     private static readonly SimTime Start = SimTime.FromSeconds(5);
 
     [Fact]
-    public void Hasten_RightAfterAnAnswer_DoesNotWait()
+    public void Flush_RightAfterAnAnswer_DoesNotWait()
     {
         UpdateLink link = Link();
         Send(link, Start);
         SimTime soon = Start + SimDuration.FromMilliseconds(0.3);
 
-        link.Hasten(soon);
+        link.Flush(soon);
 
         Assert.Equal(soon, link.Due);
     }
 
     [Fact]
-    public void Hasten_AllTheTime_IsOneAMillisecondInTheMean()
+    public void Flush_AllTheTime_IsOneAMillisecondInTheMean()
     {
         UpdateLink link = Link();
         int sent = 0;
@@ -35,7 +35,7 @@ public sealed class UpdateLinkTests
         SimTime end = Start + SimDuration.FromMilliseconds(100);
         for (SimTime now = Start; now < end; now += pace)
         {
-            link.Hasten(now);
+            link.Flush(now);
             if (link.Due <= now)
             {
                 Send(link, now);
@@ -60,7 +60,7 @@ public sealed class UpdateLinkTests
         }
 
         Assert.Equal(Start + SimDuration.FromMilliseconds(1), link.Due);
-        link.Hasten(Start);
+        link.Flush(Start);
         Assert.Equal(Start, link.Due); // what goes out in one moment counts once, so that one who is pressed has two more
     }
 
@@ -131,7 +131,7 @@ public sealed class UpdateLinkTests
             if (now < silent)
             {
                 entries.Last += each;
-                link.NoteNews((int)each * 4, now);
+                link.NoteLateEvent((int)each * 4, now);
             }
 
             if (!link.IsDue(now))

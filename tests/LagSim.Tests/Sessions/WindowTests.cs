@@ -79,7 +79,7 @@ public sealed class WindowTests
     }
 
     [Fact]
-    public void Joiner_WithoutRoomForWhatMayStillChange_SaysSoLeavesAndCanJoinAgain() // once fresh copies were of no use either
+    public void Client_WithoutRoomForWhatMayStillChange_SaysSoLeavesAndCanJoinAgain() // once fresh copies were of no use either
     {
         SessionGroup group = new SessionGroup(
             BuiltInScenes.Billiards(), 3, LinkProfiles.PureDelay(20), 1, peer => new SessionOptions { MaxSegments = peer == 1 ? 60 : SimulationOptions.DefaultMaxSegments }).Connect();
@@ -95,10 +95,10 @@ public sealed class WindowTests
         Assert.Contains("3 fresh copies in a row were of no use", group.Sessions[1].EndReason, StringComparison.Ordinal);
         Assert.Equal(3, group.Sessions[1].Counters.Renewals);
         group.Run(1);
-        Assert.Equal(1, group.Host.JoinerCount); // the others go on
+        Assert.Equal(1, group.Host.ClientCount); // the others go on
         Assert.Equal(SessionState.Running, group.Sessions[2].State);
 
-        JoinerSession again = group.Join(7, 77);
+        ClientSession again = group.Join(7, 77);
         Assert.True(group.RunUntil(() => again.State == SessionState.Running, 10));
         group.Run(8);
         Assert.True(again.Counters.StatesAgreed > 0);

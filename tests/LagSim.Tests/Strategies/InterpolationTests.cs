@@ -33,7 +33,7 @@ public sealed class InterpolationTests
 
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
         refused = Assert.Throws<ArgumentOutOfRangeException>(
-            () => new HostSession(Deeds.Box(), port, new VirtualClock(), new SessionOptions { DisplayDelay = delay }, 1));
+            () => new HostSession(ScriptedActions.Box(), port, new VirtualClock(), new SessionOptions { DisplayDelay = delay }, 1));
         Assert.Equal("DisplayDelay", refused.ParamName);
         Assert.Contains("must lie between 0 s and 5 s", refused.Message, StringComparison.Ordinal);
     }
@@ -70,7 +70,7 @@ public sealed class InterpolationTests
             {
                 SimTime shared = session.SharedTime.Now, shown = session.DisplayTime;
                 Assert.Equal(SimTime.Max(start, shared - expected), shown); // until it can move, the world stands at its start
-                Assert.True(session.World!.Pictures.Latest().Covers(shown), $"{(shared - start).ToSeconds()} s");
+                Assert.True(session.World!.RenderSnapshots.Latest().Covers(shown), $"{(shared - start).ToSeconds()} s");
                 Assert.Equal(expected, session.DisplayDelay);
             }
         }
@@ -79,11 +79,11 @@ public sealed class InterpolationTests
     [Fact]
     public void Picture_WithoutTheDelay_DoesNotGoBackThatFar()
     {
-        // The control: it is the strategy that makes pictures cover the past.
+        // The control: it is the strategy that makes render snapshots cover the past.
         SessionGroup group = Group("healing", 0.1, past: 0);
         group.Run(3);
         Session session = group.Host;
-        Assert.False(session.World!.Pictures.Latest().Covers(session.SharedTime.Now - SimDuration.FromSeconds(0.1)));
+        Assert.False(session.World!.RenderSnapshots.Latest().Covers(session.SharedTime.Now - SimDuration.FromSeconds(0.1)));
     }
 
     [Fact]
@@ -91,7 +91,7 @@ public sealed class InterpolationTests
     {
         SessionGroup group = Group("interpolation", 2, past: 0);
         group.Run(6);
-        JoinerSession late = group.Join(7, 99, Options("interpolation", 2, 0));
+        ClientSession late = group.Join(7, 99, Options("interpolation", 2, 0));
         Assert.True(group.RunUntil(() => late.World is not null));
         SimTime began = late.BegunFrom!.Time;
         List<SimTime> shown = [];
@@ -99,7 +99,7 @@ public sealed class InterpolationTests
         {
             group.Run(0.02);
             shown.Add(late.DisplayTime);
-            Assert.True(late.World!.Pictures.Latest().Covers(late.DisplayTime));
+            Assert.True(late.World!.RenderSnapshots.Latest().Covers(late.DisplayTime));
         }
 
         Assert.Equal(shown, shown.Order());
@@ -111,7 +111,7 @@ public sealed class InterpolationTests
     public void Settled_OfPeersThatDrawThePast_IsTheWorldThatHadAllOnTime()
     {
         SessionGroup group = Group("interpolation", 0.3, past: 0, link: LinkProfiles.Awful, history: 5);
-        int done = new Deeds(4).DoIn(group, 40).Count;
+        int done = new ScriptedActions(4).DoIn(group, 40).Count;
         Assert.True(group.Settle(done));
         Assert.Null(group.Difference());
     }
@@ -132,7 +132,7 @@ public sealed class InterpolationTests
     [InlineData("healing", 0.1, 1.0)]
     [InlineData("interpolation", 0.1, 1.1)]
     [InlineData("interpolation", 0.25, 1.25)]
-    public void Seen_OfOnesOwnDeed_ComesLaterByTheDelay(string strategy, double delay, double expected)
+    public void Seen_OfOnesOwnScriptedAction_ComesLaterByTheDelay(string strategy, double delay, double expected)
     {
         // The heavy ball flies on at 3 m/s to the left, until it is seen to fly to the right.
         VirtualPeers peers = Play(strategy, delay);
@@ -159,17 +159,17 @@ public sealed class InterpolationTests
     }
 
     private static SessionGroup Group(string strategy, double delay, double past, LinkProfile? link = null, double history = 0.05) =>
-        new SessionGroup(Deeds.Box(), 3, link ?? LinkProfiles.Lan, options: _ => Options(strategy, delay, past, history)).Connect();
+        new SessionGroup(ScriptedActions.Box(), 3, link ?? LinkProfiles.Lan, options: _ => Options(strategy, delay, past, history)).Connect();
 
     private static SessionOptions Options(string strategy, double delay, double past, double history = 0.05) => new()
     {
         Strategy = strategy,
         DisplayDelay = SimDuration.FromSeconds(delay),
-        PicturePast = SimDuration.FromSeconds(past),
+        RenderedPast = SimDuration.FromSeconds(past),
         Window = new(SimDuration.FromSeconds(history)),
     };
 
-    /// <summary>Three peers, 40 ms a hop; a joiner turns a ball round after a second.</summary>
+    /// <summary>Three peers, 40 ms a hop; a client turns a ball round after a second.</summary>
     private static VirtualPeers Play(string strategy, double delay)
     {
         PeerGroupOptions options = new(3, LinkProfiles.PureDelay(40), strategy, Length: SimDuration.FromSeconds(4)) { DisplayDelay = SimDuration.FromSeconds(delay) };

@@ -17,7 +17,7 @@ namespace LagSim.Tests.Sweep;
 /// </summary>
 public sealed class LossyLinkTests(ITestOutputHelper output)
 {
-    private const int Joiners = 3;
+    private const int Clients = 3;
     private const int Seconds = 30;
     private const ulong Seeds = 16;
 
@@ -41,7 +41,7 @@ public sealed class LossyLinkTests(ITestOutputHelper output)
         List<double> late = [];
         for (ulong seed = 1; seed <= Seeds; seed++)
         {
-            SessionGroup group = new(BuiltInScenes.Billiards(), Joiners + 1, LinkProfiles.Awful, seed, _ => new SessionOptions
+            SessionGroup group = new(BuiltInScenes.Billiards(), Clients + 1, LinkProfiles.Awful, seed, _ => new SessionOptions
             {
                 // Whatever comes late is to be accepted, and seen.
                 Window = new(SimDuration.FromSeconds(5), SimDuration.FromMilliseconds(250)),
@@ -57,13 +57,13 @@ public sealed class LossyLinkTests(ITestOutputHelper output)
             for (int second = 1; second < Seconds; second++)
             {
                 group.Run(1);
-                for (int peer = 1; peer <= Joiners; peer++)
+                for (int peer = 1; peer <= Clients; peer++)
                 {
                     group.Do(peer, PlayerAction.Impulse(BodyId.OfScene(peer), new Vector3D(0.1, 0, -0.1)));
                 }
             }
 
-            Assert.True(group.Settle(Joiners * (Seconds - 1)));
+            Assert.True(group.Settle(Clients * (Seconds - 1)));
         }
 
         return late;

@@ -98,12 +98,12 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
         LinkQueue up = new(narrow, random.Fork(1)), down = new(narrow, random.Fork(2));
         long[] before = new long[2];
         double began = double.MaxValue;
-        List<(JoinerSession Actor, int Number)> actors = [];
+        List<(ClientSession Actor, int Number)> actors = [];
         for (int n = 0; n < 2; n++)
         {
             network.Connect(4 + n, n, link, up, down);
             Session host = Add(n, -1, n == 0 ? fault : SessionFault.None);
-            JoinerSession actor = (JoinerSession)Add(2 + n, n, SessionFault.None);
+            ClientSession actor = (ClientSession)Add(2 + n, n, SessionFault.None);
             actors.Add((actor, steps.Sessions.Count - 1));
             Add(4 + n, n, n == 0 ? fault : SessionFault.None);
         }
@@ -127,7 +127,7 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
             }
 
             next[who] += (0.5 + random.NextDouble()) / rates[who];
-            (JoinerSession actor, int number) = actors[who];
+            (ClientSession actor, int number) = actors[who];
             actor.Do(PlayerAction.SetVelocity(BodyId.OfScene((int)(random.NextUInt64() % 8)), new Vector3D(random.NextDouble(-1, 1), 0, random.NextDouble(-1, 1))));
             steps.Wake(number);
         }
@@ -139,10 +139,10 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
         Session Add(int number, int host, SessionFault faultOfIt)
         {
             IDatagramPort port = network.CreatePort(number);
-            SessionOptions options = new() { ExpectedJoiners = 2, Cancellation = TestContext.Current.CancellationToken };
+            SessionOptions options = new() { ExpectedClients = 2, Cancellation = TestContext.Current.CancellationToken };
             Session session = host < 0
                 ? new HostSession(BuiltInScenes.Billiards(), port, clock, options, seed)
-                : new JoinerSession(null, port, clock, options, PeerAddress.Virtual(host), seed + (ulong)number);
+                : new ClientSession(null, port, clock, options, PeerAddress.Virtual(host), seed + (ulong)number);
             session.Put(faultOfIt);
             steps.Add(session, port);
             return session;

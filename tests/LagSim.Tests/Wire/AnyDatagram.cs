@@ -17,7 +17,7 @@ internal static class AnyDatagram
     internal static byte[] ChunkBytes(ulong session, uint index, ReadOnlySpan<byte> data)
     {
         Span<byte> buffer = stackalloc byte[WireFormat.MaxBytes];
-        return buffer.Slice(0, new ChunkDatagram(session, index, data).Encode(buffer)).ToArray();
+        return buffer.Slice(0, new SnapshotChunkDatagram(session, index, data).Encode(buffer)).ToArray();
     }
 
     /// <summary>What decoding and encoding again makes of the bytes; null when they are refused.</summary>
@@ -30,14 +30,14 @@ internal static class AnyDatagram
 
         switch (type)
         {
-            case DatagramType.Knock:
-                return KnockDatagram.TryDecode(bytes, out KnockDatagram knock, out refusal) ? Bytes(knock.Encode) : null;
+            case DatagramType.ConnectRequest:
+                return ConnectRequestDatagram.TryDecode(bytes, out ConnectRequestDatagram request, out refusal) ? Bytes(request.Encode) : null;
             case DatagramType.Challenge:
                 return ChallengeDatagram.TryDecode(bytes, out ChallengeDatagram challenge, out refusal) ? Bytes(challenge.Encode) : null;
-            case DatagramType.Fetch:
-                return FetchDatagram.TryDecode(bytes, out FetchDatagram fetch, out refusal) ? Bytes(fetch.Encode) : null;
-            case DatagramType.Chunk:
-                return ChunkDatagram.TryDecode(bytes, out ChunkDatagram chunk, out refusal) ? ChunkBytes(chunk.SessionId, chunk.Index, chunk.Data) : null;
+            case DatagramType.SnapshotRequest:
+                return SnapshotRequestDatagram.TryDecode(bytes, out SnapshotRequestDatagram asked, out refusal) ? Bytes(asked.Encode) : null;
+            case DatagramType.SnapshotChunk:
+                return SnapshotChunkDatagram.TryDecode(bytes, out SnapshotChunkDatagram chunk, out refusal) ? ChunkBytes(chunk.SessionId, chunk.Index, chunk.Data) : null;
             case DatagramType.Join:
                 return JoinDatagram.TryDecode(bytes, out JoinDatagram join, out refusal) ? Bytes(join.Encode) : null;
             case DatagramType.Welcome:
@@ -46,14 +46,14 @@ internal static class AnyDatagram
                 return RefusalDatagram.TryDecode(bytes, out RefusalDatagram answer, out refusal) ? Bytes(answer.Encode) : null;
             case DatagramType.Leave:
                 return LeaveDatagram.TryDecode(bytes, out LeaveDatagram leave, out refusal) ? Bytes(leave.Encode) : null;
-            case DatagramType.Doubt:
-                return DoubtDatagram.TryDecode(bytes, out DoubtDatagram doubt, out refusal) ? Bytes(doubt.Encode) : null;
+            case DatagramType.DesyncQuery:
+                return DesyncQueryDatagram.TryDecode(bytes, out DesyncQueryDatagram query, out refusal) ? Bytes(query.Encode) : null;
             case DatagramType.Seat:
                 return SeatDatagram.TryDecode(bytes, out SeatDatagram seat, out refusal) ? Bytes(seat.Encode) : null;
             case DatagramType.Move:
                 return MoveDatagram.TryDecode(bytes, out MoveDatagram move, out refusal) ? Bytes(move.Encode) : null;
-            case DatagramType.Evidence:
-                return EvidenceDatagram.TryDecode(bytes, out EvidenceDatagram evidence, out refusal) ? Bytes(evidence.Encode) : null;
+            case DatagramType.DesyncReport:
+                return DesyncReportDatagram.TryDecode(bytes, out DesyncReportDatagram report, out refusal) ? Bytes(report.Encode) : null;
             default:
                 return scratch.TryDecode(bytes, out refusal) ? Bytes(scratch.Encode) : null;
         }

@@ -106,11 +106,11 @@ public class HostileBytesTests
 
     private static IEnumerable<byte[]> Valid(int each) => new[]
     {
-        WireGen.Knock.Select(knock => AnyDatagram.Bytes(knock.Encode)),
+        WireGen.ConnectRequest.Select(request => AnyDatagram.Bytes(request.Encode)),
         WireGen.Challenge.Select(challenge => AnyDatagram.Bytes(challenge.Encode)),
-        WireGen.Fetch.Select(fetch => AnyDatagram.Bytes(fetch.Encode)),
-        WireGen.Doubt.Select(doubt => AnyDatagram.Bytes(doubt.Encode)),
-        WireGen.Evidence.Select(evidence => AnyDatagram.Bytes(evidence.Encode)),
+        WireGen.SnapshotRequest.Select(request => AnyDatagram.Bytes(request.Encode)),
+        WireGen.DesyncQuery.Select(query => AnyDatagram.Bytes(query.Encode)),
+        WireGen.DesyncReport.Select(report => AnyDatagram.Bytes(report.Encode)),
         WireGen.Join.Select(join => AnyDatagram.Bytes(join.Encode)),
         WireGen.Welcome.Select(welcome => AnyDatagram.Bytes(welcome.Encode)),
         WireGen.Seat.Select(seat => AnyDatagram.Bytes(seat.Encode)),

@@ -18,30 +18,30 @@ public class RoundTripTests
         && refusal == WireRefusal.None && again.Equals(join));
 
     [Fact]
-    public void Encode_AnyKnock_DecodesToTheSame() => Holds(WireGen.Knock, knock =>
-        KnockDatagram.TryDecode(AnyDatagram.Bytes(knock.Encode), out KnockDatagram again, out _) && again.Equals(knock));
+    public void Encode_AnyConnectRequest_DecodesToTheSame() => Holds(WireGen.ConnectRequest, request =>
+        ConnectRequestDatagram.TryDecode(AnyDatagram.Bytes(request.Encode), out ConnectRequestDatagram again, out _) && again.Equals(request));
 
     [Fact]
     public void Encode_AnyChallenge_DecodesToTheSame() => Holds(WireGen.Challenge, challenge =>
         ChallengeDatagram.TryDecode(AnyDatagram.Bytes(challenge.Encode), out ChallengeDatagram again, out _) && again.Equals(challenge));
 
     [Fact]
-    public void Encode_AnyFetch_DecodesToTheSame() => Holds(WireGen.Fetch, fetch =>
-        FetchDatagram.TryDecode(AnyDatagram.Bytes(fetch.Encode), out FetchDatagram again, out _) && again.Equals(fetch));
+    public void Encode_AnySnapshotRequest_DecodesToTheSame() => Holds(WireGen.SnapshotRequest, request =>
+        SnapshotRequestDatagram.TryDecode(AnyDatagram.Bytes(request.Encode), out SnapshotRequestDatagram again, out _) && again.Equals(request));
 
     [Fact]
-    public void Encode_AnyDoubt_DecodesToTheSame() => Holds(WireGen.Doubt, doubt =>
-        DoubtDatagram.TryDecode(AnyDatagram.Bytes(doubt.Encode), out DoubtDatagram again, out _) && again.Equals(doubt));
+    public void Encode_AnyDesyncQuery_DecodesToTheSame() => Holds(WireGen.DesyncQuery, query =>
+        DesyncQueryDatagram.TryDecode(AnyDatagram.Bytes(query.Encode), out DesyncQueryDatagram again, out _) && again.Equals(query));
 
     [Fact]
-    public void Encode_AnyEvidence_DecodesToTheSame() => Holds(WireGen.Evidence, evidence =>
-        EvidenceDatagram.TryDecode(AnyDatagram.Bytes(evidence.Encode), out EvidenceDatagram again, out _)
-        && (again.SessionId, again.IsWhole, again.Total, again.Index, again.LogIndex) == (evidence.SessionId, evidence.IsWhole, evidence.Total, evidence.Index, evidence.LogIndex)
-        && again.Event.Equals(evidence.Event));
+    public void Encode_AnyDesyncReport_DecodesToTheSame() => Holds(WireGen.DesyncReport, report =>
+        DesyncReportDatagram.TryDecode(AnyDatagram.Bytes(report.Encode), out DesyncReportDatagram again, out _)
+        && (again.SessionId, again.IsWhole, again.Total, again.Index, again.LogIndex) == (report.SessionId, report.IsWhole, report.Total, report.Index, report.LogIndex)
+        && again.Event.Equals(report.Event));
 
     [Fact]
-    public void Encode_AnyChunk_DecodesToTheSame() => Holds(WireGen.Chunk, bytes =>
-        ChunkDatagram.TryDecode(bytes, out ChunkDatagram again, out _)
+    public void Encode_AnySnapshotChunk_DecodesToTheSame() => Holds(WireGen.Chunk, bytes =>
+        SnapshotChunkDatagram.TryDecode(bytes, out SnapshotChunkDatagram again, out _)
         && bytes.AsSpan().SequenceEqual(AnyDatagram.ChunkBytes(again.SessionId, again.Index, again.Data)));
 
     [Fact]
@@ -124,10 +124,10 @@ public class RoundTripTests
     public void EncodedLengths_OfTheFixedDatagrams_AreTheDocumentedOnes()
     {
         Assert.Equal(WireFormat.JoinBytes, AnyDatagram.Bytes(default(JoinDatagram).Encode).Length);
-        Assert.Equal(WireFormat.KnockBytes, AnyDatagram.Bytes(default(KnockDatagram).Encode).Length);
+        Assert.Equal(WireFormat.ConnectRequestBytes, AnyDatagram.Bytes(default(ConnectRequestDatagram).Encode).Length);
         Assert.Equal(WireFormat.ChallengeBytes, AnyDatagram.Bytes(default(ChallengeDatagram).Encode).Length);
-        Assert.Equal(WireFormat.FetchBytes, AnyDatagram.Bytes(default(FetchDatagram).Encode).Length);
-        Assert.Equal(WireFormat.EmptyChunkBytes + 1, AnyDatagram.ChunkBytes(1, 2, [3]).Length);
+        Assert.Equal(WireFormat.SnapshotRequestBytes, AnyDatagram.Bytes(default(SnapshotRequestDatagram).Encode).Length);
+        Assert.Equal(WireFormat.EmptySnapshotChunkBytes + 1, AnyDatagram.ChunkBytes(1, 2, [3]).Length);
         Assert.Equal(WireFormat.WelcomeBytes, AnyDatagram.Bytes(new WelcomeDatagram(1, 2, SimDuration.OneTick, 5, 6, 7).Encode).Length);
         Assert.Equal(WireFormat.RefusalBytes, AnyDatagram.Bytes(new RefusalDatagram(1, RefusalReason.Full).Encode).Length);
         Assert.Equal(WireFormat.LeaveBytes, AnyDatagram.Bytes(new LeaveDatagram(1, 2, LeaveReason.Left).Encode).Length);

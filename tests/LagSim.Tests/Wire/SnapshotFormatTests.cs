@@ -259,9 +259,9 @@ public sealed class SnapshotFormatTests
     {
         return new BodySnapshot(
             b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, Negative(b.Position), Negative(b.Velocity), Negative(b.Acceleration),
-            Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray(), b.Cubic, b.Quartic, b.Quintic, b.Law == MotionLaw.Held ? new Hold(b.Hold.Peer, Negative(b.Hold.Offset), b.Hold.Knot) : default, b.NextStep, b.Spin, b.SpinRate,
+            Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray(), b.Cubic, b.Quartic, b.Quintic, b.Law == MotionLaw.Held ? new Hold(b.Hold.Peer, Negative(b.Hold.Offset), b.Hold.Keyframe) : default, b.NextStep, b.Spin, b.SpinRate,
             b.Centre, b.StillSince,
-            [.. b.Contacts.ToArray().Select(c => new LastingContact(c.Partner, c.Surface, c.Holds, Negative(c.Push), Negative(c.Turn)))]);
+            [.. b.Contacts.ToArray().Select(c => new PersistentContact(c.Partner, c.Surface, c.Holds, Negative(c.Push), Negative(c.Turn)))]);
 
         static Vector3D Negative(Vector3D v) => new(v.X == 0 ? -0.0 : v.X, v.Y == 0 ? -0.0 : v.Y, v.Z == 0 ? -0.0 : v.Z);
     }

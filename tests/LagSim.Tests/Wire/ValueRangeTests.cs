@@ -177,9 +177,9 @@ public class ValueRangeTests
             welcome[at] = was;
         }
 
-        byte[] knock = AnyDatagram.Bytes(new KnockDatagram(1).Encode);
-        knock[^1] = 1;
-        AssertRefused(knock);
+        byte[] request = AnyDatagram.Bytes(new ConnectRequestDatagram(1).Encode);
+        request[^1] = 1;
+        AssertRefused(request);
         byte[] seat = AnyDatagram.Bytes(new SeatDatagram(1, 2, 3, default).Encode);
         seat[12] = 0;
         AssertRefused(seat);

@@ -45,14 +45,14 @@ internal static class WireGen
 
     internal static readonly Gen<Vector3D> ExactVector = from x in Exact from y in Exact from z in Exact select new Vector3D(x, y, z);
 
-    /// <summary>A lasting contact with anybody or any surface.</summary>
-    internal static readonly Gen<LastingContact> Contact =
+    /// <summary>A persistent contact with anybody or any surface.</summary>
+    internal static readonly Gen<PersistentContact> Contact =
         from partner in Bits64
-        from surface in Gen.OneOf(Gen.Elements(LastingContact.NoSurface, 0, int.MaxValue), Gen.Choose(0, 1000))
+        from surface in Gen.OneOf(Gen.Elements(PersistentContact.NoSurface, 0, int.MaxValue), Gen.Choose(0, 1000))
         from holds in Gen.Elements(true, false)
         from push in ExactVector
         from turn in ExactVector
-        select new LastingContact(BodyId.FromPacked(partner), surface, holds, push, turn);
+        select new PersistentContact(BodyId.FromPacked(partner), surface, holds, push, turn);
 
     internal static readonly Gen<BodySpec> Spec =
         from radius in Gen.OneOf(Gen.Elements(1e-9, 0.5, 1e9), Gen.Choose(1, 1000000).Select(n => n * 1e-3))
@@ -68,7 +68,7 @@ internal static class WireGen
         select new BodySpec(radius, mass, restitution, flight, step, flight == MotionLaw.Ballistic ? ForceSet.None : forces, tolerance, friction, rolling);
 
     internal static readonly Gen<ExternalEvent> Event =
-        from kind in Gen.Elements(EventKind.Spawn, EventKind.Remove, EventKind.Teleport, EventKind.SetVelocity, EventKind.Impulse, EventKind.Grab, EventKind.HoldKnot, EventKind.Release)
+        from kind in Gen.Elements(EventKind.Spawn, EventKind.Remove, EventKind.Teleport, EventKind.SetVelocity, EventKind.Impulse, EventKind.Grab, EventKind.HoldKeyframe, EventKind.Release)
         from time in Time
         from peer in Byte
         from sequence in Bits32.Select(value => Math.Max(1, value))
@@ -84,26 +84,26 @@ internal static class WireGen
             EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity),
             EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),
             EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position),
-            EventKind.HoldKnot => ExternalEvent.HoldKnot(time, peer, sequence, body, position, velocity),
+            EventKind.HoldKeyframe => ExternalEvent.HoldKeyframe(time, peer, sequence, body, position, velocity),
             EventKind.Release => ExternalEvent.Release(time, peer, sequence, body, velocity),
             _ => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
         };
 
     internal static readonly Gen<Token128> Token = Gen.ArrayOf(Byte, Token128.Bytes).Select(bytes => new Token128(bytes));
 
-    internal static readonly Gen<KnockDatagram> Knock = Bits64.Select(nonce => new KnockDatagram(nonce));
+    internal static readonly Gen<ConnectRequestDatagram> ConnectRequest = Bits64.Select(nonce => new ConnectRequestDatagram(nonce));
 
     internal static readonly Gen<ChallengeDatagram> Challenge = from nonce in Bits64 from cookie in Token select new ChallengeDatagram(nonce, cookie);
 
-    internal static readonly Gen<FetchDatagram> Fetch =
+    internal static readonly Gen<SnapshotRequestDatagram> SnapshotRequest =
         from session in Bits64
         from peer in Byte
         from number in Bits32
         from first in Bits32
         from wanted in Bits64
-        select new FetchDatagram(session, peer, number, first, wanted);
+        select new SnapshotRequestDatagram(session, peer, number, first, wanted);
 
-    internal static readonly Gen<DoubtDatagram> Doubt =
+    internal static readonly Gen<DesyncQueryDatagram> DesyncQuery =
         from session in Bits64
         from peer in Byte
         from number in Bits32
@@ -111,22 +111,22 @@ internal static class WireGen
         from upTo in Time
         from first in Bits32
         where after != upTo
-        select new DoubtDatagram(session, peer, number, SimTime.Min(after, upTo), SimTime.Max(after, upTo), first);
+        select new DesyncQueryDatagram(session, peer, number, SimTime.Min(after, upTo), SimTime.Max(after, upTo), first);
 
-    internal static readonly Gen<EvidenceDatagram> Evidence = Gen.OneOf(
-        from session in Bits64 from whole in Byte select new EvidenceDatagram(session, whole % 2 == 1),
+    internal static readonly Gen<DesyncReportDatagram> DesyncReport = Gen.OneOf(
+        from session in Bits64 from whole in Byte select new DesyncReportDatagram(session, whole % 2 == 1),
         from session in Bits64
         from total in Bits32
         from index in Bits32
         from place in Bits32
         from what in Event
-        select new EvidenceDatagram(session, Math.Max(1, total), index % Math.Max(1, total), Math.Max(1, place), what));
+        select new DesyncReportDatagram(session, Math.Max(1, total), index % Math.Max(1, total), Math.Max(1, place), what));
 
     /// <summary>A piece as bytes: it cannot leave the stack itself.</summary>
     internal static readonly Gen<byte[]> Chunk =
         from session in Bits64
         from index in Bits32
-        from length in Gen.OneOf(Gen.Elements(1, ChunkDatagram.MaxData), Gen.Choose(1, ChunkDatagram.MaxData))
+        from length in Gen.OneOf(Gen.Elements(1, SnapshotChunkDatagram.MaxData), Gen.Choose(1, SnapshotChunkDatagram.MaxData))
         from fill in Byte
         select AnyDatagram.ChunkBytes(session, index, Enumerable.Repeat(fill, length).ToArray());
 

@@ -86,17 +86,17 @@ public sealed class WirePageTests
         Assert.StartsWith($"# The wire format, version {WireFormat.Version}\n", page, StringComparison.Ordinal);
         Dictionary<DatagramType, int> lengths = new()
         {
-            [DatagramType.Knock] = WireFormat.KnockBytes,
+            [DatagramType.ConnectRequest] = WireFormat.ConnectRequestBytes,
             [DatagramType.Welcome] = WireFormat.WelcomeBytes,
             [DatagramType.Refusal] = WireFormat.RefusalBytes,
             [DatagramType.Update] = WireFormat.EmptyUpdateBytes,
             [DatagramType.Leave] = WireFormat.LeaveBytes,
             [DatagramType.Challenge] = WireFormat.ChallengeBytes,
             [DatagramType.Join] = WireFormat.JoinBytes,
-            [DatagramType.Fetch] = WireFormat.FetchBytes,
-            [DatagramType.Chunk] = WireFormat.EmptyChunkBytes + 1,
-            [DatagramType.Doubt] = WireFormat.DoubtBytes,
-            [DatagramType.Evidence] = WireFormat.EmptyEvidenceBytes,
+            [DatagramType.SnapshotRequest] = WireFormat.SnapshotRequestBytes,
+            [DatagramType.SnapshotChunk] = WireFormat.EmptySnapshotChunkBytes + 1,
+            [DatagramType.DesyncQuery] = WireFormat.DesyncQueryBytes,
+            [DatagramType.DesyncReport] = WireFormat.EmptyDesyncReportBytes,
             [DatagramType.Seat] = WireFormat.SeatBytes,
             [DatagramType.Move] = WireFormat.MoveBytes,
         };
@@ -109,7 +109,7 @@ public sealed class WirePageTests
         AssertWords<RefusalReason>(Table(Page, "## 3 Refusal")[1].Value);
         AssertWords<Verdict>(Table(Page, "## 4 Update").Single(row => row.Field == "entry verdict").Value);
         Assert.Contains($"0 to {UpdateDatagram.MaxEntries};", page, StringComparison.Ordinal);
-        Assert.Contains($"{ChunkDatagram.MaxData.ToString("N0", CultureInfo.InvariantCulture)} bytes", page, StringComparison.Ordinal);
+        Assert.Contains($"{SnapshotChunkDatagram.MaxData.ToString("N0", CultureInfo.InvariantCulture)} bytes", page, StringComparison.Ordinal);
         Assert.Contains($"1 to {WorldCopy.MaxBytes.ToString("N0", CultureInfo.InvariantCulture)} |", page, StringComparison.Ordinal);
         Assert.Contains($"0 to {BodySnapshot.MaxSupports} |", page, StringComparison.Ordinal);
         foreach (string refusal in Enum.GetNames<WireRefusal>().Where(name => name != nameof(WireRefusal.None)))
@@ -171,8 +171,8 @@ public sealed class WirePageTests
         else if (seed == 4)
         {
             BodySnapshot b = snapshot.Bodies[0];
-            LastingContact[] contacts =
-                [new(Second, LastingContact.NoSurface, true, V(1, 2, 3), V(4, 5, 6)), new(First, 7, false, V(7, 8, 9), V(-1, -2, -0.0))];
+            PersistentContact[] contacts =
+                [new(Second, PersistentContact.NoSurface, true, V(1, 2, 3), V(4, 5, 6)), new(First, 7, false, V(7, 8, 9), V(-1, -2, -0.0))];
             BodySnapshot member = new(
                 b.Id, b.Spec, b.Opened, MotionLaw.Constrained, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, spin: V(10, 11, 12),
                 centre: At(0.125), stillSince: At(0.25), contacts: contacts);
@@ -188,9 +188,9 @@ public sealed class WirePageTests
 
     private static IEnumerable<(byte[] Expected, Func<string[], byte[]> Written)> Datagrams(int each)
     {
-        foreach (KnockDatagram d in Sample(WireGen.Knock, each))
+        foreach (ConnectRequestDatagram d in Sample(WireGen.ConnectRequest, each))
         {
-            yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(page, DatagramType.Knock, ("nonce", d.Nonce), ("padding", 0UL), ("more padding", 0UL)));
+            yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(page, DatagramType.ConnectRequest, ("nonce", d.Nonce), ("padding", 0UL), ("more padding", 0UL)));
         }
 
         foreach (WelcomeDatagram d in Sample(WireGen.Welcome, each))
@@ -224,7 +224,7 @@ public sealed class WirePageTests
                 page, DatagramType.Join, ("nonce", nonce), ("cookie", cookie), ("proof", (byte[])[.. cookie.Reverse()]), ("scene hash", ~nonce),
                 ("fold version", (uint)nonce), ("player", 7), ("player proof", cookie)));
             yield return (AnyDatagram.ChunkBytes(nonce, 77, cookie), page => Datagram(
-                page, DatagramType.Chunk, ("session id", nonce), ("index", 77), ("data", cookie)));
+                page, DatagramType.SnapshotChunk, ("session id", nonce), ("index", 77), ("data", cookie)));
         }
 
         foreach (SeatDatagram d in Sample(WireGen.Seat, each))
@@ -240,21 +240,21 @@ public sealed class WirePageTests
             yield return (bytes, page => Datagram(page, DatagramType.Move, ("session id", d.SessionId), ("peer", d.Peer), ("cookie", bytes[^16..])));
         }
 
-        foreach (FetchDatagram d in Sample(WireGen.Fetch, each))
+        foreach (SnapshotRequestDatagram d in Sample(WireGen.SnapshotRequest, each))
         {
             yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(
-                page, DatagramType.Fetch, ("session id", d.SessionId), ("peer", d.Peer), ("number", d.Number), ("first", d.First), ("wanted", d.Wanted)));
+                page, DatagramType.SnapshotRequest, ("session id", d.SessionId), ("peer", d.Peer), ("number", d.Number), ("first", d.First), ("wanted", d.Wanted)));
         }
 
-        foreach (DoubtDatagram d in Sample(WireGen.Doubt, each))
+        foreach (DesyncQueryDatagram d in Sample(WireGen.DesyncQuery, each))
         {
             yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(
-                page, DatagramType.Doubt, ("session id", d.SessionId), ("peer", d.Peer), ("number", d.Number), ("after", d.After), ("up to", d.UpTo), ("first", d.First)));
+                page, DatagramType.DesyncQuery, ("session id", d.SessionId), ("peer", d.Peer), ("number", d.Number), ("after", d.After), ("up to", d.UpTo), ("first", d.First)));
         }
 
-        foreach (EvidenceDatagram d in Sample(WireGen.Evidence, each))
+        foreach (DesyncReportDatagram d in Sample(WireGen.DesyncReport, each))
         {
-            yield return (AnyDatagram.Bytes(d.Encode), page => Evidence(page, d));
+            yield return (AnyDatagram.Bytes(d.Encode), page => DesyncReport(page, d));
         }
     }
 
@@ -271,12 +271,12 @@ public sealed class WirePageTests
     private static void Header(Stream to, string[] page, DatagramType type) => Write(
         to, Table(page, "## Header"), Values(("magic", 0x4C53), ("version", WireFormat.Version), ("type", (byte)type)));
 
-    private static byte[] Evidence(string[] page, EvidenceDatagram d)
+    private static byte[] DesyncReport(string[] page, DesyncReportDatagram d)
     {
         LayoutRow[] rows = Table(page, "## 11 Evidence");
         rows = d.Total > 0 ? rows : [.. rows.Where(row => !row.Value.Contains("only with an event", StringComparison.Ordinal))];
         MemoryStream bytes = new();
-        Header(bytes, page, DatagramType.Evidence);
+        Header(bytes, page, DatagramType.DesyncReport);
         Write(bytes, rows, Values(
             ("session id", d.SessionId), ("whole", d.IsWhole ? 1 : 0), ("total", d.Total), ("index", d.Index), ("log index", d.LogIndex),
             ("event", d.Total > 0 ? Event(page, d.Event) : [])));
@@ -386,10 +386,10 @@ public sealed class WirePageTests
 
     private static bool IsMember(BodySnapshot b) => b.Law == MotionLaw.Constrained || (b.Law == MotionLaw.Resting && b.SupportCount == 0);
 
-    private static byte[] Contact(string[] page, LastingContact contact)
+    private static byte[] Contact(string[] page, PersistentContact contact)
     {
         MemoryStream bytes = new();
-        uint surface = contact.Surface == LastingContact.NoSurface ? 0xFFFFFFFF : (uint)contact.Surface;
+        uint surface = contact.Surface == PersistentContact.NoSurface ? 0xFFFFFFFF : (uint)contact.Surface;
         Write(bytes, Table(page, "### Lasting contact"), Values(
             ("partner", contact.Partner.Packed), ("surface", surface), ("holds", contact.Holds ? 1 : 0), ("push", contact.Push),
             ("turn", contact.Turn)));

@@ -12,10 +12,10 @@ namespace LagSim.Harness.Experiments.Compare;
 /// <param name="Scene">What is played in.</param>
 /// <param name="Plan">What the players do.</param>
 /// <param name="Strategy">What they all do with late events.</param>
-/// <param name="Link">The link of each joiner to the host.</param>
-public sealed record CompareOptions(Scene Scene, IReadOnlyList<PlannedDeed> Plan, string Strategy, LinkProfile Link)
+/// <param name="Link">The link of each client to the host.</param>
+public sealed record CompareOptions(Scene Scene, IReadOnlyList<PlannedAction> Plan, string Strategy, LinkProfile Link)
 {
-    /// <summary>How long a run takes from the start of the scene: the players' six seconds, and time for the last of the news.</summary>
+    /// <summary>How long a run takes from the start of the scene: the players' six seconds, and time for the last of the events.</summary>
     public static readonly SimDuration Length = SimDuration.FromSeconds(12);
 
     /// <summary>The most bodies that are watched, spawned ones included: every state of every peer is kept.</summary>

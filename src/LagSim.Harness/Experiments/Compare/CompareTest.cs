@@ -26,7 +26,7 @@ public static class CompareTest
     public static CompareRun Run(CompareOptions options, Action<SimDuration>? progress = null)
     {
         ArgumentNullException.ThrowIfNull(options);
-        BodyId[] spawned = options.Plan.Where(deed => deed.Kind == EventKind.Spawn).Select(deed => deed.Body).ToArray();
+        BodyId[] spawned = options.Plan.Where(scripted => scripted.Kind == EventKind.Spawn).Select(scripted => scripted.Body).ToArray();
         int bodies = options.Scene.Bodies.Count + spawned.Length;
         if (bodies > CompareOptions.MaxBodies)
         {
@@ -43,45 +43,45 @@ public static class CompareTest
         };
         using VirtualPeers peers = new(options.Scene, group);
         peers.Connect();
-        NewsWatch news = new(peers);
+        LateEventWatch watch = new(peers);
         HealWatch heals = new(peers);
         InputWatch inputs = new(peers);
         PortTraffic[] before = GroupFigures.Traffic(peers);
-        foreach (PlannedDeed deed in options.Plan)
+        foreach (PlannedAction scripted in options.Plan)
         {
-            peers.RunUntil(deed.Time, progress);
-            int peer = PlaceOf(peers, deed.Peer);
-            Action<SimTime> noted = inputs.Expect(peer, deed.Body);
-            ExternalEvent external = heals.Own(() => peers.Do(peer, deed.ToAction()));
+            peers.RunUntil(scripted.Time, progress);
+            int peer = PlaceOf(peers, scripted.Peer);
+            Action<SimTime> noted = inputs.Expect(peer, scripted.Body);
+            ExternalEvent external = heals.Own(() => peers.Do(peer, scripted.ToAction()));
             noted(external.Time);
-            news.Did(external);
+            watch.Did(external);
         }
 
         peers.RunQuietlyUntil(CompareOptions.Length, progress);
         PortTraffic[] after = GroupFigures.Traffic(peers);
         peers.Finish();
         double seconds = CompareOptions.Length.ToSeconds();
-        return Measure(options, peers, news, heals, inputs, GroupFigures.BytesPerSecond(before, after, seconds));
+        return Measure(options, peers, watch, heals, inputs, GroupFigures.BytesPerSecond(before, after, seconds));
     }
 
     private static string NameOf(Scene scene, BodyId body) => body == BodyId.OfScene(body.Index) ? scene.Bodies[body.Index].Name : body.ToString();
 
-    /// <summary>Where in the group the player with that number is: joiners have their numbers in the order in which they came.</summary>
+    /// <summary>Where in the group the player with that number is: clients have their numbers in the order in which they came.</summary>
     private static int PlaceOf(PeerGroup peers, int number) => Enumerable.Range(0, peers.PeerCount).Single(p => peers.Session(p).Peer == number);
 
-    private static CompareRun Measure(CompareOptions options, VirtualPeers peers, NewsWatch news, HealWatch heals, InputWatch inputs, double[] bytes)
+    private static CompareRun Measure(CompareOptions options, VirtualPeers peers, LateEventWatch watch, HealWatch heals, InputWatch inputs, double[] bytes)
     {
         SampleGrid grid = peers.Grid;
         int last = grid.Count - 1;
-        Simulation truth = GroupFigures.Truth(peers, news.Accepted, options.Cancellation);
+        Simulation truth = GroupFigures.Truth(peers, watch.Accepted, options.Cancellation);
         PeerSamples onTime = new(grid, peers.Bodies);
         onTime.TakeSettled(truth);
         PeerSamples[] fromTruth = [onTime, .. peers.Seen];
-        IReadOnlyList<(SimTime Stamp, SimTime Dealt)> windows = news.Windows;
+        IReadOnlyList<(SimTime Stamp, SimTime Dealt)> windows = watch.Windows;
         SettledDifference? difference = PeerComparison.FirstDifference([onTime, .. peers.Settled], peers.Bodies.Length, grid.Count) is (int instant, int who, int which)
             ? new SettledDifference((grid.At(instant) - peers.Start).ToSeconds(), who - 1, NameOf(options.Scene, peers.Bodies[which]))
             : null;
-        Phase[] phases = Instants(n => NewsWatch.PhaseAt(windows, grid.At(n)));
+        Phase[] phases = Instants(n => LateEventWatch.PhaseAt(windows, grid.At(n)));
         return new CompareRun(
             options,
             Errors(peers.Seen),

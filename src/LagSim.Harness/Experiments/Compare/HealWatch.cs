@@ -10,13 +10,13 @@ using LagSim.Time;
 namespace LagSim.Harness.Experiments.Compare;
 
 /// <summary>
-/// Looks at every step of every peer that takes in news: how long it took, what was run again, and how far what is drawn jumps, the old picture against the new
-/// one at the same instant. What a peer does itself is no news to it and is left out.
+/// Looks at every step of every peer that applies late events: how long it took, what was run again, and how far what is drawn jumps, the old render snapshot against the new
+/// one at the same instant. What a peer does itself is not late for it and is left out.
 /// </summary>
 internal sealed class HealWatch
 {
     private readonly VirtualPeers peers;
-    private readonly Picture?[] shown;
+    private readonly RenderSnapshot?[] shown;
     private readonly List<double> milliseconds = [];
     private readonly List<HealReport> reports = [];
     private readonly List<double> jumps = [];
@@ -28,7 +28,7 @@ internal sealed class HealWatch
     internal HealWatch(VirtualPeers peers)
     {
         this.peers = peers;
-        shown = new Picture?[peers.PeerCount];
+        shown = new RenderSnapshot?[peers.PeerCount];
         for (int peer = 0; peer < peers.PeerCount; peer++)
         {
             peers.Session(peer).World!.Simulation.Healed += OnHealed;
@@ -41,19 +41,19 @@ internal sealed class HealWatch
     /// <summary>For each heal what it did.</summary>
     internal IReadOnlyList<HealReport> Reports => reports;
 
-    /// <summary>Wall clock of each step in which news was made good.</summary>
+    /// <summary>Wall clock of each step in which late events were healed.</summary>
     internal IReadOnlyList<double> Milliseconds => milliseconds;
 
     /// <summary>How far, in metres, bodies jumped that jumped at all.</summary>
     internal IReadOnlyList<double> Jumps => jumps;
 
     /// <summary>Lets a peer do something; what that rewrites of the little future that is known already is not counted.</summary>
-    internal T Own<T>(Func<T> deed)
+    internal T Own<T>(Func<T> scripted)
     {
         isOwn = true;
         try
         {
-            return deed();
+            return scripted();
         }
         finally
         {
@@ -72,7 +72,7 @@ internal sealed class HealWatch
 
     private void Before(int peer)
     {
-        shown[peer] = peers.Session(peer).World!.Pictures.Latest();
+        shown[peer] = peers.Session(peer).World!.RenderSnapshots.Latest();
         hasHealed = false;
         began = Stopwatch.GetTimestamp();
     }
@@ -86,15 +86,15 @@ internal sealed class HealWatch
 
         milliseconds.Add(Stopwatch.GetElapsedTime(began).TotalMilliseconds);
         SimTime time = peers.Session(peer).DisplayTime;
-        Picture old = shown[peer]!;
+        RenderSnapshot old = shown[peer]!;
         if (!old.Covers(time))
         {
             return;
         }
 
-        // The old picture may be read until the next is asked for.
+        // The old render snapshot may be read until the next is asked for.
         BodyState[] before = peers.Bodies.Select(body => Read(old, body, time)).ToArray();
-        Picture now = peers.Session(peer).World!.Pictures.Latest();
+        RenderSnapshot now = peers.Session(peer).World!.RenderSnapshots.Latest();
         for (int n = 0; n < before.Length && now.Covers(time); n++)
         {
             BodyState after = Read(now, peers.Bodies[n], time);
@@ -106,9 +106,9 @@ internal sealed class HealWatch
         }
     }
 
-    private static BodyState Read(Picture picture, BodyId body, SimTime time)
+    private static BodyState Read(RenderSnapshot snapshot, BodyId body, SimTime time)
     {
-        picture.TryRead(body, time, out BodyState state);
+        snapshot.TryRead(body, time, out BodyState state);
         return state;
     }
 }

@@ -9,38 +9,38 @@ using LagSim.Timelines;
 namespace LagSim.Harness.Experiments.Compare;
 
 /// <summary>
-/// How long a player waits until it sees what it does: what its picture was going to show of the body is noted before the deed, and held against what was shown.
+/// How long a player waits until it sees what it does: what its render snapshot was going to show of the body is noted before the scripted action, and held against what was shown.
 /// </summary>
 internal sealed class InputWatch(PeerGroup peers)
 {
-    private readonly List<(int Peer, int Body, int First, BodyState[] Expected, SimTime Stamp)> deeds = [];
+    private readonly List<(int Peer, int Body, int First, BodyState[] Expected, SimTime Stamp)> scriptedActions = [];
 
-    /// <summary>Notes what the peer is going to show of the body unless something happens, as far as its picture goes.</summary>
+    /// <summary>Notes what the peer is going to show of the body unless something happens, as far as its render snapshot goes.</summary>
     /// <returns>To be called with the stamp of what was then done.</returns>
     internal Action<SimTime> Expect(int peer, BodyId body)
     {
         PeerSamples seen = peers.Seen[peer];
-        Picture picture = peers.Session(peer).World!.Pictures.Latest();
+        RenderSnapshot snapshot = peers.Session(peer).World!.RenderSnapshots.Latest();
         SimDuration ahead = peers.DisplayDelay + LatencyCompensationWindow.DefaultLookAhead; // a world at rest is known for ever; no more is needed
         SimTime last = peers.Session(peer).SharedTime.Now + ahead;
         List<BodyState> expected = [];
-        for (int n = seen.Next; n < peers.Grid.Count && peers.Grid.At(n) <= last && picture.Covers(seen.ShownAt(peers.Grid.At(n))); n++)
+        for (int n = seen.Next; n < peers.Grid.Count && peers.Grid.At(n) <= last && snapshot.Covers(seen.ShownAt(peers.Grid.At(n))); n++)
         {
-            picture.TryRead(body, seen.ShownAt(peers.Grid.At(n)), out BodyState state);
+            snapshot.TryRead(body, seen.ShownAt(peers.Grid.At(n)), out BodyState state);
             expected.Add(state);
         }
 
         int first = seen.Next;
-        return stamp => deeds.Add((peer, Array.IndexOf(peers.Bodies, body), first, expected.ToArray(), stamp));
+        return stamp => scriptedActions.Add((peer, Array.IndexOf(peers.Bodies, body), first, expected.ToArray(), stamp));
     }
 
     /// <summary>
-    /// For each deed the milliseconds from its stamp to the first sample that showed another body than was expected. A deed that changes nothing to be seen within what
+    /// For each scripted action the milliseconds from its stamp to the first sample that showed another body than was expected. A scripted action that changes nothing to be seen within what
     /// was known beforehand has none.
     /// </summary>
     internal IEnumerable<double> Milliseconds()
     {
-        foreach ((int peer, int body, int first, BodyState[] expected, SimTime stamp) in deeds)
+        foreach ((int peer, int body, int first, BodyState[] expected, SimTime stamp) in scriptedActions)
         {
             for (int n = 0; n < expected.Length; n++)
             {

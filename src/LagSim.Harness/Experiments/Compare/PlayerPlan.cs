@@ -21,7 +21,7 @@ public sealed class PlayerPlan
     private static readonly SimDuration Earliest = SimDuration.FromSeconds(1);
     private static readonly SimDuration Latest = SimDuration.FromSeconds(6);
 
-    /// <summary>The kinds of a plan's deeds, in an order that is drawn.</summary>
+    /// <summary>The kinds of a plan's scripted actions, in an order that is drawn.</summary>
     private static readonly EventKind[] Kinds =
     [
         EventKind.Impulse, EventKind.Impulse, EventKind.Impulse, EventKind.Impulse, EventKind.Impulse,
@@ -70,7 +70,7 @@ public sealed class PlayerPlan
     /// <param name="seed">The luck.</param>
     /// <returns>What they do, in the order of time. Nobody spawns whom the scene does not let, or touches what is not his.</returns>
     /// <exception cref="SceneException">There is no body that any player may touch.</exception>
-    public static IReadOnlyList<PlannedDeed> Draw(Scene scene, int peers, ulong seed)
+    public static IReadOnlyList<PlannedAction> Draw(Scene scene, int peers, ulong seed)
     {
         ArgumentNullException.ThrowIfNull(scene);
         if (!scene.Bodies.Any(body => Enumerable.Range(0, peers).Any(body.Players.Contains)))
@@ -84,44 +84,44 @@ public sealed class PlayerPlan
         return kinds.Select((kind, n) => plan.Next(kind, times[n])).ToArray();
     }
 
-    private PlannedDeed Next(EventKind kind, SimDuration time)
+    private PlannedAction Next(EventKind kind, SimDuration time)
     {
         SimTime at = rehearsal.Start + time;
         rehearsal.AdvanceTo(at);
         int[] spawners = Enumerable.Range(0, sequences.Length).Where(scene.Spawners.Contains).ToArray();
-        PlannedDeed? deed = kind switch
+        PlannedAction? scripted = kind switch
         {
             EventKind.Spawn when spawners.Length > 0 => Spawn(spawners[Below(spawners.Length)], time, at),
             EventKind.Teleport => Teleport(time, at),
             EventKind.SetVelocity => Touch(EventKind.SetVelocity, time),
             _ => null,
         };
-        deed ??= Touch(EventKind.Impulse, time); // where there is no room, or nobody may
-        rehearsal.Submit(deed.ToAction().Stamp(at, (byte)deed.Peer, ++sequences[deed.Peer]));
-        return deed;
+        scripted ??= Touch(EventKind.Impulse, time); // where there is no room, or nobody may
+        rehearsal.Submit(scripted.ToAction().Stamp(at, (byte)scripted.Peer, ++sequences[scripted.Peer]));
+        return scripted;
     }
 
-    private PlannedDeed Touch(EventKind kind, SimDuration time)
+    private PlannedAction Touch(EventKind kind, SimDuration time)
     {
         (int peer, BodyId body) = WhoAndWhom();
         Vector3D velocity = Velocity();
-        return new PlannedDeed(time, peer, kind, body, default, kind == EventKind.Impulse ? velocity * rehearsal.SpecOf(body).Mass : velocity, default);
+        return new PlannedAction(time, peer, kind, body, default, kind == EventKind.Impulse ? velocity * rehearsal.SpecOf(body).Mass : velocity, default);
     }
 
-    private PlannedDeed? Teleport(SimDuration time, SimTime at)
+    private PlannedAction? Teleport(SimDuration time, SimTime at)
     {
         (int peer, BodyId body) = WhoAndWhom();
         return TryPlace(at, body, rehearsal.SpecOf(body).Radius, out Vector3D place)
-            ? new PlannedDeed(time, peer, EventKind.Teleport, body, place, Velocity(), default)
+            ? new PlannedAction(time, peer, EventKind.Teleport, body, place, Velocity(), default)
             : null;
     }
 
-    private PlannedDeed? Spawn(int peer, SimDuration time, SimTime at)
+    private PlannedAction? Spawn(int peer, SimDuration time, SimTime at)
     {
         BodySpec spec = scene.Bodies[Below(scene.Bodies.Count)].Spec;
         BodyId body = new((byte)peer, sequences[peer] + 1, 0);
         return TryPlace(at, body, spec.Radius, out Vector3D place)
-            ? new PlannedDeed(time, peer, EventKind.Spawn, body, place, Velocity(), spec)
+            ? new PlannedAction(time, peer, EventKind.Spawn, body, place, Velocity(), spec)
             : null;
     }
 

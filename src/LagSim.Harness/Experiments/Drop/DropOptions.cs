@@ -36,7 +36,7 @@ public sealed record DropOptions
     /// <summary>Steps a second of an integrating law; 1 to 10,000: all of a run's segments are kept.</summary>
     public double RateHertz { get; init; } = 200;
 
-    /// <summary>The link of each joiner to the host.</summary>
+    /// <summary>The link of each client to the host.</summary>
     public LinkProfile Link { get; init; } = LinkProfiles.PureDelay(25);
 
     /// <summary>The delay that <see cref="Link"/> adds one way, if it is nothing but that; else null.</summary>

@@ -10,7 +10,7 @@ namespace LagSim.Harness.Experiments.Drop;
 /// <param name="Options">With what.</param>
 /// <param name="Seen">Errors as seen, at the same shared time.</param>
 /// <param name="SeenTrueTime">Errors as seen, at the same true instant.</param>
-/// <param name="Settled">Errors of what the timelines say once all news has arrived.</param>
+/// <param name="Settled">Errors of what the timelines say once every event has arrived.</param>
 /// <param name="StateHashes">Each peer's state at the case's last sample, the host first.</param>
 /// <param name="EventHashes">Each peer's hash of all events up to then: the state at the end of a case is rest, this is how it got there.</param>
 /// <param name="SceneHash">The scene's.</param>

@@ -13,7 +13,7 @@ namespace LagSim.Harness.Experiments.Drop;
 /// <summary>The thesis's drop test: two instances of a world in which a ball falls, and one of them lifts it.</summary>
 public static class DropTest
 {
-    /// <summary>The peer that lifts the ball: the first joiner, so that the event takes the host's verdict.</summary>
+    /// <summary>The peer that lifts the ball: the first client, so that the event takes the host's verdict.</summary>
     private const int Lifter = 1;
 
     /// <summary>Runs it and measures every case.</summary>

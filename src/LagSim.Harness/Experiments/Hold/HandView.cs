@@ -7,32 +7,32 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Hold;
 
-/// <summary>Where a player's screen would draw another's hand by <see cref="AdaptivePredictor"/>, from the knots that have come and from those that have not.</summary>
+/// <summary>Where a player's screen would draw another's hand by <see cref="AdaptivePredictor"/>, from the keyframes that have come and from those that have not.</summary>
 /// <remarks>
-/// No knot is news too: until now less what a knot takes, the hand was where the others foretell it, give or take the sender's distance. So each frame gives the
-/// predictor a sample that is as old as the slowest of the newest knots was, but never older than the newest knot itself, on <see cref="HandPath"/>. Knots
+/// That no keyframe came tells something too: until now less what a keyframe takes, the hand was where the others foretell it, give or take the sender's distance. So each frame gives the
+/// predictor a sample that is as old as the slowest of the newest keyframes was, but never older than the newest keyframe itself, on <see cref="HandPath"/>. Keyframes
 /// alone, at uneven times, would teach it little. For display only; not thread-safe.
 /// </remarks>
 internal sealed class HandView
 {
-    /// <summary>So many knots say how late news is; tried, as all of this, on seeds 1001 to 1004.</summary>
+    /// <summary>So many keyframes say how late they come; tried, as all of this, on seeds 1001 to 1004.</summary>
     private const int Remembered = 16;
 
     /// <summary>Samples that are nearer together than this, about a tracker's rate, teach nothing more.</summary>
     private static readonly SimDuration Apart = SimDuration.FromMilliseconds(8);
 
     private readonly AdaptivePredictor predictor = new();
-    private readonly List<HandNews> knots = [];
+    private readonly List<HandUpdate> keyframes = [];
 
-    /// <summary>A knot has come.</summary>
-    internal void Hear(in HandNews knot) => knots.Add(knot);
+    /// <summary>A keyframe has come.</summary>
+    internal void Hear(in HandUpdate keyframe) => keyframes.Add(keyframe);
 
-    /// <summary>Where the hand is drawn in a frame; false before any knot. Frames come in the order of their times.</summary>
+    /// <summary>Where the hand is drawn in a frame; false before any keyframe. Frames come in the order of their times.</summary>
     internal bool TryDraw(SimTime now, out Vector3D drawn)
     {
-        if (knots.Count > 0)
+        if (keyframes.Count > 0)
         {
-            SimTime known = SimTime.Max(now - Lateness(), knots[^1].Event.Time);
+            SimTime known = SimTime.Max(now - Lateness(), keyframes[^1].Event.Time);
             if (!predictor.HasSamples || known - predictor.NewestSample >= Apart)
             {
                 (Vector3D position, Vector3D velocity) = Known(known);
@@ -53,19 +53,19 @@ internal sealed class HandView
     private SimDuration Lateness()
     {
         SimDuration most = SimDuration.Zero;
-        for (int n = knots.Count - 1; n >= 0 && n >= knots.Count - Remembered; n--)
+        for (int n = keyframes.Count - 1; n >= 0 && n >= keyframes.Count - Remembered; n--)
         {
-            SimDuration late = knots[n].Heard - knots[n].Event.Time;
+            SimDuration late = keyframes[n].Heard - keyframes[n].Event.Time;
             most = late > most ? late : most;
         }
 
         return most;
     }
 
-    /// <summary>What is foretold of an instant at or after the newest knot.</summary>
+    /// <summary>What is foretold of an instant at or after the newest keyframe.</summary>
     private (Vector3D Position, Vector3D Velocity) Known(SimTime time)
     {
-        ExternalEvent newest = knots[^1].Event;
+        ExternalEvent newest = keyframes[^1].Event;
         SimDuration since = time - newest.Time;
         return (HandPath.Position(newest.Position, newest.Velocity, since), HandPath.Velocity(newest.Velocity, since));
     }

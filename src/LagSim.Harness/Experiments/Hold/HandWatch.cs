@@ -9,26 +9,26 @@ namespace LagSim.Harness.Experiments.Hold;
 /// <summary>Writes down what each peer hears of the hand, and when. Each list is its session's until that has ended.</summary>
 internal sealed class HandWatch
 {
-    private readonly List<HandNews>[] heard;
+    private readonly List<HandUpdate>[] heard;
 
     /// <summary>Listens to every session of a group that is connected.</summary>
     internal HandWatch(PeerGroup peers)
     {
-        heard = Enumerable.Range(0, peers.PeerCount).Select(_ => new List<HandNews>()).ToArray();
+        heard = Enumerable.Range(0, peers.PeerCount).Select(_ => new List<HandUpdate>()).ToArray();
         for (int place = 0; place < peers.PeerCount; place++)
         {
             Session session = peers.Session(place);
-            List<HandNews> own = heard[place];
+            List<HandUpdate> own = heard[place];
             session.Logged += entry =>
             {
                 if (entry.Verdict == Verdict.Accepted)
                 {
-                    own.Add(new HandNews(session.SharedTime.Now, entry.Event));
+                    own.Add(new HandUpdate(session.SharedTime.Now, entry.Event));
                 }
             };
         }
     }
 
     /// <summary>What a peer heard, by its place in the group, in the order of the log.</summary>
-    internal IReadOnlyList<HandNews> HeardBy(int place) => heard[place];
+    internal IReadOnlyList<HandUpdate> HeardBy(int place) => heard[place];
 }

@@ -16,7 +16,7 @@ public sealed record HoldOptions(HandMotion Motion)
     /// <summary>How long after the start of the scene the hand takes the ball, which rests until then.</summary>
     public static readonly SimDuration GrabAfter = SimDuration.FromMilliseconds(500);
 
-    /// <summary>How long a run goes on after the throw: time for the last of the news, by the slowest link.</summary>
+    /// <summary>How long a run goes on after the throw: time for the last of the events, by the slowest link.</summary>
     public static readonly SimDuration Afterwards = SimDuration.FromSeconds(6);
 
     /// <summary>The shortest hold, in seconds: what a predictor needs to learn anything.</summary>
@@ -32,7 +32,7 @@ public sealed record HoldOptions(HandMotion Motion)
     public double HoldSeconds { get; init; } = Math.Min(LongestSeconds, Motion.Seconds);
 
     /// <summary>By how many metres the others may be off before the hand tells where it is, above 0.</summary>
-    public double KnotDistanceMetres { get; init; } = new HandSenderOptions().Distance;
+    public double KeyframeDistanceMetres { get; init; } = new HandSenderOptions().Distance;
 
     /// <summary>What the peers do with late events.</summary>
     public string Strategy { get; init; } = LateEventStrategies.Default;
@@ -40,13 +40,13 @@ public sealed record HoldOptions(HandMotion Motion)
     /// <summary>How far behind shared time <c>interpolation</c> shows the world.</summary>
     public SimDuration DisplayDelay { get; init; } = Interpolation.DefaultDelay;
 
-    /// <summary>The link of each joiner to the host.</summary>
+    /// <summary>The link of each client to the host.</summary>
     public LinkProfile Link { get; init; } = LinkProfiles.PureDelay(100);
 
     /// <summary>The delay that <see cref="Link"/> adds one way, if it is nothing but that; else null.</summary>
     public double? DelayMilliseconds { get; init; } = 100;
 
-    /// <summary>How many peers, the host included; 2 to 9. The first joiner has the hand, the others look on.</summary>
+    /// <summary>How many peers, the host included; 2 to 9. The first client has the hand, the others look on.</summary>
     public int Peers { get; init; } = 2;
 
     /// <summary>Whether it runs in virtual time; else over real UDP.</summary>

@@ -12,7 +12,7 @@ namespace LagSim.Harness.Experiments.Hold;
 /// <param name="Options">With what.</param>
 /// <param name="Seen">Errors as seen among the peers, at the same shared time. After means: no event is on its way to anybody.</param>
 /// <param name="SeenTrueTime">Errors as seen among the peers, at the same true instant.</param>
-/// <param name="Settled">Errors among the peers of what the timelines say once all news has arrived.</param>
+/// <param name="Settled">Errors among the peers of what the timelines say once every event has arrived.</param>
 /// <param name="StateHashes">Each peer's state at the last sample, the host first.</param>
 /// <param name="EventHashes">Each peer's hash of all events up to then.</param>
 /// <param name="TruthStateHash">The state then of the world that had every accepted event on time.</param>
@@ -24,11 +24,11 @@ namespace LagSim.Harness.Experiments.Hold;
 /// <param name="BytesSentPerSecond">Each peer's datagrams over the whole run, UDP and IP headers included.</param>
 /// <param name="Lateness">By how many milliseconds the hand's events came after their stamp.</param>
 /// <param name="CpuCoresAtRest">Processor use of the whole process at the end; null where not measured, as where the ball slides on.</param>
-/// <param name="Knots">How often the hand told where it is.</param>
-/// <param name="KnotsPerSecond">The same for each second of the motion.</param>
+/// <param name="Keyframes">How often the hand told where it is.</param>
+/// <param name="KeyframesPerSecond">The same for each second of the motion.</param>
 /// <param name="HolderSentPerSecond">Bytes a second that the peer whose hand it is sent while the motion went on, headers included.</param>
 /// <param name="HolderReceivedPerSecond">Bytes a second that came in there meanwhile.</param>
-/// <param name="Own">How far from the hand its own peer showed the ball during the motion: what knots leave out.</param>
+/// <param name="Own">How far from the hand its own peer showed the ball during the motion: what keyframes leave out.</param>
 /// <param name="Views">What each of the others saw of the held ball, in the order of their places.</param>
 /// <param name="Accepted">What the host accepted, in the order of its log.</param>
 /// <param name="Trace">What there is to draw.</param>
@@ -48,8 +48,8 @@ public sealed record HoldRun(
     IReadOnlyList<double> BytesSentPerSecond,
     Percentiles Lateness,
     double? CpuCoresAtRest,
-    long Knots,
-    double KnotsPerSecond,
+    long Keyframes,
+    double KeyframesPerSecond,
     double HolderSentPerSecond,
     double HolderReceivedPerSecond,
     ErrorStatistics Own,
@@ -68,9 +68,9 @@ public sealed record HoldRun(
 
 /// <summary>How far from the hand another peer saw the ball that it holds, during the motion and at the same shared time. Immutable.</summary>
 /// <param name="Peer">Whose view: the place in the group, 0 is the host.</param>
-/// <param name="Simulated">Of the ball as that peer's world has it: the last knot foretold by the fixed rule.</param>
+/// <param name="Simulated">Of the ball as that peer's world has it: the last keyframe foretold by the fixed rule.</param>
 /// <param name="Predicted">Of a ball drawn where <see cref="Net.Display.AdaptivePredictor"/> tells that the hand is.</param>
-/// <param name="CandidateMetres">Rms errors of each predictor that it mixes, alone, from the same news; in its order.</param>
+/// <param name="CandidateMetres">Rms errors of each predictor that it mixes, alone, from the same keyframes; in its order.</param>
 public sealed record HeldView(int Peer, ErrorStatistics Simulated, ErrorStatistics Predicted, IReadOnlyList<double> CandidateMetres)
 {
     /// <summary>Of drawing it where the hand was last known to be.</summary>

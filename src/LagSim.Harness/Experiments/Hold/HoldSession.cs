@@ -10,7 +10,7 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Hold;
 
-/// <summary>One session as the holder's game plays it: a grab, frames in which knots go out as <see cref="HandSender"/> says, and a release at the hand's velocity.</summary>
+/// <summary>One session as the holder's game plays it: a grab, frames in which keyframes go out as <see cref="HandSender"/> says, and a release at the hand's velocity.</summary>
 internal sealed class HoldSession
 {
     private static readonly BodyId Ball = BodyId.OfScene(0);
@@ -25,12 +25,12 @@ internal sealed class HoldSession
         this.peers = peers;
         this.course = course;
         this.progress = progress;
-        News = new NewsWatch(peers);
+        LateEvents = new LateEventWatch(peers);
         Hand = new HandWatch(peers);
     }
 
     /// <summary>When everybody showed what, and what the host accepted.</summary>
-    internal NewsWatch News { get; }
+    internal LateEventWatch LateEvents { get; }
 
     /// <summary>What everybody heard of the hand.</summary>
     internal HandWatch Hand { get; }
@@ -71,7 +71,7 @@ internal sealed class HoldSession
         Grab = Do(PlayerAction.Grab(Ball));
         SimDuration since = Grab - peers.Start;
         SimDuration lifted = since + SimDuration.FromSeconds(HandCourse.LiftSeconds), release = since + SimDuration.FromSeconds(course.Release);
-        HandSender sender = new(Ball, new HandSenderOptions { Distance = options.KnotDistanceMetres });
+        HandSender sender = new(Ball, new HandSenderOptions { Distance = options.KeyframeDistanceMetres });
         bool isMoving = false;
         for (int frame = 0; since + SimDuration.FromSeconds(frame / (double)HandMotion.RateHertz) is SimDuration due && due < release; frame++)
         {
@@ -84,9 +84,9 @@ internal sealed class HoldSession
 
             SimTime now = clock.Now;
             double held = (now - Grab).ToSeconds();
-            if (sender.TrySample(now, course.At(held), course.VelocityAt(held), out PlayerAction knot))
+            if (sender.TrySample(now, course.At(held), course.VelocityAt(held), out PlayerAction keyframe))
             {
-                Do(knot);
+                Do(keyframe);
             }
         }
 
@@ -101,7 +101,7 @@ internal sealed class HoldSession
     private SimTime Do(PlayerAction action)
     {
         ExternalEvent done = peers.Do(HoldTest.Holder, action);
-        News.Did(done);
+        LateEvents.Did(done);
         return done.Time;
     }
 }

@@ -14,7 +14,7 @@ namespace LagSim.Harness.Experiments.Hold;
 /// <summary>A session in which one peer's hand takes the ball, moves it and throws it, and the others see that late and heal.</summary>
 public static class HoldTest
 {
-    /// <summary>The peer whose hand it is: the first joiner, so that its events take the host's verdict.</summary>
+    /// <summary>The peer whose hand it is: the first client, so that its events take the host's verdict.</summary>
     public const int Holder = 1;
 
     /// <summary>Nobody may hear of the start when it is past: 2 s one way, and again for what is lost.</summary>
@@ -60,9 +60,9 @@ public static class HoldTest
     {
         SampleGrid grid = peers.Grid;
         int last = grid.Count - 1;
-        Simulation truth = GroupFigures.Truth(peers, session.News.Accepted, options.Cancellation);
-        IReadOnlyList<(SimTime Stamp, SimTime Dealt)> windows = session.News.Windows;
-        Phase[] phases = Instants(n => NewsWatch.PhaseAt(windows, grid.At(n)));
+        Simulation truth = GroupFigures.Truth(peers, session.LateEvents.Accepted, options.Cancellation);
+        IReadOnlyList<(SimTime Stamp, SimTime Dealt)> windows = session.LateEvents.Windows;
+        Phase[] phases = Instants(n => LateEventWatch.PhaseAt(windows, grid.At(n)));
         Vector3D[] hand = Instants(n => session.HandAt(grid.At(n)) ?? Nowhere);
         int first = grid.FirstAfter(session.MotionStart), end = grid.FirstAfter(session.ThrowStart);
         int[] others = Enumerable.Range(0, peers.PeerCount).Where(place => place != Holder).ToArray();
@@ -74,8 +74,8 @@ public static class HoldTest
             drawn.Add(at);
         }
 
-        long knots = session.News.Accepted.Count(e => e.Kind == EventKind.HoldKnot);
-        long during = session.News.Accepted.Count(e => e.Kind == EventKind.HoldKnot && e.Time >= session.MotionStart && e.Time < session.ThrowStart);
+        long keyframes = session.LateEvents.Accepted.Count(e => e.Kind == EventKind.HoldKeyframe);
+        long during = session.LateEvents.Accepted.Count(e => e.Kind == EventKind.HoldKeyframe && e.Time >= session.MotionStart && e.Time < session.ThrowStart);
         return new HoldRun(
             options,
             Errors(peers.Seen),
@@ -92,13 +92,13 @@ public static class HoldTest
             GroupFigures.BytesPerSecond(session.TrafficAtStart, session.TrafficAtEnd, options.Length.ToSeconds()),
             Percentiles.Of(GroupFigures.Latenesses(peers)),
             peers.CpuCoresAtRest,
-            knots,
+            keyframes,
             during / (session.ThrowStart - session.MotionStart).ToSeconds(),
             (session.TrafficAtThrow.BytesSent - session.TrafficAtMotion.BytesSent) / course.Seconds,
             (session.TrafficAtThrow.BytesReceived - session.TrafficAtMotion.BytesReceived) / course.Seconds,
             Off(peers.Seen[Holder], hand, first, end),
             views,
-            session.News.Accepted,
+            session.LateEvents.Accepted,
             new HoldTrace(
                 Instants(n => (grid.At(n) - peers.Start).ToSeconds()),
                 hand,
@@ -124,7 +124,7 @@ public static class HoldTest
     /// <summary>What one of the others saw, and would have seen with the predictor: it hears again what it heard, when it did, frame by frame.</summary>
     private static HeldView View(PeerGroup peers, HoldSession session, int place, Vector3D[] hand, int first, int end, out Vector3D[] drawn)
     {
-        IReadOnlyList<HandNews> heard = session.Hand.HeardBy(place);
+        IReadOnlyList<HandUpdate> heard = session.Hand.HeardBy(place);
         HandView view = new();
         ErrorAccumulator predicted = new();
         double[] candidates = new double[AdaptivePredictor.Candidates.Count];
@@ -135,7 +135,7 @@ public static class HoldTest
             SimTime now = peers.Grid.At(n);
             for (; next < heard.Count && heard[next].Heard <= now; next++)
             {
-                if (heard[next].Event.Kind == EventKind.HoldKnot)
+                if (heard[next].Event.Kind == EventKind.HoldKeyframe)
                 {
                     view.Hear(heard[next]);
                 }

@@ -12,7 +12,7 @@ public interface IPeerRun
     /// <summary>Errors as seen, at the same true instant.</summary>
     PhaseErrors SeenTrueTime { get; }
 
-    /// <summary>Errors of what the timelines say once all news has arrived.</summary>
+    /// <summary>Errors of what the timelines say once every event has arrived.</summary>
     PhaseErrors Settled { get; }
 
     /// <summary>Each peer's state at the last sample, the host first.</summary>

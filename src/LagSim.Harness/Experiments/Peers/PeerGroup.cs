@@ -10,7 +10,7 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Peers;
 
-/// <summary>A host and its joiners in one process, each with a clock of its own, watched while they share a world.</summary>
+/// <summary>A host and its clients in one process, each with a clock of its own, watched while they share a world.</summary>
 /// <remarks>In real time (<see cref="RealPeers"/>) and in virtual time (<see cref="VirtualPeers"/>) the same sessions and strategies run.</remarks>
 public abstract class PeerGroup : IDisposable
 {
@@ -49,7 +49,7 @@ public abstract class PeerGroup : IDisposable
     /// <summary>What each peer's timelines say in the end.</summary>
     public IReadOnlyList<PeerSamples> Settled { get; private protected set; } = [];
 
-    /// <summary>The largest distance of a joiner's shared clock from the host's at each true instant that was sampled, in milliseconds.</summary>
+    /// <summary>The largest distance of a client's shared clock from the host's at each true instant that was sampled, in milliseconds.</summary>
     public double[] ClockErrorMilliseconds { get; private protected set; } = [];
 
     /// <summary>Processor seconds per second while everything rested and nobody watched; null where that was not measured.</summary>

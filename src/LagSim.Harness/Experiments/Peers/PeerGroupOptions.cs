@@ -10,7 +10,7 @@ namespace LagSim.Harness.Experiments.Peers;
 
 /// <summary>How the peers of a test are connected and watched.</summary>
 /// <param name="Peers">How many, the host included; 2 to 9.</param>
-/// <param name="Link">The link of each joiner to the host.</param>
+/// <param name="Link">The link of each client to the host.</param>
 /// <param name="Strategy">What all do with late events.</param>
 /// <param name="Seed">The luck of links and clocks.</param>
 /// <param name="Length">How long the run is watched, from its start.</param>
@@ -42,7 +42,7 @@ public sealed record PeerGroupOptions(
         Strategy = Strategy,
         DisplayDelay = DisplayDelay,
         StartLead = StartLead,
-        ExpectedJoiners = Peers - 1,
+        ExpectedClients = Peers - 1,
         PlayerBudget = null, // what is measured is not to depend on what it costs
         Window = new(LatencyCompensationWindow.MaxHistory),
         ExtraHistory = SimDuration.FromSeconds(60),

@@ -42,40 +42,40 @@ public sealed class PeerSamples
     /// <summary>The instant of the world that the peer shows when its shared clock reads that; never one before the scene began. See <see cref="Net.Sessions.Session.DisplayTime"/>.</summary>
     public SimTime ShownAt(SimTime shared) => SimTime.Max(shared - displayDelay, SimTime.Min(shared, grid.Start));
 
-    /// <summary>Whether the peer's picture covered the n-th instant at the time; if not it stalled.</summary>
+    /// <summary>Whether the peer's render snapshot covered the n-th instant at the time; if not it stalled.</summary>
     public bool IsShown(int n) => shown[n];
 
     /// <summary>The state of a body at the n-th instant, by its place in the list of bodies.</summary>
     public BodyState State(int n, int body) => states[(n * bodies.Length) + body];
 
     /// <summary>Samples every instant that the clock has reached.</summary>
-    /// <param name="picture">What the peer shows now; null: nothing.</param>
+    /// <param name="snapshot">What the peer shows now; null: nothing.</param>
     /// <param name="now">What its shared clock reads now.</param>
-    /// <param name="patience">
-    /// An instant further in the past than this, which was not sampled when it was due, counts as stalled, unless the picture is still the
+    /// <param name="timeout">
+    /// An instant further in the past than this, which was not sampled when it was due, counts as stalled, unless the render snapshot is still the
     /// one of the last look: then it showed the instant as it does now.
     /// </param>
-    public void Take(Picture? picture, SimTime now, SimDuration patience)
+    public void Take(RenderSnapshot? snapshot, SimTime now, SimDuration timeout)
     {
-        bool unchanged = picture is not null && picture.Number == lastNumber;
-        lastNumber = picture?.Number ?? 0;
+        bool unchanged = snapshot is not null && snapshot.Number == lastNumber;
+        lastNumber = snapshot?.Number ?? 0;
         while (!IsComplete && NextTime <= now)
         {
-            if ((unchanged || now - NextTime <= patience) && picture is not null && picture.Covers(ShownAt(NextTime)))
+            if ((unchanged || now - NextTime <= timeout) && snapshot is not null && snapshot.Covers(ShownAt(NextTime)))
             {
-                Read(picture, ShownAt(NextTime), Next);
+                Read(snapshot, ShownAt(NextTime), Next);
             }
 
             Next++;
         }
     }
 
-    /// <summary>Samples the n-th instant as the picture shows another one; what is seen at one true instant differs by the clocks' error.</summary>
-    public void TakeAt(int n, Picture? picture, SimTime now)
+    /// <summary>Samples the n-th instant as the render snapshot shows another one; what is seen at one true instant differs by the clocks' error.</summary>
+    public void TakeAt(int n, RenderSnapshot? snapshot, SimTime now)
     {
-        if (picture is not null && picture.Covers(ShownAt(now)))
+        if (snapshot is not null && snapshot.Covers(ShownAt(now)))
         {
-            Read(picture, ShownAt(now), n);
+            Read(snapshot, ShownAt(now), n);
         }
 
         Next = Math.Max(Next, n + 1);
@@ -102,11 +102,11 @@ public sealed class PeerSamples
         }
     }
 
-    private void Read(Picture picture, SimTime time, int n)
+    private void Read(RenderSnapshot snapshot, SimTime time, int n)
     {
         for (int body = 0; body < bodies.Length; body++)
         {
-            picture.TryRead(bodies[body], time, out states[(n * bodies.Length) + body]);
+            snapshot.TryRead(bodies[body], time, out states[(n * bodies.Length) + body]);
         }
 
         shown[n] = true;

@@ -26,7 +26,7 @@ public sealed class RealPeers : PeerGroup
     private static readonly SimDuration AnswerDeadline = SimDuration.FromSeconds(5);
 
     /// <summary>A sample taken later than this after its instant was no sample of that instant.</summary>
-    private static readonly SimDuration Patience = SimDuration.FromMilliseconds(4);
+    private static readonly SimDuration Timeout = SimDuration.FromMilliseconds(4);
 
     private readonly PeerGroupOptions options;
     private readonly StopwatchClock trueTime = new();
@@ -58,7 +58,7 @@ public sealed class RealPeers : PeerGroup
             threads[peer] = new PeerThread(
                 peer == 0
                     ? new HostSession(scene, port, own, session, number)
-                    : new JoinerSession(scene, port, own, session, ports[0].LocalAddress, number),
+                    : new ClientSession(scene, port, own, session, ports[0].LocalAddress, number),
                 port,
                 $"LagSim peer {peer}");
         }
@@ -166,8 +166,8 @@ public sealed class RealPeers : PeerGroup
     /// <summary>The link by which a peer hears of another. Both ways have one clock and one path, so that what befalls a link does so both ways at once.</summary>
     private LinkModel LinkTo(int receiver, PeerAddress from)
     {
-        int joiner = receiver == 0 ? Array.FindIndex(ports, port => port?.LocalAddress == from) : receiver;
-        SeededRandom luck = new SeededRandom(options.Seed).Fork((ulong)joiner);
+        int client = receiver == 0 ? Array.FindIndex(ports, port => port?.LocalAddress == from) : receiver;
+        SeededRandom luck = new SeededRandom(options.Seed).Fork((ulong)client);
         if (receiver == 0)
         {
             return new LinkModel(options.Link.ToHost, luck.Fork(0), luck.Fork(2));
@@ -236,7 +236,7 @@ public sealed class RealPeers : PeerGroup
     {
         Session session = threads[peer].Session;
         int before = Seen[peer].Next;
-        Seen[peer].Take(threads[peer].Latest(), session.SharedTime.Now, Patience);
+        Seen[peer].Take(threads[peer].Latest(), session.SharedTime.Now, Timeout);
         if (peer == 0 && Seen[0].Next > before)
         {
             SampleTrueTime(before, Seen[0].Next);

@@ -21,7 +21,7 @@ public sealed class VirtualPeers : PeerGroup
     private static readonly SimDuration ConnectDeadline = SimDuration.FromSeconds(60);
 
     /// <summary>The clocks' differing speeds make a sample some nanoseconds late at most, some microseconds while one is bent.</summary>
-    private static readonly SimDuration Patience = SimDuration.FromMilliseconds(0.5);
+    private static readonly SimDuration Timeout = SimDuration.FromMilliseconds(0.5);
 
     private readonly PeerGroupOptions options;
     private readonly VirtualClock clock = new(SimTime.FromSeconds(2 * ClockSpreadSeconds));
@@ -50,7 +50,7 @@ public sealed class VirtualPeers : PeerGroup
             session.Cancellation = stop.Token;
             sessions[peer] = peer == 0
                 ? new HostSession(scene, port, own, session, options.Seed)
-                : new JoinerSession(scene, port, own, session, PeerAddress.Virtual(0), options.Seed + (ulong)peer);
+                : new ClientSession(scene, port, own, session, PeerAddress.Virtual(0), options.Seed + (ulong)peer);
             steps.Add(sessions[peer], port);
         }
     }
@@ -136,7 +136,7 @@ public sealed class VirtualPeers : PeerGroup
             Session session = sessions[peer];
             bool isHostsInstant = peer == 0 && !Seen[0].IsComplete && Seen[0].NextTime <= session.SharedTime.Now;
             int n = Seen[0].Next;
-            Seen[peer].Take(session.World!.Pictures.Latest(), session.SharedTime.Now, Patience);
+            Seen[peer].Take(session.World!.RenderSnapshots.Latest(), session.SharedTime.Now, Timeout);
             if (isHostsInstant)
             {
                 SampleTrueTime(n);
@@ -150,7 +150,7 @@ public sealed class VirtualPeers : PeerGroup
         for (int peer = 0; peer < PeerCount; peer++)
         {
             SimTime own = sessions[peer].SharedTime.Now;
-            SeenTrueTime[peer].TakeAt(n, sessions[peer].World!.Pictures.Latest(), own);
+            SeenTrueTime[peer].TakeAt(n, sessions[peer].World!.RenderSnapshots.Latest(), own);
             ClockErrorMilliseconds[n] = Math.Max(ClockErrorMilliseconds[n], Math.Abs((own - host).ToMilliseconds()));
         }
     }

@@ -65,7 +65,7 @@ internal sealed class SweepRun
         for (int n = 1; n <= cell.Clients; n++)
         {
             network.Connect(n, 0, link, up, down);
-            JoinerSession session = (JoinerSession)Add(n, seed);
+            ClientSession session = (ClientSession)Add(n, seed);
             LogCoverage coverage = new(_ => accepted);
             coverage.Follow(session);
             Client client = new(session, n, coverage);
@@ -209,10 +209,10 @@ internal sealed class SweepRun
     {
         IDatagramPort port = network.CreatePort(number);
         SkewedClock own = new(clock, random.NextDouble(-30, 30), SimDuration.FromSeconds(random.NextDouble(0, 3600)));
-        SessionOptions its = new() { ExpectedJoiners = cell.Clients, PlayerBudget = null, Cancellation = cancellation };
+        SessionOptions its = new() { ExpectedClients = cell.Clients, PlayerBudget = null, Cancellation = cancellation };
         Session session = number == 0
             ? new HostSession(BuiltInScenes.Billiards(), port, own, its, seed)
-            : new JoinerSession(null, port, own, its, PeerAddress.Virtual(0), seed + (ulong)number);
+            : new ClientSession(null, port, own, its, PeerAddress.Virtual(0), seed + (ulong)number);
         options.Prepare?.Invoke(number, session);
         steps.Add(session, port);
         return session;
@@ -290,9 +290,9 @@ internal sealed class SweepRun
 
     private string States() => string.Join("; ", clients.Select(c => $"client {c.Number} {c.Session.State} {c.Session.EndReason}"));
 
-    private sealed class Client(JoinerSession session, int number, LogCoverage coverage)
+    private sealed class Client(ClientSession session, int number, LogCoverage coverage)
     {
-        internal JoinerSession Session { get; } = session;
+        internal ClientSession Session { get; } = session;
 
         internal int Number { get; } = number;
 

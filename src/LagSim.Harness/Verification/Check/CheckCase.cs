@@ -16,12 +16,12 @@ internal sealed class CheckCase
     /// <summary>For so long of shared time things are done, in seconds.</summary>
     internal const double Length = 10;
 
-    private const int FewestDeeds = 27;
+    private const int FewestActions = 27;
     private const int MostSpawns = 6;
     private const int MostRemovals = 3;
 
-    private const int FewestKnots = 2;
-    private const int MostKnots = 10;
+    private const int FewestKeyframes = 2;
+    private const int MostKeyframes = 10;
 
     /// <summary>Who needs longer than this for a round trip is there from the start as a rule: to get in takes several.</summary>
     private const double SlowMilliseconds = 500;
@@ -61,7 +61,7 @@ internal sealed class CheckCase
     private const ulong MostAttempts = 20;
 
     /// <summary>
-    /// What a scene may cost, as events that it takes alone: lasting contact takes some thousand a second, and a few heaps would take all the time there is.
+    /// What a scene may cost, as events that it takes alone: persistent contact takes some thousand a second, and a few heaps would take all the time there is.
     /// A scene that takes more is drawn again; so contacts last for a second or two in all, but for a few sessions.
     /// </summary>
     private const long UsualEvents = 1_500;
@@ -71,7 +71,7 @@ internal sealed class CheckCase
     private readonly bool isHeap;
     private readonly CheckScene room;
     private readonly List<CheckPlayer> players = [];
-    private readonly List<CheckDeed> deeds = [];
+    private readonly List<CheckAction> scriptedActions = [];
 
     /// <exception cref="OperationCanceledException">It was asked to stop.</exception>
     internal CheckCase(ulong seed, CheckOptions options, CancellationToken cancellation = default)
@@ -94,7 +94,7 @@ internal sealed class CheckCase
                 : sort < HeapPercent + BoxPercent ? new BoxScene(things)
                 : sort < HeapPercent + BoxPercent + OrbitPercent ? new OrbitScene(things)
                 : new RoomScene(things);
-            DrawDeeds(random.Fork(FirstRoom + (2 * attempt) + 1));
+            DrawActions(random.Fork(FirstRoom + (2 * attempt) + 1));
             DrawHands(random.Fork(FirstHands + attempt));
             if (attempt == MostAttempts || IsWithin(room.MostEvents ?? budget, cancellation))
             {
@@ -107,9 +107,9 @@ internal sealed class CheckCase
         // What is compared at the end is all since the start, or only what a session keeps of itself.
         ExtraHistory = rest.IsLucky(50) ? SimDuration.FromSeconds(60) : SimDuration.Zero;
         BodyIndices = options.Bodies ?? Enumerable.Range(0, room.BodyCount).ToArray();
-        DeedIndices = options.Events ?? Enumerable.Range(0, deeds.Count).ToArray();
+        ActionIndices = options.Events ?? Enumerable.Range(0, scriptedActions.Count).ToArray();
         Throw(BodyIndices, room.BodyCount, "bodies", seed);
-        Throw(DeedIndices, deeds.Count, "events", seed);
+        Throw(ActionIndices, scriptedActions.Count, "events", seed);
         Scene = room.Build(BodyIndices);
         Accelerations = CheckScene.Accelerations;
         double worst = players.Max(p => WorstMilliseconds(p.Link.ToHost));
@@ -124,7 +124,7 @@ internal sealed class CheckCase
 
     internal IReadOnlyList<IAcceleration> Accelerations { get; }
 
-    /// <summary>The host, and the joiners in the order of their addresses.</summary>
+    /// <summary>The host, and the clients in the order of their addresses.</summary>
     internal IReadOnlyList<CheckPlayer> Players => players;
 
     /// <summary>Whether a link has a rate, so that events may wait in its queue, or be refused.</summary>
@@ -134,13 +134,13 @@ internal sealed class CheckCase
     internal bool HasStops => players.Exists(p => p.Stop is not null);
 
     /// <summary>All that was drawn, by ascending time.</summary>
-    internal IReadOnlyList<CheckDeed> Deeds => deeds;
+    internal IReadOnlyList<CheckAction> ScriptedActions => scriptedActions;
 
     /// <summary>Which of the scene's bodies there are.</summary>
     internal IReadOnlyList<int> BodyIndices { get; }
 
-    /// <summary>Which of the deeds are done.</summary>
-    internal IReadOnlyList<int> DeedIndices { get; }
+    /// <summary>Which of the scripted actions are done.</summary>
+    internal IReadOnlyList<int> ActionIndices { get; }
 
     internal SimDuration History { get; }
 
@@ -226,7 +226,7 @@ internal sealed class CheckCase
             players[who] = players[who] with { Stop = (at, seconds) };
             for (int peer = 1; peer < players.Count && who == 0; peer++)
             {
-                // Who is on the way in gives up a host that stands for longer than its patience, and is right to.
+                // Who is on the way in gives up a host that stands for longer than its timeout, and is right to.
                 bool isInVain = players[peer].AsksAtSeconds is double asks && asks > at - LongestEntry && asks < at + seconds;
                 players[peer] = isInVain ? players[peer] with { AsksAtSeconds = at + seconds } : players[peer];
             }
@@ -286,18 +286,18 @@ internal sealed class CheckCase
     {
         Scene scene = room.Build([.. Enumerable.Range(0, room.BodyCount)]);
         Simulation alone = new(scene, new SimulationOptions(cancellation: cancellation));
-        BodyId[] bodies = new BodyId[deeds.Count];
-        for (int i = 0; i < deeds.Count; i++)
+        BodyId[] bodies = new BodyId[scriptedActions.Count];
+        for (int i = 0; i < scriptedActions.Count; i++)
         {
-            CheckDeed deed = deeds[i];
-            SimTime time = SimTime.FromSeconds(deed.AtSeconds);
+            CheckAction scripted = scriptedActions[i];
+            SimTime time = SimTime.FromSeconds(scripted.AtSeconds);
             if (!alone.TryAdvanceTo(SimTime.Max(time - SimDuration.OneTick, alone.SimulatedTo), ref budget))
             {
                 return false;
             }
 
             StepsAhead = alone.Engine.Stepper.StepsTaken;
-            ExternalEvent external = deed.On(deed.Spawn >= 0 ? bodies[deed.Spawn] : BodyId.OfScene(Math.Max(0, deed.Body))).Stamp(time, (byte)deed.Peer, (uint)i + 1);
+            ExternalEvent external = scripted.On(scripted.Spawn >= 0 ? bodies[scripted.Spawn] : BodyId.OfScene(Math.Max(0, scripted.Body))).Stamp(time, (byte)scripted.Peer, (uint)i + 1);
             bodies[i] = external.Body;
             alone.Submit(external);
         }
@@ -305,10 +305,10 @@ internal sealed class CheckCase
         return alone.TryAdvanceTo(SimTime.FromSeconds(Length), ref budget);
     }
 
-    private void DrawDeeds(SeededRandom random)
+    private void DrawActions(SeededRandom random)
     {
-        deeds.Clear();
-        int count = FewestDeeds + random.NextInt(17);
+        scriptedActions.Clear();
+        int count = FewestActions + random.NextInt(17);
         List<int> spawns = [];
         double[] times = Enumerable.Range(0, count).Select(_ => random.NextDouble() * room.BusySeconds).Order().ToArray();
         int removals = 0;
@@ -316,13 +316,13 @@ internal sealed class CheckCase
         {
             // In the same instant as the one before, by the same player or another, and often to the same body.
             bool isTogether = i > 0 && random.IsLucky(25);
-            double at = isTogether ? deeds[i - 1].AtSeconds : times[i];
-            int peer = isTogether && random.IsLucky(60) ? deeds[i - 1].Peer : random.NextInt(players.Count);
+            double at = isTogether ? scriptedActions[i - 1].AtSeconds : times[i];
+            int peer = isTogether && random.IsLucky(60) ? scriptedActions[i - 1].Peer : random.NextInt(players.Count);
             int spawn = spawns.Count > 0 && random.IsLucky(20) ? spawns[random.NextInt(spawns.Count)] : -1;
             int body = spawn >= 0 ? -1 : room.DrawBody(random);
-            if (isTogether && deeds[i - 1].Kind != EventKind.Spawn && random.IsLucky(50))
+            if (isTogether && scriptedActions[i - 1].Kind != EventKind.Spawn && random.IsLucky(50))
             {
-                (body, spawn) = (deeds[i - 1].Body, deeds[i - 1].Spawn);
+                (body, spawn) = (scriptedActions[i - 1].Body, scriptedActions[i - 1].Spawn);
             }
 
             EventKind kind = random.Pick(
@@ -333,8 +333,8 @@ internal sealed class CheckCase
                 kind = EventKind.SetVelocity;
             }
 
-            BodySpec spec = kind == EventKind.Spawn ? room.DrawSpec() : spawn >= 0 ? deeds[spawn].Spec : room.SpecOf(body);
-            deeds.Add(new CheckDeed(
+            BodySpec spec = kind == EventKind.Spawn ? room.DrawSpec() : spawn >= 0 ? scriptedActions[spawn].Spec : room.SpecOf(body);
+            scriptedActions.Add(new CheckAction(
                 at, peer, kind, kind == EventKind.Spawn ? -1 : body, kind == EventKind.Spawn ? -1 : spawn, room.DrawPosition(), room.DrawVelocity(6), spec,
                 kind == EventKind.Spawn ? room.DrawSpin(spec) : default));
             removals += kind == EventKind.Remove ? 1 : 0;
@@ -348,38 +348,38 @@ internal sealed class CheckCase
     /// <summary>Hands that take a body, move it about and let go of it, or only cease to tell where they are; often two at one time are after the same.</summary>
     private void DrawHands(SeededRandom random)
     {
-        List<CheckDeed> all = [.. deeds];
-        int[] spawns = [.. Enumerable.Range(0, deeds.Count).Where(i => deeds[i].Kind == EventKind.Spawn)];
+        List<CheckAction> all = [.. scriptedActions];
+        int[] spawns = [.. Enumerable.Range(0, scriptedActions.Count).Where(i => scriptedActions[i].Kind == EventKind.Spawn)];
         int hands = room.FewestHands + random.NextInt(room.MostHands - room.FewestHands + 1);
-        CheckDeed? before = null;
+        CheckAction? before = null;
         for (int hand = 0; hand < hands; hand++)
         {
             int spawn = spawns.Length > 0 && random.IsLucky(20) ? random.Pick(spawns) : -1;
             int body = spawn >= 0 ? -1 : room.DrawHeld(random);
-            double at = spawn >= 0 ? random.NextDouble(deeds[spawn].AtSeconds, room.BusySeconds) : random.NextDouble(0, room.GraspSeconds);
+            double at = spawn >= 0 ? random.NextDouble(scriptedActions[spawn].AtSeconds, room.BusySeconds) : random.NextDouble(0, room.GraspSeconds);
             if (before is not null && random.IsLucky(50))
             {
                 (spawn, body) = (before.Spawn, before.Body);
                 at = Math.Min(Length, before.AtSeconds + random.Pick(0, 0, random.NextDouble()));
             }
 
-            CheckDeed deed = new(at, random.NextInt(players.Count), EventKind.Grab, body, spawn, new Vector3D(random.NextDouble(-0.1, 0.1), random.NextDouble(-0.1, 0.1), 0), default, default);
-            all.Add(deed);
-            before = deed;
+            CheckAction scripted = new(at, random.NextInt(players.Count), EventKind.Grab, body, spawn, new Vector3D(random.NextDouble(-0.1, 0.1), random.NextDouble(-0.1, 0.1), 0), default, default);
+            all.Add(scripted);
+            before = scripted;
             Vector3D position = room.DrawPosition();
-            for (int knots = FewestKnots + random.NextInt(MostKnots - FewestKnots + 1); knots > 0 && at < Length; knots--)
+            for (int keyframes = FewestKeyframes + random.NextInt(MostKeyframes - FewestKeyframes + 1); keyframes > 0 && at < Length; keyframes--)
             {
                 // Some of the way to anywhere in the room, so it never leaves that.
                 double gap = random.Pick(0.02, 0.1, 0.1, 0.3);
                 Vector3D velocity = (room.DrawPosition() - position) * 1.5;
-                all.Add(deed with { AtSeconds = at, Kind = EventKind.HoldKnot, Position = position, Velocity = velocity });
+                all.Add(scripted with { AtSeconds = at, Kind = EventKind.HoldKeyframe, Position = position, Velocity = velocity });
                 position += velocity * gap;
                 at += gap;
             }
 
             if (at < Length && random.IsLucky(70))
             {
-                all.Add(deed with { AtSeconds = at, Kind = EventKind.Release, Velocity = room.DrawVelocity(6) });
+                all.Add(scripted with { AtSeconds = at, Kind = EventKind.Release, Velocity = room.DrawVelocity(6) });
             }
         }
 
@@ -391,7 +391,7 @@ internal sealed class CheckCase
             place[order[i]] = i;
         }
 
-        deeds.Clear();
-        deeds.AddRange(order.Select(i => all[i].Spawn < 0 ? all[i] : all[i] with { Spawn = place[all[i].Spawn] }));
+        scriptedActions.Clear();
+        scriptedActions.AddRange(order.Select(i => all[i].Spawn < 0 ? all[i] : all[i] with { Spawn = place[all[i].Spawn] }));
     }
 }

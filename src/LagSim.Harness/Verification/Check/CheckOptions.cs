@@ -28,7 +28,7 @@ public sealed record CheckOptions
     /// <summary>How many at most, up to <see cref="MostPeers"/>; default 8.</summary>
     public int ToPeers { get; init; } = MostPeers;
 
-    /// <summary>The link of every joiner; null, the default: each has its own, drawn from all profiles and all pure delays of 0 to 2 s.</summary>
+    /// <summary>The link of every client; null, the default: each has its own, drawn from all profiles and all pure delays of 0 to 2 s.</summary>
     public LinkProfile? Profile { get; init; }
 
     /// <summary>What peers do with late events, one of <see cref="LateEventStrategies.Names"/>.</summary>

@@ -58,7 +58,7 @@ public sealed record CheckOutcome
     public long RefusedEvents { get; init; }
 
     /// <summary>Peers that came in after the start.</summary>
-    public int LateJoiners { get; init; }
+    public int LateClients { get; init; }
 
     /// <summary>Peers that left or vanished.</summary>
     public int Leavers { get; init; }
@@ -79,5 +79,5 @@ public sealed record CheckOutcome
     public IReadOnlyList<int> Bodies { get; init; } = [];
 
     /// <summary>What of it was played: what was to be done, by index.</summary>
-    public IReadOnlyList<int> Deeds { get; init; } = [];
+    public IReadOnlyList<int> ScriptedActions { get; init; } = [];
 }

@@ -22,8 +22,8 @@ internal sealed class CheckSession
     /// <summary>What a clock of a machine reads at least: true time begins this far from its origin.</summary>
     private const double Origin = 10;
 
-    /// <summary>How long peers may take to get in, and the news to get everywhere, in seconds; much longer than on the worst of links.</summary>
-    private const double Patience = 120;
+    /// <summary>How long peers may take to get in, and the events to get everywhere, in seconds; much longer than on the worst of links.</summary>
+    private const double Timeout = 120;
 
     /// <summary>Clocks of one session are not further apart, but on slow and uneven ways.</summary>
     private static readonly SimDuration LongestWait = SimDuration.FromMilliseconds(50);
@@ -34,7 +34,7 @@ internal sealed class CheckSession
     private readonly VirtualClock clock = new(SimTime.FromSeconds(Origin));
     private readonly VirtualNetwork network;
     private readonly VirtualSteps steps;
-    private readonly List<Member> members = []; // by address; joiners that come late are added when they ask
+    private readonly List<Member> members = []; // by address; clients that come late are added when they ask
     private readonly List<ExternalEvent> accepted = [];
     private readonly List<uint> acceptedEntries = [];
     private readonly BodyId?[] spawned;
@@ -49,7 +49,7 @@ internal sealed class CheckSession
         this.cancellation = cancellation;
         network = new VirtualNetwork(clock, drawn.Seed);
         steps = new VirtualSteps(network);
-        spawned = new BodyId?[drawn.Deeds.Count];
+        spawned = new BodyId?[drawn.ScriptedActions.Count];
     }
 
     private HostSession Host => (HostSession)members[0].Session;
@@ -65,7 +65,7 @@ internal sealed class CheckSession
 
     private CheckOutcome Play()
     {
-        CheckOutcome outcome = new() { Seed = drawn.Seed, Bodies = drawn.BodyIndices, Deeds = drawn.DeedIndices };
+        CheckOutcome outcome = new() { Seed = drawn.Seed, Bodies = drawn.BodyIndices, ScriptedActions = drawn.ActionIndices };
         try
         {
             string? failure = Run();
@@ -80,18 +80,18 @@ internal sealed class CheckSession
     /// <summary>Lets everything happen; a sentence if something came to no end.</summary>
     private string? Run()
     {
-        int expectedJoiners = drawn.Players.Skip(1).Count(p => p.AsksAtSeconds is null);
+        int expectedClients = drawn.Players.Skip(1).Count(p => p.AsksAtSeconds is null);
         for (int peer = 0; peer < drawn.Players.Count; peer++)
         {
             if (peer == 0 || drawn.Players[peer].AsksAtSeconds is null)
             {
-                Add(peer, expectedJoiners);
+                Add(peer, expectedClients);
             }
         }
 
         if (!RunUntil(() => members.All(m => m.Session.World is not null) && Host.State == SessionState.Running))
         {
-            return $"Not all were in after {Patience} s: {States()}.";
+            return $"Not all were in after {Timeout} s: {States()}.";
         }
 
         SimTime start = clock.Now + (Host.World!.Simulation.Start - Host.SharedTime.Now); // true time; the clocks' errors do not matter here
@@ -108,7 +108,7 @@ internal sealed class CheckSession
 
         if (!RunUntil(IsSettled))
         {
-            return $"Not all had heard of everything {Patience} s later: {States()}.";
+            return $"Not all had heard of everything {Timeout} s later: {States()}.";
         }
 
         return members.FirstOrDefault(m => m.Session.State != SessionState.Running && !m.HasGone) is Member ended
@@ -145,16 +145,16 @@ internal sealed class CheckSession
             }
         }
 
-        foreach (int index in drawn.DeedIndices)
+        foreach (int index in drawn.ActionIndices)
         {
-            plan.Add((drawn.Deeds[index].AtSeconds, () => Do(index)));
+            plan.Add((drawn.ScriptedActions[index].AtSeconds, () => Do(index)));
         }
 
         plan.Add((CheckCase.Length, () => { }));
-        return [.. plan.OrderBy(p => p.At)]; // stable: deeds of one instant in the order in which they were drawn
+        return [.. plan.OrderBy(p => p.At)]; // stable: scripted actions of one instant in the order in which they were drawn
     }
 
-    private void Add(int address, int expectedJoiners)
+    private void Add(int address, int expectedClients)
     {
         CheckPlayer player = drawn.Players[address];
         if (address > 0)
@@ -171,15 +171,15 @@ internal sealed class CheckSession
             PlayerBudget = null, // it is about bits, however dear
             Window = new(drawn.History, drawn.LookAhead),
             ExtraHistory = drawn.ExtraHistory,
-            PicturePast = SimDuration.Zero,
+            RenderedPast = SimDuration.Zero,
             Strategy = options.Strategy,
-            ExpectedJoiners = expectedJoiners,
+            ExpectedClients = expectedClients,
             Timeout = SimDuration.FromSeconds(20), // several times the slowest round trip
             Cancellation = cancellation,
         };
         Session session = address == 0
             ? new HostSession(drawn.Scene, port, own, sessionOptions, drawn.Seed)
-            : new JoinerSession(null, port, own, sessionOptions, PeerAddress.Virtual(0), drawn.Seed + (ulong)address);
+            : new ClientSession(null, port, own, sessionOptions, PeerAddress.Virtual(0), drawn.Seed + (ulong)address);
         options.PrepareSession?.Invoke(address, session);
         Member member = new(address, session, steps.Add(session, port));
         members.Add(member);
@@ -197,16 +197,16 @@ internal sealed class CheckSession
         session.Begun += Watch;
         session.Renewed += _ => Watch();
         session.StateCommitted += member.Committed.Add;
-        if (session is JoinerSession joiner)
+        if (session is ClientSession client)
         {
             member.Coverage = new LogCoverage(_ => acceptedEntries);
-            member.Coverage.Follow(joiner);
-            joiner.Interrupted += _ =>
+            member.Coverage.Follow(client);
+            client.Interrupted += _ =>
             {
                 // What is repaired still counts: the world as it was is held against the one that never had a delay.
-                if (joiner.Counters.StatesDiffered > 0)
+                if (client.Counters.StatesDiffered > 0)
                 {
-                    member.Wrong.Add(joiner.World!.Simulation);
+                    member.Wrong.Add(client.World!.Simulation);
                 }
             };
         }
@@ -274,33 +274,33 @@ internal sealed class CheckSession
 
     private void Do(int index)
     {
-        CheckDeed deed = drawn.Deeds[index];
-        BodyId? body = deed.Kind == EventKind.Spawn ? default(BodyId) : deed.Spawn >= 0 ? spawned[deed.Spawn] : drawn.BodyDrawnAs(deed.Body);
+        CheckAction scripted = drawn.ScriptedActions[index];
+        BodyId? body = scripted.Kind == EventKind.Spawn ? default(BodyId) : scripted.Spawn >= 0 ? spawned[scripted.Spawn] : drawn.BodyDrawnAs(scripted.Body);
         if (body is not BodyId target)
         {
             return; // to a body that was left out
         }
 
-        Member actor = members.Find(m => m.Peer == deed.Peer && m.Session.State == SessionState.Running && !m.IsStopped) ?? members[0];
+        Member actor = members.Find(m => m.Peer == scripted.Peer && m.Session.State == SessionState.Running && !m.IsStopped) ?? members[0];
         if (actor.IsStopped)
         {
             return; // nobody is there to do it
         }
 
-        if (deed.Kind == EventKind.Impulse && actor.Session.World!.Simulation.SpecOf(target).Mass != deed.Spec.Mass)
+        if (scripted.Kind == EventKind.Impulse && actor.Session.World!.Simulation.SpecOf(target).Mass != scripted.Spec.Mass)
         {
             return; // it has not heard of the body, or of another of that name: who spawned it went before anybody heard of it
         }
 
-        if (deed.AtSeconds == last.AtSeconds)
+        if (scripted.AtSeconds == last.AtSeconds)
         {
             WaitFor(actor, last.Stamp);
         }
 
-        ExternalEvent external = actor.Session.Do(deed.On(target));
-        last = (deed.AtSeconds, external.Time);
+        ExternalEvent external = actor.Session.Do(scripted.On(target));
+        last = (scripted.AtSeconds, external.Time);
         steps.Wake(actor.Number);
-        spawned[index] = deed.Kind == EventKind.Spawn ? external.Body : null;
+        spawned[index] = scripted.Kind == EventKind.Spawn ? external.Body : null;
     }
 
     /// <summary>Lets time pass until a peer's clock reads that, to the tick; not if that is far off, or past.</summary>
@@ -326,7 +326,7 @@ internal sealed class CheckSession
         {
             bool isOut = member.HasGone || member.Session.State == SessionState.Ended;
             if (!isOut && (member.Session.State != SessionState.Running || member.Session.LogLength != Host.LogLength
-                || member.Session is JoinerSession { UnjudgedEvents: > 0 }))
+                || member.Session is ClientSession { UnconfirmedEvents: > 0 }))
             {
                 return false;
             }
@@ -337,7 +337,7 @@ internal sealed class CheckSession
 
     private bool RunUntil(Func<bool> isSo)
     {
-        SimTime deadline = clock.Now + SimDuration.FromSeconds(Patience);
+        SimTime deadline = clock.Now + SimDuration.FromSeconds(Timeout);
         while (!isSo())
         {
             if (clock.Now >= deadline || Host.State == SessionState.Ended)
@@ -411,7 +411,7 @@ internal sealed class CheckSession
             HasFullLinks = drawn.HasFullLinks,
             HasStops = drawn.HasStops,
             Copies = members.Sum(m => m.Session.Counters.Renewals),
-            LateJoiners = members.Count(m => drawn.Players[m.Peer].AsksAtSeconds is not null && m.Session.World is not null),
+            LateClients = members.Count(m => drawn.Players[m.Peer].AsksAtSeconds is not null && m.Session.World is not null),
             Leavers = members.Count(m => m.HasGone),
             Compared = comparison.Compared,
             DifferingBits = comparison.Differing,

@@ -7,7 +7,7 @@ namespace LagSim.Harness.Verification.Check;
 /// <summary>A random scene: a closed room in which 8 to 12 balls meet each other all the time.</summary>
 /// <remarks>
 /// With and without gravity, often flat, with any restitution and mass ratio, on any law of flight under any of the forces, with and without friction, sometimes around static spheres. Some are calm: what falls there
-/// comes to rest within a second or two, until something happens to it, and so news comes late for a body that rests by then.
+/// comes to rest within a second or two, until something happens to it, and so a late event comes for a body that rests by then.
 /// </remarks>
 internal sealed class RoomScene : CheckScene
 {

@@ -35,7 +35,7 @@ public readonly record struct SceneFeatures
     /// <summary>The Magnus force bent the path of a body that flew.</summary>
     public bool Magnus { get; init; }
 
-    /// <summary>A body on which a force acts besides gravity was in lasting contact under both.</summary>
+    /// <summary>A body on which a force acts besides gravity was in persistent contact under both.</summary>
     public bool ForceInContact { get; init; }
 
     /// <summary>Contact steps were taken.</summary>
@@ -56,10 +56,10 @@ public readonly record struct SceneFeatures
     /// <summary>A body flew by <see cref="MotionLaw.DormandPrince54"/> with fixed steps.</summary>
     public bool FixedSteps { get; init; }
 
-    /// <summary>A body on which a force acts besides gravity was in lasting contact with a static sphere.</summary>
+    /// <summary>A body on which a force acts besides gravity was in persistent contact with a static sphere.</summary>
     public bool ForceOnSphere { get; init; }
 
-    /// <summary>A body on which a force acts besides gravity was in lasting contact with resistance to rolling.</summary>
+    /// <summary>A body on which a force acts besides gravity was in persistent contact with resistance to rolling.</summary>
     public bool ForceWithRolling { get; init; }
 
     /// <param name="alone">The world, advanced to its end, with a history without end.</param>

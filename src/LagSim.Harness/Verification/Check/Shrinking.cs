@@ -47,13 +47,13 @@ internal sealed class Shrinking
         do
         {
             before = Size;
-            Reduce(Least.Deeds, FailsWithDeeds);
+            Reduce(Least.ScriptedActions, FailsWithActions);
             Reduce(Least.Bodies, FailsWithBodies);
         }
         while (Size < before && CanPlay);
     }
 
-    private int Size => Least.Deeds.Count + Least.Bodies.Count;
+    private int Size => Least.ScriptedActions.Count + Least.Bodies.Count;
 
     private bool CanPlay => plays > 0 && !cancellation.IsCancellationRequested;
 
@@ -90,14 +90,14 @@ internal sealed class Shrinking
         }
     }
 
-    private bool FailsWithDeeds(IReadOnlyList<int> deeds) => Fails(Least.Bodies, deeds);
+    private bool FailsWithActions(IReadOnlyList<int> scriptedActions) => Fails(Least.Bodies, scriptedActions);
 
-    private bool FailsWithBodies(IReadOnlyList<int> bodies) => bodies.Count > 0 && Fails(bodies, Least.Deeds);
+    private bool FailsWithBodies(IReadOnlyList<int> bodies) => bodies.Count > 0 && Fails(bodies, Least.ScriptedActions);
 
-    private bool Fails(IReadOnlyList<int> bodies, IReadOnlyList<int> deeds)
+    private bool Fails(IReadOnlyList<int> bodies, IReadOnlyList<int> scriptedActions)
     {
         plays--;
-        CheckOutcome outcome = CheckSession.Play(seed, options with { Bodies = bodies, Events = deeds }, cancellation);
+        CheckOutcome outcome = CheckSession.Play(seed, options with { Bodies = bodies, Events = scriptedActions }, cancellation);
         if (outcome.Failure is null)
         {
             return false;

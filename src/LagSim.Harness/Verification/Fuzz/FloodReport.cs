@@ -1,6 +1,6 @@
 namespace LagSim.Harness.Verification.Fuzz;
 
-/// <summary>What a flood over real sockets did to a host and a joiner.</summary>
+/// <summary>What a flood over real sockets did to a host and a client.</summary>
 /// <param name="Seconds">How long it lasted.</param>
 /// <param name="GarbageSent">Datagrams of a stranger: noise, and what looks like the protocol.</param>
 /// <param name="ReplaysSent">True datagrams of the session, sent again from where they came.</param>

@@ -2,7 +2,7 @@ namespace LagSim.Harness.Verification.Fuzz;
 
 /// <summary>What came of a run of hostile datagrams.</summary>
 /// <param name="Packets">How many were sent.</param>
-/// <param name="Sessions">How many sessions they were spread over, each from its first knock on.</param>
+/// <param name="Sessions">How many sessions they were spread over, each from its first connect request on.</param>
 /// <param name="Malformed">How many were refused by a decoder.</param>
 /// <param name="Ignored">How many were well formed and no business of who got them. The rest could not be told from an honest peer's.</param>
 /// <param name="SessionsBroken">

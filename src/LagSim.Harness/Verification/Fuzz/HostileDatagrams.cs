@@ -127,16 +127,16 @@ public sealed class HostileDatagrams
     {
         int length = Below(11) switch
         {
-            0 => new KnockDatagram(random.NextUInt64()).Encode(buffer),
+            0 => new ConnectRequestDatagram(random.NextUInt64()).Encode(buffer),
             1 => new ChallengeDatagram(random.NextUInt64(), Token()).Encode(buffer),
             2 => Join().Encode(buffer),
-            3 => new FetchDatagram(Session(), (byte)Below(10), (uint)Below(100), (uint)Below(100), random.NextUInt64()).Encode(buffer),
+            3 => new SnapshotRequestDatagram(Session(), (byte)Below(10), (uint)Below(100), (uint)Below(100), random.NextUInt64()).Encode(buffer),
             4 => new LeaveDatagram(random.NextUInt64(), (byte)Below(10), (LeaveReason)(1 + Below(7))).Encode(buffer),
             5 => new WelcomeDatagram(
                 random.NextUInt64(), Session(), SimDuration.FromSeconds(1), 1 + Below(WorldCopy.MaxBytes), random.NextUInt64(), (uint)Below(9)).Encode(buffer),
-            6 => new DoubtDatagram(
+            6 => new DesyncQueryDatagram(
                 Session(), (byte)Below(10), (uint)Below(100), SimTime.FromSeconds(Below(20)), SimTime.FromSeconds(20 + Below(20)), (uint)Below(70)).Encode(buffer),
-            7 => Evidence().Encode(buffer),
+            7 => DesyncReport().Encode(buffer),
             8 => new SeatDatagram(Session(), (byte)(1 + Below(9)), (uint)Below(9), Token()).Encode(buffer),
             9 => new MoveDatagram(Session(), (byte)Below(10), Token()).Encode(buffer),
             _ => Update().Encode(buffer),
@@ -151,9 +151,9 @@ public sealed class HostileDatagrams
             random.NextUInt64(), Token(), Token(), random.NextUInt64(), (uint)(Simulation.FoldVersion + Below(2)), player, player == 0 ? default : Token());
     }
 
-    private EvidenceDatagram Evidence() => Below(4) == 0
-        ? new EvidenceDatagram(Session(), Below(2) == 0)
-        : new EvidenceDatagram(Session(), 2000, (uint)Below(2000), 1 + (uint)Below(100), ExternalEvent.Remove(
+    private DesyncReportDatagram DesyncReport() => Below(4) == 0
+        ? new DesyncReportDatagram(Session(), Below(2) == 0)
+        : new DesyncReportDatagram(Session(), 2000, (uint)Below(2000), 1 + (uint)Below(100), ExternalEvent.Remove(
             SimTime.FromSeconds(Below(40)), (byte)Below(10), 1 + (uint)Below(100), BodyId.OfScene(Below(10))));
 
     private Token128 Token()
@@ -204,7 +204,7 @@ public sealed class HostileDatagrams
             _ = Below(7) switch
             {
                 4 => update.TryAdd((Verdict)Below(6), ExternalEvent.Grab(Time(), (byte)Below(10), n, body, Vector())),
-                5 => update.TryAdd((Verdict)Below(6), ExternalEvent.HoldKnot(Time(), (byte)Below(10), n, body, Vector(), Vector())),
+                5 => update.TryAdd((Verdict)Below(6), ExternalEvent.HoldKeyframe(Time(), (byte)Below(10), n, body, Vector(), Vector())),
                 6 => update.TryAdd((Verdict)Below(6), ExternalEvent.Release(Time(), (byte)Below(10), n, body, Vector())),
                 0 => update.TryAddOwn((Verdict)Below(6), n),
                 1 => update.TryAdd((Verdict)Below(6), ExternalEvent.Remove(Time(), (byte)Below(10), n, body)),

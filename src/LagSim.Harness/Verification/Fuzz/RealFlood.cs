@@ -13,7 +13,7 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Fuzz;
 
-/// <summary>A host and a joiner over real UDP sockets, flooded at full speed: a stranger sends garbage to both, and their own datagrams are played again.</summary>
+/// <summary>A host and a client over real UDP sockets, flooded at full speed: a stranger sends garbage to both, and their own datagrams are played again.</summary>
 public static class RealFlood
 {
     /// <summary>
@@ -23,7 +23,7 @@ public static class RealFlood
     /// </summary>
     private const long MaxGrowth = 12_000_000;
 
-    private static readonly TimeSpan Patience = TimeSpan.FromSeconds(20);
+    private static readonly TimeSpan Timeout = TimeSpan.FromSeconds(20);
 
     /// <summary>Floods until either limit is reached.</summary>
     /// <param name="seconds">For how long at most, above zero.</param>
@@ -45,40 +45,40 @@ public static class RealFlood
             .AddBody("ball", new BodySpec(0.3, 1, 0.9), new Vector3D(0, 3, 0))
             .Build();
         using TappedPort hostPort = new(between(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0))), seed);
-        using TappedPort joinerPort = new(between(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0))), seed + 1);
+        using TappedPort clientPort = new(between(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0))), seed + 1);
         using UdpPort stranger = new(new IPEndPoint(IPAddress.Loopback, 0));
         SessionOptions options = new() { ConnectKey = "flood", PlayerBudget = null, ExtraHistory = SimDuration.FromSeconds(5) };
         ulong number = (ulong)Stopwatch.GetTimestamp();
         using PeerThread host = new(new HostSession(scene, hostPort, new StopwatchClock(), options, number), hostPort, "LagSim flooded host");
-        using PeerThread joiner = new(
-            new JoinerSession(null, joinerPort, new StopwatchClock(), options, hostPort.LocalAddress, number), joinerPort, "LagSim flooded joiner");
+        using PeerThread client = new(
+            new ClientSession(null, clientPort, new StopwatchClock(), options, hostPort.LocalAddress, number), clientPort, "LagSim flooded joiner");
         host.Start();
-        joiner.Start();
-        if (!host.WaitUntilRunning(Patience) || !joiner.WaitUntilRunning(Patience))
+        client.Start();
+        if (!host.WaitUntilRunning(Timeout) || !client.WaitUntilRunning(Timeout))
         {
-            return new FloodReport(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, joiner.Session.EndReason ?? "The two did not come together.");
+            return new FloodReport(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, client.Session.EndReason ?? "The two did not come together.");
         }
 
         HostileDatagrams hostile = new(new SeededRandom(seed));
         long began = Stopwatch.GetTimestamp(), garbage = 0, replays = 0, done = 0, memory = 0;
-        double nextDeed = 0, nextLook = 0;
+        double nextAction = 0, nextLook = 0;
         double Elapsed() => Stopwatch.GetElapsedTime(began).TotalSeconds;
         while (Elapsed() < seconds && garbage + replays < packets)
         {
             cancellation.ThrowIfCancellationRequested();
             for (int burst = 0; burst < 64 && garbage + replays < packets; burst++)
             {
-                stranger.Send(hostile.Next(), (burst % 4 < 2 ? hostPort : joinerPort).LocalAddress);
+                stranger.Send(hostile.Next(), (burst % 4 < 2 ? hostPort : clientPort).LocalAddress);
                 garbage++;
                 replays += hostPort.SendAgain() ? 1 : 0;
-                replays += joinerPort.SendAgain() ? 1 : 0;
+                replays += clientPort.SendAgain() ? 1 : 0;
             }
 
-            if (Elapsed() >= nextDeed)
+            if (Elapsed() >= nextAction)
             {
-                _ = (done % 2 == 0 ? host : joiner).Do(PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, 0.5, 0)));
+                _ = (done % 2 == 0 ? host : client).Do(PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, 0.5, 0)));
                 done++;
-                nextDeed += 0.25;
+                nextAction += 0.25;
             }
 
             if (memory == 0 && (Elapsed() > seconds / 5 || garbage + replays > packets / 5))
@@ -95,31 +95,31 @@ public static class RealFlood
 
         double lasted = Elapsed();
         long grown = memory == 0 ? 0 : LiveMemory.Read() - memory;
-        string? failure = Settle(host, joiner, done);
+        string? failure = Settle(host, client, done);
         failure ??= grown > MaxGrowth ? $"Memory grew by {grown} bytes during the flood." : null;
-        SessionCounters a = Ask(host, s => s.Counters.Copy()), b = Ask(joiner, s => s.Counters.Copy());
+        SessionCounters a = Ask(host, s => s.Counters.Copy()), b = Ask(client, s => s.Counters.Copy());
         return new FloodReport(
             lasted, garbage, replays, a.DatagramsReceived + b.DatagramsReceived, a.DatagramsMalformed + b.DatagramsMalformed,
             a.DatagramsIgnored + b.DatagramsIgnored, done, Math.Min(a.EventsAccepted, b.EventsAccepted), grown,
-            Math.Max(host.Session.World!.MaxLateness.ToMilliseconds(), joiner.Session.World!.MaxLateness.ToMilliseconds()), failure);
+            Math.Max(host.Session.World!.MaxLateness.ToMilliseconds(), client.Session.World!.MaxLateness.ToMilliseconds()), failure);
     }
 
     /// <summary>Waits until both have everything, and compares their worlds; a sentence for what is wrong.</summary>
-    private static string? Settle(PeerThread host, PeerThread joiner, long done)
+    private static string? Settle(PeerThread host, PeerThread client, long done)
     {
-        long deadline = Stopwatch.GetTimestamp() + (long)(Patience.TotalSeconds * Stopwatch.Frequency);
-        while (Ask(host, s => s.Counters.EventsAccepted) < done || Ask(joiner, s => s.Counters.EventsAccepted) < done)
+        long deadline = Stopwatch.GetTimestamp() + (long)(Timeout.TotalSeconds * Stopwatch.Frequency);
+        while (Ask(host, s => s.Counters.EventsAccepted) < done || Ask(client, s => s.Counters.EventsAccepted) < done)
         {
-            if (host.State == SessionState.Ended || joiner.State == SessionState.Ended || Stopwatch.GetTimestamp() > deadline)
+            if (host.State == SessionState.Ended || client.State == SessionState.Ended || Stopwatch.GetTimestamp() > deadline)
             {
-                return $"After the flood the host is {host.State} and the joiner {joiner.State}: {host.Session.EndReason} {joiner.Session.EndReason}";
+                return $"After the flood the host is {host.State} and the joiner {client.State}: {host.Session.EndReason} {client.Session.EndReason}";
             }
 
             Thread.Sleep(10);
         }
 
         SimTime then = SimTime.Max(host.Session.World!.Simulation.Start, host.Session.SharedTime.Now - SimDuration.FromMilliseconds(500));
-        return Ask(host, s => s.World!.Simulation.EventHash(then)) == Ask(joiner, s => s.World!.Simulation.EventHash(then))
+        return Ask(host, s => s.World!.Simulation.EventHash(then)) == Ask(client, s => s.World!.Simulation.EventHash(then))
             ? null
             : "After the flood the two worlds differ.";
     }
@@ -127,6 +127,6 @@ public static class RealFlood
     private static T Ask<T>(PeerThread peer, Func<Session, T> question)
     {
         Task<T> answer = peer.Ask(question);
-        return answer.Wait(Patience) ? answer.Result : throw new Experiments.Peers.PeerGroupException($"A peer did not answer within {Patience.TotalSeconds} s.");
+        return answer.Wait(Timeout) ? answer.Result : throw new Experiments.Peers.PeerGroupException($"A peer did not answer within {Timeout.TotalSeconds} s.");
     }
 }

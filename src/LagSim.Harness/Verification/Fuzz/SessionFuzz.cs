@@ -11,7 +11,7 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Fuzz;
 
-/// <summary>Sessions of a host and two joiners in virtual time, under hostile datagrams from their first knock on.</summary>
+/// <summary>Sessions of a host and two clients in virtual time, under hostile datagrams from their first connect request on.</summary>
 /// <remarks>
 /// <para>In every other session all of them come from strangers' addresses, or are true ones played again from their own: that session must go on
 /// and all its worlds agree. In the others they bear the peers' own addresses; then nothing may throw, and that is all that can be asked.</para>
@@ -116,11 +116,11 @@ public static class SessionFuzz
             for (int peer = 0; peer < Peers; peer++)
             {
                 ports[peer] = between(network.CreatePort(peer));
-                SessionOptions options = new() { ExpectedJoiners = Peers - 1, ConnectKey = "fuzz", PlayerBudget = null };
+                SessionOptions options = new() { ExpectedClients = Peers - 1, ConnectKey = "fuzz", PlayerBudget = null };
                 SkewedClock own = new(clock, 5 * peer, SimDuration.FromSeconds(peer));
                 sessions[peer] = peer == 0
                     ? new HostSession(scene, ports[0], own, options, random.NextUInt64())
-                    : new JoinerSession(null, ports[peer], own, options, PeerAddress.Virtual(0), random.NextUInt64());
+                    : new ClientSession(null, ports[peer], own, options, PeerAddress.Virtual(0), random.NextUInt64());
                 steps.Add(sessions[peer], ports[peer]);
             }
 
@@ -195,7 +195,7 @@ public static class SessionFuzz
                 sessions[peer].Do((random.NextUInt64() % 5) switch
                 {
                     0 => PlayerAction.Grab(body),
-                    1 => PlayerAction.HoldKnot(body, vector, vector),
+                    1 => PlayerAction.HoldKeyframe(body, vector, vector),
                     2 => PlayerAction.Release(body, vector),
                     _ => PlayerAction.Impulse(body, vector),
                 });

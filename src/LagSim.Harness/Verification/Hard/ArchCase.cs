@@ -159,11 +159,11 @@ internal sealed class ArchCase : IHardCase
             for (int n = 0; n < slopes.Length; n++)
             {
                 (double sine, double cosine) = Math.SinCos(slopes[n]);
-                double rub = ((n + 0.5) * cosine) - (thrust * sine), press = (thrust * cosine) + ((n + 0.5) * sine);
-                sum += n == 0 ? 0 : rubbed + rub;
+                double frictionImpulse = ((n + 0.5) * cosine) - (thrust * sine), press = (thrust * cosine) + ((n + 0.5) * sine);
+                sum += n == 0 ? 0 : rubbed + frictionImpulse;
                 most = above.Aggregate(most, (worst, link) => Math.Max(worst, Math.Abs(link.Sum - sum) / (link.Press + press)));
                 above.Add((sum, press));
-                rubbed = rub;
+                rubbed = frictionImpulse;
             }
 
             return most;
@@ -212,7 +212,7 @@ internal sealed class ArchCase : IHardCase
             simulation.AdvanceTo(at);
             foreach (BodySnapshot body in simulation.Snapshot(at).Bodies)
             {
-                foreach (LastingContact contact in body.Contacts)
+                foreach (PersistentContact contact in body.Contacts)
                 {
                     sum += contact.Surface >= 0 ? Math.Abs(contact.Push.X) / 2 : 0; // of both static spheres
                 }

@@ -13,7 +13,7 @@ internal sealed class CollapseCase : IHardCase
 {
     private const int Infinite = 100_000;
 
-    /// <summary>Slower than this in m/s the rules for lasting contact have a say, and a place of some metres is too coarse.</summary>
+    /// <summary>Slower than this in m/s the rules for persistent contact have a say, and a place of some metres is too coarse.</summary>
     private const double Resolved = 1e-7;
 
     private static readonly double ThreeBalls = 7 - (4 * Math.Sqrt(3));

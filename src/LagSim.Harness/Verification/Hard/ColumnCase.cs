@@ -113,7 +113,7 @@ internal sealed class ColumnCase : IHardCase
             simulation.AdvanceTo(at);
             foreach (BodySnapshot body in simulation.Snapshot(at).Bodies)
             {
-                foreach (LastingContact contact in body.Contacts)
+                foreach (PersistentContact contact in body.Contacts)
                 {
                     (BodyId, BodyId, int) key = (body.Id, contact.Partner, contact.Surface);
                     forces[key] = forces.GetValueOrDefault(key) + (contact.Push / (steps * step));
@@ -142,7 +142,7 @@ internal sealed class ColumnCase : IHardCase
             double weight = above + (Gravity * masses[n]), sign = n % 2 == 0 ? 1 : -1, aside = -sign * weight * Slope;
             double wall = sign * Slope * (n == 0 ? above : above + weight);
             Vector3D below = n == 0 ? Of(body, 0) - V(0, weight)
-                : Of(BodyId.OfScene(n - 1), LastingContact.NoSurface) - V(aside, weight, aside);
+                : Of(BodyId.OfScene(n - 1), PersistentContact.NoSurface) - V(aside, weight, aside);
             Vector3D besideX = Of(body, n % 2 == 0 ? 1 : 2) - V(wall), besideZ = Of(body, n % 2 == 0 ? 3 : 4) - V(0, 0, wall);
             errors.AddRange(new[] { below, besideX, besideZ }.Select(error => error.Length / weight));
             above = weight;

@@ -4,7 +4,7 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>What a contact tolerance d promises of bodies in lasting contact, and how their steps are read: what bounds of such bodies are
+/// <summary>What a contact tolerance d promises of bodies in persistent contact, and how their steps are read: what bounds of such bodies are
 /// argued from.</summary>
 /// <remarks>
 /// A step h is the largest power of two of seconds in which a fall from rest stays within d, so g h^2 / 2 is at most d, and the chord of a

@@ -61,7 +61,7 @@ internal static class ResistedSlip
 
         Vector<double> Rate(in Vector3D v, in Vector3D q)
         {
-            Vector3D rub = (v - q) * (mu * pressing / (v - q).Length), a = pull - rub, b = (rub - (q * (c * pressing / q.Length))) * 2.5;
+            Vector3D frictionImpulse = (v - q) * (mu * pressing / (v - q).Length), a = pull - frictionImpulse, b = (frictionImpulse - (q * (c * pressing / q.Length))) * 2.5;
             return Vector<double>.Build.Dense([v.X, v.Y, v.Z, a.X, a.Y, a.Z, b.X, b.Y, b.Z]);
         }
     }

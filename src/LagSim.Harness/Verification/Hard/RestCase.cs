@@ -30,7 +30,7 @@ internal sealed class RestCase : IHardCase
         // Contacts: the floor and each other; the floor twice, a wall each, and the two below.
         foreach ((string what, Scene scene, int contacts) in new[] { ("two balls, one on the other", Stack(), 2), ("three balls in a bin", Pile(), 6) })
         {
-            foreach (HardRow row in Lasting(what, contacts, seconds, Gravity * scene.Bodies.Count, Watch(context, scene, seconds)))
+            foreach (HardRow row in Persistent(what, contacts, seconds, Gravity * scene.Bodies.Count, Watch(context, scene, seconds)))
             {
                 yield return row;
             }
@@ -43,7 +43,7 @@ internal sealed class RestCase : IHardCase
 
         (double drift, _) = Tremble(1e-3);
         (_, long impacts) = Tremble(5e-5);
-        foreach (HardRow row in Lasting("one ball on a plane", 1, 2, Gravity, (drift, Gravity * drift, impacts)))
+        foreach (HardRow row in Persistent("one ball on a plane", 1, 2, Gravity, (drift, Gravity * drift, impacts)))
         {
             yield return row with { Note = "a step at a time: a millisecond for drift and energy, 50 us for the number of impacts" };
         }
@@ -136,7 +136,7 @@ internal sealed class RestCase : IHardCase
         return (drift, gain, simulation.EventsProcessed);
     }
 
-    private IEnumerable<HardRow> Lasting(
+    private IEnumerable<HardRow> Persistent(
         string what, int contacts, double seconds, double weight, (double Drift, double Gain, long Events) seen)
     {
         string size = FormattableString.Invariant($"{what}, {seconds} s");

@@ -14,7 +14,7 @@ internal sealed class StiffCase : IHardCase
     private const double Step = 1.0 / 64;
     private const int Steps = 50;
 
-    /// <summary>The shortest step of what is in lasting contact, and how many are taken from the middle of the second step on.</summary>
+    /// <summary>The shortest step of what is in persistent contact, and how many are taken from the middle of the second step on.</summary>
     private const double ShortestOnFloor = 1.0 / (1 << 20);
     private const int StepsOnFloor = 20;
 

@@ -18,12 +18,12 @@ public sealed class HarmCase
 
     private const int MostBodies = 64;
     private const double MostSpeed = 999;
-    private const double KnotSeconds = 0.1;
+    private const double KeyframeSeconds = 0.1;
 
     private static readonly double[] Restitutions = [0, 0.1, 0.2, 0.5, 0.8, 0.95, 0.99, 1, 1];
 
     private readonly SeededRandom random;
-    private readonly List<HarmDeed> deeds = [];
+    private readonly List<HarmAction> scriptedActions = [];
     private readonly double radius;
     private int spawns;
 
@@ -58,7 +58,7 @@ public sealed class HarmCase
                 break;
         }
 
-        Deeds = [.. deeds.Where(d => d.AtSeconds < Seconds).OrderBy(d => d.AtSeconds)];
+        ScriptedActions = [.. scriptedActions.Where(d => d.AtSeconds < Seconds).OrderBy(d => d.AtSeconds)];
     }
 
     /// <summary>What it is drawn from.</summary>
@@ -83,12 +83,12 @@ public sealed class HarmCase
     public double Width { get; }
 
     /// <summary>What is done, by time.</summary>
-    internal IReadOnlyList<HarmDeed> Deeds { get; }
+    internal IReadOnlyList<HarmAction> ScriptedActions { get; }
 
     /// <summary>All of it in a few words.</summary>
     public override string ToString() => string.Create(
         CultureInfo.InvariantCulture,
-        $"{Kind} in {Scene.Name}, restitution {Restitution:0.##}, friction {Friction:0.##}, {Deeds.Count(d => d.Kind == EventKind.Spawn)} bodies, {Deeds.Count} events, {LinkMilliseconds:0} ms away");
+        $"{Kind} in {Scene.Name}, restitution {Restitution:0.##}, friction {Friction:0.##}, {ScriptedActions.Count(d => d.Kind == EventKind.Spawn)} bodies, {ScriptedActions.Count} events, {LinkMilliseconds:0} ms away");
 
     private Scene BuiltIn()
     {
@@ -123,18 +123,18 @@ public sealed class HarmCase
 
     private int Spawn(double at, int like, Vector3D place)
     {
-        deeds.Add(new HarmDeed(at, EventKind.Spawn, -1, like, place));
+        scriptedActions.Add(new HarmAction(at, EventKind.Spawn, -1, like, place));
         return spawns++;
     }
 
-    private void Push(double at, int spawn, Vector3D velocity) => deeds.Add(new HarmDeed(at, EventKind.SetVelocity, spawn, 0, default, velocity));
+    private void Push(double at, int spawn, Vector3D velocity) => scriptedActions.Add(new HarmAction(at, EventKind.SetVelocity, spawn, 0, default, velocity));
 
-    private void Hold(double at, int spawn, Vector3D place, Func<double, Vector3D>? path = null, double every = KnotSeconds)
+    private void Hold(double at, int spawn, Vector3D place, Func<double, Vector3D>? path = null, double every = KeyframeSeconds)
     {
-        deeds.Add(new HarmDeed(at, EventKind.Grab, spawn, 0, default));
+        scriptedActions.Add(new HarmAction(at, EventKind.Grab, spawn, 0, default));
         for (double then = at + 0.001; then < Seconds; then += every)
         {
-            deeds.Add(new HarmDeed(then, EventKind.HoldKnot, spawn, 0, path?.Invoke(then) ?? place));
+            scriptedActions.Add(new HarmAction(then, EventKind.HoldKeyframe, spawn, 0, path?.Invoke(then) ?? place));
         }
     }
 
@@ -218,9 +218,9 @@ public sealed class HarmCase
         {
             int which = random.NextInt(count);
             Vector3D place = middle + new Vector3D(random.NextDouble(-0.3, 0.3), random.NextDouble(0, 0.6), random.NextDouble(-0.3, 0.3));
-            deeds.Add(random.IsLucky(60)
-                ? new HarmDeed(at, EventKind.Teleport, which, 0, place)
-                : new HarmDeed(at, EventKind.SetVelocity, which, 0, default, new Vector3D(random.NextDouble(-1, 1), random.NextDouble(-1, 0), random.NextDouble(-1, 1)) * (0.57 * Fast())));
+            scriptedActions.Add(random.IsLucky(60)
+                ? new HarmAction(at, EventKind.Teleport, which, 0, place)
+                : new HarmAction(at, EventKind.SetVelocity, which, 0, default, new Vector3D(random.NextDouble(-1, 1), random.NextDouble(-1, 0), random.NextDouble(-1, 1)) * (0.57 * Fast())));
         }
     }
 
@@ -230,9 +230,9 @@ public sealed class HarmCase
         for (double at = 0; at < Seconds; at += every)
         {
             int body = random.NextInt(Scene.Bodies.Count);
-            deeds.Add(random.IsLucky(20)
-                ? new HarmDeed(at, EventKind.Teleport, -1, body, new Vector3D(random.NextDouble(-0.4, 0.4), random.NextDouble(0.6, 3), random.NextDouble(-0.4, 0.4)))
-                : new HarmDeed(at, EventKind.SetVelocity, -1, body, default, new Vector3D(random.NextDouble(-1, 1), random.NextDouble(-1, 1), random.NextDouble(-1, 1)) * Fast() * 0.57));
+            scriptedActions.Add(random.IsLucky(20)
+                ? new HarmAction(at, EventKind.Teleport, -1, body, new Vector3D(random.NextDouble(-0.4, 0.4), random.NextDouble(0.6, 3), random.NextDouble(-0.4, 0.4)))
+                : new HarmAction(at, EventKind.SetVelocity, -1, body, default, new Vector3D(random.NextDouble(-1, 1), random.NextDouble(-1, 1), random.NextDouble(-1, 1)) * Fast() * 0.57));
         }
 
         if (random.IsLucky(50))

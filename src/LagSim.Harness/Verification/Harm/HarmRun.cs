@@ -55,9 +55,9 @@ internal sealed class HarmRun
         {
             IDatagramPort port = network.CreatePort(peer);
             SkewedClock own = new(clock, random.NextDouble(-30, 30), SimDuration.FromSeconds(random.NextDouble(0, 3600)));
-            SessionOptions chosen = new() { Cancellation = cancellation, ExpectedJoiners = Attacker, PlayerBudget = options.Budget, Threads = 1 };
+            SessionOptions chosen = new() { Cancellation = cancellation, ExpectedClients = Attacker, PlayerBudget = options.Budget, Threads = 1 };
             steps.Add(
-                peer == 0 ? new HostSession(drawn.Scene, port, own, chosen, drawn.Seed) : new JoinerSession(null, port, own, chosen, PeerAddress.Virtual(0), (drawn.Seed * 8) + (ulong)peer),
+                peer == 0 ? new HostSession(drawn.Scene, port, own, chosen, drawn.Seed) : new ClientSession(null, port, own, chosen, PeerAddress.Virtual(0), (drawn.Seed * 8) + (ulong)peer),
                 port);
         }
 
@@ -91,9 +91,9 @@ internal sealed class HarmRun
         for (double now = 0; now < HarmCase.Seconds + 1 || (isLate is not null && now < isLate + (2 * MostSeconds) + 1); now += LookSeconds)
         {
             cancellation.ThrowIfCancellationRequested();
-            for (; done < drawn.Deeds.Count && drawn.Deeds[done].AtSeconds <= now; done++)
+            for (; done < drawn.ScriptedActions.Count && drawn.ScriptedActions[done].AtSeconds <= now; done++)
             {
-                Do(drawn.Deeds[done]);
+                Do(drawn.ScriptedActions[done]);
             }
 
             for (int peer = 0; peer < others.Length; peer++)
@@ -183,17 +183,17 @@ internal sealed class HarmRun
 
     /// <summary>How far behind real time what a peer can show is, in seconds.</summary>
     private static double Late(Session session) =>
-        session.World is null || session.World.PictureTo >= session.SharedTime.Now ? 0 : (session.SharedTime.Now - session.World.PictureTo).ToSeconds();
+        session.World is null || session.World.RenderedTo >= session.SharedTime.Now ? 0 : (session.SharedTime.Now - session.World.RenderedTo).ToSeconds();
 
-    private void Do(HarmDeed deed)
+    private void Do(HarmAction scripted)
     {
-        if (deed.Spawn >= spawned.Count)
+        if (scripted.Spawn >= spawned.Count)
         {
             return;
         }
 
-        ExternalEvent? external = Try(Attacker, deed.In(drawn.Scene, n => spawned[n]));
-        if (deed.Kind == EventKind.Spawn)
+        ExternalEvent? external = Try(Attacker, scripted.In(drawn.Scene, n => spawned[n]));
+        if (scripted.Kind == EventKind.Spawn)
         {
             spawned.Add(external?.Body ?? BodyId.OfScene(0));
         }

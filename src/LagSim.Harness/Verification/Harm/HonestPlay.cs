@@ -16,16 +16,16 @@ namespace LagSim.Harness.Verification.Harm;
 
 /// <summary>What players cost who mean no harm, in every built-in scene: how far they stay from their budgets.</summary>
 /// <remarks>
-/// In virtual time by a seed. Four play, 100 ms from the host, each with four deeds a second in the mean, as many as the busiest of the drawn sessions of <c>lagsim stalls</c>: velocities,
-/// impulses and teleports of the scene's bodies, up to six balls of its own, and hands that hold a body for a second with knots every 50 ms.
+/// In virtual time by a seed. Four play, 100 ms from the host, each with four scripted actions a second in the mean, as many as the busiest of the drawn sessions of <c>lagsim stalls</c>: velocities,
+/// impulses and teleports of the scene's bodies, up to six balls of its own, and hands that hold a body for a second with keyframes every 50 ms.
 /// </remarks>
 public static class HonestPlay
 {
     private const int Players = 4;
     private const double DelayMilliseconds = 100;
-    private const double DeedsASecond = 4;
+    private const double ActionsASecond = 4;
     private const int MostSpawned = 6;
-    private const double KnotSeconds = 0.05;
+    private const double KeyframeSeconds = 0.05;
 
     private const string Heap = "heap";
     private const int HeapBalls = 32;
@@ -54,9 +54,9 @@ public static class HonestPlay
         for (int peer = 0; peer <= Players; peer++)
         {
             IDatagramPort port = network.CreatePort(peer);
-            SessionOptions options = new() { ExpectedJoiners = Players, PlayerBudget = budget, Cancellation = cancellation, Threads = 1 };
+            SessionOptions options = new() { ExpectedClients = Players, PlayerBudget = budget, Cancellation = cancellation, Threads = 1 };
             steps.Add(
-                peer == 0 ? new HostSession(built, port, clock, options, seed) : new JoinerSession(null, port, clock, options, PeerAddress.Virtual(0), (seed * 16) + (ulong)peer), port);
+                peer == 0 ? new HostSession(built, port, clock, options, seed) : new ClientSession(null, port, clock, options, PeerAddress.Virtual(0), (seed * 16) + (ulong)peer), port);
         }
 
         HostSession host = (HostSession)steps.Sessions[0];
@@ -99,18 +99,18 @@ public static class HonestPlay
         private readonly Queue<BodyId> mine = new();
         private double next = random.NextDouble();
         private BodyId? held;
-        private double nextKnot;
-        private double lastKnot;
+        private double nextKeyframe;
+        private double lastKeyframe;
         private Vector3D hand;
 
         internal void Act(double now)
         {
-            if (held is BodyId body && now >= nextKnot)
+            if (held is BodyId body && now >= nextKeyframe)
             {
-                nextKnot += KnotSeconds;
-                hand += new Vector3D(random.NextDouble(-1, 1), random.NextDouble(0, 1), random.NextDouble(-1, 1)) * KnotSeconds;
-                Try(now < lastKnot ? PlayerAction.HoldKnot(body, hand, Vector3D.Zero) : PlayerAction.Release(body, Velocity(3)));
-                held = now < lastKnot ? held : null;
+                nextKeyframe += KeyframeSeconds;
+                hand += new Vector3D(random.NextDouble(-1, 1), random.NextDouble(0, 1), random.NextDouble(-1, 1)) * KeyframeSeconds;
+                Try(now < lastKeyframe ? PlayerAction.HoldKeyframe(body, hand, Vector3D.Zero) : PlayerAction.Release(body, Velocity(3)));
+                held = now < lastKeyframe ? held : null;
             }
 
             if (now < next || steps.Sessions[peer].World is null)
@@ -118,7 +118,7 @@ public static class HonestPlay
                 return;
             }
 
-            next += random.NextDouble(0.5, 1.5) / DeedsASecond;
+            next += random.NextDouble(0.5, 1.5) / ActionsASecond;
             BodyId which = BodyId.OfScene(random.NextInt(scene.Bodies.Count));
             Simulation world = steps.Sessions[peer].World!.Simulation;
             Vector3D there = world.TryRead(which, world.SimulatedTo, out BodyState state) ? state.Position : Vector3D.Zero;
@@ -141,7 +141,7 @@ public static class HonestPlay
                     break;
                 case 3 when held is null:
                     held = Try(PlayerAction.Grab(which, default)) is null ? null : which;
-                    (hand, nextKnot, lastKnot) = (there, now + KnotSeconds, now + 1);
+                    (hand, nextKeyframe, lastKeyframe) = (there, now + KeyframeSeconds, now + 1);
                     break;
                 case 4 or 5 or 6:
                     Try(PlayerAction.Impulse(which, Velocity(6) * scene.Bodies[which.Index].Spec.Mass));

@@ -26,7 +26,7 @@ internal sealed class StallClient
     internal int Number { get; set; }
 
     /// <summary>The session that it has now.</summary>
-    internal JoinerSession Session { get; private set; } = null!;
+    internal ClientSession Session { get; private set; } = null!;
 
     /// <summary>What it kept, as a program does in a file.</summary>
     internal PlayerPass Pass { get; private set; }
@@ -60,7 +60,7 @@ internal sealed class StallClient
     /// <summary>Of how many of those it did not.</summary>
     internal long Lost { get; private set; }
 
-    internal void Follow(JoinerSession session)
+    internal void Follow(ClientSession session)
     {
         Session = session;
         session.PassGiven += pass => Pass = pass;

@@ -29,5 +29,5 @@ public sealed record StallOptions
     public int Overlooked { get; init; }
 
     /// <summary>Called with each session that a client opens, before it is stepped; for tests, to put in a fault.</summary>
-    internal Action<JoinerSession>? PrepareClient { get; init; }
+    internal Action<ClientSession>? PrepareClient { get; init; }
 }

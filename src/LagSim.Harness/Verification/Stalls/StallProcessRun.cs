@@ -32,7 +32,7 @@ public sealed class StallProcessRun : IDisposable
     private readonly List<StallProcess> all = [];
     private readonly List<StallProcess> hosts = [];
     private readonly List<StallProcess>[] clients; // by number less one, each with all its lives
-    private readonly List<(double Seconds, string Text)>[] deeds;
+    private readonly List<(double Seconds, string Text)>[] scriptedActions;
     private readonly List<string> failures = [];
     private readonly UdpRelay[] relays; // of each client
     private readonly string?[] numbers; // that they got first
@@ -64,7 +64,7 @@ public sealed class StallProcessRun : IDisposable
         clients = [.. Enumerable.Range(0, drawn.Clients).Select(_ => new List<StallProcess>())];
         relays = new UdpRelay[drawn.Clients];
         numbers = new string?[drawn.Clients];
-        deeds = [.. clients.Select(_ => Draw())];
+        scriptedActions = [.. clients.Select(_ => Draw())];
     }
 
     /// <summary>How long a session is played, in seconds from the moment that all are in: some more until the processes have started and got in.</summary>
@@ -158,7 +158,7 @@ public sealed class StallProcessRun : IDisposable
     private void StartClient(int n)
     {
         double from = clients[n].Count == 0 ? 3 : watch.Elapsed.TotalSeconds + 15;
-        IEnumerable<string> done = deeds[n].Where(d => d.Seconds > from).SelectMany(d => new[] { "--do", d.Text });
+        IEnumerable<string> done = scriptedActions[n].Where(d => d.Seconds > from).SelectMany(d => new[] { "--do", d.Text });
         clients[n].Add(Run(["join", relays[n].LocalAddress.ToString(), "--pass", PassOf(n), "--json", .. done]));
     }
 
@@ -224,11 +224,11 @@ public sealed class StallProcessRun : IDisposable
                 continue;
             }
 
-            Judge(n, client);
+            Validate(n, client);
         }
     }
 
-    private void Judge(int n, StallProcess client)
+    private void Validate(int n, StallProcess client)
     {
         try
         {
@@ -290,14 +290,14 @@ public sealed class StallProcessRun : IDisposable
 
     private List<(double, string)> Draw()
     {
-        List<(double, string)> drawnDeeds = [];
+        List<(double, string)> drawnActions = [];
         for (double at = 3; at < length; at += (0.5 + random.NextDouble()) / drawn.EventsPerSecond)
         {
-            drawnDeeds.Add((at, string.Create(
+            drawnActions.Add((at, string.Create(
                 CultureInfo.InvariantCulture, $"set-velocity@{at:0.000}:{random.NextDouble(-1, 1):0.000},0,{random.NextDouble(-1, 1):0.000}")));
         }
 
-        return drawnDeeds;
+        return drawnActions;
     }
 
     private void Wait(double seconds)

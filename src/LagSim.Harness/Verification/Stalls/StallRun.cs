@@ -21,7 +21,7 @@ internal sealed class StallRun
     private const int PortRoom = 256;
 
     /// <summary>How long peers may take to get in at first, in seconds, and to be up to date after the last stall.</summary>
-    private const double Patience = 180;
+    private const double Timeout = 180;
 
     /// <summary>All play on for so long after the last has recovered.</summary>
     private const double PlayOn = 10;
@@ -59,7 +59,7 @@ internal sealed class StallRun
         {
             StallClient client = new(number, hostLog, options.Overlooked);
             clients.Add(client);
-            steps.Add(NewJoiner(client), ports[number]);
+            steps.Add(NewClient(client), ports[number]);
         }
     }
 
@@ -67,7 +67,7 @@ internal sealed class StallRun
 
     internal StallOutcome Play()
     {
-        if (RunUntil(() => Host.State == SessionState.Running && clients.All(c => c.Session.State == SessionState.Running), Patience))
+        if (RunUntil(() => Host.State == SessionState.Running && clients.All(c => c.Session.State == SessionState.Running), Timeout))
         {
             foreach (StallClient client in clients)
             {
@@ -79,12 +79,12 @@ internal sealed class StallRun
         }
         else
         {
-            failures.Add($"Not all were in after {Patience} s: {States()}.");
+            failures.Add($"Not all were in after {Timeout} s: {States()}.");
         }
 
         foreach (StallClient client in clients)
         {
-            Judge(client);
+            Validate(client);
         }
 
         return new StallOutcome
@@ -122,7 +122,7 @@ internal sealed class StallRun
 
         double[] next = [.. clients.Select(_ => random.NextDouble() / drawn.EventsPerSecond)];
         double end = double.MaxValue;
-        foreach ((double at, Action what) in plan.OrderBy(p => p.At).Append((drawn.EndSeconds + Patience, Look)))
+        foreach ((double at, Action what) in plan.OrderBy(p => p.At).Append((drawn.EndSeconds + Timeout, Look)))
         {
             while (true)
             {
@@ -156,17 +156,17 @@ internal sealed class StallRun
     private void Settle()
     {
         if (!RunUntil(
-            () => clients.All(c => c.Session is { State: SessionState.Running, UnjudgedEvents: 0 } && c.Session.LogLength == Host.LogLength), Patience))
+            () => clients.All(c => c.Session is { State: SessionState.Running, UnconfirmedEvents: 0 } && c.Session.LogLength == Host.LogLength), Timeout))
         {
-            failures.Add($"Not all was heard and judged {Patience} s after the last action: {States()}.");
+            failures.Add($"Not all was heard and judged {Timeout} s after the last action: {States()}.");
         }
 
         RunUntil(() => false, 4);
     }
 
-    private void Judge(StallClient client)
+    private void Validate(StallClient client)
     {
-        JoinerSession session = client.Session;
+        ClientSession session = client.Session;
         bool isTouched = drawn.Stalls.Any(s => s.Touches(client.Address));
         if (session.State != SessionState.Running)
         {
@@ -236,7 +236,7 @@ internal sealed class StallRun
                 ports[stall.Player] = network.CreatePort(stall.Player);
                 network.Move(stall.Player, addresses++);
                 dead.Remove(stall.Player);
-                steps.Replace(stall.Player, NewJoiner(clients[stall.Player - 1]), ports[stall.Player]);
+                steps.Replace(stall.Player, NewClient(clients[stall.Player - 1]), ports[stall.Player]);
                 break;
             default:
                 return; // each change of the address was over at once
@@ -282,17 +282,17 @@ internal sealed class StallRun
     private HostSession NewHost(int expected)
     {
         SessionOptions chosen = Options();
-        chosen.ExpectedJoiners = expected;
+        chosen.ExpectedClients = expected;
         HostSession session = new(BuiltInScenes.Billiards(), ports[0], clocks[0], chosen, drawn.Seed + (1000 * ++sessions));
         hostLog.Follow(session);
         return session;
     }
 
-    private JoinerSession NewJoiner(StallClient client)
+    private ClientSession NewClient(StallClient client)
     {
         SessionOptions chosen = Options();
         chosen.Pass = options.KeepsPasses ? client.Pass : default;
-        JoinerSession session = new(
+        ClientSession session = new(
             null, ports[client.Address], clocks[client.Address], chosen, PeerAddress.Virtual(0), drawn.Seed + (1000 * ++sessions));
         options.PrepareClient?.Invoke(session);
         client.Follow(session);
@@ -346,5 +346,5 @@ internal sealed class StallRun
         }
     }
 
-    private string States() => string.Join("; ", clients.Select(c => $"client {c.Address} {c.Session.State} {c.Session.EndReason} log {c.Session.LogLength}, {c.Session.UnjudgedEvents} unjudged"));
+    private string States() => string.Join("; ", clients.Select(c => $"client {c.Address} {c.Session.State} {c.Session.EndReason} log {c.Session.LogLength}, {c.Session.UnconfirmedEvents} unjudged"));
 }

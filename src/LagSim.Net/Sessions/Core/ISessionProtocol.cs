@@ -4,7 +4,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>One side of the session protocol, the host's or a joiner's: what is done with what comes in, and what is due.</summary>
+/// <summary>One side of the session protocol, the host's or a client's: what is done with what comes in, and what is due.</summary>
 internal interface ISessionProtocol : IDatagramHandler
 {
     /// <summary>What went over each link so far.</summary>

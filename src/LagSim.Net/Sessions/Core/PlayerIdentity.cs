@@ -3,7 +3,7 @@ namespace LagSim.Net.Sessions.Core;
 /// <summary>Who this peer is in the session: its number, and the number of the newest event that it did under it.</summary>
 internal sealed class PlayerIdentity
 {
-    /// <summary>The peer's number; 0 for the host, and for a joiner that has none yet.</summary>
+    /// <summary>The peer's number; 0 for the host, and for a client that has none yet.</summary>
     internal byte Number { get; private set; }
 
     /// <summary>The number of the newest event; those of former holders of the number count.</summary>

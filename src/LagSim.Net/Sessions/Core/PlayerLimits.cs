@@ -9,7 +9,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>What one player may ask of a world at most: how fast, and how many bodies. The host's verdict; a joiner asks it of what it does itself.</summary>
+/// <summary>What one player may ask of a world at most: how fast, and how many bodies. The host's verdict; a client asks it of what it does itself.</summary>
 /// <remarks>No rule of the world: what was accepted once happens everywhere, whatever others would have said to it.</remarks>
 internal sealed class PlayerLimits
 {
@@ -93,13 +93,13 @@ internal sealed class PlayerLimits
     private static double SurfaceSpeed(in ExternalEvent spawn) => spawn.Spin.Length * spawn.Spec.Radius;
 
     /// <summary>
-    /// How fast the event leaves its body, and how fast that was; an impulse, and the way a hand has to make up for, are judged by the world as it is known
+    /// How fast the event leaves its body, and how fast that was; an impulse, and the way a hand has to make up for, are validated by the world as it is known
     /// now.
     /// </summary>
     private double SpeedAfter(in ExternalEvent external, Simulation world, out double before)
     {
         before = 0;
-        if (external.Kind == EventKind.HoldKnot)
+        if (external.Kind == EventKind.HoldKeyframe)
         {
             return Math.Max(external.Velocity.Length, SpeedOfCatchingUp(external, world));
         }

@@ -39,7 +39,7 @@ internal sealed class SessionLoop
         }
     }
 
-    /// <summary>Nothing is to be read from a world that failed; the pictures that were published still can be.</summary>
+    /// <summary>Nothing is to be read from a world that failed; the render snapshots that were published still can be.</summary>
     internal void EndWorld(SimulationException failure)
     {
         bool isFull = failure is TimelinesFullException;

@@ -7,7 +7,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>The parts that a host's session and a joiner's have alike, made and put together once.</summary>
+/// <summary>The parts that a host's session and a client's have alike, made and put together once.</summary>
 internal sealed class SessionParts
 {
     /// <summary>The furthest that a clock may have run, 23 days: so long a session can last.</summary>

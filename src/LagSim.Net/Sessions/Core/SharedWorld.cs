@@ -89,7 +89,7 @@ internal sealed class SharedWorld
     {
         live?.Retire();
         begunAt = start;
-        LiveWorld made = new(Scene!, WorldOptions(start), options.Window.LookAhead, options.PicturePast + DisplayDelay, options.Contacts)
+        LiveWorld made = new(Scene!, WorldOptions(start), options.Window.LookAhead, options.RenderedPast + DisplayDelay, options.Contacts)
         {
             Work = new WorkLedger(clock),
             WaitsForLateEvents = true,
@@ -103,7 +103,7 @@ internal sealed class SharedWorld
     {
         live?.Retire();
         LiveWorld copied = new(
-            Scene!, snapshot, WorldOptions(snapshot.Start), options.Window.LookAhead, options.PicturePast + DisplayDelay, options.Contacts)
+            Scene!, snapshot, WorldOptions(snapshot.Start), options.Window.LookAhead, options.RenderedPast + DisplayDelay, options.Contacts)
         {
             Work = new WorkLedger(clock),
             WaitsForLateEvents = true,
@@ -135,7 +135,7 @@ internal sealed class SharedWorld
     internal void Submit(in ExternalEvent external)
     {
         LiveWorld world = live!;
-        world.NoteNews(external.Peer);
+        world.NoteLateEvent(external.Peer);
         if (world.Submit(external) == SubmitResult.TooOld)
         {
             throw new InvalidOperationException(
@@ -155,7 +155,7 @@ internal sealed class SharedWorld
         hasUnshown = true;
         SimTime now = sharedTime.Now;
         counters.AddLateness(now - external.Time);
-        world.NoteNews(external.Peer);
+        world.NoteLateEvent(external.Peer);
         world.Advance(now); // what was shown up to now is simulated, so what changes it counts as changed
         SubmitResult result = strategy.Apply(world, external, now);
         if (result == SubmitResult.RolledBack && strategy.RewritesPast && external.Time < now)

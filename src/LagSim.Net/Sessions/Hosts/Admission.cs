@@ -8,10 +8,10 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Answers those who ask to be let in: welcomes them, each with a link of its own and a copy to fetch, or tells why not.</summary>
+/// <summary>Answers those who ask to be let in: welcomes them, each with a link of its own and a copy to request, or tells why not.</summary>
 internal sealed class Admission(
     ulong sessionId, SimDuration history, JoinCookies cookies, AddressChallenge challenge, JoinRules rules,
-    PlayerPlaces places, JoinerRoster roster, WaitingRoom room, JoinCopies copies, JoinerTimeouts timeouts,
+    PlayerPlaces places, ClientRoster roster, WaitingRoom room, JoinCopies copies, ClientTimeouts timeouts,
     LinkFactory links, DatagramSender sender, SessionCounters counters, IClock clock)
 {
     private ulong joins;
@@ -19,7 +19,7 @@ internal sealed class Admission(
     internal void OnJoin(in JoinDatagram join, PeerAddress from)
     {
         ulong nonce = join.Nonce;
-        Joiner? known = roster.All.Find(j => j.Link.Other == from && j.Claim.Nonce == nonce);
+        Client? known = roster.All.Find(j => j.Link.Other == from && j.Claim.Nonce == nonce);
         if (!challenge.IsMet(from, nonce, join.Cookie))
         {
             counters.DatagramsIgnored++; // whoever it is gets no answer: its address may not be its own
@@ -43,7 +43,7 @@ internal sealed class Admission(
     }
 
     /// <summary>One who has shown where it is, as one that is coming in; null if it may not, and was told so, or is to ask again.</summary>
-    private Joiner? Admit(in JoinDatagram join, PeerAddress from, SimTime now)
+    private Client? Admit(in JoinDatagram join, PeerAddress from, SimTime now)
     {
         byte keyed = rules.NumberByKey(join);
         PlayerPlaces.Place? claimed = places.Claimed(join, keyed);
@@ -67,7 +67,7 @@ internal sealed class Admission(
 
         if (made is null)
         {
-            return null; // the world is being simulated again; the joiner asks once more
+            return null; // the world is being simulated again; the client asks once more
         }
 
         // The same address, shown by the cookie, under a new nonce: it started again. One that is in stays until the new one gets its
@@ -76,7 +76,7 @@ internal sealed class Admission(
         roster.All.RemoveAll(j => j.Peer == 0 && j.Link.Other == from);
         room.MakeRoom(from, made);
         UpdateLink link = links.To(from, cookies.SessionId(sessionId, joins++), made.LogIndex, now);
-        Joiner admitted = new(new JoinClaim(join, keyed, claimed, now + timeouts.PatienceWithCopy(made)), link, made);
+        Client admitted = new(new JoinClaim(join, keyed, claimed, now + timeouts.TimeoutWithCopy(made)), link, made);
         roster.All.Add(admitted);
         return admitted;
     }

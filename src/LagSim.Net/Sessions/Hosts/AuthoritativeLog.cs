@@ -16,7 +16,7 @@ internal sealed class AuthoritativeLog(SharedWorld world, Watermark watermark, E
     internal event Action<ExternalEvent>? Recorded;
 
     /// <summary>The lines.</summary>
-    internal VerdictLog Lines { get; } = new();
+    internal LogLines Lines { get; } = new();
 
     /// <summary>The newest line that nothing later makes up for.</summary>
     internal uint LastUrgent { get; private set; }
@@ -32,7 +32,7 @@ internal sealed class AuthoritativeLog(SharedWorld world, Watermark watermark, E
         bool isAccepted = verdict == Verdict.Accepted;
         counters.EventsAccepted += isAccepted ? 1 : 0;
         counters.EventsRefused += isAccepted ? 0 : 1;
-        Lines.Add(external, verdict, SimTime.Min(watermark.Now, external.Time), clock.Now); // it was judged, or done, a little earlier
+        Lines.Add(external, verdict, SimTime.Min(watermark.Now, external.Time), clock.Now); // it was validated, or done, a little earlier
         LastUrgent = isAccepted && SendWindow.IsMadeUpFor(external) ? LastUrgent : Lines.Count;
         journal.Tell(Lines[Lines.Count], isAccepted && hasEffect);
         Recorded?.Invoke(external);

@@ -10,7 +10,7 @@ namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Sends away who has used up its budget, removes its bodies, and stops what else it moved.</summary>
 internal sealed class BudgetEnforcer(
-    WorkBudget budget, ForeignActs acts, JoinerRoster roster, ShutOuts shutOuts, BodyRemoval removal,
+    WorkBudget budget, ForeignActs acts, ClientRoster roster, ShutOuts shutOuts, BodyRemoval removal,
     HostActions actions, SharedWorld world, Watermark watermark, SessionStatus status)
 {
     private const int MostStops = 1024;
@@ -44,9 +44,9 @@ internal sealed class BudgetEnforcer(
         SimTime from = SimTime.Max(
             SimTime.Max(watermark.Now, simulation.HistoryEdge), SimTime.Min(budget.ChargedSince(player), simulation.SimulatedTo));
         (double work, double seconds) = budget.SpentBy(player);
-        if (roster.Seated(player) is Joiner joiner)
+        if (roster.Seated(player) is Client client)
         {
-            shutOuts.ShutOutForAWhile(joiner.Link.Other.Machine, now);
+            shutOuts.ShutOutForAWhile(client.Link.Other.Machine, now);
         }
 
         bool wasThere = roster.SendAway(j => j.Peer == player) > 0;

@@ -4,7 +4,7 @@ namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Whether one peer keeps up with the host's log, or catches up with it: how far behind it is, and how that goes on.</summary>
 /// <remarks>
-/// A peer that once kept up and then falls too far behind has failed. One that starts too far behind, because its copy took long to fetch, has time as long as
+/// A peer that once kept up and then falls too far behind has failed. One that starts too far behind, because its copy took long to request, has time as long as
 /// it is nearer at each look than at the one before.
 /// </remarks>
 internal sealed class CatchingUp

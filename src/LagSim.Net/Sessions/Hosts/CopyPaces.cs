@@ -5,9 +5,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>How fast each machine gets pieces of copies: one pace for all joiners of an address, and for those who come again.</summary>
+/// <summary>How fast each machine gets pieces of copies: one pace for all clients of an address, and for those who come again.</summary>
 /// <remarks>
-/// Were it one for each joiner, who comes in a hundred times over would get a hundred times as much. What is remembered is small: a machine
+/// Were it one for each client, who comes in a hundred times over would get a hundred times as much. What is remembered is small: a machine
 /// that has not asked for a moment has all of its pace again, so it is forgotten.
 /// </remarks>
 internal sealed class CopyPaces

@@ -16,7 +16,7 @@ internal sealed class DoorLimits
     /// </summary>
     internal long CopyBytes { get; set; } = 64 << 20;
 
-    /// <summary>This many copies always fit, however large they are, so a joiner has at least three time-outs to fetch its copy before it can be dropped for others.</summary>
+    /// <summary>This many copies always fit, however large they are, so a client has at least three time-outs to fetch its copy before it can be dropped for others.</summary>
     internal int CopiesAtLeast { get; set; } = 4;
 
     /// <summary>Who comes in on the slowest link that is counted on gets so many bytes of its copy a second.</summary>
@@ -26,5 +26,5 @@ internal sealed class DoorLimits
     internal double PiecesPerSecond { get; set; } = 2000;
 
     /// <summary>And after a pause so many at once, four windows of them.</summary>
-    internal int PiecesAtOnce { get; set; } = 4 * Wire.FetchDatagram.MaxChunks;
+    internal int PiecesAtOnce { get; set; } = 4 * Wire.SnapshotRequestDatagram.MaxChunks;
 }

@@ -6,10 +6,10 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>The host's verdict on an event of a joiner; it changes nothing.</summary>
+/// <summary>The host's verdict on an event of a client; it changes nothing.</summary>
 internal sealed class EventValidator(SharedWorld world, SharedClock sharedTime, Watermark watermark, WorkBudget budget, SimDuration history)
 {
-    internal Verdict Judge(in ExternalEvent external)
+    internal Verdict Validate(in ExternalEvent external)
     {
         SimTime now = sharedTime.Now;
         return world.Live is null || !world.MayEnter(external) ? Verdict.Invalid

@@ -9,7 +9,7 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <summary>All that a host has to do with those who are not in yet, or come from another address: challenge, join, copy, number.</summary>
 internal sealed class FrontDoor
 {
-    private readonly JoinerRoster roster;
+    private readonly ClientRoster roster;
     private readonly JoinCookies cookies = new();
     private readonly AddressChallenge challenge;
     private readonly Admission admission;
@@ -19,22 +19,22 @@ internal sealed class FrontDoor
 
     /// <param name="parts">What every session has.</param>
     /// <param name="sessionId">The number that session ids of links are made of.</param>
-    /// <param name="roster">The joiners.</param>
+    /// <param name="roster">The clients.</param>
     /// <param name="places">The numbers.</param>
     /// <param name="log">The log, which goes on where a copy ends.</param>
     /// <param name="budget">Where who gets a number begins an account.</param>
     /// <param name="timeouts">How long one may take to come in.</param>
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
     internal FrontDoor(
-        SessionParts parts, ulong sessionId, JoinerRoster roster, PlayerPlaces places, AuthoritativeLog log, WorkBudget budget,
-        JoinerTimeouts timeouts)
+        SessionParts parts, ulong sessionId, ClientRoster roster, PlayerPlaces places, AuthoritativeLog log, WorkBudget budget,
+        ClientTimeouts timeouts)
     {
         this.roster = roster;
         counters = parts.Counters;
         clock = parts.Clock;
         SessionOptions options = parts.Options;
         challenge = new AddressChallenge(cookies, parts.Sender, clock);
-        Seating = new Seating(roster, places, budget, parts.Sender, options.MaxJoinersPerAddress);
+        Seating = new Seating(roster, places, budget, parts.Sender, options.MaxClientsPerAddress);
         Copies = new JoinCopies(roster, log, parts.World, options.Door, options.Timeout);
         snapshots = new SnapshotServer(roster, new CopyPaces(options.Door), challenge, parts.Sender, counters, clock);
         JoinRules rules = new(options, parts.World.Scene!.Hash, ShutOuts, Seating);
@@ -47,7 +47,7 @@ internal sealed class FrontDoor
     /// <summary>The machines from which nobody is let in.</summary>
     internal ShutOuts ShutOuts { get; } = new();
 
-    /// <summary>What those who come in fetch.</summary>
+    /// <summary>What those who come in request.</summary>
     internal JoinCopies Copies { get; }
 
     /// <summary>What gives them their numbers.</summary>
@@ -58,19 +58,19 @@ internal sealed class FrontDoor
 
     internal void OnJoin(in JoinDatagram join, PeerAddress from) => admission.OnJoin(join, from);
 
-    internal void OnFetch(in FetchDatagram fetch, PeerAddress from) => snapshots.OnFetch(fetch, from);
+    internal void OnSnapshotRequest(in SnapshotRequestDatagram request, PeerAddress from) => snapshots.OnSnapshotRequest(request, from);
 
     /// <summary>Somebody shows that it is at another address now.</summary>
     internal void OnMove(in MoveDatagram move, PeerAddress from)
     {
-        if (roster.Of(move.SessionId) is Joiner joiner && (joiner.Peer == move.Peer || move.Peer == 0)
+        if (roster.Of(move.SessionId) is Client client && (client.Peer == move.Peer || move.Peer == 0)
             && challenge.IsMet(from, move.SessionId, move.Cookie))
         {
             SimTime now = clock.Now;
-            joiner.Link.Other = from;
-            joiner.Link.CountReceived(WireFormat.MoveBytes);
-            joiner.Link.NoteHeard(now);
-            joiner.Link.Hasten(now);
+            client.Link.Other = from;
+            client.Link.CountReceived(WireFormat.MoveBytes);
+            client.Link.NoteHeard(now);
+            client.Link.Flush(now);
         }
         else
         {
@@ -82,11 +82,11 @@ internal sealed class FrontDoor
     internal void OnOtherVersion(ulong nonce, PeerAddress from) => admission.Refuse(nonce, RefusalReason.VersionDiffers, from);
 
     /// <summary>Gives one that has its copy and its clock a number; false if there is none, and it was told so.</summary>
-    internal bool TrySeat(Joiner joiner, SimTime now)
+    internal bool TrySeat(Client client, SimTime now)
     {
-        if (Seating.TrySeat(joiner, now) is RefusalReason reason)
+        if (Seating.TrySeat(client, now) is RefusalReason reason)
         {
-            admission.Refuse(joiner.Claim.Nonce, reason, joiner.Link.Other);
+            admission.Refuse(client.Claim.Nonce, reason, client.Link.Other);
             return false;
         }
 

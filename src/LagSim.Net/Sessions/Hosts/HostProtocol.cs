@@ -17,8 +17,8 @@ namespace LagSim.Net.Sessions.Hosts;
 internal sealed class HostProtocol : ISessionProtocol
 {
     private readonly PlayerPlaces places;
-    private readonly JoinerTimeouts timeouts;
-    private readonly JoinerEvents events;
+    private readonly ClientTimeouts timeouts;
+    private readonly ClientEvents events;
     private readonly HostActions actions;
     private readonly LogBroadcast broadcast;
 
@@ -29,21 +29,21 @@ internal sealed class HostProtocol : ISessionProtocol
         SessionOptions options = parts.Options;
         SimTime now = parts.Clock.Now;
         places = new PlayerPlaces(options, now);
-        Roster = new JoinerRoster(places, parts.Sender, parts.Clock);
+        Roster = new ClientRoster(places, parts.Sender, parts.Clock);
         Watermark = new Watermark(parts.SharedTime, parts.World, options.Window.History);
         Log = new AuthoritativeLog(parts.World, Watermark, parts.Journal, parts.Counters, parts.Clock);
         broadcast = new LogBroadcast(Roster, Log, Watermark, parts.World, parts.Commits, parts.KeepAlive, parts.Sender, parts.Clock);
         Log.Recorded += broadcast.NoteRecorded;
         Budget = new WorkBudget(parts.World, parts.SharedTime, options.PlayerBudget);
-        timeouts = new JoinerTimeouts(Roster, Log.Lines, options.Timeout, options.Door.SlowestCopy, now);
+        timeouts = new ClientTimeouts(Roster, Log.Lines, options.Timeout, options.Door.SlowestCopy, now);
         Door = new FrontDoor(parts, sessionId, Roster, places, Log, Budget, timeouts);
         ForeignActs acts = new(options.PlayerBudget is not null, 10 * options.MaxEventsPerSecond);
         EventValidator validator = new(parts.World, parts.SharedTime, Watermark, Budget, options.Window.History);
-        events = new JoinerEvents(places, validator, parts.World, acts, Log, parts.Counters);
+        events = new ClientEvents(places, validator, parts.World, acts, Log, parts.Counters);
         actions = new HostActions(parts.Actions, Log);
         Removal = new BodyRemoval(parts.World, actions);
         Enforcer = new BudgetEnforcer(Budget, acts, Roster, Door.ShutOuts, Removal, actions, parts.World, Watermark, parts.Status);
-        Evidence = new EvidenceServer(Roster, parts.Journal, parts.World, Watermark, parts.Sender, parts.Counters, parts.Clock);
+        DesyncReport = new DesyncReporter(Roster, parts.Journal, parts.World, Watermark, parts.Sender, parts.Counters, parts.Clock);
         parts.SharedTime.Adjust(SimDuration.Zero);
     }
 
@@ -55,7 +55,7 @@ internal sealed class HostProtocol : ISessionProtocol
 
     internal SessionParts Parts { get; }
 
-    internal JoinerRoster Roster { get; }
+    internal ClientRoster Roster { get; }
 
     internal Watermark Watermark { get; }
 
@@ -69,7 +69,7 @@ internal sealed class HostProtocol : ISessionProtocol
 
     internal BodyRemoval Removal { get; }
 
-    internal EvidenceServer Evidence { get; }
+    internal DesyncReporter DesyncReport { get; }
 
     public ExternalEvent Do(in PlayerAction action, SimTime time) => actions.Do(action, time);
 
@@ -79,12 +79,12 @@ internal sealed class HostProtocol : ISessionProtocol
 
     public bool TendWorld(SimTime now) => Enforcer.Tend(now);
 
-    /// <summary>Has the next step write to every joiner.</summary>
-    internal void Hasten() => broadcast.Hasten();
+    /// <summary>Has the next step write to every client.</summary>
+    internal void Flush() => broadcast.Flush();
 
     public void OnOtherVersion(ReadOnlySpan<byte> datagram, PeerAddress from)
     {
-        if (!Parts.Status.HasEnded && KnockDatagram.TryReadAnyVersion(datagram, out ulong nonce))
+        if (!Parts.Status.HasEnded && ConnectRequestDatagram.TryReadAnyVersion(datagram, out ulong nonce))
         {
             Door.OnOtherVersion(nonce, from);
         }
@@ -101,26 +101,26 @@ internal sealed class HostProtocol : ISessionProtocol
 
         switch (type)
         {
-            case DatagramType.Knock when counters.IsWellFormed(KnockDatagram.TryDecode(datagram, out KnockDatagram knock, out _)):
-                Door.Challenge(knock.Nonce, from);
+            case DatagramType.ConnectRequest when counters.IsWellFormed(ConnectRequestDatagram.TryDecode(datagram, out ConnectRequestDatagram request, out _)):
+                Door.Challenge(request.Nonce, from);
                 break;
             case DatagramType.Join when counters.IsWellFormed(JoinDatagram.TryDecode(datagram, out JoinDatagram join, out _)):
                 Door.OnJoin(join, from);
                 break;
-            case DatagramType.Fetch when counters.IsWellFormed(FetchDatagram.TryDecode(datagram, out FetchDatagram fetch, out _)):
-                Door.OnFetch(fetch, from);
+            case DatagramType.SnapshotRequest when counters.IsWellFormed(SnapshotRequestDatagram.TryDecode(datagram, out SnapshotRequestDatagram request, out _)):
+                Door.OnSnapshotRequest(request, from);
                 break;
             case DatagramType.Move when counters.IsWellFormed(MoveDatagram.TryDecode(datagram, out MoveDatagram move, out _)):
                 Door.OnMove(move, from);
                 break;
-            case DatagramType.Doubt when counters.IsWellFormed(DoubtDatagram.TryDecode(datagram, out DoubtDatagram doubt, out _)):
-                Evidence.OnDoubt(doubt, from);
+            case DatagramType.DesyncQuery when counters.IsWellFormed(DesyncQueryDatagram.TryDecode(datagram, out DesyncQueryDatagram query, out _)):
+                DesyncReport.OnDesyncQuery(query, from);
                 break;
             case DatagramType.Leave when counters.IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)):
                 OnLeave(leave, from);
                 break;
-            case DatagramType.Welcome or DatagramType.Refusal or DatagramType.Challenge or DatagramType.Chunk
-                or DatagramType.Evidence or DatagramType.Seat:
+            case DatagramType.Welcome or DatagramType.Refusal or DatagramType.Challenge or DatagramType.SnapshotChunk
+                or DatagramType.DesyncReport or DatagramType.Seat:
                 counters.DatagramsIgnored++; // a host's own words
                 break;
         }
@@ -129,18 +129,18 @@ internal sealed class HostProtocol : ISessionProtocol
     public void OnUpdate(UpdateDatagram update, PeerAddress from)
     {
         bool hasEnded = Parts.Status.HasEnded;
-        Joiner? joiner = Roster.Of(update.SessionId);
-        if (joiner is not null && joiner.Link.Other != from && !hasEnded)
+        Client? client = Roster.Of(update.SessionId);
+        if (client is not null && client.Link.Other != from && !hasEnded)
         {
             Parts.Counters.DatagramsIgnored++; // what it says comes again, once it has shown that it is there
             Door.Challenge(update.SessionId, from);
             return;
         }
 
-        if (joiner is null || (update.Peer != joiner.Peer && update.Peer != 0) || hasEnded)
+        if (client is null || (update.Peer != client.Peer && update.Peer != 0) || hasEnded)
         {
             Parts.Counters.DatagramsIgnored++;
-            if (hasEnded || joiner is null)
+            if (hasEnded || client is null)
             {
                 // It has not heard the goodbye, or never was one of ours. Told with its own session's number, and in fewer bytes than it
                 // sent.
@@ -150,7 +150,7 @@ internal sealed class HostProtocol : ISessionProtocol
             return;
         }
 
-        Take(update, joiner, Parts.Clock.Now);
+        Take(update, client, Parts.Clock.Now);
     }
 
     public void Tend(SimTime now)
@@ -166,31 +166,31 @@ internal sealed class HostProtocol : ISessionProtocol
             return;
         }
 
-        if (Parts.World.Live is null && Roster.SeatedCount >= Parts.Options.ExpectedJoiners)
+        if (Parts.World.Live is null && Roster.SeatedCount >= Parts.Options.ExpectedClients)
         {
             Parts.Start.Begin(now + Parts.Options.StartLead);
-            Hasten();
+            Flush();
         }
 
-        foreach (Joiner joiner in Roster.All)
+        foreach (Client client in Roster.All)
         {
-            events.JudgeNext(joiner, now); // what was left for later
+            events.ValidateNext(client, now); // what was left for later
         }
 
         Parts.Commits.Commit(Watermark.Now);
         Log.Settle();
         Door.Copies.Forget(now);
-        Log.Lines.ForgetUpTo(Roster.All.Aggregate(Door.Copies.NeededAfter, (least, joiner) => Math.Min(least, joiner.Acknowledged)));
+        Log.Lines.ForgetUpTo(Roster.All.Aggregate(Door.Copies.NeededAfter, (least, client) => Math.Min(least, client.Acknowledged)));
         broadcast.Tend(now);
     }
 
     public SimTime NextDue(SimTime now)
     {
         SimTime due = Parts.Commits.NextDue(Parts.Options.Window.History);
-        foreach (Joiner joiner in Roster.All)
+        foreach (Client client in Roster.All)
         {
-            due = SimTime.Min(due, joiner.HasWritten ? joiner.Link.Due : timeouts.GivenUpAt(joiner));
-            due = joiner.Incoming.HasNext ? SimTime.Min(due, now + Parts.Options.ResendInterval) : due;
+            due = SimTime.Min(due, client.HasWritten ? client.Link.Due : timeouts.GivenUpAt(client));
+            due = client.Incoming.HasNext ? SimTime.Min(due, now + Parts.Options.ResendInterval) : due;
         }
 
         return due;
@@ -198,78 +198,78 @@ internal sealed class HostProtocol : ISessionProtocol
 
     private void OnLeave(in LeaveDatagram leave, PeerAddress from)
     {
-        if (Roster.Of(leave.SessionId) is not Joiner joiner || joiner.Link.Other != from || (joiner.Peer != leave.Peer && leave.Peer != 0)
-            || !Roster.LetGo(joiner, LeaveReason.Left))
+        if (Roster.Of(leave.SessionId) is not Client client || client.Link.Other != from || (client.Peer != leave.Peer && leave.Peer != 0)
+            || !Roster.Disconnect(client, LeaveReason.Left))
         {
             Parts.Counters.DatagramsIgnored++;
         }
     }
 
-    /// <summary>Takes in an update of a joiner: what it has, what it did, and whether it is ready for a number.</summary>
-    private void Take(UpdateDatagram update, Joiner joiner, SimTime now)
+    /// <summary>Takes in an update of a client: what it has, what it did, and whether it is ready for a number.</summary>
+    private void Take(UpdateDatagram update, Client client, SimTime now)
     {
-        if (timeouts.IsSilent(joiner, now))
+        if (timeouts.IsSilent(client, now))
         {
-            joiner.NoteSilence();
+            client.NoteSilence();
         }
 
-        if (!joiner.Link.Note(update, now, out _))
+        if (!client.Link.Note(update, now, out _))
         {
             Parts.Counters.DatagramsIgnored++;
             return;
         }
 
-        joiner.Link.CountReceived(update.EncodedLength);
-        joiner.NoteEcho(update.EchoNumber);
-        joiner.HasWritten = true;
-        if (update.Ready && joiner.Peer == 0 && !Door.TrySeat(joiner, now))
+        client.Link.CountReceived(update.EncodedLength);
+        client.NoteEcho(update.EchoNumber);
+        client.HasWritten = true;
+        if (update.Ready && client.Peer == 0 && !Door.TrySeat(client, now))
         {
             return;
         }
 
-        joiner.HasBegun |= update.Start != SimTime.MinValue;
+        client.HasBegun |= update.Start != SimTime.MinValue;
         if (update.Peer == 0)
         {
-            if (joiner.Peer > 0)
+            if (client.Peer > 0)
             {
-                Door.Seating.Tell(joiner); // it has not heard which it has
+                Door.Seating.Tell(client); // it has not heard which it has
             }
 
-            joiner.Link.Answer(now);
+            client.Link.Answer(now);
             return;
         }
 
         if (update.EventsReceived <= LogLength)
         {
-            joiner.Link.Acknowledge(update.EventsReceived, now);
+            client.Link.Acknowledge(update.EventsReceived, now);
         }
 
-        TakeEvents(update, joiner, now);
+        TakeEvents(update, client, now);
     }
 
-    private void TakeEvents(UpdateDatagram update, Joiner joiner, SimTime now)
+    private void TakeEvents(UpdateDatagram update, Client client, SimTime now)
     {
         uint sequence = update.FirstIndex;
         bool isNear = true;
         bool canWait = update.Held.Length > 0;
         foreach (UpdateEntry entry in update.Held)
         {
-            isNear &= joiner.Incoming.Put(sequence++, entry);
+            isNear &= client.Incoming.Put(sequence++, entry);
             canWait &= !entry.IsOwn && SendWindow.IsMadeUpFor(entry.Event);
         }
 
-        Parts.Counters.DatagramsIgnored += isNear ? 0 : 1; // further ahead than any joiner of ours goes
-        Parts.Counters.EventsDeferred += events.JudgeNext(joiner, now) ? 0 : 1;
+        Parts.Counters.DatagramsIgnored += isNear ? 0 : 1; // further ahead than any client of ours goes
+        Parts.Counters.EventsDeferred += events.ValidateNext(client, now) ? 0 : 1;
 
-        // An answer at once: it carries the acknowledgement, and the joiner's clock has its exchange without waiting. Knots come many a
+        // An answer at once: it carries the acknowledgement, and the client's clock has its exchange without waiting. Keyframes come many a
         // second, and have time.
         if (canWait)
         {
-            joiner.Link.Hasten(now + UpdateLink.MostAckDelay);
+            client.Link.Flush(now + UpdateLink.MostAckDelay);
         }
         else
         {
-            joiner.Link.Answer(now);
+            client.Link.Answer(now);
         }
     }
 }

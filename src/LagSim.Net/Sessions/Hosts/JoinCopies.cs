@@ -9,14 +9,14 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>
-/// Makes what those who join fetch, and shares it among them, so that many who come cost one copy a second and a bounded amount of memory.
+/// Makes what those who join request, and shares it among them, so that many who come cost one copy a second and a bounded amount of memory.
 /// </summary>
 internal sealed class JoinCopies
 {
-    /// <summary>A copy this fresh serves the next joiner too.</summary>
+    /// <summary>A copy this fresh serves the next client too.</summary>
     private static readonly SimDuration CopyAge = SimDuration.FromSeconds(1);
 
-    private readonly JoinerRoster roster;
+    private readonly ClientRoster roster;
     private readonly AuthoritativeLog log;
     private readonly SharedWorld world;
     private readonly DoorLimits door;
@@ -24,13 +24,13 @@ internal sealed class JoinCopies
     private readonly byte[] sceneCopy;
     private JoinCopy? newest;
 
-    /// <param name="roster">The joiners, who fetch copies.</param>
+    /// <param name="roster">The clients, who fetch copies.</param>
     /// <param name="log">The log, which goes on where a copy ends.</param>
     /// <param name="world">What is copied.</param>
     /// <param name="door">How much memory copies may take.</param>
     /// <param name="timeout">No copy that is older is given to somebody new.</param>
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
-    internal JoinCopies(JoinerRoster roster, AuthoritativeLog log, SharedWorld world, DoorLimits door, SimDuration timeout)
+    internal JoinCopies(ClientRoster roster, AuthoritativeLog log, SharedWorld world, DoorLimits door, SimDuration timeout)
     {
         this.roster = roster;
         this.log = log;
@@ -43,8 +43,8 @@ internal sealed class JoinCopies
     /// <summary>The lines of the log from the one after this on are needed by who gets the newest copy.</summary>
     internal uint NeededAfter => newest?.LogIndex ?? uint.MaxValue;
 
-    /// <summary>How many bytes the copies take that these joiners are fetching; a shared one counts once.</summary>
-    internal static long BytesOf(IEnumerable<Joiner> some) =>
+    /// <summary>How many bytes the copies take that these clients are fetching; a shared one counts once.</summary>
+    internal static long BytesOf(IEnumerable<Client> some) =>
         some.Select(j => j.Copy).OfType<JoinCopy>().Distinct().Sum(copy => (long)copy.Bytes.Length);
 
     /// <summary>How much memory copies of that size may take, in bytes; see <see cref="DoorLimits.CopyBytes"/>.</summary>
@@ -80,9 +80,9 @@ internal sealed class JoinCopies
     /// <summary>Lets go of copies that nobody needs any more.</summary>
     internal void Forget(SimTime now)
     {
-        foreach (Joiner joiner in roster.All)
+        foreach (Client client in roster.All)
         {
-            joiner.Copy = joiner.IsReady ? null : joiner.Copy;
+            client.Copy = client.IsReady ? null : client.Copy;
         }
 
         bool isFetched = roster.All.Exists(j => j.Copy == newest);
@@ -90,9 +90,9 @@ internal sealed class JoinCopies
     }
 
     /// <summary>
-    /// Whether a new joiner can be given this copy. A copy is shared for a second; and while there is no memory for another one, until it
+    /// Whether a new client can be given this copy. A copy is shared for a second; and while there is no memory for another one, until it
     /// is as old as the time-out.
-    /// So joiners are not dropped each time that another one comes, and no joiner gets a world older than that because others keep fetching
+    /// So clients are not dropped each time that another one comes, and no client gets a world older than that because others keep fetching
     /// it.
     /// </summary>
     private bool Serves(JoinCopy copy, SimTime now) =>

@@ -3,20 +3,20 @@ using LagSim.Net.Wire;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>The log as one joiner gets it: of what it did itself only the number travels back; a former one of its number is another.</summary>
+/// <summary>The log as one client gets it: of what it did itself only the number travels back; a former one of its number is another.</summary>
 internal sealed class LogView : IEntrySource
 {
-    private readonly VerdictLog log;
+    private readonly LogLines log;
 
-    internal LogView(VerdictLog log) => this.log = log;
+    internal LogView(LogLines log) => this.log = log;
 
-    internal Joiner? Reader { get; set; }
+    internal Client? Reader { get; set; }
 
     public uint Last => Reader!.IsReady ? log.Count : Reader.Acknowledged;
 
     public UpdateEntry this[uint number] => EntryFor(Reader!, number);
 
-    internal UpdateEntry EntryFor(Joiner reader, uint number)
+    internal UpdateEntry EntryFor(Client reader, uint number)
     {
         LogEntry entry = log[number];
         return entry.Event.Peer == reader.Peer && entry.Event.Sequence > reader.FirstSequence

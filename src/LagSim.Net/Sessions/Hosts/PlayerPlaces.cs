@@ -13,7 +13,7 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <remarks>A number is kept for a player that fell silent, as long as the host's option says and no newcomer needs it.</remarks>
 internal sealed class PlayerPlaces
 {
-    private readonly Place[] places = new Place[SessionOptions.MaxJoiners + 1];
+    private readonly Place[] places = new Place[SessionOptions.MaxClients + 1];
     private readonly SessionOptions options;
     private readonly SimTime began;
 
@@ -30,12 +30,12 @@ internal sealed class PlayerPlaces
     internal Place this[byte number] => places[number];
 
     /// <summary>
-    /// The place of the player that a join says, and shows, that its joiner was; null if it does not. A pass travels in clear, so it opens no number that has a key.
+    /// The place of the player that a join says, and shows, that its client was; null if it does not. A pass travels in clear, so it opens no number that has a key.
     /// </summary>
     /// <param name="join">The join.</param>
     /// <param name="keyed">The player whose key it shows; 0 for none.</param>
     internal Place? Claimed(in JoinDatagram join, byte keyed) =>
-        join.Player is > 0 and <= SessionOptions.MaxJoiners && (join.Player == keyed || !options.PlayerKeys.ContainsKey(join.Player))
+        join.Player is > 0 and <= SessionOptions.MaxClients && (join.Player == keyed || !options.PlayerKeys.ContainsKey(join.Player))
             && places[join.Player].Pass is Token128 pass && JoinCookies.IsProof(pass, join) ? places[join.Player] : null;
 
     /// <summary>
@@ -53,7 +53,7 @@ internal sealed class PlayerPlaces
     /// </param>
     internal byte Free(SimTime now, byte wanted, PeerAddress machine)
     {
-        if (wanted is > 0 and <= SessionOptions.MaxJoiners && now - began <= options.RejoinTime && places[wanted] is { IsTaken: false, Pass: null }
+        if (wanted is > 0 and <= SessionOptions.MaxClients && now - began <= options.RejoinTime && places[wanted] is { IsTaken: false, Pass: null }
             && !options.PlayerKeys.ContainsKey(wanted))
         {
             return wanted;
@@ -64,13 +64,13 @@ internal sealed class PlayerPlaces
             .Where(place => !place.IsTaken && !options.PlayerKeys.ContainsKey(place.Number) && place.LastSequence != uint.MaxValue)
             .ToList();
         List<Place> keptHere = free.FindAll(place => place.Machine == machine && IsKept(place));
-        bool hasEnough = places.Skip(1).Count(place => place.Machine == machine && (place.IsTaken || IsKept(place))) >= options.MaxJoinersPerAddress;
+        bool hasEnough = places.Skip(1).Count(place => place.Machine == machine && (place.IsTaken || IsKept(place))) >= options.MaxClientsPerAddress;
         List<Place> choice = hasEnough && keptHere.Count > 0 ? keptHere : free;
         Place? chosen = choice.Find(place => !IsKept(place)) ?? choice.OrderBy(place => place.LeftAt).FirstOrDefault();
         return chosen?.Number ?? 0;
     }
 
-    /// <summary>Why the one that had that link was let go, if that was not long ago; else that there is none.</summary>
+    /// <summary>Why the one that had that link was disconnected, if that was not long ago; else that there is none.</summary>
     internal LeaveReason WhyGone(ulong session)
     {
         for (byte number = 1; number < places.Length; number++)
@@ -95,7 +95,7 @@ internal sealed class PlayerPlaces
 
         internal byte Number { get; }
 
-        /// <summary>How many events of this number are judged a second: to come again starts none anew.</summary>
+        /// <summary>How many events of this number are validated a second: to come again starts none anew.</summary>
         internal RateLimit Events { get; }
 
         /// <summary>Of the last event that bears this number.</summary>
@@ -130,7 +130,7 @@ internal sealed class PlayerPlaces
             }
         }
 
-        /// <summary>The session id of the link of whoever had it last, and why that one was let go.</summary>
+        /// <summary>The session id of the link of whoever had it last, and why that one was disconnected.</summary>
         internal (ulong Session, LeaveReason Why) Former { get; private set; }
 
         /// <summary>Its player is gone: kept for it, or free.</summary>

@@ -8,14 +8,14 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Gives those who have a copy and a clock their numbers: the one that a key or a pass shows, or one that is free.</summary>
-/// <param name="roster">The joiners.</param>
+/// <param name="roster">The clients.</param>
 /// <param name="places">The numbers.</param>
 /// <param name="budget">Where a number that gets another holder begins another account.</param>
 /// <param name="sender">What they are told through.</param>
 /// <param name="mostOfOneMachine">How many may be in from one machine.</param>
-internal sealed class Seating(JoinerRoster roster, PlayerPlaces places, WorkBudget budget, DatagramSender sender, int mostOfOneMachine)
+internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudget budget, DatagramSender sender, int mostOfOneMachine)
 {
-    /// <summary>Raised for each joiner that got its number, with its link.</summary>
+    /// <summary>Raised for each client that got its number, with its link.</summary>
     internal event Action<LinkTraffic>? Came;
 
     /// <summary>Why somebody can get no number now; null if it can.</summary>
@@ -42,46 +42,46 @@ internal sealed class Seating(JoinerRoster roster, PlayerPlaces places, WorkBudg
 
     /// <summary>Gives one that has its copy and its clock a number, and tells it.</summary>
     /// <returns>Why there is none, and it is forgotten; null if it has one.</returns>
-    internal RefusalReason? TrySeat(Joiner joiner, SimTime now)
+    internal RefusalReason? TrySeat(Client client, SimTime now)
     {
-        PeerAddress address = joiner.Link.Other;
-        JoinClaim claim = joiner.Claim;
+        PeerAddress address = client.Link.Other;
+        JoinClaim claim = client.Claim;
         PlayerPlaces.Place? claimed = claim.Former;
         PlayerPlaces.Place? place = claim.Keyed > 0 ? places[claim.Keyed] : claimed;
-        if (roster.All.Find(j => j.Peer > 0 && j.Peer != place?.Number && j.Link.Other == address) is Joiner gone)
+        if (roster.All.Find(j => j.Peer > 0 && j.Peer != place?.Number && j.Link.Other == address) is Client gone)
         {
-            roster.LetGo(gone, LeaveReason.TimedOut); // started again, or gone, and another got its port: it may still come back
+            roster.Disconnect(gone, LeaveReason.TimedOut); // started again, or gone, and another got its port: it may still come back
         }
 
         if (WhyNone(claim.Keyed, claimed, address, now) is RefusalReason reason)
         {
-            roster.All.Remove(joiner);
+            roster.All.Remove(client);
             return reason;
         }
 
         place ??= places[places.Free(now, claim.Wanted, address.Machine)];
-        if (roster.Seated(place.Number) is Joiner before)
+        if (roster.Seated(place.Number) is Client before)
         {
             roster.Dismiss(before, LeaveReason.Replaced); // its player came in from elsewhere
         }
 
-        joiner.Sit(place);
+        client.Sit(place);
         if (claimed != place)
         {
             budget.BeginAccount(place.Number);
         }
 
         place.Take(isSamePlayer: claimed == place, address.Machine);
-        Tell(joiner);
-        Came?.Invoke(joiner.Link.Traffic);
+        Tell(client);
+        Came?.Invoke(client.Link.Traffic);
         return null;
     }
 
-    /// <summary>Tells a joiner the number that it has.</summary>
-    internal void Tell(Joiner joiner)
+    /// <summary>Tells a client the number that it has.</summary>
+    internal void Tell(Client client)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.SeatBytes];
-        SeatDatagram seat = new(joiner.Link.SessionId, joiner.Peer, joiner.FirstSequence, places[joiner.Peer].Pass!.Value);
-        sender.Send(bytes.Slice(0, seat.Encode(bytes)), joiner.Link);
+        SeatDatagram seat = new(client.Link.SessionId, client.Peer, client.FirstSequence, places[client.Peer].Pass!.Value);
+        sender.Send(bytes.Slice(0, seat.Encode(bytes)), client.Link);
     }
 }

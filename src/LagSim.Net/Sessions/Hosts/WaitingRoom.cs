@@ -7,18 +7,18 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <summary>
 /// Keeps those who are coming in to a number and to a size of their copies: who comes makes the oldest of the machine with the most go.
 /// </summary>
-internal sealed class WaitingRoom(JoinerRoster roster, JoinCopies copies, DoorLimits door)
+internal sealed class WaitingRoom(ClientRoster roster, JoinCopies copies, DoorLimits door)
 {
     /// <summary>
     /// Lets go of the oldest of those that are coming in, of the machine with the most: while there are too many, or their copies take too
     /// much memory.
     /// </summary>
     /// <param name="from">Who comes.</param>
-    /// <param name="made">What it is to fetch. Others who fetch the same copy take no more memory for it.</param>
+    /// <param name="made">What it is to request. Others who fetch the same copy take no more memory for it.</param>
     internal void MakeRoom(PeerAddress from, JoinCopy made)
     {
-        List<Joiner> coming = roster.All.FindAll(j => j.Peer == 0); // the oldest first
-        List<Joiner> ofOne = coming.FindAll(j => j.Link.Other.IsSameMachine(from));
+        List<Client> coming = roster.All.FindAll(j => j.Peer == 0); // the oldest first
+        List<Client> ofOne = coming.FindAll(j => j.Link.Other.IsSameMachine(from));
         if (ofOne.Count >= door.ComingOfOne)
         {
             LeaveOut(ofOne[0]);
@@ -35,13 +35,13 @@ internal sealed class WaitingRoom(JoinerRoster roster, JoinCopies copies, DoorLi
             LeaveOut(OldestOf(others));
         }
 
-        void LeaveOut(Joiner joiner)
+        void LeaveOut(Client client)
         {
-            roster.All.Remove(joiner);
-            coming.Remove(joiner);
+            roster.All.Remove(client);
+            coming.Remove(client);
         }
 
-        Joiner OldestOf(List<Joiner> some) => some.GroupBy(j => j.Link.Other.Machine)
+        Client OldestOf(List<Client> some) => some.GroupBy(j => j.Link.Other.Machine)
             .OrderByDescending(machine => machine.Count() + (machine.Key == from.Machine ? 1 : 0)).First().First();
     }
 }

@@ -53,7 +53,7 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
         get
         {
             List<PlayerCost> costs = [];
-            for (byte player = 0; player <= SessionOptions.MaxJoiners && Ledger is WorkLedger ledger; player++)
+            for (byte player = 0; player <= SessionOptions.MaxClients && Ledger is WorkLedger ledger; player++)
             {
                 if (ledger.ChargedTo(player) > 0)
                 {
@@ -92,7 +92,7 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
         bool isFirst = counted == SimTime.MaxValue;
         double gain = isFirst ? Whole : (now - counted).ToSeconds() * budget!.WorkPerSecond;
         counted = now;
-        for (int player = 0; player < purses.Length; player = player == SessionOptions.MaxJoiners ? Departed : player + 1)
+        for (int player = 0; player < purses.Length; player = player == SessionOptions.MaxClients ? Departed : player + 1)
         {
             ref Purse purse = ref purses[player];
             double charged = ledger.ChargedTo((byte)player);
@@ -114,9 +114,9 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
     /// </summary>
     internal byte Overdrawn()
     {
-        double least = sharedTime.Now - Late > world.Live!.PictureTo ? Whole * LittleLeft : 0;
+        double least = sharedTime.Now - Late > world.Live!.RenderedTo ? Whole * LittleLeft : 0;
         byte worst = 0;
-        for (byte player = 1; player <= SessionOptions.MaxJoiners; player++)
+        for (byte player = 1; player <= SessionOptions.MaxClients; player++)
         {
             worst = purses[player].Left <= least && (worst == 0 || purses[player].Left < purses[worst].Left) ? player : worst;
         }
@@ -126,7 +126,7 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
 
     /// <summary>
     /// Who is to go if one has used up its budget: of those that have little left the one for whose bodies most was done the first time, if
-    /// that is much; else that one. Whose news has what
+    /// that is much; else that one. Whose events have what
     /// another does simulated again and again pays for it too, but it is not its doing. And of those who are charged alike, for their
     /// bodies meet, the one whose bodies move the fastest: it
     /// is not who holds a ball that makes it bounce a million times a second.
@@ -134,7 +134,7 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
     internal byte Culprit(byte worst)
     {
         byte[] tight = worst == Departed ? []
-            : [.. Enumerable.Range(1, SessionOptions.MaxJoiners).Select(n => (byte)n).Where(n => purses[n].Left < Whole * LittleLeft)];
+            : [.. Enumerable.Range(1, SessionOptions.MaxClients).Select(n => (byte)n).Where(n => purses[n].Left < Whole * LittleLeft)];
         double most = tight.Select(Own).DefaultIfEmpty(0).Max();
         return most < Whole * Much ? worst : tight.Where(n => Own(n) > most * Alike).OrderByDescending(SpeedOf).First();
 

@@ -16,13 +16,13 @@ internal sealed class AnswerTimer(RoundTrips trips, SentDatagrams sent, SimDurat
     private const int Silent = 3;
 
     /// <summary>How long an answer is waited for before a round trip has been measured.</summary>
-    private static readonly SimDuration FirstPatience = SimDuration.FromMilliseconds(300);
+    private static readonly SimDuration FirstTimeout = SimDuration.FromMilliseconds(300);
 
     private int unanswered; // how many times in a row answers were overdue
     private SimTime answered; // when something was answered, or began to be waited for
 
     /// <summary>How long an answer is waited for.</summary>
-    internal SimDuration Patience => (trips.IsMeasured ? trips.Patience : FirstPatience) + longestDelay;
+    internal SimDuration Timeout => (trips.IsMeasured ? trips.Timeout : FirstTimeout) + longestDelay;
 
     /// <summary>Whether the last answer that was waited for did not come in time.</summary>
     internal bool IsOverdue => unanswered > 0;
@@ -46,7 +46,7 @@ internal sealed class AnswerTimer(RoundTrips trips, SentDatagrams sent, SimDurat
     }
 
     /// <summary>When the answer to what was sent is overdue.</summary>
-    internal SimTime Due(SimTime now) => sent.TryPeekOldest(out SimTime at) ? at + (Patience * (1L << Doublings(now))) : SimTime.MaxValue;
+    internal SimTime Due(SimTime now) => sent.TryPeekOldest(out SimTime at) ? at + (Timeout * (1L << Doublings(now))) : SimTime.MaxValue;
 
     /// <summary>
     /// How many times the wait for an answer has doubled. Where there is a queue it doubles each time that an answer was overdue. Where
@@ -57,7 +57,7 @@ internal sealed class AnswerTimer(RoundTrips trips, SentDatagrams sent, SimDurat
     internal int Doublings(SimTime now)
     {
         int doublings = 0;
-        while (doublings < MostDoublings && doublings < unanswered && (trips.HasQueue || now - answered > Patience * (8L << doublings)))
+        while (doublings < MostDoublings && doublings < unanswered && (trips.HasQueue || now - answered > Timeout * (8L << doublings)))
         {
             doublings++;
         }

@@ -20,7 +20,7 @@ internal class CongestionControl
     private const int Full = FullDatagramBytes;
 
     /// <summary>
-    /// Above the ten datagrams of RFC 9002: an event that waits for the window to open is an event too late. This is what the most that a host takes of a joiner by
+    /// Above the ten datagrams of RFC 9002: an event that waits for the window to open is an event too late. This is what the most that a host takes of a client by
     /// default, 500 events a second, has on its way on the longest link that is reported on, 2 s there and back.
     /// </summary>
     private const int InitialWindow = 50 * Full;

@@ -19,7 +19,7 @@ internal sealed class KeepAlivePolicy
     internal SimDuration KeepAlive { get; }
 
     /// <summary>
-    /// How long a silence is overdue. A host waits as long before it writes of itself: a joiner's keep-alives, which it answers, do for
+    /// How long a silence is overdue. A host waits as long before it writes of itself: a client's keep-alives, which it answers, do for
     /// both.
     /// </summary>
     internal SimDuration Overdue => KeepAlive + (KeepAlive / 4);

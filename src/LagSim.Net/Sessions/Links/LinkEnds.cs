@@ -16,10 +16,10 @@ internal sealed class LinkEnds
     /// <summary>What every datagram of the link bears.</summary>
     internal ulong SessionId { get; }
 
-    /// <summary>This peer's number; 0 also for a joiner that has none yet.</summary>
+    /// <summary>This peer's number; 0 also for a client that has none yet.</summary>
     internal byte Self { get; set; }
 
-    /// <summary>The other's number; 0 also for a joiner that has none yet.</summary>
+    /// <summary>The other's number; 0 also for a client that has none yet.</summary>
     internal byte Peer { get; set; }
 
     /// <summary>Where the other is.</summary>

@@ -103,7 +103,7 @@ internal sealed class LinkFlight
         // With a queue on the way the answer is more likely late than lost. So twice only the oldest goes again, as a probe that the window
         // does not hold back
         // (RFC 9002, 6.2.4 and 7.5); then all that is overdue is lost, and what goes is what the least window lets (7.6).
-        SimTime before = now - answers.Patience;
+        SimTime before = now - answers.Timeout;
         bool isProbe = trips.HasQueue && answers.MayBeLate;
         while (Sent.TryPeekOldest(out SimTime at) && at <= before && Sent.TryTakeOldest(out SentDatagrams.Datagram oldest))
         {

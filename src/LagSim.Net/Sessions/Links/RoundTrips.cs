@@ -55,7 +55,7 @@ internal sealed class RoundTrips
     /// <summary>
     /// After how long an answer can be taken for lost: the mean and four times its mean deviation, as TCP has it. Zero before one <see cref="IsMeasured"/>.
     /// </summary>
-    internal SimDuration Patience => Mean + (Deviation * 4);
+    internal SimDuration Timeout => Mean + (Deviation * 4);
 
     /// <summary>How long what is sent now waits in a queue on the way, there or back, as far as the round trips tell.</summary>
     internal SimDuration Queueing => Lesser(LeastOfFew - least.Value, Mean - leastMean.Value);

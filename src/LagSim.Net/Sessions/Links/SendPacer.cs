@@ -9,7 +9,7 @@ internal sealed class SendPacer
     internal static readonly SimDuration LeastDistance = SimDuration.FromMilliseconds(1);
 
     /// <summary>
-    /// By so many of its distances may what is hastened be ahead: after a pause three go out at once. What one player does then does not
+    /// By so many of its distances may what is flushed be ahead: after a pause three go out at once. What one player does then does not
     /// wait because an answer to what
     /// another did has just gone.
     /// </summary>
@@ -28,7 +28,7 @@ internal sealed class SendPacer
     /// <summary>
     /// Has the next update sent no later than this, unless so many went out just now that the least distance would not be kept in the mean.
     /// </summary>
-    internal void Hasten(SimTime by) =>
+    internal void Flush(SimTime by) =>
         Due = SimTime.Min(Due, SimTime.Max(by, paced == SimTime.MinValue ? by : paced - (distance * MostAhead)));
 
     /// <summary>Notes that an update was sent; the next is due after a rest.</summary>

@@ -9,7 +9,7 @@ namespace LagSim.Net.Sessions.Links;
 /// <remarks>
 /// <para>Each entry has to go once, and again for each time that it was lost with everything that carried it (<see cref="Lose"/>). That is needed, whatever the
 /// link is like. Repetition of what is on its way hides losses before they are known, and is for links with room.</para>
-/// <para>At most <see cref="MaxEntries"/> are under way. Knots are made up for by later ones, so they are repeated once, with the next.</para>
+/// <para>At most <see cref="MaxEntries"/> are under way. Keyframes are made up for by later ones, so they are repeated once, with the next.</para>
 /// </remarks>
 internal class SendWindow
 {
@@ -49,7 +49,7 @@ internal class SendWindow
     /// <summary>
     /// Whether the next of its kind carries what this one would have, if it is lost: it waits for its acknowledgement, and need not be sent again and again.
     /// </summary>
-    internal static bool IsMadeUpFor(in ExternalEvent external) => external.Kind == EventKind.HoldKnot;
+    internal static bool IsMadeUpFor(in ExternalEvent external) => external.Kind == EventKind.HoldKeyframe;
 
     /// <summary>Notes that the other has the entries up to a number; a lower one than before says nothing.</summary>
     internal void Acknowledge(uint number)
@@ -106,7 +106,7 @@ internal class SendWindow
     }
 
     /// <summary>
-    /// Whether something was sent in vain that is not acknowledged yet. Then all of it is worth a repetition, knots too: links lose several datagrams in a row,
+    /// Whether something was sent in vain that is not acknowledged yet. Then all of it is worth a repetition, keyframes too: links lose several datagrams in a row,
     /// however far apart, so whoever sends again only when the answer is overdue may wait for seconds.
     /// </summary>
     internal bool HasLost => lostUpTo > Acknowledged;
@@ -147,7 +147,7 @@ internal class SendWindow
         room = isNeeded ? Math.Clamp(room, UpdateDatagram.LengthOf(source[first]), Room) : Math.Min(room, Room);
 
         // All that is not acknowledged, if that is one datagram and not too much repetition.
-        bool isMadeUpFor = !HasLost && AreKnots(source, last);
+        bool isMadeUpFor = !HasLost && AreKeyframes(source, last);
         if (!isNeeded && isMadeUpFor)
         {
             update.FirstIndex = sent + 1; // so much the other has been sent: what the update promises comes after that
@@ -210,10 +210,10 @@ internal class SendWindow
     private uint LastOf(IEntrySource source) => source.Last - Acknowledged > MaxEntries ? Acknowledged + MaxEntries : source.Last;
 
     /// <summary>
-    /// Whether all entries that are not acknowledged, up to the last, are knots. Then it is the newest sent before that is repeated, with the next; where there is
+    /// Whether all entries that are not acknowledged, up to the last, are keyframes. Then it is the newest sent before that is repeated, with the next; where there is
     /// anything else, it is all, since what comes after one that is lost can be taken only with it.
     /// </summary>
-    private bool AreKnots(IEntrySource source, uint last)
+    private bool AreKeyframes(IEntrySource source, uint last)
     {
         for (uint number = Acknowledged; number < last; number++) // the last may be the greatest number there is
         {

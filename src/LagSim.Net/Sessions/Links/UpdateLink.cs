@@ -37,7 +37,7 @@ internal sealed class UpdateLink
     private readonly SpareRate spare;
     private readonly SendPacer pacer;
     private readonly LinkTrafficCounter traffic = new();
-    private readonly UnsentNews news = new();
+    private readonly UnsentEntries unsent = new();
     private bool isProbe; // the next update goes whatever the window
     private bool isHeldBack; // something has to go and may not yet
 
@@ -69,14 +69,14 @@ internal sealed class UpdateLink
 
     internal ulong SessionId => ends.SessionId;
 
-    /// <summary>This peer's number; 0 also for a joiner that has none yet.</summary>
+    /// <summary>This peer's number; 0 also for a client that has none yet.</summary>
     internal byte Self
     {
         get => ends.Self;
         set => ends.Self = value;
     }
 
-    /// <summary>The other's number; 0 also for a joiner that has none yet.</summary>
+    /// <summary>The other's number; 0 also for a client that has none yet.</summary>
     internal byte Peer
     {
         get => ends.Peer;
@@ -129,7 +129,7 @@ internal sealed class UpdateLink
     /// <summary>Notes an update that came.</summary>
     /// <param name="update">The update.</param>
     /// <param name="now">When it came, by the own clock.</param>
-    /// <param name="isNewest">False for one that was overtaken: of it only entries, watermark and acknowledgement are news.</param>
+    /// <param name="isNewest">False for one that was overtaken: of it only entries, watermark and acknowledgement are new.</param>
     /// <returns>False for one that came before, or is so old that it may have.</returns>
     internal bool Note(UpdateDatagram update, SimTime now, out bool isNewest)
     {
@@ -141,7 +141,7 @@ internal sealed class UpdateLink
         flight.TakeAcknowledgements(update, now);
         if (Outgoing.HasToGoAgain || (isHeldBack && flight.Congestion.HasRoom))
         {
-            Hasten(now);
+            Flush(now);
         }
 
         return true;
@@ -153,7 +153,7 @@ internal sealed class UpdateLink
         flight.Acknowledge(number, now);
         if (isHeldBack && flight.Congestion.HasRoom)
         {
-            Hasten(now);
+            Flush(now);
         }
     }
 
@@ -163,18 +163,18 @@ internal sealed class UpdateLink
     /// <summary>
     /// Has the next update sent no later than this, unless so many went out just now that the least distance would not be kept in the mean.
     /// </summary>
-    internal void Hasten(SimTime by) => pacer.Hasten(by);
+    internal void Flush(SimTime by) => pacer.Flush(by);
 
     /// <summary>Has the other answered: at once, or where that is too much together with what else there is to say soon.</summary>
-    internal void Answer(SimTime now) => Hasten(MayHurry(now) ? now : now + MostAckDelay);
+    internal void Answer(SimTime now) => Flush(MayHurry(now) ? now : now + MostAckDelay);
 
     /// <summary>Notes that there is something new for the other, of that many bytes.</summary>
-    internal void NoteNews(int bytes, SimTime now)
+    internal void NoteLateEvent(int bytes, SimTime now)
     {
-        news.Note(bytes, now);
+        unsent.Note(bytes, now);
         if (flight.Congestion.HasRoom) // else it goes with what is acknowledged, or lost, next
         {
-            Hasten(news.Bytes >= 2 * OwnBytes || MayHurry(now) ? now : news.Since + MergeTime);
+            Flush(unsent.Bytes >= 2 * OwnBytes || MayHurry(now) ? now : unsent.Since + MergeTime);
         }
 
         isHeldBack |= !flight.Congestion.HasRoom;
@@ -242,7 +242,7 @@ internal sealed class UpdateLink
         isHeldBack = hasNeeded && !flight.Congestion.HasRoom;
         if (!hasNeeded)
         {
-            news.Clear();
+            unsent.Clear();
         }
 
         pacer.NoteSent(now, update.Held.Length > 0 ? Distance(bytes.Length) : SendPacer.LeastDistance);
@@ -257,25 +257,25 @@ internal sealed class UpdateLink
 
         if (flight.Sent.Waited > 0)
         {
-            HastenForAnswers(source, now, isUrgent);
+            FlushForAnswers(source, now, isUrgent);
         }
 
         return bytes;
     }
 
     /// <summary>Has the next update sent when an answer is overdue, something counts as lost, or what is urgent may be repeated.</summary>
-    private void HastenForAnswers(IEntrySource source, SimTime now, bool isUrgent)
+    private void FlushForAnswers(IEntrySource source, SimTime now, bool isUrgent)
     {
-        Hasten(answers.Due(now));
+        Flush(answers.Due(now));
         if (flight.Sent.TryGetOvertaken(out SimTime at))
         {
-            Hasten(at + flight.LongestTrip + (flight.LongestTrip / 8));
+            Flush(at + flight.LongestTrip + (flight.LongestTrip / 8));
         }
 
         if ((isUrgent || Outgoing.HasLost) && !flight.Congestion.IsHalfFull)
         {
             SimDuration affordable = spare.WaitFor(OwnBytes + Outgoing.RepetitionBytes(source));
-            Hasten(now + (interval > affordable ? interval : affordable));
+            Flush(now + (interval > affordable ? interval : affordable));
         }
     }
 

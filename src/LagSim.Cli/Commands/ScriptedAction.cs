@@ -1,0 +1,142 @@
+using System;
+using System.Globalization;
+using System.Linq;
+using LagSim.Cli.Output;
+using LagSim.Events;
+using LagSim.Scenes;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary>Something to do at a time, as <c>--do</c> says it: <c>KIND@SECONDS[:BODY][:X,Y,Z]</c>.</summary>
+internal sealed class ScriptedAction
+{
+    internal const string Syntax =
+        "KIND@SECONDS[:BODY][:X,Y,Z], with SECONDS counted from the session's start. KIND is teleport (to a point, in m), set-velocity (in m/s), "
+        + "impulse (in N s), spawn (a body like BODY, at a point, in m), grab (BODY by the point at this distance from its centre, in m), "
+        + "knot (the hand that holds BODY is at a point, in m, at rest; without a knot for a second it lets go), release (with a velocity, in m/s) "
+        + "or remove (without X,Y,Z). "
+        + "BODY is the name of a body of the scene, by default the first, or PEER.SEQUENCE.0 for a spawned one. "
+        + "Examples: teleport@3:0,15,0, impulse@2.5:ball:0,4,0, remove@9:ball. May be repeated.";
+
+    internal const double MostSeconds = 1e6;
+
+    private static readonly string[] Kinds = ["teleport", "set-velocity", "impulse", "spawn", "grab", "knot", "release", "remove"];
+
+    private readonly string kind;
+    private readonly string? body;
+    private readonly Vector3D vector;
+
+    private ScriptedAction(string text, string kind, double seconds, string? body, Vector3D vector)
+    {
+        Text = text;
+        this.kind = kind;
+        Seconds = seconds;
+        this.body = body;
+        this.vector = vector;
+    }
+
+    /// <summary>As it was written.</summary>
+    internal string Text { get; }
+
+    /// <summary>When, in seconds since the session's start.</summary>
+    internal double Seconds { get; }
+
+    /// <summary>Reads one.</summary>
+    /// <exception cref="UsageException">It is none; the message says what is wrong.</exception>
+    internal static ScriptedAction Parse(string text)
+    {
+        int at = text.IndexOf('@', StringComparison.Ordinal);
+        string kind = at < 0 ? text : text[..at];
+        if (at < 0 || !Kinds.Contains(kind))
+        {
+            throw Wrong(text, at < 0 ? "it must be KIND@SECONDS:X,Y,Z" : $"'{kind}' must be one of {string.Join(", ", Kinds)}");
+        }
+
+        string[] parts = text[(at + 1)..].Split(':');
+        if (!TryNumber(parts[0], out double seconds) || seconds is < 0 or > MostSeconds)
+        {
+            throw Wrong(text, $"its time is '{parts[0]}', it must be a number of seconds between 0 and 1000000");
+        }
+
+        bool isRemoval = kind == "remove";
+        string name = string.Join(':', parts[1..(isRemoval ? parts.Length : Math.Max(1, parts.Length - 1))]);
+        string? body = parts.Length > (isRemoval ? 1 : 2) ? name : null;
+        if (body is { Length: 0 })
+        {
+            throw Wrong(text, "its body has no name");
+        }
+
+        if (!isRemoval && parts.Length == 1)
+        {
+            throw Wrong(text, $"{kind} needs X,Y,Z besides, {Meaning(kind)}: such as {text}:0,5,0");
+        }
+
+        return new ScriptedAction(text, kind, seconds, body, isRemoval ? default : Vector(text, parts[^1]));
+    }
+
+    /// <summary>What is to be done in this scene.</summary>
+    /// <exception cref="UsageException">The scene has no such body.</exception>
+    internal PlayerAction ActionIn(Scene scene)
+    {
+        BodyId id = BodyIn(scene);
+        return kind switch
+        {
+            "teleport" => PlayerAction.Teleport(id, vector),
+            "set-velocity" => PlayerAction.SetVelocity(id, vector),
+            "impulse" => PlayerAction.Impulse(id, vector),
+            "grab" => PlayerAction.Grab(id, vector),
+            "knot" => PlayerAction.HoldKeyframe(id, vector, Vector3D.Zero),
+            "release" => PlayerAction.Release(id, vector),
+            "remove" => PlayerAction.Remove(id),
+            _ when id.Sequence == 0 => PlayerAction.Spawn(scene.Bodies[id.Index].Spec, vector),
+            _ => throw Wrong(Text, "a new body takes after one of the scene's own"),
+        };
+    }
+
+    private BodyId BodyIn(Scene scene)
+    {
+        for (int n = 0; n < scene.Bodies.Count; n++)
+        {
+            if (body is null || scene.Bodies[n].Name == body)
+            {
+                return BodyId.OfScene(n);
+            }
+        }
+
+        string[] numbers = (body ?? "").Split('.');
+        if (numbers.Length == 3 && byte.TryParse(numbers[0], NumberStyles.None, CultureInfo.InvariantCulture, out byte peer)
+            && uint.TryParse(numbers[1], NumberStyles.None, CultureInfo.InvariantCulture, out uint sequence) && sequence > 0 && numbers[2] == "0")
+        {
+            return new BodyId(peer, sequence, 0);
+        }
+
+        const int shown = 10;
+        string there = scene.Bodies.Count == 0 ? "it has none"
+            : $"it has {string.Join(", ", scene.Bodies.Take(shown).Select(b => b.Name))}{(scene.Bodies.Count > shown ? ", ..." : "")}";
+        throw Wrong(Text, body is null ? $"scene '{scene.Name}' has no body" : $"scene '{scene.Name}' has no body '{body}'; {there}");
+    }
+
+    private static string Meaning(string kind) => kind switch
+    {
+        "teleport" => "where to in m",
+        "set-velocity" => "how fast in m/s",
+        "impulse" => "how hard in N s",
+        "spawn" => "where in m",
+        "grab" => "how far from the centre in m",
+        "knot" => "where the hand is in m",
+        _ => "how fast it goes on in m/s",
+    };
+
+    private static Vector3D Vector(string text, string part)
+    {
+        string[] numbers = part.Split(',');
+        return numbers.Length == 3 && TryNumber(numbers[0], out double x) && TryNumber(numbers[1], out double y) && TryNumber(numbers[2], out double z)
+            ? new Vector3D(x, y, z)
+            : throw Wrong(text, $"'{part}' must be three numbers, X,Y,Z");
+    }
+
+    private static bool TryNumber(string text, out double value) =>
+        double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out value) && double.IsFinite(value);
+
+    private static UsageException Wrong(string text, string why) => new($"--do is '{text}'; {why}.");
+}

@@ -1,0 +1,300 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Events;
+using LagSim.Net.Carriers;
+using LagSim.Net.Clocks;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Sessions.Links;
+using LagSim.Net.Wire;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Clients;
+
+/// <summary>
+/// A client's side of the session protocol: hands each datagram to the part that it is for, and has each part do in turn what is due.
+/// </summary>
+internal sealed class ClientProtocol : ISessionProtocol
+{
+    /// <summary>By less than this a clock's estimate may be corrected on a bad link too.</summary>
+    private static readonly SimDuration LeastJump = SimDuration.FromSeconds(1);
+
+    private readonly JoinAttempts attempts;
+    private readonly JoinRequests requests;
+    private readonly SnapshotClient snapshot;
+    private readonly WorldEntry entry;
+    private readonly LogFollower log;
+    private readonly ClientUpdates updates;
+    private readonly SleepDetector sleep;
+
+    internal ClientProtocol(SessionParts parts, PeerAddress host, ulong nonce)
+    {
+        Parts = parts;
+        SessionOptions options = parts.Options;
+        attempts = new JoinAttempts(nonce, parts.Clock.Now);
+        sleep = new SleepDetector(options.Timeout / 2);
+        Connection = new HostConnection(host, parts.Links, parts.Self, parts.Sender, parts.Counters);
+        Seat = new PlayerSeat(attempts, Connection, parts.SharedTime, parts.Status, parts.Counters, parts.Clock, options.Pass);
+        requests = new JoinRequests(
+            attempts, Connection, Seat, parts.World, parts.Status, parts.Sender, parts.Counters, parts.Clock, options);
+        snapshot = new SnapshotClient(
+            attempts, Connection, parts.World, parts.Status, parts.Sender, parts.Counters, parts.Clock, options.Accelerations);
+        entry = new WorldEntry(attempts, Connection, parts.Start, parts.SharedTime, parts.Status, parts.Clock, options.Timeout);
+        log = new LogFollower(
+            Connection, parts.World, parts.Commits, parts.Journal, parts.Self, parts.SharedTime, parts.Counters, parts.Clock);
+        updates = new ClientUpdates(Connection, attempts, parts.World, parts.KeepAlive, parts.Sender);
+        Loss = new HostLoss(attempts, Connection, parts.World, parts.Status, parts.Counters, parts.Clock, options);
+        Finder = new DivergenceFinder(
+            Connection, parts.World, parts.Journal, parts.Self, parts.Sender, parts.Counters, parts.Clock, options.Timeout);
+        parts.Commits.Compared += Finder.OnCompared;
+        Finder.Confirmed += GiveUpWorld;
+        Loss.Interrupted += _ => Finder.Cancel();
+    }
+
+    public IReadOnlyList<LinkTraffic> Traffic => Connection.Link is UpdateLink link ? [link.Traffic] : [];
+
+    public uint LogLength => Connection.Log.Received;
+
+    public uint LogStart => Seat.LogStart;
+
+    internal SessionParts Parts { get; }
+
+    internal HostConnection Connection { get; }
+
+    internal PlayerSeat Seat { get; }
+
+    internal HostLoss Loss { get; }
+
+    internal DivergenceFinder Finder { get; }
+
+    public void Farewell() => Connection.Farewell();
+
+    public bool TryRenew(SessionEnd by, string why) => Loss.TryRenew(by, why);
+
+    public bool TendWorld(SimTime now) => false;
+
+    public ExternalEvent Do(in PlayerAction action, SimTime time)
+    {
+        Parts.Actions.ThrowIfNotRunning();
+        if (Connection.Unconfirmed.Count >= ClientSession.MaxUnconfirmedEvents)
+        {
+            throw new InvalidOperationException(
+                $"Nothing more can be done yet: {Connection.Unconfirmed.Count} events of this peer wait for the host's verdict,"
+                + " and that is the most that may.");
+        }
+
+        ExternalEvent external = Parts.Actions.Submit(action, time);
+        Connection.Publish(external, Parts.Clock.Now);
+        return external;
+    }
+
+    public void OnOtherVersion(ReadOnlySpan<byte> datagram, PeerAddress from)
+    {
+        if (from == Connection.Host && RefusalDatagram.TryReadAnyVersion(datagram, out ulong nonce, out byte version))
+        {
+            requests.OnOtherVersion(nonce, version);
+        }
+    }
+
+    public void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from)
+    {
+        SessionCounters counters = Parts.Counters;
+        if (from != Connection.Host || Parts.Status.HasEnded)
+        {
+            counters.DatagramsIgnored++;
+            return;
+        }
+
+        switch (type)
+        {
+            case DatagramType.Challenge when counters.IsWellFormed(
+                ChallengeDatagram.TryDecode(datagram, out ChallengeDatagram challenge, out _)):
+                requests.OnChallenge(challenge);
+                break;
+            case DatagramType.Welcome when counters.IsWellFormed(WelcomeDatagram.TryDecode(datagram, out WelcomeDatagram welcome, out _)):
+                requests.OnWelcome(welcome);
+                break;
+            case DatagramType.Refusal when counters.IsWellFormed(RefusalDatagram.TryDecode(datagram, out RefusalDatagram refusal, out _)):
+                requests.OnRefusal(refusal);
+                break;
+            case DatagramType.SnapshotChunk when counters.IsWellFormed(SnapshotChunkDatagram.TryDecode(datagram, out SnapshotChunkDatagram chunk, out _)):
+                snapshot.OnSnapshotChunk(chunk, datagram.Length);
+                break;
+            case DatagramType.DesyncReport when counters.IsWellFormed(
+                DesyncReportDatagram.TryDecode(datagram, out DesyncReportDatagram report, out _)):
+                Finder.OnDesyncReport(report, datagram.Length);
+                break;
+            case DatagramType.Leave when counters.IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)):
+                Loss.OnLeave(leave);
+                break;
+            case DatagramType.Seat when counters.IsWellFormed(SeatDatagram.TryDecode(datagram, out SeatDatagram seat, out _)):
+                Seat.OnSeat(seat);
+                break;
+            case DatagramType.ConnectRequest or DatagramType.Join or DatagramType.SnapshotRequest or DatagramType.DesyncQuery or DatagramType.Move:
+                counters.DatagramsIgnored++; // a client's own words
+                break;
+        }
+    }
+
+    public void OnUpdate(UpdateDatagram update, PeerAddress from)
+    {
+        bool isOurs = Connection.Link is not null && from == Connection.Host && update.SessionId == Connection.Link.SessionId;
+        if (isOurs && Parts.Status.HasEnded)
+        {
+            Parts.Counters.DatagramsIgnored++;
+            Connection.SayGoodbye(); // it has not heard the first one
+        }
+        else if (!isOurs || update.Peer != 0)
+        {
+            Parts.Counters.DatagramsIgnored++;
+        }
+        else
+        {
+            Take(update, Connection.Link!, Parts.Clock.Now);
+        }
+    }
+
+    public void Tend(SimTime now)
+    {
+        attempts.Begin(now);
+        SimDuration slept = sleep.Look(now);
+        if (slept > SimDuration.Zero)
+        {
+            // It was this machine that slept, or whose clock jumped: who was not listened to was not silent.
+            Connection.Link?.NoteHeard(now);
+            Loss.NoteSleep(slept);
+            attempts.NoteSleep(slept, now);
+        }
+
+        Loss.Tend(now);
+        if (Parts.Status.HasEnded)
+        {
+            return;
+        }
+
+        if (attempts.IsAsking)
+        {
+            requests.Tend(now);
+        }
+        else
+        {
+            snapshot.Tend(now);
+            Finder.Tend(now);
+            updates.Tend(now);
+        }
+    }
+
+    public SimTime NextDue(SimTime now) => attempts.IsAsking
+        ? attempts.Current!.Due
+        : SimTime.Min(SimTime.Min(Connection.Link?.Due ?? now, snapshot.Due), Finder.Due);
+
+    /// <summary>Takes in an update of the host.</summary>
+    private void Take(UpdateDatagram update, UpdateLink link, SimTime now)
+    {
+        if (!link.Note(update, now, out bool isNewest))
+        {
+            Parts.Counters.DatagramsIgnored++;
+            return;
+        }
+
+        link.CountReceived(update.EncodedLength);
+        Loss.NoteHeard();
+        if (!FollowClock(update, link, now, isNewest))
+        {
+            return;
+        }
+
+        if (Parts.KeepAlive.IsOverdue(link.Silence(now)))
+        {
+            link.Flush(now); // the host has not heard of this peer; it answers every update at once, so the other way is looked after
+        }
+
+        // Its clock is set first: events are late or not by it.
+        Connection.IsStartTold = update.Start != SimTime.MinValue;
+        log.Keep(update); // in any case: the host hears that this update came, and does not send again what was in it
+        if (attempts.Current is not null)
+        {
+            TryBegin(update.Start);
+            if (attempts.Current is not null || Parts.Status.HasEnded)
+            {
+                return;
+            }
+
+            link.Flush(now); // until the host hears that it has begun, it is told so again and again
+        }
+
+        link.Acknowledge(Math.Min(update.EventsReceived, Parts.Self.LastSequence), now);
+        TakeEntries(update, now);
+    }
+
+    /// <summary>Sets this peer's clock by the host's.</summary>
+    /// <returns>False if they are so far apart that this peer left its world.</returns>
+    private bool FollowClock(UpdateDatagram update, UpdateLink link, SimTime now, bool isNewest)
+    {
+        bool isIn = attempts.Current is null;
+        ClockSync clock = attempts.Current?.Clock ?? Seat.Clock;
+        bool isExchange = isNewest && link.TryGetSent(update.EchoNumber, out SimTime echoSent)
+            && clock.Add(echoSent, update.EchoReceived, update.Sent, now) && clock.IsReady;
+        if (!isExchange || !isIn)
+        {
+            return true;
+        }
+
+        SharedClock sharedTime = Parts.SharedTime;
+        sharedTime.Adjust(clock.Estimate);
+        SimDuration off = sharedTime.Remaining < SimDuration.Zero ? -sharedTime.Remaining : sharedTime.Remaining;
+        // An exchange that waited long, in a stall, says little.
+        if (off <= Connection.History || off <= LeastJump || off <= clock.Estimate.ErrorBound)
+        {
+            return true;
+        }
+
+        // To bend it back at 5 % takes twenty times as long, and until then all that is done here would be refused.
+        string why = FormattableString.Invariant($"This machine's clock and the host's are {off.ToSeconds():0.###} s further apart than")
+            + " before: one of them jumped, or the machine slept.";
+        Loss.Rejoin(SessionEnd.Failed, why, isLinkGood: false);
+        return false;
+    }
+
+    /// <summary>Begins the world, or the fresh copy of it, if all is there for it.</summary>
+    private void TryBegin(SimTime start)
+    {
+        if (!entry.TryBegin(start))
+        {
+            return;
+        }
+
+        Finder.Reset();
+        if (Parts.Status.IsRejoining)
+        {
+            Loss.NoteRenewed();
+            Parts.Status.State = SessionState.Waiting;
+        }
+    }
+
+    private void TakeEntries(UpdateDatagram update, SimTime now)
+    {
+        long lost = Parts.Counters.EventsLost;
+        if (!log.TakeEntries(now) && update.Held.Length > 0 && update.FirstIndex > Connection.Log.Received)
+        {
+            Connection.Link?.Answer(now); // what came before its turn is acknowledged too, else it goes again (RFC 9000, 13.2.1)
+        }
+
+        if (Parts.Counters.EventsLost > lost && Parts.World.PromisesAgreement)
+        {
+            Loss.Rejoin(SessionEnd.Failed, "An accepted event came too late for the history that this peer still had.", isLinkGood: false);
+        }
+        else
+        {
+            Parts.Commits.Compare(update);
+        }
+    }
+
+    /// <summary>What is known to be wrong is not gone on with; that it was stays counted, and the first such state told.</summary>
+    private void GiveUpWorld()
+    {
+        if (Parts.World.PromisesAgreement)
+        {
+            Loss.Rejoin(SessionEnd.Failed, "A committed state of this peer was not the host's.", isLinkGood: false);
+        }
+    }
+}

@@ -1,0 +1,36 @@
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Sessions.Links;
+using LagSim.Net.Wire;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Clients;
+
+/// <summary>Sends a client's updates to the host: its events, what it has of the log, and how far it is on its way in.</summary>
+internal sealed class ClientUpdates(
+    HostConnection connection, JoinAttempts attempts, SharedWorld world, KeepAlivePolicy keepAlive,
+    DatagramSender sender)
+{
+    /// <summary>Sends the updates that are due.</summary>
+    internal void Tend(SimTime now)
+    {
+        for (int n = 0; n < SendWindow.MaxDatagramsAtOnce && connection.Link is UpdateLink link && link.IsDue(now); n++)
+        {
+            Send(link, now);
+        }
+    }
+
+    private void Send(UpdateLink link, SimTime now)
+    {
+        JoinAttempt? attempt = attempts.Current;
+        OwnEvents unconfirmed = connection.Unconfirmed;
+        UpdateDatagram update = link.Compose(now);
+        update.EventsReceived = attempt is null ? connection.Log.Received : 0;
+        update.Ready = attempt is null || attempt.IsReady;
+        update.Start = attempt is null && connection.IsStartTold ? world.Live!.Simulation.Start : SimTime.MinValue;
+        link.Fill(unconfirmed, now);
+        bool isComingIn = attempt is not null && !(attempt.Seat is not null && world.Live is null);
+        SimDuration pace = link.Trips.Mean / 8 > JoinAttempt.Pace ? link.Trips.Mean / 8 : JoinAttempt.Pace;
+        SimDuration rest = isComingIn ? pace : keepAlive.RestAfterUpdate(link, false, now, keepAlive.KeepAlive);
+        sender.Send(link.Seal(unconfirmed, now, rest, isUrgent: link.Outgoing.Acknowledged < connection.LastUrgent), link);
+    }
+}

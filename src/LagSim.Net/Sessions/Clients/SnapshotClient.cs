@@ -1,0 +1,74 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Sessions.Links;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Clients;
+
+/// <summary>
+/// Fetches the copy of scene and world that a host gives a client, piece by piece, and makes sure that it is the one that was announced.
+/// </summary>
+internal sealed class SnapshotClient(
+    JoinAttempts attempts, HostConnection connection, SharedWorld world, SessionStatus status, DatagramSender sender,
+    SessionCounters counters, IClock clock, IReadOnlyList<IAcceleration>? accelerations)
+{
+    /// <summary>The longest round trip that is assumed before one is measured.</summary>
+    private static readonly SimDuration MostGuessed = SimDuration.FromMilliseconds(400);
+
+    /// <summary>When pieces are to be asked for next.</summary>
+    internal SimTime Due => attempts.Current?.Download?.Due ?? SimTime.MaxValue;
+
+    /// <summary>Asks for pieces if it is time to.</summary>
+    internal void Tend(SimTime now)
+    {
+        if (attempts.Current is not JoinAttempt { Download: SnapshotDownload download } attempt || download.Due > now)
+        {
+            return;
+        }
+
+        UpdateLink link = connection.Link!;
+        SimDuration guessed = attempt.Took < MostGuessed ? attempt.Took : MostGuessed;
+        Span<byte> bytes = stackalloc byte[WireFormat.SnapshotRequestBytes];
+        sender.Send(bytes.Slice(0, download.Ask(link.SessionId, link.Self, now, link.Trips, guessed).Encode(bytes)), link);
+    }
+
+    internal void OnSnapshotChunk(in SnapshotChunkDatagram chunk, int length)
+    {
+        SimTime now = clock.Now;
+        if (connection.Link is not UpdateLink link || attempts.Current is not JoinAttempt { Download: SnapshotDownload download } attempt
+            || chunk.SessionId != link.SessionId || !download.Take(chunk, now))
+        {
+            counters.DatagramsIgnored++;
+            return;
+        }
+
+        link.NoteHeard(now);
+        link.CountReceived(length);
+        if (!download.IsComplete)
+        {
+            return;
+        }
+
+        string? error = null;
+        if (WorldCopy.HashOf(download.Bytes) != attempt.CopyHash)
+        {
+            error = "its hash is another one than was announced.";
+        }
+        else if (WorldCopy.TryDecode(download.Bytes, accelerations, world.Scene, out WorldCopy? copy, out error))
+        {
+            attempt.Copy = copy;
+            world.Scene = copy.Scene;
+            link.Flush(now);
+        }
+
+        attempt.Download = null;
+        if (error is not null)
+        {
+            connection.Farewell();
+            status.End(SessionEnd.Failed, $"The copy of the world that the host at {connection.Host} sent cannot be used: {error}");
+        }
+    }
+}

@@ -1,0 +1,69 @@
+using System;
+using LagSim.Net.Clocks;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Wire;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Net.Sessions.Clients;
+
+/// <summary>Begins a client's world once all is there: scene, state or start, the shared time, and the number.</summary>
+internal sealed class WorldEntry(
+    JoinAttempts attempts, HostConnection connection, WorldStart start, SharedClock sharedTime, SessionStatus status,
+    IClock clock, SimDuration timeout)
+{
+    /// <summary>Begins the world if all is there. One that cannot be begun ends the session.</summary>
+    /// <param name="told">When the session starts; the earliest instant if the host has not said.</param>
+    /// <returns>Whether it has begun.</returns>
+    internal bool TryBegin(SimTime told)
+    {
+        if (attempts.Current is not { Seat: not null, Copy: WorldCopy copy } attempt)
+        {
+            return false;
+        }
+
+        if (copy.Snapshot is WorldSnapshot snapshot)
+        {
+            try
+            {
+                start.Begin(snapshot);
+            }
+            catch (SceneException failure)
+            {
+                connection.Farewell();
+                status.End(
+                    SessionEnd.Failed, $"The state that the host at {connection.Host} sent is no world of its scene. {failure.Message}");
+                return false;
+            }
+        }
+        else if (told == SimTime.MinValue)
+        {
+            return false; // it is not decided
+        }
+        else if (told < EarliestStart(attempt))
+        {
+            connection.Farewell();
+            status.End(SessionEnd.Failed, FormattableString.Invariant(
+                $"The host at {connection.Host} says that the session began {(sharedTime.Now - told).ToSeconds():0} s ago and sent no")
+                + " state of it: that is more than history and time-out allow.");
+            return false;
+        }
+        else
+        {
+            start.Begin(told);
+        }
+
+        attempts.Finish();
+        return true;
+    }
+
+    /// <summary>
+    /// Whoever joins later than the history after the start gets a state with the scene. The start of one who got none lies at most the
+    /// history before it
+    /// asked to be let in, and the time-out for clocks and copies; before that nothing is simulated, however long it would take.
+    /// </summary>
+    private SimTime EarliestStart(JoinAttempt attempt) =>
+        sharedTime.Now - (clock.Now - attempt.Began) - timeout
+        - (connection.History < LatencyCompensationWindow.MaxHistory ? connection.History : LatencyCompensationWindow.MaxHistory);
+}

@@ -1,0 +1,56 @@
+using LagSim.Events;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Wire;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Hosts;
+
+/// <summary>
+/// Takes the clients' events in the order of their numbers, as many a second as each may send; has them validated, applied and recorded.
+/// </summary>
+internal sealed class ClientEvents(
+    PlayerPlaces places, EventValidator validator, SharedWorld world, ForeignActs acts, AuthoritativeLog log,
+    SessionCounters counters)
+{
+    /// <summary>Judges what a client did, in order, as far as it is here.</summary>
+    /// <returns>False if something is left for later, because the client did too much.</returns>
+    internal bool ValidateNext(Client client, SimTime now)
+    {
+        while (client.Incoming.HasNext)
+        {
+            if (!places[client.Peer].Events.TrySpend(now))
+            {
+                return false;
+            }
+
+            UpdateEntry entry = client.Incoming.Take();
+            places[client.Peer].LastSequence = client.EventsReceived;
+            Validate(entry, client.Peer, client.EventsReceived);
+        }
+
+        return true;
+    }
+
+    private void Validate(in UpdateEntry entry, byte sender, uint sequence)
+    {
+        ExternalEvent external = entry.Event;
+        if (entry.IsOwn || external.Peer != sender || external.Sequence != sequence)
+        {
+            // In another's name; in the log it would have that other take back what it did itself.
+            counters.EventsRefused++;
+            counters.EventsForged++;
+            return;
+        }
+
+        Verdict verdict = validator.Validate(external);
+        bool hasEffect = false;
+        if (verdict == Verdict.Accepted)
+        {
+            world.Limits.Note(external);
+            acts.Note(external);
+            hasEffect = world.Apply(external);
+        }
+
+        log.Record(external, verdict, hasEffect);
+    }
+}

@@ -1,0 +1,53 @@
+using System;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>A client's first word to a host. The host keeps nothing of it; it answers with a <see cref="ChallengeDatagram"/> of the same length.</summary>
+/// <remarks>Immutable, safe on any thread. Where its nonce stands is the same in every version, so that one of another version can be answered.</remarks>
+public readonly struct ConnectRequestDatagram
+{
+    /// <summary>A request of this nonce.</summary>
+    public ConnectRequestDatagram(ulong nonce) => Nonce = nonce;
+
+    /// <summary>A number the client drew; every answer carries it, so that an answer to another attempt is not taken for this one's.</summary>
+    public ulong Nonce { get; }
+
+    /// <summary>Writes the datagram.</summary>
+    /// <returns>Its length, <see cref="WireFormat.ConnectRequestBytes"/>.</returns>
+    /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
+    public int Encode(Span<byte> destination)
+    {
+        WireWriter writer = new(destination);
+        writer.WriteHeader(DatagramType.ConnectRequest);
+        writer.WriteUInt64(Nonce);
+        writer.WriteUInt64(0); // so that the answer is no longer than what asked for it
+        writer.WriteUInt64(0);
+        return writer.Position;
+    }
+
+    /// <summary>Reads a datagram; never throws.</summary>
+    /// <param name="datagram">The whole datagram.</param>
+    /// <param name="request">What it says; meaningless on refusal.</param>
+    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    public static bool TryDecode(ReadOnlySpan<byte> datagram, out ConnectRequestDatagram request, out WireRefusal refusal)
+    {
+        WireReader reader = WireReader.Open(datagram, DatagramType.ConnectRequest);
+        request = new ConnectRequestDatagram(reader.ReadUInt64());
+        reader.Require((reader.ReadUInt64() | reader.ReadUInt64()) == 0);
+        return reader.Finish(out refusal);
+    }
+
+    /// <summary>The nonce of a connect request of any version; false if the datagram cannot be one.</summary>
+    internal static bool TryReadAnyVersion(ReadOnlySpan<byte> datagram, out ulong nonce)
+    {
+        nonce = 0;
+        if (datagram.Length < WireFormat.ConnectRequestBytes || WireReader.ByteAt(datagram, WireFormat.HeaderBytes - 1) != (byte)DatagramType.ConnectRequest)
+        {
+            return false;
+        }
+
+        WireReader reader = new(datagram.Slice(WireFormat.HeaderBytes, sizeof(ulong)));
+        nonce = reader.ReadUInt64();
+        return true;
+    }
+}

@@ -1,0 +1,70 @@
+using System;
+using LagSim.Time;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>A client whose committed state is not the host's asks which accepted events the host has between the last time they agreed and then.</summary>
+/// <remarks>Immutable, safe on any thread.</remarks>
+public readonly struct DesyncQueryDatagram
+{
+    /// <summary>The most events that are told in answer to one.</summary>
+    public const int MaxEvents = 64;
+
+    /// <summary>A question of these fields.</summary>
+    public DesyncQueryDatagram(ulong sessionId, byte peer, uint number, SimTime after, SimTime upTo, uint first)
+    {
+        SessionId = sessionId;
+        Peer = peer;
+        Number = number;
+        After = after;
+        UpTo = upTo;
+        First = first;
+    }
+
+    /// <summary>The session.</summary>
+    public ulong SessionId { get; }
+
+    /// <summary>The client.</summary>
+    public byte Peer { get; }
+
+    /// <summary>Counts the client's questions; one that was overtaken is not answered.</summary>
+    public uint Number { get; }
+
+    /// <summary>Asked is for events stamped after this shared time,</summary>
+    public SimTime After { get; }
+
+    /// <summary>and not after this one, which is later.</summary>
+    public SimTime UpTo { get; }
+
+    /// <summary>The first of them that is wanted, counted from 0 in the order of their stamps.</summary>
+    public uint First { get; }
+
+    /// <summary>Writes the datagram.</summary>
+    /// <returns>Its length, <see cref="WireFormat.DesyncQueryBytes"/>.</returns>
+    /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that, or a time is out of range.</exception>
+    public int Encode(Span<byte> destination)
+    {
+        WireWriter writer = new(destination);
+        writer.WriteHeader(DatagramType.DesyncQuery);
+        writer.WriteUInt64(SessionId);
+        writer.WriteByte(Peer);
+        writer.WriteUInt32(Number);
+        writer.WriteTime(After);
+        writer.WriteTime(UpTo);
+        writer.WriteUInt32(First);
+        return writer.Position;
+    }
+
+    /// <summary>Reads a datagram; never throws.</summary>
+    /// <param name="datagram">The whole datagram.</param>
+    /// <param name="query">What it says; meaningless on refusal.</param>
+    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    public static bool TryDecode(ReadOnlySpan<byte> datagram, out DesyncQueryDatagram query, out WireRefusal refusal)
+    {
+        WireReader reader = WireReader.Open(datagram, DatagramType.DesyncQuery);
+        query = new DesyncQueryDatagram(
+            reader.ReadUInt64(), reader.ReadByte(), reader.ReadUInt32(), reader.ReadTime(), reader.ReadTime(), reader.ReadUInt32());
+        reader.Require(query.After < query.UpTo);
+        return reader.Finish(out refusal);
+    }
+}

@@ -1,0 +1,62 @@
+using System;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>A piece of the copy of scene and world that a client fetches.</summary>
+/// <remarks>Its bytes are those of the datagram it was read from, or will be written from; valid as long as those are.</remarks>
+public readonly ref struct SnapshotChunkDatagram
+{
+    /// <summary>The length of every piece but the last.</summary>
+    public const int MaxData = WireFormat.MaxBytes - WireFormat.EmptySnapshotChunkBytes;
+
+    /// <summary>A piece of these fields.</summary>
+    public SnapshotChunkDatagram(ulong sessionId, uint index, ReadOnlySpan<byte> data)
+    {
+        SessionId = sessionId;
+        Index = index;
+        Data = data;
+    }
+
+    /// <summary>The session.</summary>
+    public ulong SessionId { get; }
+
+    /// <summary>Which piece, counted from 0.</summary>
+    public uint Index { get; }
+
+    /// <summary>Its bytes, 1 to <see cref="MaxData"/>.</summary>
+    public ReadOnlySpan<byte> Data { get; }
+
+    /// <summary>Writes the datagram.</summary>
+    /// <returns>Its length.</returns>
+    /// <exception cref="ArgumentException"><paramref name="destination"/> is too short.</exception>
+    /// <exception cref="InvalidOperationException">There are no bytes, or more than <see cref="MaxData"/>.</exception>
+    public int Encode(Span<byte> destination)
+    {
+        if (Data.Length is 0 or > MaxData)
+        {
+            throw new InvalidOperationException($"A piece has 1 to {MaxData} bytes; this one has {Data.Length}.");
+        }
+
+        WireWriter writer = new(destination);
+        writer.WriteHeader(DatagramType.SnapshotChunk);
+        writer.WriteUInt64(SessionId);
+        writer.WriteUInt32(Index);
+        writer.WriteBytes(Data);
+        return writer.Position;
+    }
+
+    /// <summary>Reads a datagram; never throws.</summary>
+    /// <param name="datagram">The whole datagram.</param>
+    /// <param name="chunk">What it says; meaningless on refusal.</param>
+    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    public static bool TryDecode(ReadOnlySpan<byte> datagram, out SnapshotChunkDatagram chunk, out WireRefusal refusal)
+    {
+        WireReader reader = WireReader.Open(datagram, DatagramType.SnapshotChunk);
+        ulong session = reader.ReadUInt64();
+        uint index = reader.ReadUInt32();
+        ReadOnlySpan<byte> data = reader.ReadBytes(reader.Remaining);
+        reader.Require(data.Length > 0, WireRefusal.TooShort);
+        chunk = new SnapshotChunkDatagram(session, index, data);
+        return reader.Finish(out refusal);
+    }
+}

@@ -1,0 +1,62 @@
+using System;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>A client asks for pieces of the copy that it was told of.</summary>
+/// <remarks>Immutable, safe on any thread.</remarks>
+public readonly struct SnapshotRequestDatagram
+{
+    /// <summary>The most pieces that are asked for at once.</summary>
+    public const int MaxChunks = 64;
+
+    /// <summary>A request of these fields.</summary>
+    public SnapshotRequestDatagram(ulong sessionId, byte peer, uint number, uint first, ulong wanted)
+    {
+        SessionId = sessionId;
+        Peer = peer;
+        Number = number;
+        First = first;
+        Wanted = wanted;
+    }
+
+    /// <summary>The session.</summary>
+    public ulong SessionId { get; }
+
+    /// <summary>The client.</summary>
+    public byte Peer { get; }
+
+    /// <summary>Counts the client's requests; one that was overtaken is not answered.</summary>
+    public uint Number { get; }
+
+    /// <summary>The first piece that is missing, counted from 0.</summary>
+    public uint First { get; }
+
+    /// <summary>Bit n: piece <see cref="First"/> + n is wanted.</summary>
+    public ulong Wanted { get; }
+
+    /// <summary>Writes the datagram.</summary>
+    /// <returns>Its length, <see cref="WireFormat.SnapshotRequestBytes"/>.</returns>
+    /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
+    public int Encode(Span<byte> destination)
+    {
+        WireWriter writer = new(destination);
+        writer.WriteHeader(DatagramType.SnapshotRequest);
+        writer.WriteUInt64(SessionId);
+        writer.WriteByte(Peer);
+        writer.WriteUInt32(Number);
+        writer.WriteUInt32(First);
+        writer.WriteUInt64(Wanted);
+        return writer.Position;
+    }
+
+    /// <summary>Reads a datagram; never throws.</summary>
+    /// <param name="datagram">The whole datagram.</param>
+    /// <param name="request">What it says; meaningless on refusal.</param>
+    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    public static bool TryDecode(ReadOnlySpan<byte> datagram, out SnapshotRequestDatagram request, out WireRefusal refusal)
+    {
+        WireReader reader = WireReader.Open(datagram, DatagramType.SnapshotRequest);
+        request = new SnapshotRequestDatagram(reader.ReadUInt64(), reader.ReadByte(), reader.ReadUInt32(), reader.ReadUInt32(), reader.ReadUInt64());
+        return reader.Finish(out refusal);
+    }
+}

@@ -1,0 +1,269 @@
+using System;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.BroadPhase;
+
+/// <summary>
+/// Verlet lists: around every body a shell that it stays in for a while, and for every body a list of those whose shells are so near that the two could touch.
+/// A list holds until one of the two leaves its shell, however often they collide meanwhile.
+/// </summary>
+/// <remarks>
+/// <para>Where a body's shell is can be told of the past too: a shell that is left is kept, with the span of time in which it held, until that lies before the
+/// history. So what is healed finds who was near then, whatever he did since.</para>
+/// <para>A list may name too many, for what is healed sees the past and the present at once; and never too few: of two shells whichever was made later found
+/// the other, and a list that a heal has made keeps who moves on ahead of it.</para>
+/// <para>How far a body may stray is its own: who leaves a shell before long gets a larger one, and who stays for many predictions a smaller one with fewer to
+/// look at. Who is too wide or too fast for the cells is listed apart, and looked at whenever a shell is made.</para>
+/// <para>Cost: the length of a list for a prediction, and what lies in the 27 cells around for a shell, which holds for some ten predictions.</para>
+/// </remarks>
+internal sealed class NeighbourLists : IBroadPhase
+{
+    /// <summary>
+    /// Who would leave the widest shell that fits the cells in less than this is too fast for them: 1/512 s, or what is far less than the others take.
+    /// </summary>
+    private const double ShortestStay = 1.0 / 512;
+
+    private const double FarLess = 1.0 / 64;
+    private const double FewTicks = 16;
+
+    /// <summary>Who has been asked for less often in a shell gets a larger one next, and who more often a smaller one.</summary>
+    private const int FewPredictions = 6;
+    private const int ManyPredictions = 24;
+    private const double Larger = 1.25;
+    private const double Smaller = 0.9;
+
+    /// <summary>A shell's radius at first and at least, in parts of the cell's size.</summary>
+    private const double FirstStray = 1.0 / 8;
+    private const double LeastStray = 1.0 / 32;
+
+    private const int NeighboursExpected = 8;
+
+    private readonly TimelineStore timelines;
+    private readonly PeriodicBox box;
+    private readonly double cell;
+    private readonly double near;
+    private readonly double tick;
+    private readonly double shortestStay;
+    private readonly PresentShells present;
+    private readonly PastShells past;
+    private readonly FoundSlots found;
+    private readonly ManyLists<int> lists;
+    private Stay[] stays;
+    private int lookingBack; // how many have others in their lists who may not have them in theirs: those whose shells were made in a heal
+
+    /// <summary>An empty index.</summary>
+    /// <param name="timelines">The paths.</param>
+    /// <param name="cell">The least size of a cell, in metres: about two diameters of most bodies.</param>
+    /// <param name="speed">How fast most bodies are at most, in m/s.</param>
+    /// <param name="near">How far apart two bodies may be, in metres, that are still candidates.</param>
+    /// <param name="tickLength">How far a body moves in a tick at most, in metres.</param>
+    /// <param name="box">The box whose sides meet; empty if there is none.</param>
+    /// <param name="expected">For how many bodies there is room at first.</param>
+    internal NeighbourLists(TimelineStore timelines, double cell, double speed, double near, double tickLength, in PeriodicBox box, int expected = 0)
+    {
+        this.timelines = timelines;
+        this.cell = cell;
+        this.near = near;
+        this.box = box;
+        tick = tickLength;
+        double shortest = Math.Min(ShortestStay, FarLess * cell / speed); // of the two the first if nobody moves
+        shortestStay = Math.Max(FewTicks * TickConversion.SecondsPerTick, shortest);
+        CellGrid grid = new(cell, box);
+        found = new FoundSlots(expected);
+        lists = new ManyLists<int>(expected, NeighboursExpected * expected);
+        stays = new Stay[expected];
+        present = new PresentShells(grid, box, 0.5 * cell, expected);
+        past = new PastShells(grid, box, 0.5 * cell);
+    }
+
+    /// <summary>Whether it forgets who has moved on ahead of a heal: a negative control.</summary>
+    internal bool ForgetsWhoMovedOn { get; set; }
+
+    /// <summary>How many bodies are in no cell; if they are many, other cells would serve better.</summary>
+    internal int WideCount => present.WideCount;
+
+    public Span<int> Candidates(int slot, double radius, SimTime from, long heal, out SimTime until)
+    {
+        Reserve(slot);
+        int segment = timelines.Last(slot);
+        ref readonly MotionSegment path = ref timelines.Segment(segment);
+        DenseOutput dense = timelines.Dense(segment);
+        ref Stay stay = ref stays[slot];
+        bool holds = stay.IsListed && stay.Radius == radius && from >= stay.From && (heal == 0 || (heal == stay.Heal && from < stay.LookedTo));
+        until = holds ? stay.Shell.Leaves(path, dense, from, box) : from;
+        if (until <= from)
+        {
+            Move(slot, radius, path, dense, from, heal);
+            until = stay.Shell.Leaves(path, dense, from, box);
+        }
+
+        stay.Predictions++;
+        until = heal == 0 ? until : SimTime.Min(until, stay.LookedTo);
+        return lists.Of(slot);
+    }
+
+    public Span<int> CandidatesAt(int slot, double radius, SimTime time, bool isHealing)
+    {
+        if (!isHealing)
+        {
+            return lists.Of(slot);
+        }
+
+        int segment = timelines.Last(slot);
+        Vector3D place = timelines.Segment(segment).PositionAt(time.SecondsSince(timelines.Segment(segment).Epoch), timelines.Dense(segment));
+        Shell shell = new(place, 0, radius + tick);
+        found.Clear();
+        present.Look(shell, near, found);
+        found.Mark();
+        past.Look(shell, near, time, time, found);
+        return found.Slots;
+    }
+
+    public void Add(int slot, double radius, int segment, SimTime from, SimTime until)
+    {
+        Reserve(slot);
+        ref readonly MotionSegment path = ref timelines.Segment(segment);
+        DenseOutput dense = timelines.Dense(segment);
+        for (SimTime at = from; ;)
+        {
+            Shell shell = NewShell(path, dense, at, radius, 0.5 * cell);
+            SimTime leaves = SimTime.Min(until, shell.Leaves(path, dense, at, box));
+            past.AddAgain(present.CellOf(shell), slot, shell, at, leaves);
+            if (leaves >= until)
+            {
+                return;
+            }
+
+            at = leaves;
+        }
+    }
+
+    public void Forget(int slot)
+    {
+        if (slot < stays.Length && stays[slot].IsListed)
+        {
+            Leave(slot, heal: 0);
+        }
+    }
+
+    public void DropBefore(SimTime edge) => past.DropBefore(edge);
+
+    /// <summary>Makes the body's shell anew around where it is, and its list with it.</summary>
+    private void Move(int slot, double radius, in MotionSegment path, in DenseOutput dense, SimTime from, long heal)
+    {
+        ref Stay stay = ref stays[slot];
+        if (stay.IsListed)
+        {
+            if (from > stay.From && stay.Heal == 0)
+            {
+                past.Add(stay.Cell, slot, stay.Shell, stay.From, from);
+            }
+            else if (from > stay.From)
+            {
+                past.AddAgain(stay.Cell, slot, stay.Shell, stay.From, from);
+            }
+
+            stay.Wanted *= heal != 0 ? 1 : stay.Predictions < FewPredictions ? Larger : stay.Predictions > ManyPredictions ? Smaller : 1;
+            Leave(slot, heal);
+        }
+
+        stay.Wanted = stay.Wanted == 0 ? FirstStray * cell : Math.Min(0.5 * cell, Math.Max(LeastStray * cell, stay.Wanted));
+        Shell shell = NewShell(path, dense, from, radius, stay.Wanted);
+        found.Clear();
+        present.Look(shell, near, found);
+        foreach (int other in found.Slots)
+        {
+            lists.Add(slot, other);
+            if (lookingBack == 0 || lists.Of(other).IndexOf(slot) < 0)
+            {
+                lists.Add(other, slot);
+            }
+        }
+
+        stay.LookedTo = SlabRing.EndOf(SlabRing.NumberOf(from) + 1);
+        if (heal != 0)
+        {
+            int now = found.Count;
+            found.Mark();
+            past.Look(shell, near, from, stay.LookedTo, found);
+            foreach (int other in found.Slots.Slice(now))
+            {
+                if (other != slot)
+                {
+                    lists.Add(slot, other); // who was there looks no more
+                }
+            }
+        }
+
+        stay.Shell = shell;
+        stay.Cell = present.CellOf(shell);
+        stay.Radius = radius;
+        stay.From = from;
+        stay.Heal = heal;
+        lookingBack += heal != 0 ? 1 : 0;
+        stay.Predictions = 0;
+        stay.IsListed = true;
+        present.Add(slot, shell, stay.Cell);
+    }
+
+    /// <summary>
+    /// Takes the body out of its cell, and out of the lists of others. Not out of those that the heal at hand has made: this one may be
+    /// ahead of their bodies, which then still have to meet it where it was.
+    /// </summary>
+    private void Leave(int slot, long heal)
+    {
+        stays[slot].IsListed = false;
+        lookingBack -= stays[slot].Heal != 0 ? 1 : 0;
+        present.Remove(slot, stays[slot].Cell);
+        foreach (int other in lists.Of(slot))
+        {
+            int at = heal != 0 && stays[other].Heal == heal && !ForgetsWhoMovedOn ? -1 : lists.Of(other).IndexOf(slot);
+            if (at >= 0)
+            {
+                lists.RemoveAt(other, at);
+            }
+        }
+
+        lists.Clear(slot);
+    }
+
+    /// <summary>A shell around where a path is, so wide, but no wider than fits the cells, unless the path would lead out of it in no time.</summary>
+    private Shell NewShell(in MotionSegment path, in DenseOutput dense, SimTime at, double radius, double wanted)
+    {
+        double seconds = at.SecondsSince(path.Epoch);
+        double speed = path.VelocityAt(seconds, dense).Length;
+        double acceleration = Shell.LargestAcceleration(path, dense, seconds, shortestStay);
+        double least = 2 * ((speed * shortestStay) + (2 * acceleration * shortestStay * shortestStay)); // twice, for three quarters are for the velocity
+        double stray = Math.Max(least, Math.Min(wanted, Math.Max(LeastStray * cell, (0.5 * cell * (1 - 1e-9)) - radius)));
+        return new Shell(path.PositionAt(seconds, dense), stray < double.MaxValue ? stray : double.PositiveInfinity, radius);
+    }
+
+    private void Reserve(int slot)
+    {
+        if (slot >= stays.Length)
+        {
+            int size = Math.Max(slot + 1, stays.Length * 2);
+            Array.Resize(ref stays, size);
+            lists.Grow(size);
+        }
+
+        found.AddSlot(slot);
+    }
+
+    /// <summary>Since when a body is in its shell, and what is known of the others there.</summary>
+    private struct Stay
+    {
+        internal Shell Shell;
+        internal ulong Cell; // that the shell is listed in
+        internal SimTime From;
+        internal SimTime LookedTo; // up to when it was looked at what others did, if that was in a heal
+        internal double Radius; // of the body
+        internal double Wanted; // how far it may stray
+        internal long Heal; // the heal in which the shell was made, or 0
+        internal int Predictions;
+        internal bool IsListed;
+    }
+}

@@ -1,0 +1,113 @@
+using System;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Hosting;
+
+/// <summary>What a game's frame reads: the paths of all bodies over a span of time, as the simulation had them at one moment.</summary>
+/// <remarks>
+/// It does not change while its reader has it, that is until that reader asks its <see cref="RenderTripleBuffer"/> for the next. For the one
+/// reading thread. Reading is a pure function of the render snapshot and the time, takes no lock and allocates nothing.
+/// </remarks>
+public sealed class RenderSnapshot
+{
+    private RenderTimeline[] timelines = Array.Empty<RenderTimeline>();
+    private double[] radii = Array.Empty<double>();
+    private ulong[] identities = Array.Empty<ulong>();
+    private int[] slots = Array.Empty<int>();
+    private long orderVersion = -1;
+    private PeriodicBox box;
+
+    internal RenderSnapshot()
+    {
+    }
+
+    /// <summary>Counts the render snapshots that were published; 0 before the first, which shows nothing.</summary>
+    public long Number { get; private set; }
+
+    /// <summary>The earliest instant shown.</summary>
+    public SimTime From { get; private set; } = SimTime.MaxValue;
+
+    /// <summary>The last instant shown; <see cref="SimTime.MaxValue"/> if nothing more was going to happen.</summary>
+    public SimTime To { get; private set; } = SimTime.MinValue;
+
+    /// <summary>How many bodies it knows, absent ones included.</summary>
+    public int BodyCount { get; private set; }
+
+    /// <summary>The identity of the n-th body in canonical order.</summary>
+    public BodyId BodyAt(int n) => BodyId.FromPacked(identities[n]);
+
+    /// <summary>Whether the instant is shown.</summary>
+    public bool Covers(SimTime time) => time >= From && time <= To;
+
+    /// <summary>Where a body is at an instant that the render snapshot covers.</summary>
+    /// <returns>False if the instant is not covered, or the body is unknown or not there; the state is then the default.</returns>
+    /// <remarks>
+    /// An instant that is not covered is no mistake of a reader: the thread that makes render snapshots may be late. <see cref="Simulation.TryRead"/> throws there.
+    /// </remarks>
+    public bool TryRead(BodyId body, SimTime time, out BodyState state)
+    {
+        int at = Covers(time) ? Array.BinarySearch(identities, 0, BodyCount, body.Packed) : -1;
+        state = at < 0 ? default : timelines[slots[at]].At(time, box);
+        return state.Motion != MotionLaw.Absent;
+    }
+
+    /// <summary>The radius of a body, in metres; 0 for one that is unknown or was never there.</summary>
+    public double RadiusOf(BodyId body)
+    {
+        int at = Array.BinarySearch(identities, 0, BodyCount, body.Packed);
+        return at < 0 ? 0 : radii[slots[at]];
+    }
+
+    /// <summary>By how much a body's velocity changed at one stroke, after one instant and up to another: a bounce, an impulse.</summary>
+    /// <param name="body">The body.</param>
+    /// <param name="after">The earlier instant, itself left out.</param>
+    /// <param name="upTo">The later one.</param>
+    /// <param name="speed">
+    /// The largest such change in m/s, 0 if there was none; <see cref="double.PositiveInfinity"/> if the body was put elsewhere, came or went in between.
+    /// </param>
+    /// <returns>False if an instant is not covered or the body is unknown; the change is then 0.</returns>
+    public bool TryReadSuddenChange(BodyId body, SimTime after, SimTime upTo, out double speed)
+    {
+        int at = Covers(after) && Covers(upTo) ? Array.BinarySearch(identities, 0, BodyCount, body.Packed) : -1;
+        speed = at < 0 ? 0 : timelines[slots[at]].SuddenChange(after, upTo, box);
+        return at >= 0;
+    }
+
+    /// <summary>Takes over what changed in the simulation since this render snapshot last showed it.</summary>
+    internal void Follow(Simulation simulation, SimTime from, long number)
+    {
+        int count = simulation.Engine.Bodies.SlotCount;
+        if (count > timelines.Length)
+        {
+            int size = Math.Max(count, timelines.Length * 2);
+            Array.Resize(ref timelines, size);
+            Array.Resize(ref radii, size);
+            Array.Resize(ref identities, size);
+            Array.Resize(ref slots, size);
+        }
+
+        if (simulation.Engine.Bodies.Version != orderVersion)
+        {
+            orderVersion = simulation.Engine.Bodies.Version;
+            BodyCount = simulation.BodyCount;
+            for (int n = 0; n < BodyCount; n++)
+            {
+                slots[n] = simulation.Engine.Bodies.SlotAt(n);
+                identities[n] = simulation.Engine.Bodies.Id(slots[n]).Packed;
+            }
+        }
+
+        for (int slot = 0; slot < count; slot++)
+        {
+            timelines[slot] ??= new RenderTimeline();
+            timelines[slot].Follow(simulation.Engine.Timelines, slot, from);
+            radii[slot] = simulation.Engine.Bodies.Spec(slot).Radius;
+        }
+
+        box = simulation.Scene.Box;
+        Number = number;
+        From = from;
+        To = simulation.Horizon;
+    }
+}

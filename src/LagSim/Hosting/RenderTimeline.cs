@@ -1,0 +1,158 @@
+using System;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Hosting;
+
+/// <summary>One body's timeline inside a render snapshot: a copy that follows the simulation's by taking over only what changed.</summary>
+internal sealed class RenderTimeline
+{
+    private const double LeastStep = 1e-6; // m; less between two pieces of a path is rounding, or a hop's height
+
+    private Entry[] entries = Array.Empty<Entry>(); // a body that is only heard of never needs one
+    private int first;
+    private int end;
+
+    /// <summary>Makes this equal to the simulation's timeline of the slot from <paramref name="edge"/> on.</summary>
+    internal void Follow(TimelineStore store, int slot, SimTime edge)
+    {
+        if (end > first && entries[first].Opened > edge)
+        {
+            first = end = 0; // the edge went back, maybe behind what was dropped here; where nothing was, it is little to copy
+        }
+
+        // Serials only grow along a timeline, and a segment once cut never comes back under its old one: the newest serial that both
+        // have is where they part.
+        int fresh = 0;
+        int at = store.Last(slot);
+        while (at != TimelineStore.None)
+        {
+            while (end > first && entries[end - 1].Serial > store.Serial(at))
+            {
+                end--;
+            }
+
+            if (end > first && entries[end - 1].Serial == store.Serial(at))
+            {
+                break;
+            }
+
+            bool covers = store.Key(at).Time <= edge;
+            fresh += covers && !store.Segment(at).IsPresent ? 0 : 1; // before the first entry there is no body; that needs no entry of its own
+            at = covers ? TimelineStore.None : store.Previous(at);
+        }
+
+        if (at == TimelineStore.None)
+        {
+            first = end = 0;
+        }
+
+        Reserve(fresh);
+        at = store.Last(slot);
+        for (int i = fresh - 1; i >= 0; i--)
+        {
+            entries[end + i] = new Entry(store.Serial(at), store.Key(at).Time, store.Segment(at), store.Dense(at), store.SpinOf(at));
+            at = store.Previous(at);
+        }
+
+        end += fresh;
+        while (end - first > 1 && entries[first + 1].Opened <= edge)
+        {
+            first++;
+        }
+    }
+
+    internal BodyState At(SimTime time, in PeriodicBox box)
+    {
+        int low = first;
+        int high = end; // the last entry opened at or before the time lies below
+        while (low < high)
+        {
+            int middle = (low + high) >> 1;
+            if (entries[middle].Opened <= time)
+            {
+                low = middle + 1;
+            }
+            else
+            {
+                high = middle;
+            }
+        }
+
+        if (low == first)
+        {
+            return default;
+        }
+
+        return State(entries[low - 1], time, box);
+    }
+
+    /// <summary>
+    /// The largest change of velocity at one stroke after one instant and up to another, in m/s; infinite if the body was put elsewhere, came or went.
+    /// </summary>
+    internal double SuddenChange(SimTime after, SimTime upTo, in PeriodicBox box)
+    {
+        double largest = 0;
+        for (int i = end - 1; i >= first && entries[i].Opened > after; i--)
+        {
+            if (entries[i].Opened > upTo)
+            {
+                continue;
+            }
+
+            SimTime time = entries[i].Opened;
+            BodyState now = State(entries[i], time, box);
+            BodyState before = i > first ? State(entries[i - 1], time, box) : default;
+            bool wasThere = before.Motion != MotionLaw.Absent, isThere = now.Motion != MotionLaw.Absent;
+            if (wasThere || isThere)
+            {
+                bool stays = wasThere && isThere && box.Nearest(now.Position - before.Position).Length <= LeastStep;
+                largest = Math.Max(largest, stays ? (now.Velocity - before.Velocity).Length : double.PositiveInfinity);
+            }
+        }
+
+        return largest;
+    }
+
+    private static BodyState State(in Entry entry, SimTime time, in PeriodicBox box) =>
+        StateReader.StateOf(entry.Segment, time.SecondsSince(entry.Segment.Epoch), entry.Dense, box, entry.Spin);
+
+    private void Reserve(int fresh)
+    {
+        if (end + fresh <= entries.Length)
+        {
+            return;
+        }
+
+        int kept = end - first;
+        Entry[] target = kept + fresh > entries.Length / 2 ? new Entry[Math.Max(2 * (kept + fresh), 8)] : entries;
+        Array.Copy(entries, first, target, 0, kept);
+        entries = target;
+        first = 0;
+        end = kept;
+    }
+
+    private readonly struct Entry
+    {
+        internal Entry(long serial, SimTime opened, in MotionSegment segment, in DenseOutput dense, in Spin spin)
+        {
+            Serial = serial;
+            Opened = opened;
+            Segment = segment;
+            Dense = dense;
+            Spin = spin;
+        }
+
+        internal long Serial { get; }
+
+        internal SimTime Opened { get; }
+
+        internal MotionSegment Segment { get; }
+
+        internal DenseOutput Dense { get; }
+
+        internal Spin Spin { get; }
+    }
+}
