@@ -160,7 +160,7 @@ public sealed partial class CorpusTests
     [
         .. Enum.GetNames<MotionLaw>().Where(law => law != nameof(MotionLaw.Automatic)).Select(law => $"law {law}"),
         .. Enum.GetNames<ForceKind>().Select(kind => $"force {kind}"),
-        .. new[] { "Spawn", "Teleport", "SetVelocity", "Impulse", "Grab", "HoldKnot", "Release", "Remove" }.Select(kind => $"event {kind}"),
+        .. new[] { "Spawn", "Teleport", "SetVelocity", "Impulse", "Grab", "HoldKeyframe", "Release", "Remove" }.Select(kind => $"event {kind}"),
         "a step's end", "an impact of two", "an impact of many", "a wake by impact", "sliding in a groove", "sliding on a plane", "a lasting contact", "a late round",
         "masses sixty decades apart", "a supplied acceleration", "a late start", "a place far from the origin", "a subnormal speed", "a refused event", "two events at a tick",
     ];

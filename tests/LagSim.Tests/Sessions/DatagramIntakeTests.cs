@@ -33,7 +33,7 @@ public sealed class DatagramIntakeTests : IDatagramHandler
         intake.Take(update, PeerAddress.Virtual(1));
         intake.Take(update.Slice(0, update.Length - 1), PeerAddress.Virtual(1));
         intake.Take([1, 2, 3], PeerAddress.Virtual(1));
-        Assert.Equal(["Knock", "other version", "update 1"], taken);
+        Assert.Equal(["ConnectRequest", "other version", "update 1"], taken);
         Assert.Equal((5L, 3L), (counters.DatagramsReceived, counters.DatagramsMalformed));
     }
 

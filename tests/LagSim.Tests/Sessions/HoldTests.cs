@@ -159,7 +159,7 @@ public sealed class HoldTests
     {
         SessionGroup group = Group(2);
         group.Do(1, PlayerAction.Grab(First));
-        Assert.Contains("HoldKnot", Assert.Throws<SceneException>(() => group.Do(1, PlayerAction.HoldKeyframe(First, V(0, 100), V(0)))).Message, StringComparison.Ordinal);
+        Assert.Contains("HoldKeyframe", Assert.Throws<SceneException>(() => group.Do(1, PlayerAction.HoldKeyframe(First, V(0, 100), V(0)))).Message, StringComparison.Ordinal);
         group.Do(1, PlayerAction.HoldKeyframe(First, V(0, 40), V(0)));
     }
 

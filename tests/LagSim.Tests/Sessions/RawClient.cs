@@ -100,7 +100,7 @@ internal sealed class RawClient
         return null;
     }
 
-    /// <summary>Knocks, and takes the cookie that comes.</summary>
+    /// <summary>Asks to connect, and takes the cookie that comes.</summary>
     internal Token128 Cookie(ulong nonce)
     {
         byte[] bytes = new byte[WireFormat.ConnectRequestBytes];

@@ -172,7 +172,7 @@ public sealed class SceneRun
             string surface = isOfSurface
                 ? ImpactPartner.Surface(scene, scene.Bodies[body.Index].Spec.Radius, Before(simulation, body, entry, last), entry.State)
                 : "";
-            pending.Add(new BodyEvent(entry.Key, entry.Key.Kind.ToString().ToLowerInvariant(), body, surface, entry.State));
+            pending.Add(new BodyEvent(entry.Key, EventKindText.Of(entry.Key.Kind), body, surface, entry.State));
         }
 
         if (law == MotionLaw.Resting != (before == MotionLaw.Resting))
