@@ -44,7 +44,7 @@ internal static class HoldFiles
             page.AddHeading(name);
             Chart($"hold-{name}.svg", HoldChart.OfHold(motion, run));
             Chart($"hold-{name}-throw.svg", HoldChart.OfThrow(motion, run));
-            page.AddTable(ErrorTable.Of("Error between peers, in metres", run));
+            page.AddTable(ErrorTable.Of("Error between peers, in metres", run), run == report.Runs[0] ? ErrorTable.Terms : null);
         }
 
         page.AddHeading("How well this hand can be predicted from all of its samples");
