@@ -5,7 +5,8 @@ using System.CommandLine.Invocation;
 
 namespace LagSim.Cli;
 
-/// <summary>The help of every command: no line is longer than <see cref="MostColumns"/>, and the list of all commands has one sentence for each.</summary>
+/// <summary>The help of every command.</summary>
+/// <remarks>No line is longer than <see cref="MostColumns"/>. The list of all commands has one sentence for each.</remarks>
 internal sealed class HelpOfTool : SynchronousCommandLineAction
 {
     /// <summary>The longest line, in characters; a narrower terminal gets shorter lines.</summary>
@@ -13,7 +14,7 @@ internal sealed class HelpOfTool : SynchronousCommandLineAction
 
     private readonly HelpAction help = new();
 
-    /// <param name="isAsked">Whether the help was asked for, so that nothing else on the command line matters; else an unknown word is still an error.</param>
+    /// <param name="isAsked">Whether the help was asked for: then no other mistake on the command line counts.</param>
     internal HelpOfTool(bool isAsked) => ClearsParseErrors = isAsked;
 
     /// <inheritdoc/>
@@ -31,5 +32,6 @@ internal sealed class HelpOfTool : SynchronousCommandLineAction
         return help.Invoke(parseResult);
     }
 
-    private static string FirstSentence(string text) => text.IndexOf(". ", StringComparison.Ordinal) is >= 0 and int end ? text[..(end + 1)] : text;
+    private static string FirstSentence(string text) =>
+        text.IndexOf(". ", StringComparison.Ordinal) is >= 0 and int end ? text[..(end + 1)] : text;
 }

@@ -98,7 +98,8 @@ internal sealed class CommonOptions
     /// <summary>The profile of every joiner's link.</summary>
     internal static Option<string?> Profile() => new("--profile")
     {
-        Description = $"The link between each client and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, or {LinkProfiles.AnyDelay}.",
+        Description = $"The link between each client and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))},"
+            + $" or {LinkProfiles.AnyDelay}.",
         HelpName = "NAME",
     };
 

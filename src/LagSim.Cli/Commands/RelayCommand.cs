@@ -24,7 +24,8 @@ internal static class RelayCommand
         Argument<string> host = new("ADDRESS:PORT") { Description = "Where the host is; clients join the relay's own address instead." };
         Option<string> profile = new("--profile")
         {
-            Description = $"The link between each client and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, or {LinkProfiles.AnyDelay}.",
+            Description = $"The link between each client and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))},"
+                + $" or {LinkProfiles.AnyDelay}.",
             HelpName = "NAME",
             Required = true,
         };
@@ -80,7 +81,8 @@ internal static class RelayCommand
             {
                 console.Output.WriteLine(string.Create(
                     CultureInfo.InvariantCulture,
-                    $"{link.Name}, {NumberText.Count(traffic.Clients, "joiner")}; to the host {NumberText.Count(traffic.ForwardedToHost, "datagram")},"
+                    $"{link.Name}, {NumberText.Count(traffic.Clients, "client")};"
+                        + $" to the host {NumberText.Count(traffic.ForwardedToHost, "datagram")},"
                         + $" {traffic.LostToHost} lost; from the host {traffic.ForwardedFromHost}, {traffic.LostFromHost} lost; {traffic.Refused} refused"
                         + $"{(changing is null ? "" : $"; {NumberText.Count(traffic.PortChanges, "port change")}")}"));
             }

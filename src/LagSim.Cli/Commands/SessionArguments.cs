@@ -31,10 +31,12 @@ internal sealed class SessionArguments
         + " existing file is replaced. Each time a fresh copy of the world is taken, as after a rejoin, the recording goes on in another file: after game.lagsim"
         + " come game.2.lagsim, game.3.lagsim and so on. The summary names them all.");
     private readonly Option<double> timeout = CommonOptions.Number(
-        "--timeout-s", "How long another peer may be silent before it is disconnected; must be the same for all", DefaultTimeoutSeconds, 0.5, 600);
+        "--timeout-s", "How long another peer may be silent before it is disconnected; must be the same for all",
+        DefaultTimeoutSeconds, 0.5, 600);
 
     private readonly Option<double> rejoin = CommonOptions.Number(
-        "--rejoin-s", "How long a client that lost its host tries to join again, and how long a host keeps a lost client's number", DefaultRejoinSeconds, 0, 3600);
+        "--rejoin-s", "How long a client that lost its host tries to join again, and how long a host keeps a lost client's number",
+        DefaultRejoinSeconds, 0, 3600);
 
     internal SessionArguments()
     {

@@ -51,9 +51,10 @@ internal static class DropChart
         };
     }
 
-    /// <summary>The milliseconds that matter: from just before the lift until just after the last peer knows of it; null for a case without one.</summary>
+    /// <summary>The milliseconds that matter: from just before the lift until just after the last peer knows of it.</summary>
     /// <param name="run">What is shown.</param>
     /// <param name="before">The case before it in the same run; null for none.</param>
+    /// <returns>The chart; null for a case without a lift.</returns>
     internal static LineChart? OfEvent(DropRun run, DropRun? before = null)
     {
         if (run.Trace is not { Lift: double lifted, Dealt: double dealt })
@@ -83,7 +84,7 @@ internal static class DropChart
 
     /// <summary>A panel a strategy, all of one scale: strategies that agree have the same curve, and in one panel all but the last drawn would be hidden.</summary>
     /// <param name="runs">A run a strategy.</param>
-    /// <param name="shown">The runs of the charts above. If the ball was lifted there, all times here are moved so that it is lifted at the same time.</param>
+    /// <param name="shown">The runs of the charts above. All times here are moved so that the ball is lifted when it is there.</param>
     internal static LineChart OfStrategies(IReadOnlyList<DropRun> runs, IReadOnlyList<DropRun> shown)
     {
         double? lift = shown.Select(run => run.Trace.Lift).FirstOrDefault(at => at is not null);

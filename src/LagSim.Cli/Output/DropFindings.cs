@@ -10,7 +10,8 @@ internal static class DropFindings
 {
     internal static string Of(DropRun run)
     {
-        ErrorStatistics before = run.Seen.Before.ToStatistics(), during = run.Seen.During.ToStatistics(), after = run.Seen.After.ToStatistics();
+        ErrorStatistics before = run.Seen.Before.ToStatistics(), during = run.Seen.During.ToStatistics();
+        ErrorStatistics after = run.Seen.After.ToStatistics();
         if (run.Case == DropCase.SameStart)
         {
             return before.DifferingBits == 0 ? $"No bit differed between the peers in {Samples(before)}{Stalled(before)}."
@@ -18,9 +19,11 @@ internal static class DropFindings
         }
 
         string until = run.Trace is { Lift: double lift, Dealt: double dealt } && during.Samples > 0 && dealt > lift
-            ? $"; in the {NumberText.Short((dealt - lift) * 1000)} ms before, they were up to {NumberText.Short(during.MaxMetres)} m apart" : "";
-        return after.DifferingBits == 0 ? $"After the event arrived, no bit differed between the peers in {Samples(after)}{Stalled(after)}{until}."
-            : $"After the event arrived, the peers still differed in {Differing(after)}, by up to {NumberText.Short(after.MaxMetres)} m{Stalled(after)}{until}.";
+            ? $"; in the {NumberText.Short((dealt - lift) * 1000)} ms before,"
+                + $" they were up to {NumberText.Short(during.MaxMetres)} m apart" : "";
+        string outcome = after.DifferingBits == 0 ? $"no bit differed between the peers in {Samples(after)}"
+            : $"the peers still differed in {Differing(after)}, by up to {NumberText.Short(after.MaxMetres)} m";
+        return $"After the event arrived, {outcome}{Stalled(after)}{until}.";
     }
 
     private static string Samples(in ErrorStatistics errors) => NumberText.Count(errors.Samples, "sample", "N0");

@@ -170,9 +170,10 @@ public sealed class DropCommandTests
 
         string page = File.ReadAllText(folder["new/one/report.html"]);
         Assert.Equal(4, page.Split("<svg").Length - 1);
-        Assert.All(["seen", "true time", "settled", "stalled"], word => Assert.Contains($"<dt>{word}</dt>", page, StringComparison.Ordinal));
+        string[] words = ["seen", "true time", "settled", "stalled"];
+        Assert.All(words, word => Assert.Contains($"<dt>{word}</dt>", page, StringComparison.Ordinal));
         Assert.Single(Regex.Matches(page, "class=\"finding\"")); // what came out, once and first
-        Assert.Matches("<p class=\"finding\">After the event arrived, no bit differed between the peers in 3,3[0-9]{2} samples; in the [0-9.]+ ms before,", page);
+        Assert.Matches("<p class=\"finding\">After the event arrived, no bit differed between the peers in 3,3[0-9]{2} samples;", page);
         Assert.Contains("same-start", page, StringComparison.Ordinal);
         Assert.All(files.Where(file => file.EndsWith(".svg", StringComparison.Ordinal)), file => Assert.StartsWith("<svg", File.ReadAllText(folder[$"new/one/{file}"]), StringComparison.Ordinal));
     }
@@ -183,21 +184,25 @@ public sealed class DropCommandTests
         using TemporaryFolder folder = new();
         Tool.Run("drop", "--time", "virtual", "--motion", "ballistic", "--out", folder.Path).Done();
         string page = File.ReadAllText(folder["report.html"]);
-        double[] lifts = [.. Regex.Matches(page, "lifted here: ([0-9.]+)").Select(found => double.Parse(found.Groups[1].Value, CultureInfo.InvariantCulture))];
+        double[] lifts = [.. Regex.Matches(page, "lifted here: ([0-9.]+)")
+            .Select(found => double.Parse(found.Groups[1].Value, CultureInfo.InvariantCulture))];
         Assert.Equal(2 + 1 + 5, lifts.Length); // a panel each of the case, of its milliseconds and of the strategies
         Assert.All(lifts, lift => Assert.Equal(lifts[0], lift, 1e-9));
         Assert.Contains(">From the lift until all know of it: 25 ms<", page, StringComparison.Ordinal);
 
         DropRun alone = Run("healing");
-        Assert.Equal(DropChart.OfStrategies([alone], [alone]).Panels[0].Series[0].X, DropChart.OfStrategies([alone], []).Panels[0].Series[0].X);
+        Assert.Equal(
+            DropChart.OfStrategies([alone], [alone]).Panels[0].Series[0].X, DropChart.OfStrategies([alone], []).Panels[0].Series[0].X);
     }
 
     [Fact]
     public void Finding_OfARun_SaysWhetherThePeersAgreeOnceTheEventIsThere()
     {
-        Assert.StartsWith("After the event arrived, no bit differed between the peers in ", DropFindings.Of(Run("healing")), StringComparison.Ordinal);
-        Assert.StartsWith("After the event arrived, the peers still differed in ", DropFindings.Of(Run("none")), StringComparison.Ordinal); // the control
-        DropRun same = DropTest.Run(new DropOptions { IsVirtual = true, Cases = [DropCase.SameStart], Motion = MotionLaw.Ballistic }).Single();
+        string healing = DropFindings.Of(Run("healing")), none = DropFindings.Of(Run("none"));
+        Assert.StartsWith("After the event arrived, no bit differed between the peers in ", healing, StringComparison.Ordinal);
+        Assert.StartsWith("After the event arrived, the peers still differed in ", none, StringComparison.Ordinal); // the control
+        DropOptions options = new() { IsVirtual = true, Cases = [DropCase.SameStart], Motion = MotionLaw.Ballistic };
+        DropRun same = DropTest.Run(options).Single();
         Assert.Equal($"No bit differed between the peers in {same.Seen.Before.ToStatistics().Samples:N0} samples.", DropFindings.Of(same));
         Assert.Null(DropChart.OfEvent(same));
     }

@@ -20,7 +20,10 @@ public sealed class HelpTests
         Tool tool = Tool.Run().Done();
         Assert.Equal("", tool.Error);
         Assert.Equal(Tool.Run("--help").Done().Output, tool.Output);
-        Assert.All(Commands.Select(row => row.Data), name => Assert.Contains($"{Environment.NewLine}  {name} ", tool.Output, StringComparison.Ordinal));
+        string[] lines = [.. tool.Output.ReplaceLineEndings("\n").Split('\n')];
+        Assert.All(
+            Commands.Select(row => row.Data),
+            name => Assert.Contains(lines, line => line.StartsWith($"  {name} ", StringComparison.Ordinal)));
     }
 
     [Fact]
@@ -53,7 +56,9 @@ public sealed class HelpTests
         Assert.NotEmpty(TooLong(output.ToString()));
     }
 
-    private static Command Root(TextWriter output) => Program.Root(new ToolConsole(output, TextWriter.Null, TestContext.Current.CancellationToken));
+    private static Command Root(TextWriter output) =>
+        Program.Root(new ToolConsole(output, TextWriter.Null, TestContext.Current.CancellationToken));
 
-    private static string[] TooLong(string help) => [.. help.ReplaceLineEndings("\n").Split('\n').Where(line => line.Length > HelpOfTool.MostColumns)];
+    private static string[] TooLong(string help) =>
+        [.. help.ReplaceLineEndings("\n").Split('\n').Where(line => line.Length > HelpOfTool.MostColumns)];
 }

@@ -73,12 +73,14 @@ public sealed class UsageTests
     [InlineData("check", false)]
     [InlineData("hard", false)]
     public void Seed_WhereNothingIsDrawn_SaysSoInTheHelp(string command, bool isIdle) =>
-        Assert.Equal(isIdle, Tool.Run(command, "--help").Done().OutputOnOneLine.Contains("nothing here is random", StringComparison.Ordinal));
+        Assert.Equal(
+            isIdle, Tool.Run(command, "--help").Done().OutputOnOneLine.Contains("nothing here is random", StringComparison.Ordinal));
 
     [Fact]
     public void Help_OfAnOptionThatHasNoEffectOnSome_SaysSo()
     {
-        Assert.Contains("Steps per second of rk4; ballistic motion has none", Tool.Run("drop", "--help").OutputOnOneLine, StringComparison.Ordinal);
+        string help = Tool.Run("drop", "--help").OutputOnOneLine;
+        Assert.Contains("Steps per second of rk4; ballistic motion has none", help, StringComparison.Ordinal);
         Assert.Contains("an existing file is replaced", Tool.Run("host", "--help").OutputOnOneLine, StringComparison.Ordinal);
     }
 
