@@ -30,7 +30,7 @@ internal static class Program
     // Not a RootCommand: that is named after the assembly, which cannot be called as the tool is.
     internal static Command Root(ToolConsole console) => new("lagsim", "LagSim: a shared physical world without lag. Results go to stdout, progress to stderr.")
     {
-        new HelpOption(),
+        new HelpOption { Action = new HelpOfTool(isAsked: true) },
         new VersionOption(),
         CheckCommand.Create(console),
         DropCommand.Create(console),
@@ -61,6 +61,7 @@ internal static class Program
     internal static int Run(string[] arguments, TextWriter output, TextWriter error, CancellationToken stop, Func<int?>? signal = null)
     {
         Command root = Root(new ToolConsole(output, error, stop));
+        root.Action = new HelpOfTool(isAsked: false); // a call without a command
         ParseResult parsed = root.Parse(arguments);
         if (parsed.Errors.Count > 0)
         {

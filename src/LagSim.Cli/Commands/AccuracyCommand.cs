@@ -23,8 +23,8 @@ internal static class AccuracyCommand
             Description = $"{All}, or one of {Names}; or {WorkScenes.Drawn}, some heaps that the seed draws.",
             DefaultValueFactory = _ => All,
         };
-        Option<string> peers = CommonOptions.Word("--peers", $"Which engines and integrators to compare with LagSim: {All}, {None}, or one of"
-            + $" {string.Join(", ", WorkMethods.Peers)}.", All, [All, None, .. WorkMethods.Peers]);
+        Option<string> peers = CommonOptions.Word(
+            "--peers", "Which engines and integrators to compare with LagSim.", All, [All, None, .. WorkMethods.Peers]);
         Option<bool> quick = new("--quick")
         {
             Description = "Few settings, short runs and small heaps: takes some seconds, but its figures of speed cannot be trusted."

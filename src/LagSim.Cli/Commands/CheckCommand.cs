@@ -30,8 +30,9 @@ internal static class CheckCommand
         };
         Option<string> profile = new("--profile")
         {
-            Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, {LinkProfiles.AnyDelay};"
-                + $" or {All}: a different one for each joiner.",
+            Description = $"The link between each client and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))},"
+                + $" {LinkProfiles.AnyDelay};"
+                + $" or {All}: a different one for each client.",
             HelpName = "NAME",
             DefaultValueFactory = _ => All,
         };

@@ -22,6 +22,9 @@ internal sealed class CommonOptions
     /// <summary>The strategy that a display delay is for.</summary>
     internal const string Interpolating = "interpolation";
 
+    /// <summary>Characters that words to choose from may take in the left column of help; longer lists stand in the description.</summary>
+    private const int MostOfWords = 30;
+
     private const string DisplayDelayName = "--display-delay-ms";
 
     internal Option<ulong> Seed { get; } = new(SeedName)
@@ -95,7 +98,8 @@ internal sealed class CommonOptions
     /// <summary>The profile of every client's link.</summary>
     internal static Option<string?> Profile() => new("--profile")
     {
-        Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, or {LinkProfiles.AnyDelay}.",
+        Description = $"The link between each client and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))},"
+            + $" or {LinkProfiles.AnyDelay}.",
         HelpName = "NAME",
     };
 
@@ -158,7 +162,13 @@ internal sealed class CommonOptions
     /// <summary>An option that takes one of some words.</summary>
     internal static Option<string> Word(string name, string description, string byDefault, params string[] words)
     {
-        Option<string> option = new(name) { Description = description, DefaultValueFactory = _ => byDefault };
+        bool areFew = words.Sum(word => word.Length + 1) <= MostOfWords;
+        Option<string> option = new(name)
+        {
+            Description = areFew ? description : $"{description.TrimEnd('.')}: one of {string.Join(", ", words)}.",
+            DefaultValueFactory = _ => byDefault,
+            HelpName = areFew ? string.Join('|', words) : "NAME",
+        };
         option.CompletionSources.Add(words);
         option.Validators.Add(result =>
         {

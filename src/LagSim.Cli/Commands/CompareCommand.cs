@@ -31,7 +31,8 @@ internal static class CompareCommand
         };
         Option<string> profile = new("--profile")
         {
-            Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, {LinkProfiles.AnyDelay},"
+            Description = $"The link between each client and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))},"
+                + $" {LinkProfiles.AnyDelay},"
                 + " or all the named ones.",
             DefaultValueFactory = _ => All,
             HelpName = "NAME",

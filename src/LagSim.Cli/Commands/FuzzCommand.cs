@@ -67,7 +67,7 @@ internal static class FuzzCommand
         else
         {
             console.Output.WriteLine(string.Create(culture, $"{report.GarbageSent:N0} datagrams of garbage and {report.ReplaysSent:N0} replayed ones in"
-                + $" {report.Seconds:0.0} s at a host and a joiner"));
+                + $" {report.Seconds:0.0} s at a host and a client"));
             console.Output.WriteLine(string.Create(culture, $"taken in {report.Received:N0}, refused by a decoder {report.Malformed:N0}, ignored"
                 + $" {report.Ignored:N0}"));
             console.Output.WriteLine(string.Create(culture, $"{report.EventsAgreed} of {report.EventsDone} events that the two did meanwhile are on both;"

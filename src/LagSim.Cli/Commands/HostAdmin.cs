@@ -73,7 +73,7 @@ internal sealed class HostAdmin
         switch (words[0])
         {
             case "kick":
-                return host.Kick(player) ? $"Player {player} is sent away." : $"There is no player {player}.";
+                return host.Kick(player) ? $"Player {player} is disconnected." : $"There is no player {player}.";
             case "ban":
                 string? from = host.Links.Where(link => link.Peer == player).Select(link => link.Address.ToEndPoint().Address.ToString()).FirstOrDefault();
                 if (from is null || host.Ban(player) is not PeerAddress its)
@@ -82,7 +82,7 @@ internal sealed class HostAdmin
                 }
 
                 banned[from] = its;
-                return $"Player {player} is sent away, and nobody is let in from {from} any more.";
+                return $"Player {player} is disconnected, and nobody can join from {from} any more.";
             default:
                 try
                 {

@@ -26,12 +26,16 @@ internal static class HostCommand
             DefaultValueFactory = _ => IPAddress.Loopback.ToString(),
             HelpName = "ADDRESS",
         };
-        Option<int> clients = CommonOptions.Whole("--joiners", "Start once this many have joined; more may join at any time", 0, 0, SessionOptions.MaxClients);
+        Option<int> clients = CommonOptions.Whole(
+            "--joiners", "Start once this many clients have joined; more may join at any time", 0, 0, SessionOptions.MaxClients);
         Option<double> history = CommonOptions.Number("--history-s", "How late an event may arrive and still be accepted", 1, 0.05, 5);
         Option<int> perAddress = CommonOptions.Whole(
-            "--per-address", "How many may join from one address; 0 means half of the places, or --joiners if that is more", 0, 0, SessionOptions.MaxClients);
+            "--per-address", "How many clients may join from one address; 0 means half of the places, or --joiners if that is more",
+            0, 0, SessionOptions.MaxClients);
         Option<double> budget = CommonOptions.Number(
-            "--budget", "What each player's acts may cost before it is sent away, as a multiple of the default of a tenth of a core; 0 for no limit", 1, 0, 1000);
+            "--budget",
+            "What each player's actions may cost before it is disconnected, as a multiple of the default, a tenth of a core; 0: no limit",
+            1, 0, 1000);
         Option<bool> admin = new("--admin") { Description = $"Read commands from standard input while the session runs, one a line: {HostAdmin.Syntax}." };
         Command command = new("host", "Opens a session that others join over UDP, and takes part in it. Ctrl-C ends it for everyone.")
         {

@@ -21,10 +21,11 @@ internal static class RelayCommand
     internal static Command Create(ToolConsole console)
     {
         CommonOptions common = new();
-        Argument<string> host = new("ADDRESS:PORT") { Description = "Where the host is; joiners join the relay's own address instead." };
+        Argument<string> host = new("ADDRESS:PORT") { Description = "Where the host is; clients join the relay's own address instead." };
         Option<string> profile = new("--profile")
         {
-            Description = $"The link between each joiner and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))}, or {LinkProfiles.AnyDelay}.",
+            Description = $"The link between each client and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))},"
+                + $" or {LinkProfiles.AnyDelay}.",
             HelpName = "NAME",
             Required = true,
         };
@@ -37,8 +38,8 @@ internal static class RelayCommand
         };
         Option<double?> length = SessionArguments.Seconds("--for-s", "How long to run; by default until Ctrl-C.", SessionArguments.LeastLength, ScriptedAction.MostSeconds);
         Option<double?> change = SessionArguments.Seconds(
-            "--change-port-s", "How often the host sees each joiner move to another port; by default never.", 0.5, 3600);
-        Command command = new("relay", "Passes datagrams between joiners and a host, with the delays and losses of a link profile.")
+            "--change-port-s", "How often the host sees each client move to another port; by default never.", 0.5, 3600);
+        Command command = new("relay", "Passes datagrams between clients and a host, with the delays and losses of a link profile.")
         {
             host, profile, port, address, length, change,
         };
@@ -80,7 +81,8 @@ internal static class RelayCommand
             {
                 console.Output.WriteLine(string.Create(
                     CultureInfo.InvariantCulture,
-                    $"{link.Name}, {NumberText.Count(traffic.Clients, "joiner")}; to the host {NumberText.Count(traffic.ForwardedToHost, "datagram")},"
+                    $"{link.Name}, {NumberText.Count(traffic.Clients, "client")};"
+                        + $" to the host {NumberText.Count(traffic.ForwardedToHost, "datagram")},"
                         + $" {traffic.LostToHost} lost; from the host {traffic.ForwardedFromHost}, {traffic.LostFromHost} lost; {traffic.Refused} refused"
                         + $"{(changing is null ? "" : $"; {NumberText.Count(traffic.PortChanges, "port change")}")}"));
             }

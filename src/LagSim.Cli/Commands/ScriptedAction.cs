@@ -13,7 +13,8 @@ internal sealed class ScriptedAction
     internal const string Syntax =
         "KIND@SECONDS[:BODY][:X,Y,Z], with SECONDS counted from the session's start. KIND is teleport (to a point, in m), set-velocity (in m/s), "
         + "impulse (in N s), spawn (a body like BODY, at a point, in m), grab (BODY by the point at this distance from its centre, in m), "
-        + "knot (the hand that holds BODY is at a point, in m, at rest; without a knot for a second it lets go), release (with a velocity, in m/s) "
+        + "knot (the hand that holds BODY is at a point, in m, at rest; without another for a second it releases the body), "
+        + "release (with a velocity, in m/s) "
         + "or remove (without X,Y,Z). "
         + "BODY is the name of a body of the scene, by default the first, or PEER.SEQUENCE.0 for a spawned one. "
         + "Examples: teleport@3:0,15,0, impulse@2.5:ball:0,4,0, remove@9:ball. May be repeated.";

@@ -21,20 +21,22 @@ internal sealed class SessionArguments
 
     private readonly Option<string?> key = new("--key")
     {
-        Description = $"A secret that joiners must know; up to {SessionOptions.MaxKeyLength} characters. None by default.",
+        Description = $"A secret that clients must present; up to {SessionOptions.MaxKeyLength} characters. None by default.",
         HelpName = "TEXT",
     };
 
-    private readonly Option<string[]> scriptedActions = new("--do") { Description = $"Do something: {ScriptedAction.Syntax}", HelpName = "DEED" };
+    private readonly Option<string[]> scriptedActions = new("--do") { Description = $"Do something: {ScriptedAction.Syntax}", HelpName = "ACTION" };
     private readonly Option<double?> length = Seconds("--for-s", "How long to take part, counted from the session's start; by default until Ctrl-C.", LeastLength, ScriptedAction.MostSeconds);
     private readonly Option<string?> record = CommonOptions.File("--record", "Record the session in this file, whose name usually ends in .lagsim; an"
         + " existing file is replaced. Each time a fresh copy of the world is taken, as after a rejoin, the recording goes on in another file: after game.lagsim"
         + " come game.2.lagsim, game.3.lagsim and so on. The summary names them all.");
     private readonly Option<double> timeout = CommonOptions.Number(
-        "--timeout-s", "How long another peer may be silent before it is given up; must be the same for all", DefaultTimeoutSeconds, 0.5, 600);
+        "--timeout-s", "How long another peer may be silent before it is disconnected; must be the same for all",
+        DefaultTimeoutSeconds, 0.5, 600);
 
     private readonly Option<double> rejoin = CommonOptions.Number(
-        "--rejoin-s", "How long a joiner that lost its host asks to be let in again, and how long a host keeps a lost joiner's number", DefaultRejoinSeconds, 0, 3600);
+        "--rejoin-s", "How long a client that lost its host tries to join again, and how long a host keeps a lost client's number",
+        DefaultRejoinSeconds, 0, 3600);
 
     internal SessionArguments()
     {

@@ -50,6 +50,7 @@ internal static class CheckFiles
             $"Random sessions from seed {options.Seed}, {options.FromPeers} to {options.ToPeers} peers, link {options.Profile?.Name ?? "all"}, strategy"
                 + $" {options.Strategy}.",
             new ReportFooter("lagsim", ToolVersion.Text, options.Seed, null));
+        page.AddFinding(Finding(report));
         page.AddTable(new ReportTable("All sessions", ["what", "number"], sums));
         if (report.Failures.Count > 0)
         {
@@ -62,6 +63,15 @@ internal static class CheckFiles
         }
 
         page.Save(Path.Combine(folder, "report.html"));
+    }
+
+    /// <summary>What came out, in one sentence.</summary>
+    internal static string Finding(CheckReport report)
+    {
+        string sessions = NumberText.Count(report.Outcomes.Count, "session", "N0");
+        return report.Failures.Count > 0 ? $"{report.Failures.Count} of {sessions} failed."
+            : report.Outcomes.Count == 0 ? "No session was played to its end."
+            : $"No bit differed and no accepted event was lost in {sessions}.";
     }
 
     private static string Text(long number) => number.ToString(CultureInfo.InvariantCulture);

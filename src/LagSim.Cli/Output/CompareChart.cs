@@ -20,7 +20,8 @@ internal static class CompareChart
         double[] all = runs.SelectMany(run => new[] { Largest(run.Trace.SeenError), Largest(run.Trace.SeenFromTruth) }).ToArray();
         return new LineChart(
             $"{runs[0].Options.Scene.Name} on {runs[0].Options.Link.Name}: every strategy",
-            "For each strategy the largest distance of a body between the host's picture and another peer's, and from a world that had every event on time."
+            "For each strategy the largest distance of a body between the host's view and another peer's,"
+                + " and from a world that had every event on time."
                 + " Triangles are events.",
             runs.Select(run => new ChartPanel(
                 run.Options.Strategy,
@@ -49,7 +50,7 @@ internal static class CompareChart
         return new LineChart(
             $"{runs[0].Options.Scene.Name}: every strategy on every link",
             "For each strategy the largest error as seen while events are on their way and after, and the furthest jump, for each link, by how late its"
-                + " worst news came.",
+                + " latest event came.",
             strategies.Select(strategy =>
             {
                 CompareRun[] own = runs.Where(run => run.Options.Strategy == strategy).OrderBy(run => run.Lateness.Max).ToArray();
@@ -70,7 +71,7 @@ internal static class CompareChart
                 };
             }).ToArray())
         {
-            XLabel = "the latest news on a link (ms; what is less than 0.01 at 0.01)",
+            XLabel = "the latest event on a link (ms; what is less than 0.01 at 0.01)",
             XScale = ChartScale.Log10,
         };
     }

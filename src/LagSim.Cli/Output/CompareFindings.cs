@@ -59,8 +59,8 @@ internal sealed class CompareFindings
         {
             string links = $"{BetterDuring.Count} of {NumberText.Count(interpolated.Length, "link")}";
             yield return BetterDuring.Count == 0
-                ? "While news is on its way interpolation looks better than healing on no link here."
-                : $"While news is on its way interpolation looks better than healing on {links}: {string.Join(", ", BetterDuring)}.";
+                ? "While an event is on its way interpolation looks better than healing on no link here."
+                : $"While an event is on its way interpolation looks better than healing on {links}: {string.Join(", ", BetterDuring)}.";
             yield return $"Its largest jump is smaller on {SmootherThanHealing.Count} of {NumberText.Count(interpolated.Length, "link")}. The price: all it"
                 + " shows is old, and"
                 + $" players see what they do themselves after {NumberText.Short(Median(interpolated))} ms (median), with healing after"

@@ -55,12 +55,12 @@ internal static class CompareTables
 
     internal static IEnumerable<string> Footnotes(IReadOnlyList<CompareRun> runs)
     {
-        yield return "during, after: largest distance in metres between the host's picture and another peer's at the same shared time, while an event is on"
-            + " its way to somebody, and while none is.";
-        yield return "off truth: after the events, from what a world shows then that had all of them on time. heal ms: wall clock of the step that takes"
-            + " news in, 99th percentile.";
-        yield return "re-run, cone: events run again and bodies predicted anew for one piece of news, in the mean. bytes/s: the peer that sends most. jumps:"
-            + " the furthest a drawn body jumped.";
+        yield return "during, after: largest distance in metres between the host's view and another peer's at the same shared time,"
+            + " while an event is on its way to a peer, and while none is.";
+        yield return "off truth: after the events, from a world that had all of them on time. heal ms: wall clock of the step that takes"
+            + " an event in, 99th percentile.";
+        yield return "re-run, cone: events re-simulated and bodies predicted anew for one late event, on average. bytes/s: the peer that"
+            + " sends most. jumps: the furthest a drawn body jumped.";
         foreach (string sentence in new CompareFindings(runs).Sentences())
         {
             yield return sentence;

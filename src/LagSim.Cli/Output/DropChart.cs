@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Harness.Experiments.Drop;
+using LagSim.Harness.Reports;
 using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
@@ -14,6 +15,11 @@ internal static class DropChart
     /// <summary>How much of the case before it a picture begins with, so that what marks the lift does not lie on the frame.</summary>
     private const double LeadSeconds = 0.5;
 
+    /// <summary>The least that the picture of an event's milliseconds shows before and after them.</summary>
+    private const double LeastMarginSeconds = 0.02;
+
+    private const string Time = "shared time since the start of the scene (s)";
+
     /// <param name="run">What is shown.</param>
     /// <param name="before">The case before it in the same run, of which the end is shown too; null for none.</param>
     internal static LineChart Of(DropRun run, DropRun? before = null)
@@ -22,7 +28,7 @@ internal static class DropChart
         List<ChartMarker> markers = trace.Impacts.Select(at => new ChartMarker(at, "impact", MarkerKind.Tick)).ToList();
         List<ChartMarker> lift = Known(run);
         ChartSeries[] heights = trace.Heights
-            .Select((h, peer) => new ChartSeries(peer == 0 ? "host" : $"joiner {peer}", trace.Seconds, h, peer == 0 ? SeriesStyle.Line : SeriesStyle.Dashed, peer))
+            .Select((h, peer) => new ChartSeries(Peer(peer), trace.Seconds, h, peer == 0 ? SeriesStyle.Line : SeriesStyle.Dashed, peer))
             .ToArray();
         ChartSeries[] errors =
         [
@@ -41,13 +47,48 @@ internal static class DropChart
                 },
             ])
         {
-            XLabel = "shared time since the start of the scene (s)",
+            XLabel = Time,
+        };
+    }
+
+    /// <summary>The milliseconds that matter: from just before the lift until just after the last peer knows of it.</summary>
+    /// <param name="run">What is shown.</param>
+    /// <param name="before">The case before it in the same run; null for none.</param>
+    /// <returns>The chart; null for a case without a lift.</returns>
+    internal static LineChart? OfEvent(DropRun run, DropRun? before = null)
+    {
+        if (run.Trace is not { Lift: double lifted, Dealt: double dealt })
+        {
+            return null;
+        }
+
+        double margin = Math.Max(LeastMarginSeconds, dealt - lifted);
+        DropTrace trace = before is null ? run.Trace : WithLead(run.Trace, before.Trace);
+        int from = Math.Max(0, Array.FindIndex(trace.Seconds, seconds => seconds >= lifted - margin));
+        int end = Array.FindLastIndex(trace.Seconds, seconds => seconds <= dealt + margin) + 1;
+        double[] seconds = trace.Seconds[from..end];
+        ChartSeries[] heights = trace.Heights
+            .Select((h, peer) => new ChartSeries(Peer(peer), seconds, h[from..end], peer == 0 ? SeriesStyle.Line : SeriesStyle.Dashed, peer)
+            {
+                Shape = peer == 0 ? PointShape.Disc : PointShape.Circle,
+            })
+            .ToArray();
+        return new LineChart(
+            $"From the lift until all know of it: {NumberText.Short((dealt - lifted) * 1000)} ms",
+            "Height of the ball at each peer, sample by sample, around the moment at which one side lifts it.",
+            [new ChartPanel("Height of the ball's centre, as seen", "height (m)", heights) { Markers = Known(run), PlotHeight = 160 }])
+        {
+            XLabel = Time,
         };
     }
 
     /// <summary>A panel a strategy, all of one scale: strategies that agree have the same curve, and in one panel all but the last drawn would be hidden.</summary>
-    internal static LineChart OfStrategies(IReadOnlyList<DropRun> runs)
+    /// <param name="runs">A run a strategy.</param>
+    /// <param name="shown">The runs of the charts above. All times here are moved so that the ball is lifted when it is there.</param>
+    internal static LineChart OfStrategies(IReadOnlyList<DropRun> runs, IReadOnlyList<DropRun> shown)
     {
+        double? lift = shown.Select(run => run.Trace.Lift).FirstOrDefault(at => at is not null);
+        runs = [.. runs.Select(run => run with { Trace = Moved(run.Trace, lift - run.Trace.Lift ?? 0) })];
         double most = runs.SelectMany(run => run.Trace.SeenError).Where(error => !double.IsNaN(error)).DefaultIfEmpty().Max();
         return new LineChart(
             "Drop test, teleport: every strategy",
@@ -63,9 +104,20 @@ internal static class DropChart
                 Markers = Known(run),
             }).ToArray())
         {
-            XLabel = "shared time since the start of the scene (s)",
+            XLabel = Time + (lift is null ? "" : "; the ball is lifted when it is above"),
         };
     }
+
+    private static string Peer(int peer) => peer == 0 ? "host" : $"client {peer}";
+
+    /// <summary>The same at later times.</summary>
+    private static DropTrace Moved(DropTrace trace, double later) => later == 0 ? trace : trace with
+    {
+        Seconds = Array.ConvertAll(trace.Seconds, at => at + later),
+        Impacts = Array.ConvertAll(trace.Impacts, at => at + later),
+        Lift = trace.Lift + later,
+        Dealt = trace.Dealt + later,
+    };
 
     private static DropTrace WithLead(DropTrace trace, DropTrace before)
     {

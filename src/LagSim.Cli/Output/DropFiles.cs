@@ -20,19 +20,33 @@ internal static class DropFiles
             $"{options.Peers} peers in {DropNames.Time(options)} time, strategy {options.Strategy}, motion {MotionNames.Of(options.Motion)}, link"
                 + $" {options.Link.Name}.",
             new ReportFooter("lagsim", ToolVersion.Text, options.Seed, JsonDocumentWriter.Hash(runs[0].SceneHash)));
+        report.AddFinding(DropFindings.Of(runs[^1]));
         for (int n = 0; n < runs.Count; n++)
         {
             DropRun run = runs[n];
+            DropRun? before = n == 0 ? null : runs[n - 1];
             string name = DropNames.Case(run.Case);
-            LineChart chart = DropChart.Of(run, n == 0 ? null : runs[n - 1]);
+            LineChart chart = DropChart.Of(run, before);
             chart.Save(Path.Combine(folder, $"drop-{name}.svg"));
             Samples(Path.Combine(folder, $"drop-{name}.csv"), run);
-            report.AddHeading(name).AddChart(chart).AddTable(ErrorTable.Of("Height error between peers, in metres", run));
+            report.AddHeading(name);
+            if (n < runs.Count - 1)
+            {
+                report.AddParagraph(DropFindings.Of(run)); // the last case's stands at the top
+            }
+
+            report.AddChart(chart);
+            if (DropChart.OfEvent(run, before) is LineChart milliseconds)
+            {
+                report.AddChart(milliseconds, "Each mark is a sample.");
+            }
+
+            report.AddTable(ErrorTable.Of("Height error between peers, in metres", run), n == 0 ? ErrorTable.Terms : null);
         }
 
         if (strategies.Count > 0)
         {
-            LineChart compared = DropChart.OfStrategies(strategies);
+            LineChart compared = DropChart.OfStrategies(strategies, runs);
             compared.Save(Path.Combine(folder, "drop-strategies.svg"));
             StrategySamples(Path.Combine(folder, "drop-strategies.csv"), strategies);
             report.AddHeading("Every strategy on the teleport case, in virtual time").AddChart(compared).AddTable(StrategyErrors(strategies));

@@ -8,6 +8,17 @@ namespace LagSim.Cli.Output;
 /// <summary>A run's errors between peers by phase, as a table of a report.</summary>
 internal static class ErrorTable
 {
+    /// <summary>What the table's words mean.</summary>
+    internal static readonly IReadOnlyList<(string Word, string Meaning)> Terms =
+    [
+        ("seen", "What each peer showed when its shared clock read T, compared at the same T."),
+        ("true time", "What the peers showed at the same true instant. The error of their clocks comes on top."),
+        ("settled", "What the peers' timelines say of T once every late event has arrived."),
+        ("stalled", "Samples that a peer could not show: what it had ready to draw did not cover T. They are counted, never left out."),
+        ("before, during, after", "Before the event's timestamp; from then until the last peer has dealt with it; after that."),
+        ("differing bits", "Samples in which any bit differs, however small the error."),
+    ];
+
     internal static ReportTable Of(string title, IPeerRun run)
     {
         List<IReadOnlyList<string>> rows = [];

@@ -48,13 +48,14 @@ internal static class HarmText
         Percentiles late = Percentiles.Of(outcomes.Select(o => o.LateSeconds * 1000));
         output.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
-            $"{NumberText.Count(outcomes.Count, "attack")}: the player sent away in {outcomes.Count(o => o.IsExpelled)}; worlds later than 250 ms in {outcomes.Count(o => o.LateSeconds > 0.25)}"));
+            $"{NumberText.Count(outcomes.Count, "attack")}: the player disconnected in {outcomes.Count(o => o.IsExpelled)};"
+                + $" worlds later than 250 ms in {outcomes.Count(o => o.LateSeconds > 0.25)}"));
         output.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
             $"the latest of the others' worlds: {late.P50:0} ms at the median, {late.P99:0} ms at the 99th percentile, {late.Max:0} ms at most; out after"
                 + $" {outcomes.Max(o => o.OutSeconds ?? 0):0.00} s at most, back after {outcomes.Max(o => o.BackSeconds ?? 0):0.00} s more;"
-                + $" an honest player used {outcomes.Max(o => o.HonestPart) * 100:0} % of his budget at most"));
-        output.WriteLine("kind           attacks  sent away  over 250 ms  latest");
+                + $" an honest player used {outcomes.Max(o => o.HonestPart) * 100:0} % of its budget at most"));
+        output.WriteLine("kind           attacks        out  over 250 ms  latest");
         foreach (IGrouping<HarmKind, HarmOutcome> kind in outcomes.GroupBy(o => o.Case.Kind).OrderBy(g => g.Key))
         {
             output.WriteLine(string.Create(

@@ -14,6 +14,15 @@ namespace LagSim.Cli.Output;
 /// <summary>A hand that holds and throws a ball as files: a row a link, samples and two pictures of each link, what delay does, the prediction, and a page that shows them.</summary>
 internal static class HoldFiles
 {
+    /// <summary>What came out, in one sentence.</summary>
+    internal static string Finding(IReadOnlyList<HoldRun> runs)
+    {
+        long differing = runs.SelectMany(run => new[] { run.Settled.Before, run.Settled.During, run.Settled.After })
+            .Sum(phase => phase.ToStatistics().DifferingBits);
+        return differing == 0 ? "Once every event had arrived, no bit differed between the peers at any delay."
+            : $"Once every event had arrived, {NumberText.Count(differing, "sample", "N0")} still differed between the peers.";
+    }
+
     internal static void Write(string folder, HoldReport report)
     {
         Directory.CreateDirectory(folder);
@@ -22,6 +31,7 @@ internal static class HoldFiles
             "LagSim: a hand holds and throws a ball",
             HoldTables.Introduction(report) + ".",
             new ReportFooter("lagsim", ToolVersion.Text, report.Seed, JsonDocumentWriter.Hash(report.Runs[0].SceneHash)));
+        page.AddFinding(Finding(report.Runs));
         page.AddTable(new ReportTable(HoldTables.ViewTitle, HoldTables.ViewHeadings, HoldTables.Views(report.Runs).ToList()))
             .AddTable(new ReportTable(HoldTables.SessionTitle, HoldTables.SessionHeadings, HoldTables.Sessions(report.Runs).ToList()));
         foreach (string line in HoldTables.Footnotes(report))
@@ -44,7 +54,7 @@ internal static class HoldFiles
             page.AddHeading(name);
             Chart($"hold-{name}.svg", HoldChart.OfHold(motion, run));
             Chart($"hold-{name}-throw.svg", HoldChart.OfThrow(motion, run));
-            page.AddTable(ErrorTable.Of("Error between peers, in metres", run));
+            page.AddTable(ErrorTable.Of("Error between peers, in metres", run), run == report.Runs[0] ? ErrorTable.Terms : null);
         }
 
         page.AddHeading("How well this hand can be predicted from all of its samples");

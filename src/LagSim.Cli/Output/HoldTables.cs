@@ -67,7 +67,8 @@ internal static class HoldTables
             + " which knots leave out.";
         yield return $"A knot goes out when the others are off by more than {NumberText.Short(1000 * report.Runs[0].Options.KeyframeDistanceMetres)} mm. The"
             + " throw is not in these errors.";
-        yield return "during: while news of the hand is on its way to somebody, after: while none is. Bytes while it holds, with UDP and IP headers.";
+        yield return "during: while an event of the hand is on its way to a peer, after: while none is. Bytes while it holds,"
+            + " with UDP and IP headers.";
         yield return "The thesis's own figures for this (Fig 4 and 5) are not known to this tool.";
         foreach (HoldRun broken in report.Runs.Where(run => !run.Agrees))
         {
@@ -112,7 +113,7 @@ internal static class HoldTables
     /// <summary>What carried the datagrams: no socket has a part in virtual time.</summary>
     internal static string Transport(HoldOptions options) => options.IsVirtual ? "virtual" : Carrier.Udp.Name;
 
-    internal static string PeerName(int place) => place == 0 ? "host" : string.Create(CultureInfo.InvariantCulture, $"joiner {place}");
+    internal static string PeerName(int place) => place == 0 ? "host" : string.Create(CultureInfo.InvariantCulture, $"client {place}");
 
     private static string Ratio(double ratio) => double.IsFinite(ratio) ? ratio.ToString("0.000", CultureInfo.InvariantCulture) : "-";
 

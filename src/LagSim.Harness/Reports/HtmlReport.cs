@@ -41,11 +41,23 @@ public sealed class HtmlReport
     /// <summary>Adds a paragraph.</summary>
     public HtmlReport AddParagraph(string text) => Add(html => Element(html, "p", text));
 
-    /// <summary>Adds a table.</summary>
-    public HtmlReport AddTable(ReportTable table)
+    /// <summary>Adds a sentence that says what came out, set to be read first.</summary>
+    public HtmlReport AddFinding(string text) => Add(html => Element(html, "p", text, "finding"));
+
+    /// <summary>Adds a table, with the meaning of its words below it where there are any.</summary>
+    /// <param name="table">The table.</param>
+    /// <param name="terms">Words that the table uses, each with what it means; null for none.</param>
+    public HtmlReport AddTable(ReportTable table, IReadOnlyList<(string Word, string Meaning)>? terms = null)
     {
         ArgumentNullException.ThrowIfNull(table);
-        return Add(html => WriteTable(html, table));
+        return Add(html =>
+        {
+            WriteTable(html, table);
+            if (terms?.Count > 0)
+            {
+                WriteTerms(html, terms);
+            }
+        });
     }
 
     /// <summary>Adds a chart as inline SVG, with a caption below it unless that is empty.</summary>
@@ -136,6 +148,20 @@ public sealed class HtmlReport
 
         html.WriteFullEndElement();
         html.WriteEndElement();
+        html.WriteEndElement();
+    }
+
+    private static void WriteTerms(XmlWriter html, IReadOnlyList<(string Word, string Meaning)> terms)
+    {
+        html.WriteStartElement("dl");
+        foreach ((string word, string meaning) in terms)
+        {
+            html.WriteStartElement("div");
+            Element(html, "dt", word);
+            Element(html, "dd", meaning);
+            html.WriteEndElement();
+        }
+
         html.WriteEndElement();
     }
 

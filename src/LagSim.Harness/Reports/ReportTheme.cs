@@ -14,7 +14,12 @@ internal static class ReportTheme
         h1{font-size:26px;line-height:1.25;margin:32px 0 8px}
         h2{font-size:19px;margin:36px 0 8px}
         p{margin:8px 0 16px;max-width:75ch}
+        .finding{font-size:17px;font-weight:600}
         .scroll{overflow-x:auto;margin:12px 0 24px}
+        dl{columns:280px;column-gap:28px;margin:-8px 0 24px;font-size:13px}
+        dl div{break-inside:avoid}
+        dt{font-weight:600}
+        dd{margin:0 0 6px;color:var(--dim)}
         table{border-collapse:collapse;font-size:14px;font-variant-numeric:tabular-nums}
         caption{text-align:left;color:var(--dim);padding:0 0 6px}
         th,td{text-align:left;vertical-align:top;padding:5px 12px;border-bottom:1px solid var(--rule)}

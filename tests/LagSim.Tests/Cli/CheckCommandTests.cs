@@ -31,13 +31,18 @@ public sealed class CheckCommandTests
         string[] rows = File.ReadAllLines(folder["out/check.csv"]);
         Assert.Equal(4, rows.Length);
         Assert.StartsWith("7,", rows[1], StringComparison.Ordinal);
-        Assert.True(File.Exists(folder["out/report.html"]));
+        string page = File.ReadAllText(folder["out/report.html"]);
+        Assert.Contains("No bit differed and no accepted event was lost in 3 sessions.", page, StringComparison.Ordinal);
     }
 
     [Fact]
     public void Check_FailingSeed_EndsWithOneAndItsCommandFailsAgain()
     {
-        Tool tool = Tool.Run("check", "--sessions", "1", "--seed", "2", "--peers", "3", "--profile", "delay-200ms", "--strategy", "none", "--json");
+        using TemporaryFolder folder = new();
+        Tool tool = Tool.Run(
+            "check", "--sessions", "1", "--seed", "2", "--peers", "3", "--profile", "delay-200ms", "--strategy", "none", "--json",
+            "--out", folder["out"]);
+        Assert.Contains("1 of 1 session failed.", File.ReadAllText(folder["out/report.html"]), StringComparison.Ordinal);
         Assert.Equal(1, tool.ExitCode);
         JsonElement json = JsonDocument.Parse(tool.Output).RootElement;
         Assert.Equal(2, json.GetProperty("failing_seeds").EnumerateArray().Single().GetInt32());

@@ -4,6 +4,7 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Text.Json;
+using System.Text.RegularExpressions;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
 using LagSim.Harness.Experiments.Drop;
@@ -168,9 +169,42 @@ public sealed class DropCommandTests
         Assert.Equal("strategy,time_s,seen_error_m,settled_error_m", File.ReadLines(folder["new/one/drop-strategies.csv"]).First());
 
         string page = File.ReadAllText(folder["new/one/report.html"]);
-        Assert.Equal(3, page.Split("<svg").Length - 1);
+        Assert.Equal(4, page.Split("<svg").Length - 1);
+        string[] words = ["seen", "true time", "settled", "stalled"];
+        Assert.All(words, word => Assert.Contains($"<dt>{word}</dt>", page, StringComparison.Ordinal));
+        Assert.Single(Regex.Matches(page, "class=\"finding\"")); // what came out, once and first
+        Assert.Matches("<p class=\"finding\">After the event arrived, no bit differed between the peers in 3,3[0-9]{2} samples;", page);
         Assert.Contains("same-start", page, StringComparison.Ordinal);
         Assert.All(files.Where(file => file.EndsWith(".svg", StringComparison.Ordinal)), file => Assert.StartsWith("<svg", File.ReadAllText(folder[$"new/one/{file}"]), StringComparison.Ordinal));
+    }
+
+    [Fact]
+    public void Report_OfADrop_HasOneTimeOriginAndTheMillisecondsOfTheEvent()
+    {
+        using TemporaryFolder folder = new();
+        Tool.Run("drop", "--time", "virtual", "--motion", "ballistic", "--out", folder.Path).Done();
+        string page = File.ReadAllText(folder["report.html"]);
+        double[] lifts = [.. Regex.Matches(page, "lifted here: ([0-9.]+)")
+            .Select(found => double.Parse(found.Groups[1].Value, CultureInfo.InvariantCulture))];
+        Assert.Equal(2 + 1 + 5, lifts.Length); // a panel each of the case, of its milliseconds and of the strategies
+        Assert.All(lifts, lift => Assert.Equal(lifts[0], lift, 1e-9));
+        Assert.Contains(">From the lift until all know of it: 25 ms<", page, StringComparison.Ordinal);
+
+        DropRun alone = Run("healing");
+        Assert.Equal(
+            DropChart.OfStrategies([alone], [alone]).Panels[0].Series[0].X, DropChart.OfStrategies([alone], []).Panels[0].Series[0].X);
+    }
+
+    [Fact]
+    public void Finding_OfARun_SaysWhetherThePeersAgreeOnceTheEventIsThere()
+    {
+        string healing = DropFindings.Of(Run("healing")), none = DropFindings.Of(Run("none"));
+        Assert.StartsWith("After the event arrived, no bit differed between the peers in ", healing, StringComparison.Ordinal);
+        Assert.StartsWith("After the event arrived, the peers still differed in ", none, StringComparison.Ordinal); // the control
+        DropOptions options = new() { IsVirtual = true, Cases = [DropCase.SameStart], Motion = MotionLaw.Ballistic };
+        DropRun same = DropTest.Run(options).Single();
+        Assert.Equal($"No bit differed between the peers in {same.Seen.Before.ToStatistics().Samples:N0} samples.", DropFindings.Of(same));
+        Assert.Null(DropChart.OfEvent(same));
     }
 
     [Fact]

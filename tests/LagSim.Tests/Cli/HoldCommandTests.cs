@@ -82,6 +82,7 @@ public sealed class HoldCommandTests
         string page = File.ReadAllText(Path.Combine(folder["out"], "report.html"));
         Assert.All(new[] { "best in hindsight", "thrown here", "as predicted", "The held ball by delay" }, words => Assert.Contains(words, page, StringComparison.Ordinal));
         Assert.Contains("thesis's own figures", page, StringComparison.Ordinal);
+        Assert.Contains("Once every event had arrived, no bit differed between the peers at any delay.", page, StringComparison.Ordinal);
     }
 
     [Fact]

@@ -37,7 +37,7 @@ public sealed class HostAdminTests
         host.Types("players");
         host.Says("player 1 at 127.0.0.1:");
         host.Types("ban 1");
-        host.Says("Player 1 is sent away, and nobody is let in from 127.0.0.1 any more.");
+        host.Says("Player 1 is disconnected, and nobody can join from 127.0.0.1 any more.");
         player.Ends(3);
         Assert.Contains("sent this player away", player.ToString(), StringComparison.Ordinal);
         using ToolProcess again = ToolProcess.Start($"join {host.Address}");

@@ -347,7 +347,7 @@ public sealed class SessionCommandTests
 
         using LiveTool brief = LiveTool.Run($"relay {host.LocalAddress} --profile awful --for-s 0.1").Ends(0);
         Assert.StartsWith("listening on 127.0.0.1:", brief.Output.ToString(), StringComparison.Ordinal);
-        Assert.Contains("awful, 0 joiners; to the host 0 datagrams, 0 lost", brief.Output.ToString(), StringComparison.Ordinal);
+        Assert.Contains("awful, 0 clients; to the host 0 datagrams, 0 lost", brief.Output.ToString(), StringComparison.Ordinal);
         Assert.DoesNotContain("port change", brief.Output.ToString(), StringComparison.Ordinal); // none was asked for
         Tool.Refuses(3, ["relay", "0.0.0.0:7", "--profile", "lan"], "'0.0.0.0:7' is no host to relay to");
     }

@@ -212,18 +212,8 @@ public sealed class SessionUsageTests
     [Theory]
     [InlineData("host")]
     [InlineData("join")]
-    [InlineData("relay")]
-    [InlineData("diff")]
-    [InlineData("replay")]
-    public void Help_OfEveryCommand_GoesToStdout(string command)
-    {
-        Tool tool = Tool.Run(command, "--help").Done();
-        Assert.Contains("Usage:", tool.Output, StringComparison.Ordinal);
-        if (command is "host" or "join")
-        {
-            Assert.Contains(ScriptedAction.Syntax, tool.Output, StringComparison.Ordinal);
-        }
-    }
+    public void Help_OfASession_HasTheSyntaxOfWhatAPlayerDoes(string command) =>
+        Assert.Contains(ScriptedAction.Syntax, Tool.Run(command, "--help").Done().OutputOnOneLine, StringComparison.Ordinal);
 
     [Theory]
     [InlineData(SessionEnd.Left, true, 0, 0, false, false, ExitCode.Done)]

@@ -21,6 +21,9 @@ internal sealed class Tool
 
     internal string Output { get; }
 
+    /// <summary>The output with every run of white space as one space, so that it does not matter where lines were wrapped.</summary>
+    internal string OutputOnOneLine => string.Join(' ', Output.Split((char[]?)null, StringSplitOptions.RemoveEmptyEntries));
+
     internal string Error { get; }
 
     internal static Tool Run(params string[] arguments)

@@ -45,7 +45,7 @@ public sealed class SweepOutcomeTests
     [Fact]
     public void Help_OfTheSweep_HasEachDefaultOnce()
     {
-        string help = Tool.Run("sweep", "--help").Done().Output;
+        string help = Tool.Run("sweep", "--help").Done().OutputOnOneLine;
         Assert.Contains("default 3,8.", help, System.StringComparison.Ordinal);
         Assert.DoesNotContain("3|8", help, System.StringComparison.Ordinal);
     }
