@@ -60,9 +60,9 @@ public sealed class SessionTest
     }
 
     /// <summary>
-    /// Called with a player's number for each world that it gets, before anything happens in it: where tests break a world on purpose.
+    /// Gets each player's number and its session before the session's first step: for faults put in on purpose.
     /// </summary>
-    internal Action<int, Simulation>? PrepareWorld { get; set; }
+    internal Action<int, Session>? PrepareSession { get; set; }
 
     /// <summary>Adds clients that are there from the start, each over a link of its own to the host.</summary>
     /// <param name="count">How many, 1 to <see cref="SessionOptions.MaxClients"/>; all clients together no more than that.</param>
@@ -242,7 +242,7 @@ public sealed class SessionTest
 
         // Its own source: the token of a whole program would keep these peers.
         using CancellationTokenSource stop = CancellationTokenSource.CreateLinkedTokenSource(cancellation);
-        return new SessionRun(scene, clients, acts, seed, options ?? (_ => new SessionOptions()), PrepareWorld, stop.Token).Play(seconds);
+        return new SessionRun(scene, clients, acts, seed, options ?? (_ => new SessionOptions()), PrepareSession, stop.Token).Play(seconds);
     }
 
     private static ArgumentOutOfRangeException TooShort(double seconds, string what) =>

@@ -32,6 +32,7 @@ internal sealed class Engine
     /// <summary>A world without bodies, with room for as many as are expected; what none of them may need is made when one does.</summary>
     internal Engine(Scene scene, SimulationOptions options, SimTime start, SimTime from, int expected)
     {
+        EngineParts parts = options.Parts;
         Scene = scene;
         Threads = options.Threads;
         Progress = new Progress(start, options.History, from);
@@ -40,53 +41,55 @@ internal sealed class Engine
         scheduler = new EventScheduler(expected);
         log = new EventLog(expected);
         flights = new FreeFlights(scene.Gravity, scene.Resolution, scene.Box, expected, 0.5 * scene.ContactTolerance);
-        Timelines = new TimelineStore(start, options.MaxSegments, flights, expected, options.History);
+        Timelines = parts.TimelineStore(start, options.MaxSegments, flights, expected, options.History);
         Timelines.ForgetBefore(from);
         Reader = new StateReader(scene.Box, Bodies, Timelines, Progress);
 
         // What laws bodies follow, and where contact is.
         Forces forces = new(scene, start);
         trajectories = new TrajectoryFactory(scene, forces, Bodies, Timelines);
-        Step = new ContactStep(scene, options.Scale ?? new ContactScale(scene.ContactTolerance, scene.Gravity, start));
+        bool hasIslands = parts.HasIslands(scene);
+        Step = new ContactStep(scene, parts.ContactScale(scene, start), parts.SolverRules);
         ContactGraph graph = new(Bodies, Timelines, scene.Surfaces, scene.Box);
         SolverWork work = new();
 
         // What a body meets next.
-        PathView view = new(Timelines, rollback, Faults);
+        PathView view = parts.PathView(Timelines, rollback);
         StepMarks marks = new();
         StrikeCounts strikes = new(Timelines, Bodies, scene.Surfaces, scene.Box);
         MemberContacts memberContacts = new(Timelines, view, Bodies, scene.Surfaces, Step.Scale);
-        CollisionPredictor collisions = new(scene, start, Bodies, Timelines, rollback, view, memberContacts, strikes, Step.Scale, Faults);
-        CollisionSearch search = new(Bodies, Timelines, flights, scene.Surfaces, collisions, marks, Faults);
-        BroadPhase = new AdaptiveBroadPhase(scene, Bodies, Timelines, options.MostPairs, Faults);
-        predictor = new EventPredictor(Bodies, Timelines, log, scheduler, rollback, flights, BroadPhase, search, view, Faults);
+        CollisionPredictor collisions = new(
+            scene, start, Bodies, Timelines, rollback, view, memberContacts, strikes, Step.Scale, hasIslands);
+        CollisionSearch search = parts.CollisionSearch(Bodies, Timelines, flights, scene.Surfaces, collisions, marks);
+        BroadPhase = parts.BroadPhase(scene, Bodies, Timelines, options.MostPairs);
+        predictor = parts.EventPredictor(Bodies, Timelines, log, scheduler, rollback, flights, BroadPhase, search, view);
 
         // What a late event takes back.
         RewindRequests rewinds = new();
-        Reconvergence = new Reconvergence(Bodies, Timelines, log, scheduler, Progress, rollback, BroadPhase, predictor, Faults)
+        Reconvergence = new Reconvergence(Bodies, Timelines, log, scheduler, Progress, rollback, BroadPhase, predictor, parts.CutPaths())
         {
             Observer = options.Observer,
         };
-        Rewinder = new Rewinder(Bodies, Timelines, log, scheduler, Progress, rollback, Reconvergence, predictor, Faults, options.Healing);
+        Rewinder = parts.Rewinder(Bodies, Timelines, log, scheduler, Progress, rollback, Reconvergence, predictor, options.Healing);
 
         // Islands.
         Partners partners = new(Bodies, Timelines, view, rewinds);
         MemberFactory members = new(Bodies, Timelines, forces, Step.Scale, trajectories);
-        Sleepers sleepers = new(Bodies, Timelines, view, graph, rewinds, members);
+        Sleepers sleepers = parts.Sleepers(Bodies, Timelines, view, graph, rewinds, members);
         StepSegments stepSegments = new(scene, Bodies, Timelines, graph, Step, members, trajectories);
         Stepper = new IslandStepper(Bodies, Timelines, forces, graph, Step, partners, rewinds, members, stepSegments, marks, work);
 
         // What comes of an event.
-        collapse = new CollapseRule(scene, Bodies, Timelines, graph, strikes, Faults);
-        CaptureRule capture = new(scene, Timelines, graph, Step.Scale, members, trajectories.Friction, Faults);
+        collapse = parts.CollapseRule(scene, Bodies, Timelines, graph, strikes);
+        CaptureRule capture = new(scene, Timelines, graph, Step.Scale, members, trajectories.Friction, hasIslands);
         ImpactResolver resolver = new(scene, Bodies, Timelines, graph, capture, collapse);
         ImpactNotifier notifier = new(Bodies, Timelines, graph);
         ImpactSegments segments = new(Timelines, graph, trajectories);
-        SegmentJoiner client = new(Bodies, Timelines, graph, partners, members, Faults);
-        Isolated = new IsolatedImpact(
-            scene, Bodies, Timelines, scheduler, rollback, flights, graph, resolver, notifier, segments, Faults);
-        ImpactGraphBuilder builder = new(
-            scene, Bodies, Timelines, rollback, rewinds, view, flights, BroadPhase, collisions, collapse, graph, Faults);
+        SegmentJoiner client = parts.SegmentJoiner(Bodies, Timelines, graph, partners, members);
+        Isolated = parts.IsolatedImpact(
+            scene, Bodies, Timelines, scheduler, rollback, flights, graph, resolver, notifier, segments);
+        ImpactGraphBuilder builder = parts.ImpactGraphBuilder(
+            scene, Bodies, Timelines, rollback, rewinds, view, flights, BroadPhase, collisions, collapse, graph);
         ImpactProblem problem = new(Step, work);
         IslandImpactSegments memberSegments = new(Bodies, Timelines, graph, problem, members, trajectories, resolver, segments);
         IslandImpact island = new(
@@ -96,11 +99,11 @@ internal sealed class Engine
         StepEndHandler steps = new(Timelines, graph, Stepper, trajectories, client);
         LonePath lonePath = new(scene, Bodies, Timelines, new LoneWorld(scene, start, options.MaxSegments));
         ExternalHandler externals = new(
-            scene, Bodies, Timelines, log, rollback, flights, graph, sleepers, members, trajectories, collapse, lonePath, Faults);
+            scene, Bodies, Timelines, log, flights, graph, sleepers, members, trajectories, collapse, lonePath);
         EventDispatcher dispatcher = new(Progress, graph, predictor, impacts, steps, externals, marks, rewinds, Rewinder);
         Meter = new WorkMeter(Bodies, graph, work, rollback);
         Loop = new EventLoop(
-            Progress, Timelines, scheduler, rollback, Rewinder, dispatcher, BroadPhase, Meter, trajectories.Failures, Faults,
+            Progress, Timelines, scheduler, rollback, Rewinder, dispatcher, BroadPhase, Meter, trajectories.Failures,
             options.Cancellation);
     }
 
@@ -132,9 +135,6 @@ internal sealed class Engine
     internal WorkMeter Meter { get; }
 
     internal EventLoop Loop { get; }
-
-    /// <summary>What it does wrongly on purpose: only a test sets it.</summary>
-    internal TestFaults Faults { get; } = new();
 
     /// <summary>How far a rollback has come, and what rollbacks have done so far.</summary>
     internal RollbackState Rollback => rollback;

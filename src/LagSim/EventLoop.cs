@@ -17,7 +17,7 @@ namespace LagSim;
 /// </remarks>
 internal sealed class EventLoop(
     Progress progress, TimelineStore timelines, EventScheduler scheduler, RollbackState rollback, Rewinder rewinder,
-    EventDispatcher dispatcher, AdaptiveBroadPhase broadPhase, WorkMeter meter, ForceFailures failures, TestFaults faults,
+    EventDispatcher dispatcher, AdaptiveBroadPhase broadPhase, WorkMeter meter, ForceFailures failures,
     CancellationToken cancellation)
 {
     private Exception? fault;
@@ -112,7 +112,7 @@ internal sealed class EventLoop(
             Blocked = null;
         }
 
-        if (IsPartDone && changed <= SimTime.Max(partDone, rewinder.KnownTo) && !faults.Has(HealingFault.LeavesPartOfAnInstant))
+        if (IsPartDone && changed <= SimTime.Max(partDone, rewinder.KnownTo))
         {
             RewindInstant(partDone);
         }

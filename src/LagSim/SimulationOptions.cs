@@ -1,6 +1,5 @@
 using System;
 using System.Threading;
-using LagSim.Contacts;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -93,19 +92,26 @@ public sealed class SimulationOptions
     /// <summary>Up to how many bodies all pairs are looked at; a test sets it to have an index in small worlds.</summary>
     internal int MostPairs { get; set; } = DefaultMostPairs;
 
-    /// <summary>What contact is measured by, where a test's negative control has it other than the scene; null for the scene's.</summary>
-    internal ContactScale? Scale { get; set; }
+    /// <summary>What makes the engine's parts.</summary>
+    internal EngineParts Parts { get; private set; } = EngineParts.Usual;
 
     /// <summary>Ends whatever the simulation is at.</summary>
     public CancellationToken Cancellation { get; }
 
-    /// <summary>The same, for the twin of a sync test: no cancellation, so that it is never behind.</summary>
-    internal SimulationOptions FullyRolledBack() => new(Start, History, MaxSegments, default, HealingMode.FullRollback, 1) { MostPairs = MostPairs, Scale = Scale };
+    /// <summary>
+    /// The same, for the twin of a sync test: no cancellation, so that it is never behind, and the usual parts, by which it checks others.
+    /// </summary>
+    internal SimulationOptions FullyRolledBack() =>
+        new(Start, History, MaxSegments, default, HealingMode.FullRollback, 1) { MostPairs = MostPairs };
 
     /// <summary>Is told of impacts, those of the very first instant included; null for nobody.</summary>
     internal IImpactObserver? Observer { get; private set; }
 
     /// <summary>The same with an observer.</summary>
     internal SimulationOptions WithObserver(IImpactObserver? observer) =>
-        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = observer, MostPairs = MostPairs, Scale = Scale };
+        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = observer, MostPairs = MostPairs, Parts = Parts };
+
+    /// <summary>The same with parts that others make.</summary>
+    internal SimulationOptions WithParts(EngineParts parts) =>
+        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = Observer, MostPairs = MostPairs, Parts = parts };
 }

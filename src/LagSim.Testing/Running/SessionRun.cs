@@ -40,7 +40,7 @@ internal sealed class SessionRun
     private readonly IReadOnlyList<PlannedAct> acts;
     private readonly ulong seed;
     private readonly Func<int, SessionOptions> options;
-    private readonly Action<int, Simulation>? prepareWorld;
+    private readonly Action<int, Session>? prepareSession;
     private readonly CancellationToken cancellation;
     private readonly VirtualClock clock = new(SimTime.FromSeconds(2 * ClockSpreadSeconds));
     private readonly VirtualNetwork network;
@@ -59,7 +59,7 @@ internal sealed class SessionRun
         IReadOnlyList<PlannedAct> acts,
         ulong seed,
         Func<int, SessionOptions> options,
-        Action<int, Simulation>? prepareWorld,
+        Action<int, Session>? prepareSession,
         CancellationToken cancellation)
     {
         this.scene = scene;
@@ -67,7 +67,7 @@ internal sealed class SessionRun
         this.acts = acts;
         this.seed = seed;
         this.options = options;
-        this.prepareWorld = prepareWorld;
+        this.prepareSession = prepareSession;
         this.cancellation = cancellation;
         network = new VirtualNetwork(clock, seed);
         steps = new VirtualSteps(network);
@@ -246,8 +246,7 @@ internal sealed class SessionRun
     {
         Session session = member.Session;
         session.StateCommitted += member.Committed.Add;
-        session.Begun += () => prepareWorld?.Invoke(member.Player.Number, session.World!.Simulation);
-        session.Renewed += _ => prepareWorld?.Invoke(member.Player.Number, session.World!.Simulation);
+        prepareSession?.Invoke(member.Player.Number, session);
         if (session is ClientSession client)
         {
             member.Coverage.Follow(client);

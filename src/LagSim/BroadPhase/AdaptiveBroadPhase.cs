@@ -8,7 +8,7 @@ namespace LagSim.BroadPhase;
 
 /// <summary>Which bodies are asked whether they meet: all of them while they are few, those that come near once they are many.</summary>
 /// <remarks>No bit depends on which of the two it is, nor on when one takes the other's place.</remarks>
-internal sealed class AdaptiveBroadPhase(Scene scene, BodyTable bodies, TimelineStore timelines, int mostPairs, TestFaults faults)
+internal class AdaptiveBroadPhase(Scene scene, BodyTable bodies, TimelineStore timelines, int mostPairs)
 {
     /// <summary>The size of a cell in radii of a body that nine tenths are not larger than: two diameters.</summary>
     private const double CellInRadii = 4;
@@ -19,8 +19,8 @@ internal sealed class AdaptiveBroadPhase(Scene scene, BodyTable bodies, Timeline
     /// <summary>At about so many others a body looks, however many there are.</summary>
     internal const int MostLooks = 64;
 
-    /// <summary>What is asked now.</summary>
-    internal IBroadPhase Current { get; private set; } = new BruteForce();
+    /// <summary>What is asked now; nothing may be before <see cref="Begin"/>.</summary>
+    internal IBroadPhase Current { get; private set; } = null!;
 
     /// <summary>Whether the bodies have become so many, or so much larger, that another serves them better.</summary>
     internal bool IsOutgrown => Current is NeighbourLists shells
@@ -34,7 +34,7 @@ internal sealed class AdaptiveBroadPhase(Scene scene, BodyTable bodies, Timeline
     internal void UseListsAbove(int most) => mostPairs = most;
 
     /// <summary>Chooses for a world that begins, of whose paths none is listed.</summary>
-    internal void Begin() => Current = bodies.Count > mostPairs ? NewLists() : Current;
+    internal void Begin() => Current = bodies.Count > mostPairs ? NewLists() : MakePairs();
 
     /// <summary>Makes neighbour lists of all that is kept.</summary>
     /// <param name="from">From when on paths are kept.</param>
@@ -75,6 +75,13 @@ internal sealed class AdaptiveBroadPhase(Scene scene, BodyTable bodies, Timeline
         }
     }
 
+    /// <summary>Makes the index for few bodies.</summary>
+    private protected virtual BruteForce MakePairs() => new();
+
+    /// <summary>Makes the index for many bodies; see <see cref="NeighbourLists"/>.</summary>
+    private protected virtual NeighbourLists MakeLists(double cell, double speed, double tickLength) =>
+        new(timelines, cell, speed, scene.Resolution, tickLength, scene.Box, bodies.SlotCount);
+
     private NeighbourLists NewLists()
     {
         double[] radii = new double[bodies.Count];
@@ -96,9 +103,6 @@ internal sealed class AdaptiveBroadPhase(Scene scene, BodyTable bodies, Timeline
         double usual = count == 0 ? scene.SmallestRadius : radii[count * 9 / 10];
         double usualSpeed = present == 0 ? 0 : speeds[present * 9 / 10];
         double tick = Limits.MaxSpeed(scene.SmallestRadius) * TickConversion.SecondsPerTick;
-        return new NeighbourLists(timelines, CellInRadii * usual, usualSpeed, scene.Resolution, tick, scene.Box, bodies.SlotCount)
-        {
-            ForgetsWhoMovedOn = faults.Has(HealingFault.ForgetsWhoMovedOn),
-        };
+        return MakeLists(CellInRadii * usual, usualSpeed, tick);
     }
 }

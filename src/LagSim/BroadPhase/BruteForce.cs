@@ -4,7 +4,7 @@ using LagSim.Time;
 namespace LagSim.BroadPhase;
 
 /// <summary>The index that is none: every body is a candidate, for ever. The best for some tens of bodies.</summary>
-internal sealed class BruteForce : IBroadPhase
+internal class BruteForce : IBroadPhase
 {
     private int[] known = new int[16];
     private int[] place = new int[16]; // slot -> 1 + position in known; 0: not there

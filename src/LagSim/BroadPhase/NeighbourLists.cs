@@ -19,7 +19,7 @@ namespace LagSim.BroadPhase;
 /// look at. Who is too wide or too fast for the cells is listed apart, and looked at whenever a shell is made.</para>
 /// <para>Cost: the length of a list for a prediction, and what lies in the 27 cells around for a shell, which holds for some ten predictions.</para>
 /// </remarks>
-internal sealed class NeighbourLists : IBroadPhase
+internal class NeighbourLists : IBroadPhase
 {
     /// <summary>
     /// Who would leave the widest shell that fits the cells in less than this is too fast for them: 1/512 s, or what is far less than the others take.
@@ -78,9 +78,6 @@ internal sealed class NeighbourLists : IBroadPhase
         present = new PresentShells(grid, box, 0.5 * cell, expected);
         past = new PastShells(grid, box, 0.5 * cell);
     }
-
-    /// <summary>Whether it forgets who has moved on ahead of a heal: a negative control.</summary>
-    internal bool ForgetsWhoMovedOn { get; set; }
 
     /// <summary>How many bodies are in no cell; if they are many, other cells would serve better.</summary>
     internal int WideCount => present.WideCount;
@@ -220,7 +217,7 @@ internal sealed class NeighbourLists : IBroadPhase
         present.Remove(slot, stays[slot].Cell);
         foreach (int other in lists.Of(slot))
         {
-            int at = heal != 0 && stays[other].Heal == heal && !ForgetsWhoMovedOn ? -1 : lists.Of(other).IndexOf(slot);
+            int at = heal != 0 && KeepsWhoMovesOn(stays[other].Heal, heal) ? -1 : lists.Of(other).IndexOf(slot);
             if (at >= 0)
             {
                 lists.RemoveAt(other, at);
@@ -229,6 +226,9 @@ internal sealed class NeighbourLists : IBroadPhase
 
         lists.Clear(slot);
     }
+
+    /// <summary>Whether a list that was made in one heal keeps who moves on in another: in the same one it does.</summary>
+    private protected virtual bool KeepsWhoMovesOn(long madeIn, long heal) => madeIn == heal;
 
     /// <summary>A shell around where a path is, so wide, but no wider than fits the cells, unless the path would lead out of it in no time.</summary>
     private Shell NewShell(in MotionSegment path, in DenseOutput dense, SimTime at, double radius, double wanted)

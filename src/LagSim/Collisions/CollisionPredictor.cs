@@ -13,7 +13,7 @@ namespace LagSim.Collisions;
 /// is asked besides.</remarks>
 internal sealed class CollisionPredictor(
     Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, RollbackState rollback, PathView view, MemberContacts members,
-    StrikeCounts strikes, ContactScale scale, TestFaults faults)
+    StrikeCounts strikes, ContactScale scale, bool hasIslands)
 {
     /// <summary>
     /// The first round of an instant in which there can be a collapse: a contact is struck, then something else strikes one of the two, a
@@ -231,11 +231,11 @@ internal sealed class CollisionPredictor(
 
     /// <summary>
     /// Whether two bodies are in each other by more than the contact tolerance and do not part: one was put there, and a contact step has
-    /// to push them out. In a periodic box there are no steps, and nothing pushes against a hand.
+    /// to push them out. Without islands there are no steps, and nothing pushes against a hand.
     /// </summary>
     private bool IsSunkIn(int first, int second, double reach, SimTime opened)
     {
-        if (box.Exists || faults.IgnoresIslands || paths.IsHeld(first) || paths.IsHeld(second))
+        if (!hasIslands || paths.IsHeld(first) || paths.IsHeld(second))
         {
             return false;
         }

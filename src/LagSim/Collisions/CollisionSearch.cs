@@ -9,15 +9,15 @@ namespace LagSim.Collisions;
 /// <summary>
 /// Finds the next contact among candidates: of a body in free flight from what is side by side, of any other by a look at everybody.
 /// </summary>
-internal sealed class CollisionSearch(
+internal class CollisionSearch(
     BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor,
-    StepMarks stepMarks, TestFaults faults)
+    StepMarks stepMarks)
 {
     /// <summary>
     /// The next contact of a body in free flight. From the flights it is seen which of the others come near at all, and from when on; so
     /// only those are looked at that may be the first, and that is one as a rule. It finds what <see cref="FindAlong"/> finds, to the bit.
     /// </summary>
-    internal void FindInFlight(int slot, Span<int> candidates, SimTime from, SimTime until, int except, ref NextEvent next)
+    internal virtual void FindInFlight(int slot, Span<int> candidates, SimTime from, SimTime until, ref NextEvent next)
     {
         bool isOnly = candidates.Length == 1 && candidates[0] == slot;
         Span<Approach> approaches = isOnly ? default : flights.Approaches(slot, candidates, from, next.Horizon(from, until));
@@ -38,10 +38,7 @@ internal sealed class CollisionSearch(
             int other = approaches[first].Slot;
             bool isClose = approaches[first].Seconds == 0;
             approaches[first] = approaches[--count];
-            if (other != except)
-            {
-                ConsiderFlights(slot, other, isClose, until, ref next);
-            }
+            ConsiderFlights(slot, other, isClose, until, ref next);
         }
 
         for (int surface = 0; surface < surfaces.Count; surface++)
@@ -54,19 +51,18 @@ internal sealed class CollisionSearch(
     }
 
     /// <summary>The next contact of a body on any path, and with anybody who may be ahead of what is being healed.</summary>
-    internal void FindAlong(int slot, Span<int> candidates, SimTime from, SimTime until, int except, ref NextEvent next)
+    internal void FindAlong(int slot, Span<int> candidates, SimTime from, SimTime until, ref NextEvent next)
     {
         for (int surface = 0; surface < surfaces.Count; surface++)
         {
             ConsiderSurface(slot, surface, ref next);
         }
 
-        bool isOfStep = stepMarks.Has(slot) && !faults.TakesNoShortcut;
+        bool isOfStep = stepMarks.Has(slot);
         SimTime end = SimTime.Min(until, timelines.Segment(timelines.Last(slot)).End);
         foreach (int other in candidates)
         {
-            if (other != except && !(isOfStep && stepMarks.Has(other))
-                && !flights.AreApart(slot, other, from, SimTime.Max(from, next.Horizon(from, end))))
+            if (!(isOfStep && stepMarks.Has(other)) && !flights.AreApart(slot, other, from, SimTime.Max(from, next.Horizon(from, end))))
             {
                 ConsiderMeeting(slot, other, until, ref next);
             }

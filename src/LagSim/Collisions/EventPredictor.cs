@@ -9,16 +9,14 @@ namespace LagSim.Collisions;
 
 /// <summary>Finds each body's next event, and has it scheduled: the least of an external event, the end of a segment, and a contact.</summary>
 /// <remarks>A body has one event pending at most; its next contact is never earlier than that.</remarks>
-internal sealed class EventPredictor(
+internal class EventPredictor(
     BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
-    AdaptiveBroadPhase broadPhase, CollisionSearch search, PathView view, TestFaults faults)
+    AdaptiveBroadPhase broadPhase, CollisionSearch search, PathView view)
 {
     private readonly Paths paths = new(timelines);
 
     /// <summary>Finds the body's next event and schedules it in place of any other.</summary>
-    /// <param name="slot">The body.</param>
-    /// <param name="except">Another that is not met, whatever the paths say: only a fault put in on purpose names one.</param>
-    internal void Predict(int slot, int except = PendingContact.NoPartner)
+    internal void Predict(int slot)
     {
         NextEvent next = new() { Partner = PendingContact.NoPartner };
         int external = log.Due(slot);
@@ -30,7 +28,7 @@ internal sealed class EventPredictor(
         int last = timelines.Last(slot);
         if (last != TimelineStore.None && timelines.Segment(last).IsPresent)
         {
-            ConsiderPath(slot, last, except, ref next);
+            ConsiderPath(slot, last, ref next);
         }
 
         if (next.Any)
@@ -47,8 +45,7 @@ internal sealed class EventPredictor(
     /// Looks again what a body meets next, because the window for which the broad phase was asked has ended, or because the impact that
     /// is due was found with a segment on which its partner no longer is.
     /// </summary>
-    internal void Recheck(int slot) =>
-        Predict(slot, faults.Has(HealingFault.GivesUpByBody) ? scheduler.Contact(slot).Partner : PendingContact.NoPartner);
+    internal virtual void Recheck(int slot) => Predict(slot);
 
     /// <summary>Whether the segment of the partner's path that the pending impact was found with is no longer what the partner is on then.</summary>
     internal bool IsStale(int slot, in EventKey key)
@@ -59,11 +56,11 @@ internal sealed class EventPredictor(
             return false;
         }
 
-        int piece = faults.Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : view.PieceAt(partner, key);
+        int piece = view.PieceAt(partner, key);
         return piece == TimelineStore.None || timelines.Serial(piece) != scheduler.Contact(slot).PartnerSerial; // or forgotten meanwhile
     }
 
-    private void ConsiderPath(int slot, int last, int except, ref NextEvent next)
+    private void ConsiderPath(int slot, int last, ref NextEvent next)
     {
         BodyId id = bodies.Id(slot);
         SimTime end = timelines.Segment(last).End;
@@ -79,21 +76,22 @@ internal sealed class EventPredictor(
             next.Consider(new EventKey(until, 0, EventKind.None, id, id, 0, 0));
         }
 
-        if (flights.IsFree(slot) && !rollback.MayBeKnownBeyond(rollback.Cursor) && !faults.TakesNoShortcut && !faults.SwapsOperands)
+        if (flights.IsFree(slot) && !rollback.MayBeKnownBeyond(rollback.Cursor))
         {
-            search.FindInFlight(slot, candidates, from, until, except, ref next);
+            search.FindInFlight(slot, candidates, from, until, ref next);
         }
         else
         {
-            search.FindAlong(slot, candidates, from, until, except, ref next);
+            search.FindAlong(slot, candidates, from, until, ref next);
         }
     }
 
     private void Schedule(int slot, int last, in NextEvent next)
     {
-        Set(slot, next, next.Partner, next.Piece, next.IsTied);
         int partner = next.Partner;
-        if (partner == PendingContact.NoPartner || next.Piece != timelines.Last(partner))
+        bool isOfPast = partner != PendingContact.NoPartner && next.Piece != timelines.Last(partner);
+        Set(slot, next, partner, isOfPast ? StandsWith(partner, next.Piece) : next.Piece, next.IsTied);
+        if (partner == PendingContact.NoPartner || isOfPast)
         {
             return;
         }
@@ -105,13 +103,16 @@ internal sealed class EventPredictor(
         }
     }
 
+    /// <summary>With which segment of its partner a contact stands that was found with one that is not its newest: with that very one.</summary>
+    private protected virtual int StandsWith(int partner, int piece) => piece;
+
     private void Set(int slot, in NextEvent next, int partner, int piece, bool isTied)
     {
         scheduler.Set(slot, next.Key, new PendingContact
         {
             Partner = partner,
             Surface = next.Surface,
-            PartnerSerial = partner == PendingContact.NoPartner ? 0 : timelines.Serial(faults.Has(HealingFault.GivesUpByBody) ? timelines.Last(partner) : piece),
+            PartnerSerial = partner == PendingContact.NoPartner ? 0 : timelines.Serial(piece),
             Residual = next.Residual,
             IsTied = isTied,
         });

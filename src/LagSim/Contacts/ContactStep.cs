@@ -25,9 +25,10 @@ internal sealed class ContactStep
     private readonly StepContacts contacts;
     private Motion[] free = Array.Empty<Motion>(); // by body
 
-    internal ContactStep(Scene scene, ContactScale scale)
+    internal ContactStep(Scene scene, ContactScale scale, SolverRules? rules = null)
     {
         Scale = scale;
+        Rules = rules ?? SolverRules.Usual;
         contacts = new StepContacts(scene.Surfaces, scale, Problem);
     }
 
@@ -36,14 +37,8 @@ internal sealed class ContactStep
 
     internal ContactScale Scale { get; }
 
-    /// <summary>Lets hands push with any force: only a test's negative control sets it.</summary>
-    internal bool HandsHaveNoLimit { get; set; }
-
-    /// <summary>Pushes overlap out whatever energy that makes: only a test's negative control sets it.</summary>
-    internal bool MayGainEnergy { get; set; }
-
-    /// <summary>Solves by sweeps alone where nothing but their number speaks against it: only a test's negative control sets it.</summary>
-    internal bool SweepsAlone { get; set; }
+    /// <summary>What its solutions, and those of impacts on islands, are held to.</summary>
+    internal SolverRules Rules { get; }
 
     /// <summary>How many sweeps the last took, and steps of <see cref="NormalsAfterSweeps"/>, which cost as much.</summary>
     internal int Sweeps { get; private set; }
@@ -89,7 +84,7 @@ internal sealed class ContactStep
             c.Target = c.Gap >= 0 ? -c.Gap / seconds : Math.Min(-c.Gap / seconds, Scale.Pull * seconds);
         }
 
-        if (!HandsHaveNoLimit)
+        if (Rules.LimitsHands)
         {
             ContactSolver.LimitHands(Problem, Scale.Pull * seconds);
         }
@@ -114,7 +109,7 @@ internal sealed class ContactStep
         }
 
         most = Math.Max(most, came);
-        if (Problem.HasHand() || MayGainEnergy || !ContactProblem.IsGain(most, Problem.KineticEnergy()))
+        if (Problem.HasHand() || !Rules.LimitsEnergy || !ContactProblem.IsGain(most, Problem.KineticEnergy()))
         {
             return;
         }
@@ -180,7 +175,7 @@ internal sealed class ContactStep
 
         int sweeps = ContactSolver.Solve(Problem, tolerance, MostSweeps);
         Sweeps += sweeps;
-        if (!SweepsAlone && NormalsAfterSweeps.IsNeeded(Problem, sweeps, tolerance))
+        if (Rules.SettlesNormals && NormalsAfterSweeps.IsNeeded(Problem, sweeps, tolerance))
         {
             BeginAnew();
             Sweeps += normals.Solve(Problem, tolerance);

@@ -70,7 +70,7 @@ internal sealed class ImpactProblem(ContactStep step, SolverWork work)
     internal void Solve(double tolerance, int sweeps, int knownBodies, int knownContacts)
     {
         int taken = ContactSolver.Solve(Problem, tolerance, sweeps, knownBodies, knownContacts);
-        if (sweeps == ContactStep.MostSweeps && !step.SweepsAlone && NormalsAfterSweeps.IsNeeded(Problem, taken, tolerance))
+        if (sweeps == ContactStep.MostSweeps && step.Rules.SettlesNormals && NormalsAfterSweeps.IsNeeded(Problem, taken, tolerance))
         {
             for (int i = 0; i < Problem.BodyCount; i++)
             {
@@ -88,7 +88,7 @@ internal sealed class ImpactProblem(ContactStep step, SolverWork work)
     /// <param name="more">In m/s: what they may give beyond what stops the bodies.</param>
     internal void LimitHands(double more)
     {
-        if (!step.HandsHaveNoLimit)
+        if (step.Rules.LimitsHands)
         {
             SwapVelocities();
             ContactSolver.LimitHands(Problem, more);
@@ -101,7 +101,7 @@ internal sealed class ImpactProblem(ContactStep step, SolverWork work)
     {
         double after = Problem.KineticEnergy();
         SwapVelocities();
-        if (step.MayGainEnergy || Problem.HasHand() || !ContactProblem.IsGain(Problem.KineticEnergy(), after))
+        if (!step.Rules.LimitsEnergy || Problem.HasHand() || !ContactProblem.IsGain(Problem.KineticEnergy(), after))
         {
             SwapVelocities();
             return;

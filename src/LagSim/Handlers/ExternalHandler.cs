@@ -13,8 +13,8 @@ namespace LagSim.Handlers;
 
 /// <summary>External events: what players do.</summary>
 internal sealed class ExternalHandler(
-    Scene scene, BodyTable bodies, TimelineStore timelines, EventLog log, RollbackState rollback, FreeFlights flights, ContactGraph graph,
-    Sleepers sleepers, MemberFactory members, TrajectoryFactory trajectories, CollapseRule collapse, LonePath lonePath, TestFaults faults)
+    Scene scene, BodyTable bodies, TimelineStore timelines, EventLog log, FreeFlights flights, ContactGraph graph, Sleepers sleepers,
+    MemberFactory members, TrajectoryFactory trajectories, CollapseRule collapse, LonePath lonePath)
 {
     private readonly Paths paths = new(timelines);
 
@@ -32,7 +32,7 @@ internal sealed class ExternalHandler(
         int before = timelines.Last(slot);
         int entry = log.TakeDue(slot);
         Apply(slot, key, log.Event(entry), log.IsForwarded(entry));
-        if (timelines.Last(slot) == before || (faults.Has(HealingFault.LeavesMates) && rollback.MayBeKnownBeyond(key)))
+        if (timelines.Last(slot) == before)
         {
             graph.Clear();
         }

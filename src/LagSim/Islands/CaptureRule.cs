@@ -11,7 +11,8 @@ namespace LagSim.Islands;
 
 /// <summary>Which rebound is the last of its contact, which then lasts (docs/CONTACT.md, rule 7).</summary>
 internal sealed class CaptureRule(
-    Scene scene, TimelineStore timelines, ContactGraph graph, ContactScale scale, MemberFactory members, SlipFactory friction, TestFaults faults)
+    Scene scene, TimelineStore timelines, ContactGraph graph, ContactScale scale, MemberFactory members, SlipFactory friction,
+    bool hasIslands)
 {
     private readonly StaticSurfaces surfaces = scene.Surfaces;
     private readonly Paths paths = new(timelines);
@@ -25,7 +26,7 @@ internal sealed class CaptureRule(
     /// </summary>
     internal bool IsLast(in ContactPoint c, double restitution, double rebound, SimTime time)
     {
-        if (faults.IgnoresIslands || scene.Box.Exists)
+        if (!hasIslands)
         {
             return false;
         }

@@ -5,8 +5,8 @@ using LagSim.Timelines;
 namespace LagSim.Islands;
 
 /// <summary>Joins the segments that one event opens, so that a rollback that cuts one of them cuts all.</summary>
-internal sealed class SegmentJoiner(
-    BodyTable bodies, TimelineStore timelines, ContactGraph graph, Partners partners, MemberFactory members, TestFaults faults)
+internal class SegmentJoiner(
+    BodyTable bodies, TimelineStore timelines, ContactGraph graph, Partners partners, MemberFactory members)
 {
     private readonly Paths paths = new(timelines);
 
@@ -14,20 +14,21 @@ internal sealed class SegmentJoiner(
     /// Joins those of the graph's bodies, and opens segments for the near misses, which go on as they did, and are the graph's too from
     /// then on: who is cut later cuts whoever looked at it.
     /// </summary>
-    internal void Join(in EventKey key)
+    internal virtual void Join(in EventKey key)
+    {
+        AddNearMisses(key);
+        timelines.Join(graph.Slots);
+    }
+
+    private protected void AddNearMisses(in EventKey key)
     {
         foreach (int slot in partners.NearMisses)
         {
-            if (graph.IndexOf(slot) < 0 && !faults.Has(HealingFault.ForgetsWhoWasLookedAt))
+            if (graph.IndexOf(slot) < 0)
             {
                 GoOn(slot, key);
                 graph.AddBody(slot);
             }
-        }
-
-        if (!faults.Has(HealingFault.CutsMembersAlone))
-        {
-            timelines.Join(graph.Slots);
         }
     }
 

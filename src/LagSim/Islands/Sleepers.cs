@@ -7,7 +7,7 @@ using LagSim.Timelines;
 namespace LagSim.Islands;
 
 /// <summary>Who sleeps on a body to which something is about to happen, and wakes.</summary>
-internal sealed class Sleepers(
+internal class Sleepers(
     BodyTable bodies, TimelineStore timelines, PathView view, ContactGraph graph, RewindRequests rewinds, MemberFactory members)
 {
     private readonly Paths paths = new(timelines);
@@ -51,7 +51,7 @@ internal sealed class Sleepers(
     }
 
     /// <summary>The bodies of the graph wake: what they lay on has been touched, and is added last.</summary>
-    internal void Wake(int slot, in EventKey key)
+    internal virtual void Wake(int slot, in EventKey key)
     {
         int sleepers = graph.BodyCount;
         for (int i = 0; i < sleepers; i++)

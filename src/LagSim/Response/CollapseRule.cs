@@ -13,8 +13,8 @@ namespace LagSim.Response;
 /// instant in which it was struck has not parted, for the clock cannot tell the two apart; so it bounces no second time (docs/CONTACT.md,
 /// rule 14).
 /// </summary>
-internal sealed class CollapseRule(
-    Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, StrikeCounts strikes, TestFaults faults)
+internal class CollapseRule(
+    Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, StrikeCounts strikes)
 {
     private readonly StaticSurfaces surfaces = scene.Surfaces;
     private readonly Paths paths = new(timelines);
@@ -34,7 +34,7 @@ internal sealed class CollapseRule(
     /// impacts may follow. Where a member of an island takes part they always may: what holds it gives way to no push, however light it is
     /// itself.
     /// </summary>
-    internal bool Collapses(SimTime time)
+    internal virtual bool Collapses(SimTime time)
     {
         bool isStruckAgain = false;
         bool hasMember = false;
@@ -120,7 +120,7 @@ internal sealed class CollapseRule(
         contact = ContactTime.At(time);
         int last = timelines.Last(slot);
         return !paths.IsHeld(last) && surfaces.Gap(surface, paths.PositionAt(last, time), bodies.Spec(slot).Radius) <= scene.Resolution
-            && (faults.Has(HealingFault.CollapsesWithWhoTouches) || strikes.On(last, surface, time) > 0);
+            && TakesIn(strikes.On(last, surface, time));
     }
 
     /// <summary>Whether two bodies touch that struck each other in this instant.</summary>
@@ -130,8 +130,11 @@ internal sealed class CollapseRule(
         int last = timelines.Last(slot);
         return timelines.Segment(piece).IsPresent && !(paths.IsHeld(last) && paths.IsHeld(piece))
             && Gap(slot, last, other, piece, time) <= scene.Resolution
-            && (faults.Has(HealingFault.CollapsesWithWhoTouches) || strikes.Between(last, piece, time) > 0);
+            && TakesIn(strikes.Between(last, piece, time));
     }
+
+    /// <summary>Whether what touches is part of a collapse, by how often it was struck in this instant.</summary>
+    private protected virtual bool TakesIn(int strikeCount) => strikeCount > 0;
 
     /// <summary>The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits whoever asks.</summary>
     private double Gap(int slot, int piece, int other, int otherPiece, SimTime time) =>

@@ -10,10 +10,9 @@ using LagSim.Timelines;
 namespace LagSim.Response;
 
 /// <summary>Builds the contact graph of an impact: all contacts of its tick and round that share bodies, and the bodies as they meet.</summary>
-internal sealed class ImpactGraphBuilder(
+internal class ImpactGraphBuilder(
     Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, PathView view,
-    FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph,
-    TestFaults faults)
+    FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph)
 {
     private readonly StaticSurfaces surfaces = scene.Surfaces;
     private readonly Paths paths = new(timelines);
@@ -26,10 +25,10 @@ internal sealed class ImpactGraphBuilder(
     /// <param name="key">The impact.</param>
     /// <param name="residual">Seconds from the tick to the impact.</param>
     /// <param name="collapses">Whether it ends a collapse (docs/CONTACT.md).</param>
-    internal bool TryBuild(int slot, in EventKey key, out double residual, out bool collapses)
+    internal virtual bool TryBuild(int slot, in EventKey key, out double residual, out bool collapses)
     {
         residual = double.MaxValue;
-        bool mayCollapse = collapse.HasLosses && CollapseRule.MayBeStruckAgain(key) && !faults.NeverCollapses;
+        bool mayCollapse = collapse.HasLosses && CollapseRule.MayBeStruckAgain(key);
         Follow(slot, key, mayCollapse);
         collapses = mayCollapse && rewinds.AreNone && collapse.Collapses(key.Time);
         if (mayCollapse && rewinds.AreNone && !collapses)
@@ -112,7 +111,7 @@ internal sealed class ImpactGraphBuilder(
             if (known < 0 || known > body)
             {
                 known = known < 0 ? graph.AddBody(other) : known;
-                bool ordered = bodies.Id(slot) < bodies.Id(other) != faults.SwapsOperands;
+                bool ordered = bodies.Id(slot) < bodies.Id(other);
                 graph.AddContact(new ContactPoint(ordered ? body : known, ordered ? known : body, -1, contact) { IsFromBefore = !isStruck });
             }
         }

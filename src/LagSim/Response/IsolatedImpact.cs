@@ -12,9 +12,9 @@ namespace LagSim.Response;
 /// The impact of two bodies in free flight with nobody near, or of one with a surface: what nearly all impacts of a gas are, and of a ball
 /// that bounces. No contact graph has to be searched for it.
 /// </summary>
-internal sealed class IsolatedImpact(
+internal class IsolatedImpact(
     Scene scene, BodyTable bodies, TimelineStore timelines, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
-    ContactGraph graph, ImpactResolver resolver, ImpactNotifier notifier, ImpactSegments segments, TestFaults faults)
+    ContactGraph graph, ImpactResolver resolver, ImpactNotifier notifier, ImpactSegments segments)
 {
     private readonly StaticSurfaces surfaces = scene.Surfaces;
 
@@ -28,7 +28,7 @@ internal sealed class IsolatedImpact(
     /// What the general way makes of such an impact, to the bit, by the same rules. False, and nothing is done, if it is of others too, or
     /// if the two part so slowly that persistent contact may come of it: then who else is in touch counts.
     /// </summary>
-    internal bool TryHandle(int slot, in EventKey key)
+    internal virtual bool TryHandle(int slot, in EventKey key)
     {
         if (!IsIsolated(slot, key))
         {
@@ -65,11 +65,11 @@ internal sealed class IsolatedImpact(
     private bool IsIsolated(int slot, in EventKey key)
     {
         bool isPlain = !rollback.IsActive && !CollapseRule.MayBeStruckAgain(key)
-            && (!scheduler.Contact(slot).IsTied || faults.IgnoresTies) && flights.IsFree(slot) && !faults.TakesNoShortcut && !faults.SwapsOperands;
+            && !scheduler.Contact(slot).IsTied && flights.IsFree(slot);
         int other = scheduler.Contact(slot).Partner;
         return isPlain && (other == PendingContact.NoPartner
             ? scheduler.IsLeastAloneWith(slot, key)
-            : scheduler.Contact(other).Partner == slot && (!scheduler.Contact(other).IsTied || faults.IgnoresTies) && flights.IsFree(other)
+            : scheduler.Contact(other).Partner == slot && !scheduler.Contact(other).IsTied && flights.IsFree(other)
                 && scheduler.IsLeastAloneWith(other, key) && TouchesNoSurface(slot, key.Time) && TouchesNoSurface(other, key.Time));
     }
 

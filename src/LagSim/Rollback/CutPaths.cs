@@ -12,7 +12,7 @@ namespace LagSim.Rollback;
 /// What the heal at hand has cut off of the paths that stood before it, kept as long as it is little: where the new paths meet it, it is put back.
 /// </summary>
 /// <remarks>Copies, since the store gives the room of what it cuts to what comes next. It allocates only until it has held as much as it ever does.</remarks>
-internal sealed class CutPaths
+internal class CutPaths
 {
     /// <summary>A heal that has cut more, or that has touched more bodies, goes on to its end: it would hardly meet what was.</summary>
     internal const int Most = 256;
@@ -117,14 +117,13 @@ internal sealed class CutPaths
     /// </summary>
     /// <param name="timelines">The paths as they are now.</param>
     /// <param name="time">An instant of which the heal has done all.</param>
-    /// <param name="fault">Names what is left out of the comparison on purpose, to see that a test notices.</param>
     /// <remarks>O(1) as a rule: the body that was on another path the last time is asked first.</remarks>
-    internal bool AreMet(TimelineStore timelines, SimTime time, HealingFault fault)
+    internal bool AreMet(TimelineStore timelines, SimTime time)
     {
         for (int n = 0; n < bodies.Count; n++)
         {
             int at = (n + differing) % bodies.Count;
-            if (!IsMet(timelines, bodies[at].Slot, bodies[at].Earliest, time, fault))
+            if (!IsMet(timelines, bodies[at].Slot, bodies[at].Earliest, time))
             {
                 differing = at;
                 return false;
@@ -171,7 +170,7 @@ internal sealed class CutPaths
         }
     }
 
-    private bool IsMet(TimelineStore timelines, int slot, int earliest, SimTime time, HealingFault fault)
+    private bool IsMet(TimelineStore timelines, int slot, int earliest, SimTime time)
     {
         int old = None;
         for (int piece = earliest; piece != None && pieces[piece].Key.Time <= time; piece = pieces[piece].Later)
@@ -185,21 +184,18 @@ internal sealed class CutPaths
             return timelines.Serial(last) <= LastSerial; // it was, and is, on what the heal has left of its path
         }
 
-        if ((fault & HealingFault.StopsWherePlacesMeet) != 0)
-        {
-            return timelines.Segment(last).Position == pieces[old].Segment.Position;
-        }
-
-        return timelines.Key(last) == pieces[old].Key
-            && timelines.Segment(last).IsSameAs(pieces[old].Segment)
-            && (!timelines.Segment(last).IsDense || timelines.Dense(last).IsSameAs(pieces[old].Dense))
-            && timelines.HoldOf(last) == pieces[old].Hold
-            && timelines.SpinOf(last).IsSameAs(pieces[old].Spin)
-            && ((fault & HealingFault.StopsWhereChordsMeet) != 0 || CarriesTheSame(timelines, last, pieces[old]));
+        return IsSamePath(timelines, last, pieces[old]) && CarriesTheSame(timelines, last, pieces[old]);
     }
 
+    /// <summary>Whether a segment is a piece of path, but for what it carries.</summary>
+    private protected virtual bool IsSamePath(TimelineStore timelines, int segment, in Piece piece) => timelines.Key(segment) == piece.Key
+        && timelines.Segment(segment).IsSameAs(piece.Segment)
+        && (!timelines.Segment(segment).IsDense || timelines.Dense(segment).IsSameAs(piece.Dense))
+        && timelines.HoldOf(segment) == piece.Hold
+        && timelines.SpinOf(segment).IsSameAs(piece.Spin);
+
     /// <summary>Whether a segment, on the same path, carries the very contacts from step to step that a piece did.</summary>
-    private bool CarriesTheSame(TimelineStore timelines, int segment, in Piece piece)
+    private protected virtual bool CarriesTheSame(TimelineStore timelines, int segment, in Piece piece)
     {
         if (!piece.Segment.IsOfIsland)
         {
@@ -234,7 +230,8 @@ internal sealed class CutPaths
         timelines.EndMember(segment, body);
     }
 
-    private struct Piece
+    /// <summary>A segment that was cut, with all that belongs to it.</summary>
+    private protected struct Piece
     {
         internal int Slot;
         internal int Later; // the body's next piece, or none

@@ -11,9 +11,8 @@ namespace LagSim.Rollback;
 /// </summary>
 internal sealed class Reconvergence(
     BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, Progress progress, RollbackState rollback,
-    AdaptiveBroadPhase broadPhase, EventPredictor predictor, TestFaults faults)
+    AdaptiveBroadPhase broadPhase, EventPredictor predictor, CutPaths cut)
 {
-    private readonly CutPaths cut = new();
     private readonly HeldBackImpacts heldBack = new();
 
     /// <summary>Who is told of impacts made and cut; null, the default, for nobody.</summary>
@@ -59,7 +58,7 @@ internal sealed class Reconvergence(
             return false;
         }
 
-        return mayBe && cut.AreMet(timelines, at, faults.Healing);
+        return mayBe && cut.AreMet(timelines, at);
     }
 
     /// <summary>Puts back what was cut after an instant at which it is reached: the world is simulated to the rollback horizon again.</summary>

@@ -2,7 +2,6 @@ using System;
 using System.Collections.Generic;
 using LagSim.Collisions;
 using LagSim.Events;
-using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
 
@@ -12,7 +11,7 @@ namespace LagSim.Rollback;
 /// Cuts the paths that a late event can have touched, as it comes to light whose they are, so that the event loop simulates them again.
 /// </summary>
 /// <remarks>It simulates nothing itself: it cuts, has who was cut predicted anew, and moves back how far the world is simulated.</remarks>
-internal sealed class Rewinder : IOpeningObserver
+internal class Rewinder : IOpeningObserver
 {
     /// <summary>
     /// The causal cones of so many late events, each in a place of its own, may take up an eighth of all bodies each; more share that half,
@@ -28,7 +27,6 @@ internal sealed class Rewinder : IOpeningObserver
     private readonly RollbackState rollback;
     private readonly Reconvergence reconvergence;
     private readonly EventPredictor predictor;
-    private readonly TestFaults faults;
     private readonly HealingMode mode;
     private readonly Stack<(int Slot, EventKey Key)> cuts = new();
     private readonly List<int> cut = new(); // who was cut since anything was predicted anew
@@ -36,7 +34,7 @@ internal sealed class Rewinder : IOpeningObserver
 
     internal Rewinder(
         BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, Progress progress, RollbackState rollback,
-        Reconvergence reconvergence, EventPredictor predictor, TestFaults faults, HealingMode mode)
+        Reconvergence reconvergence, EventPredictor predictor, HealingMode mode)
     {
         this.bodies = bodies;
         this.timelines = timelines;
@@ -46,7 +44,6 @@ internal sealed class Rewinder : IOpeningObserver
         this.rollback = rollback;
         this.reconvergence = reconvergence;
         this.predictor = predictor;
-        this.faults = faults;
         this.mode = mode;
     }
 
@@ -81,13 +78,8 @@ internal sealed class Rewinder : IOpeningObserver
     /// A body's path is known beyond a key at which something has changed: it is cut there, and the world is simulated no further than to
     /// before the key.
     /// </summary>
-    internal void Mark(int slot, in EventKey key)
+    internal virtual void Mark(int slot, in EventKey key)
     {
-        if (faults.Has(HealingFault.LeavesWhoRests) && timelines.Segment(timelines.Last(slot)).Law == MotionLaw.Resting)
-        {
-            return;
-        }
-
         Begin(key.Time);
         if (mode == HealingMode.FullRollback)
         {
@@ -131,7 +123,7 @@ internal sealed class Rewinder : IOpeningObserver
     }
 
     /// <summary>Cuts all that has happened in an instant, for good.</summary>
-    internal void RewindInstant(SimTime instant)
+    internal virtual void RewindInstant(SimTime instant)
     {
         reconvergence.GiveUp();
         RewindAll(EventKey.Before(instant));
@@ -203,8 +195,7 @@ internal sealed class Rewinder : IOpeningObserver
     private void Cut(int slot, in EventKey key)
     {
         cut.Clear();
-        bool cutsByTime = faults.Has(HealingFault.CutsByTime) && key == rollback.Cursor && key.Time > progress.HistoryEdge;
-        cuts.Push((slot, cutsByTime ? EventKey.Before(key.Time) : key));
+        cuts.Push((slot, CutsFrom(key)));
         log.AddDueFrom(slot, key);
         cut.Add(slot);
         Touch(slot);
@@ -228,26 +219,31 @@ internal sealed class Rewinder : IOpeningObserver
 
             if (any)
             {
-                if (!faults.Has(HealingFault.DropsEvents) && !cutsByTime)
-                {
-                    log.AddDueFrom(body, from);
-                }
-
+                Redo(body, from);
                 cut.Add(body);
             }
         }
     }
 
+    /// <summary>From which key on a body is cut that is rewound to a key: from that very key.</summary>
+    private protected virtual EventKey CutsFrom(in EventKey key) => key;
+
+    /// <summary>From which key on every body is cut in a full rollback to a key: from that very key, not from its time.</summary>
+    private protected virtual EventKey CutsAllFrom(in EventKey key) => key;
+
+    /// <summary>Has the external events of a body that was cut applied again.</summary>
+    private protected virtual void Redo(int slot, in EventKey from) => log.AddDueFrom(slot, from);
+
     /// <summary>Whether to simulate everybody again costs less than to ask at every step who is ahead, and what it did there.</summary>
     private bool IsNearlyFull() =>
         rollback.LastOld >= 0 && rollback.BodyCount > Math.Max(FewHealed, bodies.Count / 8 * Math.Min(report.LateEvents, MostConesApart));
 
-    /// <summary>Cuts every timeline at the key, not at its time, and has everybody predicted again.</summary>
+    /// <summary>Cuts every timeline at the key and has everybody predicted again.</summary>
     private void RewindAll(in EventKey key)
     {
         rollback.Cursor = key;
         rollback.LastOld = -1; // nobody is ahead of anybody
-        EventKey from = faults.CutsByTime ? new EventKey(key.Time, 0, EventKind.Spawn, default, default, 0, 0) : key;
+        EventKey from = CutsAllFrom(key);
         for (int slot = 0; slot < bodies.SlotCount; slot++)
         {
             rollback.SegmentsCut += timelines.CutFrom(slot, bodies.Id(slot), from);

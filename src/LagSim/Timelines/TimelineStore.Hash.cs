@@ -5,7 +5,7 @@ using LagSim.Scenes;
 namespace LagSim.Timelines;
 
 /// <content>The hash of all events: what each segment adds to it.</content>
-internal sealed partial class TimelineStore
+internal partial class TimelineStore
 {
     /// <summary>The sum of the hashes of all segments ever opened and not cut off again, dropped ones included.</summary>
     internal ulong EventHash => hashes.Value;

@@ -3,7 +3,7 @@ using System;
 namespace LagSim.Timelines;
 
 /// <content>Rings of segments that one event opened.</content>
-internal sealed partial class TimelineStore
+internal partial class TimelineStore
 {
     /// <summary>The next in the ring of segments that one impact opened; itself if it has no other.</summary>
     internal int Together(int segment) => links[segment].Together;

@@ -4,7 +4,7 @@ using LagSim.Time;
 namespace LagSim.Timelines;
 
 /// <content>Room: what lies behind the window is dropped when there is none left, and if that was little, there is more.</content>
-internal sealed partial class TimelineStore
+internal partial class TimelineStore
 {
     /// <summary>Below this the arrays double, above they grow by one part in <see cref="Growth"/>.</summary>
     private const int Large = 1024;
@@ -24,9 +24,6 @@ internal sealed partial class TimelineStore
 
     /// <summary>For how many segments there is room without more memory.</summary>
     internal int Room => pieces.Length;
-
-    /// <summary>Foretells nothing: only a test's negative control sets it.</summary>
-    internal bool GrowsByLittle { get; set; }
 
     /// <summary>Instants before this are asked for no more; what only they need is dropped when room is needed.</summary>
     internal void ForgetBefore(SimTime time) => edge = SimTime.Max(edge, time);
@@ -105,7 +102,7 @@ internal sealed partial class TimelineStore
     /// <param name="recent">How many segments were closed in the last part of the window.</param>
     private void Grow(SimTime now, int recent)
     {
-        int size = pieces.Length < Large ? pieces.Length * 2 : Math.Max(pieces.Length + (pieces.Length / Growth), GrowsByLittle ? 0 : Expected(now, recent));
+        int size = pieces.Length < Large ? pieces.Length * 2 : Math.Max(pieces.Length + (pieces.Length / Growth), Expected(now, recent));
         Array.Resize(ref pieces, size);
         Array.Resize(ref links, size);
         if (dense.Length > 0)
@@ -136,7 +133,7 @@ internal sealed partial class TimelineStore
     /// rest of it, from an eighth of it on, or from where each body has many. No more than a quarter above what there is, for what begins need not go on. To
     /// grow by little where more and more are opened would be to copy everything some hundred times.
     /// </summary>
-    private int Expected(SimTime now, int recent)
+    private protected virtual int Expected(SimTime now, int recent)
     {
         double opened = (recent - (2 * Math.Sqrt(recent))) * RecentPart;
         if (edge <= origin)

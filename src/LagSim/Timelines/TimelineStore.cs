@@ -15,7 +15,7 @@ namespace LagSim.Timelines;
 /// <para>It keeps a running hash of all events: the sum (modulo 2^64) of one hash a segment, so that appending and cutting are O(1) and the
 /// order in which the events came leaves no trace.</para>
 /// </remarks>
-internal sealed partial class TimelineStore
+internal partial class TimelineStore
 {
     internal const int None = -1;
 

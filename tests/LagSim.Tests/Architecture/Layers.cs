@@ -79,8 +79,6 @@ internal static class Layers
         new("LagSim.Hold", EngineWords, ForUsers),
         new("LagSim.SimulationException", EngineWords, ForUsers),
         new("LagSim.TimelinesFullException", EngineWords, ForUsers),
-        new("LagSim.TestFaults", EngineWords, "one object for all parts, by which tests make each of them wrong on purpose; gone when faults are put in from outside"),
-        new("LagSim.Timelines.HealingFault", EngineWords, "the part of TestFaults that names ways to heal wrongly"),
 
         new("LagSim.Net.Sessions.CommittedState", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.Divergence", SessionWords, ForUsers),

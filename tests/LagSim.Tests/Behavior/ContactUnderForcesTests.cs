@@ -1,6 +1,7 @@
 using System;
 using LagSim.Events;
 using LagSim.Scenes;
+using LagSim.Tests.Faults;
 using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
@@ -153,7 +154,7 @@ public sealed class ContactUnderForcesTests
         builder = falls ? builder.AddPlane("floor", V(0, 1), 0) : builder;
         BodySpec ball = new(0.1, 1, 0.3, friction: 0.5);
         Scene scene = builder.AddBody("ball", ball, V(0, 0.1)).AddBody("other", ball, V(3, 0.1)).Build();
-        Simulation simulation = new(scene, KeepAll) { IgnoresIslands = ignoresIslands };
+        Simulation simulation = new(scene, KeepAll.WithParts(new FaultyEngineParts { IgnoresIslands = ignoresIslands }));
         simulation.AdvanceTo(At(0.5));
         simulation.Submit(PlayerAction.Teleport(Second, V(x, 0.1 + y)).Stamp(At(0.6), 1, 1)); // to come, so that bodies in flight are predicted as flights are
         double end = falls ? 12 : 40; // without gravity it is pushed out a tenth as fast

@@ -1,9 +1,11 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
+using LagSim.Tests.Faults;
 using LagSim.Time;
 using LagSim.Timelines;
 using Xunit;
@@ -245,7 +247,8 @@ public sealed class HeldTests
 
         bool IsDone(bool ignoresIslands)
         {
-            Simulation simulation = new(scene) { IgnoresIslands = ignoresIslands };
+            FaultyEngineParts parts = new() { IgnoresIslands = ignoresIslands };
+            Simulation simulation = new(scene, new SimulationOptions().WithParts(parts));
             events.ForEach(e => simulation.Submit(e));
             long budget = 3_000;
             try
@@ -278,7 +281,8 @@ public sealed class HeldTests
 
         bool Passes(bool pressesOn)
         {
-            Simulation simulation = new(scene) { PressesOn = pressesOn };
+            FaultyEngineParts parts = new() { Rules = new SolverRules(limitsHands: !pressesOn) };
+            Simulation simulation = new(scene, new SimulationOptions().WithParts(parts));
             for (uint n = 0; n < 10; n++)
             {
                 simulation.Submit(n == 0 ? ExternalEvent.Grab(At(0), 1, 1, Second)

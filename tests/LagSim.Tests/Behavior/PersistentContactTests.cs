@@ -1,6 +1,7 @@
 using System;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
+using LagSim.Tests.Faults;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 
@@ -135,7 +136,7 @@ public sealed class PersistentContactTests
         foreach (bool ignores in new[] { false, true })
         {
             long budget = 5_000;
-            Simulation simulation = new(scene, KeepAll) { IgnoresIslands = ignores };
+            Simulation simulation = new(scene, KeepAll.WithParts(new FaultyEngineParts { IgnoresIslands = ignores }));
             Assert.Equal(!ignores, simulation.TryAdvanceTo(At(1), ref budget)); // without, a million a second
         }
     }

@@ -1,5 +1,7 @@
 using System;
+using LagSim.Contacts;
 using LagSim.Scenes;
+using LagSim.Tests.Faults;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 
@@ -27,8 +29,7 @@ public sealed class TallColumnTests
     [Fact]
     public void Column_BySweepsAlone_IsSeenToSink()
     {
-        Simulation world = Column(64, 0, 0);
-        world.SweepsAlone = true;
+        Simulation world = Column(64, 0, 0, new SolverRules(settlesNormals: false));
         (double off, MotionLaw motion, _) = Run(world);
         Assert.True(off > 2 * Fine, $"{off} m");
         Assert.Equal(MotionLaw.Constrained, motion);
@@ -42,16 +43,14 @@ public sealed class TallColumnTests
     [InlineData(true)]
     public void Column_ThatHasSunk_IsPushedOutWithoutMakingEnergy(bool gains)
     {
-        Simulation world = Column(64, 0, 0);
-        world.SweepsAlone = true;
-        world.GainsEnergy = gains;
+        Simulation world = Column(64, 0, 0, new SolverRules(settlesNormals: false, limitsEnergy: !gains));
         (_, _, double gain) = Run(world);
         Assert.Equal(gains, gain > 2);
     }
 
     private const double Fine = 1e-3;
 
-    private static Simulation Column(int balls, double restitution, double gap)
+    private static Simulation Column(int balls, double restitution, double gap, SolverRules? rules = null)
     {
         SceneBuilder builder = new SceneBuilder("column").WithContactTolerance(Fine).AddPlane("floor", Vector3D.Up, 0.0, restitution);
         for (int n = 0; n < balls; n++)
@@ -59,7 +58,8 @@ public sealed class TallColumnTests
             builder.AddBody($"ball {n}", new BodySpec(Radius, 1, restitution, friction: 0.5), V(0, Radius + (((2 * Radius) + gap) * n)));
         }
 
-        return new Simulation(builder.Build());
+        FaultyEngineParts parts = new() { Rules = rules ?? SolverRules.Usual };
+        return new Simulation(builder.Build(), new SimulationOptions().WithParts(parts));
     }
 
     /// <summary>How far from its place the top is after 4 s, how it moves, and how much energy was gained meanwhile, in J.</summary>

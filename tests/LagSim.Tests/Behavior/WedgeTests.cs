@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Scenes;
+using LagSim.Tests.Faults;
 using LagSim.Timelines;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
@@ -124,7 +125,7 @@ public sealed class WedgeTests
 
     private static bool IsDone(Scene scene, IEnumerable<ExternalEvent> events, double seconds, bool ignoresIslands, out Simulation simulation)
     {
-        simulation = new Simulation(scene, KeepAll) { IgnoresIslands = ignoresIslands };
+        simulation = new Simulation(scene, KeepAll.WithParts(new FaultyEngineParts { IgnoresIslands = ignoresIslands }));
         foreach (ExternalEvent external in events)
         {
             simulation.Submit(external);

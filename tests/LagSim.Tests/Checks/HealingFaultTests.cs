@@ -4,7 +4,8 @@ using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Verification.Check;
 using LagSim.Testing;
-using LagSim.Timelines;
+using LagSim.Tests.Faults;
+using LagSim.Tests.Sessions;
 using Xunit;
 
 namespace LagSim.Tests.Checks;
@@ -15,7 +16,13 @@ public sealed class HealingFaultTests
     [Fact]
     public void Run_CutsByTime_IsCaughtAndShrunkToTwoScriptedActionsOfOneTick()
     {
-        CheckOptions options = new() { Sessions = 1, Seed = 2, Strategy = "full-rollback", Prepare = static (_, simulation) => simulation.CutsByTime = true };
+        CheckOptions options = new()
+        {
+            Sessions = 1,
+            Seed = 2,
+            Strategy = "full-rollback",
+            PrepareSession = static (_, session) => session.Put(new FaultyEngineParts { CutsByTime = true }),
+        };
         CheckReport report = Run(options);
         CheckFailure failure = Assert.Single(report.Failures);
         Assert.True(failure.Least.ScriptedActions.Count == 2 && failure.Least.Bodies.Count <= 2, failure.Command);
@@ -27,7 +34,7 @@ public sealed class HealingFaultTests
         // What it names plays again to the same; without the fault it does not fail.
         CheckOptions again = options with { Bodies = failure.Least.Bodies, Events = failure.Least.ScriptedActions, ShrinkingPlays = 0 };
         Assert.Equal(failure.Least.Difference, Run(again).Failures.Single().Whole.Difference);
-        Assert.Empty(Run(again with { Prepare = null }).Failures);
+        Assert.Empty(Run(again with { PrepareSession = null }).Failures);
     }
 
     private static void AssertLeast(CheckOutcome least, CheckOptions options)
@@ -49,7 +56,12 @@ public sealed class HealingFaultTests
     [Fact]
     public void Run_OperandsSwappedOnOnePeer_IsCaughtThere()
     {
-        CheckOptions options = new() { Sessions = 4, ShrinkingPlays = 0, Prepare = static (peer, simulation) => simulation.SwapsOperands = peer == 1 };
+        CheckOptions options = new()
+        {
+            Sessions = 4,
+            ShrinkingPlays = 0,
+            PrepareSession = static (peer, session) => session.Put(new FaultyEngineParts { SwapsOperands = peer == 1 }),
+        };
         CheckReport report = Run(options);
         Assert.NotEmpty(report.Failures);
         Assert.All(report.Failures, f => Assert.True(f.Whole.Difference is null || f.Whole.Difference.Peer == 1));
@@ -72,7 +84,8 @@ public sealed class HealingFaultTests
     internal void Run_HealingInAWayKnownToBeWrong_IsCaughtByItsSeed(HealingFault fault, uint seed)
     {
         // The seeds that docs/HEALING.md names.
-        CheckOptions options = new() { Sessions = 1, Seed = seed, ShrinkingPlays = 0, Prepare = (_, simulation) => simulation.Fault = fault };
+        CheckOptions options = new() { Sessions = 1, Seed = seed, ShrinkingPlays = 0 };
+        options = options with { PrepareSession = (_, session) => session.Put(Faulty(fault)) };
         CheckOutcome failed = Assert.Single(Run(options).Failures).Whole;
         Assert.True(failed.DifferingBits > 0 && failed.Difference is not null, failed.Failure);
     }
@@ -98,8 +111,8 @@ public sealed class HealingFaultTests
             Sessions = 1,
             Seed = 21_288,
             ShrinkingPlays = 0,
-            Prepare = (_, simulation) => simulation.Fault = fault,
-            PrepareAlone = alone => alone.Fault = fault,
+            PrepareSession = (_, session) => session.Put(Faulty(fault)),
+            PrepareAlone = alone => alone.WithParts(Faulty(fault)),
         };
         Assert.Equal(fault == HealingFault.None ? 0 : 1, Run(options).Failures.Count);
     }
@@ -113,9 +126,11 @@ public sealed class HealingFaultTests
         CheckReport right = Run(options);
         Assert.Empty(right.Failures);
         Assert.Equal((isBox ? 1 : 0, isBox ? 0 : 1), (right.SessionsThatMet(m => m.PeriodicBox), right.SessionsThatMet(m => m.ClosedOrbit)));
-        CheckReport wrong = Run(options with { Prepare = static (_, simulation) => simulation.Fault = HealingFault.ForgetsThePast });
+        CheckReport wrong = Run(options with { PrepareSession = static (_, session) => session.Put(Faulty(HealingFault.ForgetsThePast)) });
         Assert.True(Assert.Single(wrong.Failures).Whole.DifferingBits > 0);
     }
+
+    private static FaultyEngineParts Faulty(HealingFault fault) => new() { Healing = fault };
 
     private static CheckReport Run(CheckOptions options) => InvariantCheck.Run(options, null, TestContext.Current.CancellationToken);
 }

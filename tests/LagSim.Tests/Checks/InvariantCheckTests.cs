@@ -124,7 +124,12 @@ public sealed class InvariantCheckTests
     {
         using CancellationTokenSource stop = new();
         int begun = 0;
-        CheckOptions options = new() { FromPeers = 3, ToPeers = 3, Prepare = (_, _) => begun += StopAtTheSecond() };
+        CheckOptions options = new()
+        {
+            FromPeers = 3,
+            ToPeers = 3,
+            PrepareSession = (_, session) => session.Begun += () => begun += StopAtTheSecond(),
+        };
         Assert.Throws<OperationCanceledException>(() => CheckSession.Play(40, options, stop.Token));
         Assert.Equal(2, begun); // worlds; the third never began
         Assert.Throws<OperationCanceledException>(() => CheckSession.Play(40, options, stop.Token));
@@ -147,7 +152,13 @@ public sealed class InvariantCheckTests
         Assert.Null(CheckSession.Play(Endless, new CheckOptions(), TestContext.Current.CancellationToken).Failure); // by itself it ends
         CheckCase drawn = new(Endless, new CheckOptions());
         using CancellationTokenSource stop = new();
-        CheckOptions options = new() { Sessions = 100, Seed = Endless - 1, Workers = 1, Prepare = (peer, simulation) => Disturb(peer, simulation) };
+        CheckOptions options = new()
+        {
+            Sessions = 100,
+            Seed = Endless - 1,
+            Workers = 1,
+            PrepareSession = (peer, session) => session.Begun += () => Disturb(peer, session.World!.Simulation),
+        };
         CheckReport report = InvariantCheck.Run(options, null, stop.Token);
         Assert.Equal([Endless], report.StoppedSeeds);
         Assert.Equal([Endless - 1], report.Outcomes.Select(o => o.Seed));

@@ -7,7 +7,9 @@ using System.Threading;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
 using LagSim.Harness.Verification.Check;
-using LagSim.Timelines;
+using LagSim.Net.Sessions;
+using LagSim.Tests.Faults;
+using LagSim.Tests.Sessions;
 using Xunit;
 
 namespace LagSim.Tests.Cli;
@@ -60,7 +62,9 @@ public sealed class CheckCommandTests
     public void Check_FaultInOneWorld_IsShrunkAndTheCommandItPrintsFailsWithItAlone()
     {
         // The whole way: found among several sessions, made small, printed as a command, and that command given to the tool again.
-        static void Wrong(int peer, Simulation simulation) => simulation.Fault = peer == 1 ? HealingFault.CutsByTime : HealingFault.None;
+        static void Wrong(int peer, Session session) =>
+            session.Put(new FaultyEngineParts { Healing = peer == 1 ? HealingFault.CutsByTime : HealingFault.None });
+
         (int code, string output) = Run(["check", "--sessions", "2", "--seed", "15", "--peers", "2-4"], Wrong);
         Assert.Equal(1, code);
         string[] commands = [.. output.Split('\n').Select(line => line.Trim()).Where(line => line.StartsWith("lagsim check ", StringComparison.Ordinal))];
@@ -103,7 +107,8 @@ public sealed class CheckCommandTests
     {
         using CancellationTokenSource stop = new();
         int begun = 0;
-        void StopAtTheFortieth(int peer, Simulation simulation)
+        void Watch(int peer, Session session) => session.Begun += StopAtTheFortieth;
+        void StopAtTheFortieth()
         {
             if (Interlocked.Increment(ref begun) == 40)
             {
@@ -111,7 +116,8 @@ public sealed class CheckCommandTests
             }
         }
 
-        (int code, string output) = Run(["check", "--sessions", "100000", "--seed", "10", .. json ? ["--json"] : Array.Empty<string>()], StopAtTheFortieth, stop);
+        string[] asked = ["check", "--sessions", "100000", "--seed", "10", .. json ? ["--json"] : Array.Empty<string>()];
+        (int code, string output) = Run(asked, Watch, stop);
         Assert.Equal(130, code);
         if (json)
         {
@@ -128,8 +134,8 @@ public sealed class CheckCommandTests
         Assert.Contains("failing seeds 0", output, StringComparison.Ordinal);
     }
 
-    private static (int Code, string Output) Run(string[] arguments, Action<int, Simulation>? prepare, CancellationTokenSource? stop = null) =>
-        Change(arguments, options => options with { Prepare = prepare }, stop);
+    private static (int Code, string Output) Run(string[] arguments, Action<int, Session>? prepare, CancellationTokenSource? stop = null) =>
+        Change(arguments, options => options with { PrepareSession = prepare }, stop);
 
     private static (int Code, string Output) Change(string[] arguments, Func<CheckOptions, CheckOptions> change, CancellationTokenSource? stop = null)
     {

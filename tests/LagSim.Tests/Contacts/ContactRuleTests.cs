@@ -1,6 +1,7 @@
 using System;
 using LagSim.Contacts;
 using LagSim.Scenes;
+using LagSim.Tests.Faults;
 using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
@@ -32,8 +33,12 @@ public sealed class ContactRuleTests
     [Theory]
     [InlineData(false)]
     [InlineData(true)]
-    public void Impact_OfWhatIsVeryHeavy_GoesOnThroughTheHeap(bool sweepsAlone) =>
-        Assert.Equal(sweepsAlone, Deepest(new Simulation(Heap(heavy: 1e5)) { SweepsAlone = sweepsAlone }, 1) > 0.05 * Tolerance);
+    public void Impact_OfWhatIsVeryHeavy_GoesOnThroughTheHeap(bool sweepsAlone)
+    {
+        FaultyEngineParts parts = new() { Rules = new SolverRules(settlesNormals: !sweepsAlone) };
+        Simulation simulation = new(Heap(heavy: 1e5), new SimulationOptions().WithParts(parts));
+        Assert.Equal(sweepsAlone, Deepest(simulation, 1) > 0.05 * Tolerance);
+    }
 
     private static double Deepest(Simulation simulation, double until)
     {
@@ -114,13 +119,15 @@ public sealed class ContactRuleTests
             builder.AddBody($"ball {n}", ball, place, V(3 * Any(), 3 * Any(), 3 * Any()));
         }
 
-        Simulation simulation = new(builder.Build()) { NeverCollapses = neverCollapses };
+        FaultyEngineParts parts = new() { NeverCollapses = neverCollapses };
+        Simulation simulation = new(builder.Build(), new SimulationOptions().WithParts(parts));
         long most = 20_000;
         simulation.TryAdvanceTo(At(20), ref most);
         return 20_000 - most;
     }
 
-    private static SimulationOptions Options(ContactScale scale) => new(default, SimDuration.FromSeconds(10)) { Scale = scale };
+    private static SimulationOptions Options(ContactScale scale) =>
+        new SimulationOptions(default, SimDuration.FromSeconds(10)).WithParts(new FaultyEngineParts { Scale = scale });
 
     private static ContactScale Scale(Scene scene, double? impactPart = null, double? reachPart = null)
     {

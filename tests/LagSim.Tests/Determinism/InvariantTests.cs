@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Scenes;
+using LagSim.Tests.Faults;
 using LagSim.Time;
 using LagSim.Timelines;
 using Xunit;
@@ -81,11 +82,9 @@ public sealed class InvariantTests
         Assert.Contains(Enumerable.Range(0, 200), seed =>
         {
             RandomWorld world = new(seed);
-            return RandomWorld.Difference(world.OnTime(), world.Shuffled(seed, inPieces: true, prepare: simulation =>
-            {
-                Interrupt(simulation, seed);
-                simulation.Fault = HealingFault.LeavesPartOfAnInstant;
-            })) is not null;
+            FaultyEngineParts parts = new() { Healing = HealingFault.LeavesPartOfAnInstant };
+            Simulation late = world.Shuffled(seed, inPieces: true, prepare: simulation => Interrupt(simulation, seed), parts: parts);
+            return RandomWorld.Difference(world.OnTime(), late) is not null;
         });
     }
 
@@ -247,13 +246,13 @@ public sealed class InvariantTests
     [Fact]
     public void Check_TimelinesCutByTimeInsteadOfByKey_IsSeenToFail()
     {
-        Assert.True(Differences(simulation => simulation.CutsByTime = true, HealingMode.FullRollback) > 20);
+        Assert.True(Differences(new FaultyEngineParts { CutsByTime = true }, HealingMode.FullRollback) > 20);
     }
 
     [Fact]
     public void Check_OperandsOfAContactSwapped_IsSeenToFail()
     {
-        Assert.True(Differences(simulation => simulation.SwapsOperands = true) > 20);
+        Assert.True(Differences(new FaultyEngineParts { SwapsOperands = true }) > 20);
     }
 
     [Theory]
@@ -269,7 +268,7 @@ public sealed class InvariantTests
     internal void Check_HealingInAWayKnownToBeWrong_IsSeenToFail(HealingFault fault)
     {
         int seed = 0;
-        while (seed < 1000 && !Differs(seed, simulation => simulation.Fault = fault, HealingMode.CausalCone))
+        while (seed < 1000 && !Differs(seed, new FaultyEngineParts { Healing = fault }, HealingMode.CausalCone))
         {
             seed++;
         }
@@ -289,7 +288,8 @@ public sealed class InvariantTests
         Simulation inTime = new(scene, KeepAll);
         inTime.Submit(gone);
         inTime.AdvanceTo(At(3));
-        Simulation late = new(scene, KeepAll) { Fault = isLeft ? HealingFault.LeavesMates : default };
+        FaultyEngineParts parts = new() { Healing = isLeft ? HealingFault.LeavesMates : default };
+        Simulation late = new(scene, KeepAll.WithParts(parts));
         late.AdvanceTo(At(2.5));
         Assert.Equal(MotionLaw.Resting, Read(late, Second, 2.5).Motion);
         late.Submit(gone);
@@ -311,7 +311,8 @@ public sealed class InvariantTests
         Simulation inTime = new(scene, KeepAll);
         inTime.Submit(stop);
         inTime.AdvanceTo(At(1));
-        Simulation late = new(scene, KeepAll) { Fault = isOff ? HealingFault.StopsWhereChordsMeet : default };
+        FaultyEngineParts parts = new() { Healing = isOff ? HealingFault.StopsWhereChordsMeet : default };
+        Simulation late = new(scene, KeepAll.WithParts(parts));
         late.AdvanceTo(At(0.4));
         Assert.Equal(MotionLaw.Constrained, Read(late, First, 0.4).Motion);
         late.Submit(stop);
@@ -325,7 +326,7 @@ public sealed class InvariantTests
     [Fact]
     public void Differences_NothingBroken_AreNone()
     {
-        Assert.Equal(0, Differences(_ => { }));
+        Assert.Equal(0, Differences(new FaultyEngineParts()));
     }
 
     [Fact]
@@ -374,15 +375,15 @@ public sealed class InvariantTests
         }
     }
 
-    private static int Differences(Action<Simulation> breaks, HealingMode mode = HealingMode.CausalCone) =>
-        Enumerable.Range(0, 80).Count(seed => Differs(seed, breaks, mode));
+    private static int Differences(EngineParts parts, HealingMode mode = HealingMode.CausalCone) =>
+        Enumerable.Range(0, 80).Count(seed => Differs(seed, parts, mode));
 
-    private static bool Differs(int seed, Action<Simulation> breaks, HealingMode mode)
+    private static bool Differs(int seed, EngineParts parts, HealingMode mode)
     {
         RandomWorld world = new(seed, hands: seed % 2 == 0);
         try
         {
-            return RandomWorld.Difference(world.OnTime(), world.Shuffled(seed, prepare: breaks, mode: mode)) is not null;
+            return RandomWorld.Difference(world.OnTime(), world.Shuffled(seed, mode: mode, parts: parts)) is not null;
         }
         catch (SimulationException)
         {

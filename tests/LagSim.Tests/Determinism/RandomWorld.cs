@@ -75,11 +75,12 @@ internal sealed class RandomWorld
         HealingMode mode = HealingMode.CausalCone,
         bool inPieces = false,
         int mostPairs = SimulationOptions.DefaultMostPairs,
-        IImpactObserver? observer = null)
+        IImpactObserver? observer = null,
+        EngineParts? parts = null)
     {
         Random arrivals = new(seed);
         SimulationOptions options = new(default, history ?? SimDuration.MaxValue, healing: mode) { MostPairs = mostPairs };
-        Simulation simulation = new(Scene, options.WithObserver(observer));
+        Simulation simulation = new(Scene, options.WithObserver(observer).WithParts(parts ?? EngineParts.Usual));
         prepare?.Invoke(simulation);
         double latest = history is SimDuration kept ? kept.ToSeconds() * 0.999 : End;
         List<(double When, ExternalEvent Event, bool Retracts)> lateEvents = [];

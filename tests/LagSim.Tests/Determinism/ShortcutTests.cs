@@ -1,5 +1,6 @@
 using System;
 using LagSim.Scenes;
+using LagSim.Tests.Faults;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 
@@ -17,8 +18,8 @@ public sealed class ShortcutTests
     public void Crowd_WithAndWithoutShortcuts_IsTheSameToTheBit(int seed, int bodies, double gravity, bool boxed)
     {
         Scene scene = Crowd(seed, bodies, gravity, boxed);
-        Simulation quick = Play(scene, _ => { });
-        Simulation general = Play(scene, s => s.TakesNoShortcut = true);
+        Simulation quick = Play(scene, EngineParts.Usual);
+        Simulation general = Play(scene, new FaultyEngineParts { TakesNoShortcut = true });
         Assert.Equal(general.EventHash(At(2)), quick.EventHash(At(2)));
         Assert.Equal(general.StateHash(At(2)), quick.StateHash(At(2)));
         Assert.Equal(general.ImpactsProcessed, quick.ImpactsProcessed);
@@ -30,8 +31,8 @@ public sealed class ShortcutTests
     public void Symmetric_WhereMoreThanTwoMeetAtOnce_IsTheSameToTheBit()
     {
         Scene scene = Symmetric();
-        Simulation quick = Play(scene, _ => { });
-        Simulation general = Play(scene, s => s.TakesNoShortcut = true);
+        Simulation quick = Play(scene, EngineParts.Usual);
+        Simulation general = Play(scene, new FaultyEngineParts { TakesNoShortcut = true });
         Assert.True(quick.ImpactsProcessed > 3, $"{quick.ImpactsProcessed}");
         Assert.Equal(general.EventHash(At(2)), quick.EventHash(At(2)));
     }
@@ -43,8 +44,8 @@ public sealed class ShortcutTests
     public void Bounces_OnPlanesAndASphere_AreTheSameToTheBit(double restitution, double friction)
     {
         Scene scene = Court(restitution, friction);
-        Simulation quick = Play(scene, _ => { }, 12);
-        Simulation general = Play(scene, s => s.TakesNoShortcut = true, 12);
+        Simulation quick = Play(scene, EngineParts.Usual, 12);
+        Simulation general = Play(scene, new FaultyEngineParts { TakesNoShortcut = true }, 12);
         Assert.Equal(general.EventHash(At(12)), quick.EventHash(At(12)));
         Assert.Equal(general.StateHash(At(12)), quick.StateHash(At(12)));
         Assert.Equal(0, general.Engine.Isolated.Count);
@@ -56,16 +57,17 @@ public sealed class ShortcutTests
     {
         Scene scene = new SceneBuilder("corner").WithGravity(V(0)).AddPlane("west", V(1), 0).AddPlane("floor", V(0, 1), 0)
             .AddBody("ball", new BodySpec(0.5, 1, 1), V(2, 2), V(-1, -1)).Build();
-        ulong general = Play(scene, s => s.TakesNoShortcut = true).EventHash(At(2));
-        Assert.Equal(general, Play(scene, _ => { }).EventHash(At(2)));
-        Assert.NotEqual(general, Play(scene, s => s.IgnoresTies = true).EventHash(At(2)));
+        ulong general = Play(scene, new FaultyEngineParts { TakesNoShortcut = true }).EventHash(At(2));
+        Assert.Equal(general, Play(scene, EngineParts.Usual).EventHash(At(2)));
+        Assert.NotEqual(general, Play(scene, new FaultyEngineParts { IgnoresTies = true }).EventHash(At(2)));
     }
 
     [Fact]
     public void Symmetric_WithTiesTakenForPairs_IsSeenToDiffer()
     {
         Scene scene = Symmetric();
-        Assert.NotEqual(Play(scene, s => s.TakesNoShortcut = true).EventHash(At(2)), Play(scene, s => s.IgnoresTies = true).EventHash(At(2)));
+        ulong general = Play(scene, new FaultyEngineParts { TakesNoShortcut = true }).EventHash(At(2));
+        Assert.NotEqual(general, Play(scene, new FaultyEngineParts { IgnoresTies = true }).EventHash(At(2)));
     }
 
     [Theory]
@@ -83,10 +85,9 @@ public sealed class ShortcutTests
     }
 
     // Before the first impact and after the first predictions, which both kinds of world have made alike.
-    private static Simulation Play(Scene scene, Action<Simulation> set, double seconds = 2)
+    private static Simulation Play(Scene scene, EngineParts parts, double seconds = 2)
     {
-        Simulation simulation = new(scene);
-        set(simulation);
+        Simulation simulation = new(scene, new SimulationOptions().WithParts(parts));
         simulation.AdvanceTo(At(seconds));
         return simulation;
     }

@@ -5,6 +5,7 @@ using LagSim.Events;
 using LagSim.Harness.SceneFiles;
 using LagSim.Motion;
 using LagSim.Scenes;
+using LagSim.Tests.Faults;
 using LagSim.Time;
 using LagSim.Timelines;
 using Xunit;
@@ -58,8 +59,8 @@ public sealed class TimelineStoreTests
 
         static (double Times, double RoomForEach) Copied(bool growsByLittle)
         {
-            Simulation world = new(Heap(), new SimulationOptions(default, SimDuration.FromSeconds(0.25), threads: 1));
-            world.Engine.Timelines.GrowsByLittle = growsByLittle;
+            SimulationOptions options = new(default, SimDuration.FromSeconds(0.25), threads: 1);
+            Simulation world = new(Heap(), options.WithParts(new FaultyEngineParts { GrowsByLittle = growsByLittle }));
             long copied = 0;
             int most = 0;
             for (int n = 1; n <= 1000; n++)
@@ -89,8 +90,8 @@ public sealed class TimelineStoreTests
 
     private static (int Steps, double RoomForEach) Growth(bool growsByLittle)
     {
-        Simulation world = new(BuiltInScenes.Gas(1000, 0.2), new SimulationOptions(default, SimDuration.FromSeconds(1)));
-        world.Engine.Timelines.GrowsByLittle = growsByLittle;
+        SimulationOptions options = new(default, SimDuration.FromSeconds(1));
+        Simulation world = new(BuiltInScenes.Gas(1000, 0.2), options.WithParts(new FaultyEngineParts { GrowsByLittle = growsByLittle }));
         int steps = 0;
         for (int ms = 1; ms < 1000; ms++)
         {

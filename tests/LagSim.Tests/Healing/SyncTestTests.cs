@@ -1,5 +1,5 @@
 using LagSim.Tests.Determinism;
-using LagSim.Timelines;
+using LagSim.Tests.Faults;
 using Xunit;
 
 namespace LagSim.Tests.Healing;
@@ -22,8 +22,8 @@ public sealed class SyncTestTests
     public void SyncTest_HealingThatIsWrong_EndsWithTheFirstDifferenceInBothVersions()
     {
         RandomWorld world = new(0);
-        string message = Assert.Throws<SimulationException>(
-            () => world.Shuffled(0, mode: HealingMode.SyncTest, prepare: simulation => simulation.Fault = HealingFault.ForgetsThePast)).Message;
+        FaultyEngineParts parts = new() { Healing = HealingFault.ForgetsThePast };
+        string message = Assert.Throws<SimulationException>(() => world.Shuffled(0, mode: HealingMode.SyncTest, parts: parts)).Message;
         Assert.StartsWith("The sync test failed: the world as healed and the world as fully rolled back differ. Body ", message, System.StringComparison.Ordinal);
         Assert.Matches(": expected .+ (Impact|StepEnd) .+ m/s .+\\), got .+\\.$", message);
     }

@@ -8,6 +8,7 @@ using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
 using LagSim.Tests.Determinism;
+using LagSim.Tests.Faults;
 using LagSim.Tests.Sessions;
 using LagSim.Time;
 using Xunit;
@@ -56,7 +57,8 @@ public sealed class ContactNoticesTests
             RandomWorld world = new(seed);
             Ledger onTime = new(), late = new();
             Simulation expected = world.OnTime(options: KeepAll.WithObserver(onTime.Notices));
-            Simulation simulation = world.Shuffled(seed * 7, null, s => s.CutsByTime = true, HealingMode.FullRollback, observer: late.Notices);
+            Simulation simulation = world.Shuffled(
+                seed * 7, mode: HealingMode.FullRollback, observer: late.Notices, parts: new FaultyEngineParts { CutsByTime = true });
             onTime.End(expected);
             late.End(simulation);
             different += onTime.Confirmed.Select(n => n.Key).SequenceEqual(late.Confirmed.Select(n => n.Key)) ? 0 : 1;

@@ -2,6 +2,7 @@ using System;
 using System.Linq;
 using LagSim.Scenes;
 using LagSim.Tests.Behavior;
+using LagSim.Tests.Faults;
 using LagSim.Timelines;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
@@ -156,7 +157,8 @@ public sealed class FrictionTests
     {
         SceneBuilder builder = new SceneBuilder("wall").WithGravity(V(0, -gravity)).AddPlane("floor", V(0, 1), 0.0, 0.5);
         builder = double.IsNaN(wall) ? builder : builder.AddPlane("wall", V(-1), V(R), 1, wall);
-        return new Simulation(builder.AddBody("ball", ball, V(0, R + (ignoresIslands ? 1e-3 : 0)), velocity, spin: spin).Build(), KeepAll) { IgnoresIslands = ignoresIslands };
+        Scene scene = builder.AddBody("ball", ball, V(0, R + (ignoresIslands ? 1e-3 : 0)), velocity, spin: spin).Build();
+        return new Simulation(scene, KeepAll.WithParts(new FaultyEngineParts { IgnoresIslands = ignoresIslands }));
     }
 
     /// <summary>Across a slope the slip turns: against a reference by small steps of its equation, u' = g_t - 7/2 mu g_n u / |u|.</summary>

@@ -5,8 +5,8 @@ using LagSim.Events;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Testing.Links;
+using LagSim.Tests.Faults;
 using LagSim.Time;
-using LagSim.Timelines;
 using Xunit;
 
 namespace LagSim.Tests.Sessions;
@@ -48,7 +48,7 @@ public sealed class AgreementTests
         static SessionGroup Group(HealingFault fault, string strategy)
         {
             SessionGroup group = new(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(150), 2, _ => new SessionOptions { SyncTest = true, Strategy = strategy });
-            group.Sessions[1].Begun += () => group.Sessions[1].World!.Simulation.Fault = fault;
+            group.Sessions[1].Put(new FaultyEngineParts { Healing = fault });
             group.Connect();
             try
             {

@@ -8,8 +8,8 @@ using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Clients;
 using LagSim.Net.Wire;
 using LagSim.Testing.Links;
+using LagSim.Tests.Faults;
 using LagSim.Time;
-using LagSim.Timelines;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 
@@ -18,13 +18,19 @@ namespace LagSim.Tests.Sessions;
 /// <summary>A client whose committed state is not the host's says since when, and which event makes the difference, in both versions; nobody else notices.</summary>
 public sealed class DivergenceTests
 {
-    private readonly SessionGroup group = new SessionGroup(
-        ScriptedActions.Box(), 3, LinkProfiles.PureDelay(20), options: _ => new SessionOptions { Window = new(SimDuration.FromMilliseconds(200)) }).Connect();
+    private readonly SessionGroup group = new(
+        ScriptedActions.Box(), 3, LinkProfiles.PureDelay(20), options: _ => new SessionOptions { Window = new(SimDuration.FromMilliseconds(200)) });
+    private readonly FaultyEngineParts parts = new(); // of the third's world
     private readonly List<Divergence> told = [];
     private readonly UpdateDatagram read = new();
     private readonly byte[] buffer = new byte[WireFormat.MaxBytes];
 
-    public DivergenceTests() => group.Client(2).Diverged += told.Add;
+    public DivergenceTests()
+    {
+        group.Sessions[2].Put(parts);
+        group.Connect();
+        group.Client(2).Diverged += told.Add;
+    }
 
     private SimTime Start => group.Host.World!.Simulation.Start;
 
@@ -115,8 +121,8 @@ public sealed class DivergenceTests
     [Fact]
     public void World_ThatMakesSomethingElseOfTheSameEvents_IsSaidToDoSo()
     {
-        group.Sessions[2].World!.Simulation.SwapsOperands = true;
-        group.Sessions[2].World!.Simulation.Fault = HealingFault.ForgetsThePast | HealingFault.CutsByTime;
+        parts.SwapsOperands = true;
+        parts.Healing = HealingFault.ForgetsThePast | HealingFault.CutsByTime;
         Play(60);
         Divergence found = Assert.Single(told);
         Assert.Equal(DivergenceFinding.EventsAgree, found.Finding);

@@ -8,6 +8,8 @@ using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Testing;
 using LagSim.Testing.Links;
+using LagSim.Tests.Faults;
+using LagSim.Tests.Sessions;
 using LagSim.Time;
 using LagSim.Timelines;
 using Xunit;
@@ -58,7 +60,8 @@ public sealed class SessionTestTests
     internal void Run_HealingThatIsWrongOnOnePlayer_ThrowsAndNamesPlayerBodyAndInstant(int wrong)
     {
         SessionTest test = Played(Box(), "delay-200ms");
-        test.PrepareWorld = (player, world) => world.Fault = player == wrong ? HealingFault.ForgetsThePast : HealingFault.None;
+        test.PrepareSession = (player, session) => session.Put(
+            new FaultyEngineParts { Healing = player == wrong ? HealingFault.ForgetsThePast : HealingFault.None });
         WorldsDifferException thrown = Assert.Throws<WorldsDifferException>(() => test.Run(6, Cancellation));
         Assert.Equal(wrong, thrown.Result!.FirstDifference!.Peer);
         Assert.False(thrown.Result.WorldsAgree);
@@ -66,7 +69,7 @@ public sealed class SessionTestTests
         Assert.Matches($"^Not every player ended up with the same world\\. Peer {wrong}, body 'b\\d+', .* at \\d\\.\\d+ s", thrown.Message);
         Assert.Contains($"{thrown.Result.Differing} of {thrown.Result.Compared} compared states and events differ.", thrown.Message);
         Assert.Contains("Usual causes: a force", thrown.Message, StringComparison.Ordinal);
-        test.PrepareWorld = null;
+        test.PrepareSession = null;
         test.Run(6, Cancellation); // it is the fault that is caught
     }
 
@@ -74,7 +77,7 @@ public sealed class SessionTestTests
     public void Run_WorldThatOneClientTampersWith_IsSeenThere()
     {
         SessionTest test = Played(Box(), "4g");
-        test.PrepareWorld = (player, world) => world.SwapsOperands = player == 2;
+        test.PrepareSession = (player, session) => session.Put(new FaultyEngineParts { SwapsOperands = player == 2 });
         SessionTestResult result = test.RunUnchecked(8, Cancellation);
         Assert.False(result.WorldsAgree);
         Assert.Equal(2, result.FirstDifference!.Peer);

@@ -49,14 +49,12 @@ public sealed record CheckOptions
     /// <summary>How late an event may be; null, the default: as late as the session's links need. A test has it too short.</summary>
     internal SimDuration? History { get; init; }
 
-    /// <summary>Gets each peer's number in its session and the session itself, before its first step: likewise.</summary>
+    /// <summary>Gets each peer's number in its session and the session itself, before its first step: for faults put in on purpose.</summary>
     internal Action<int, Session>? PrepareSession { get; init; }
 
-    /// <summary>Gets each peer's number in its session and its world, when the world has just been made: for faults put in on purpose.</summary>
-    internal Action<int, Simulation>? Prepare { get; init; }
-
     /// <summary>
-    /// Gets the world that has all events before it begins: for a fault that changes what is right, not only how it is healed.
+    /// What the world that has all events before it begins is run with, of what is usual: for a fault that changes what is right, not only
+    /// how it is healed.
     /// </summary>
-    internal Action<Simulation>? PrepareAlone { get; init; }
+    internal Func<SimulationOptions, SimulationOptions> PrepareAlone { get; init; } = static options => options;
 }

@@ -186,7 +186,6 @@ internal sealed class CheckSession
         void Watch()
         {
             Simulation simulation = session.World!.Simulation;
-            options.Prepare?.Invoke(address, simulation);
             if (player.IndexAbove is int bodies)
             {
                 simulation.Engine.UseListsAbove(bodies);
@@ -361,8 +360,9 @@ internal sealed class CheckSession
     {
         List<Member> there = members.FindAll(m => !m.HasGone);
         SimTime end = members.Where(m => m.Session.World is not null).Max(m => m.Session.World!.Simulation.SimulatedTo);
-        Simulation alone = new(drawn.Scene, new SimulationOptions(Host.World!.Simulation.Start, SimDuration.MaxValue, cancellation: cancellation, threads: 1)); // no step of it is taken ahead; peers may
-        options.PrepareAlone?.Invoke(alone);
+        SimTime start = Host.World!.Simulation.Start;
+        SimulationOptions usual = new(start, SimDuration.MaxValue, cancellation: cancellation, threads: 1);
+        Simulation alone = new(drawn.Scene, options.PrepareAlone(usual)); // no step of it is taken ahead; peers may
         foreach (ExternalEvent external in accepted)
         {
             alone.Submit(external);

@@ -81,6 +81,12 @@ internal sealed class SharedWorld
         }
     }
 
+    /// <summary>
+    /// What the simulation of each world is run with, of what follows from the session's options; only a test that hands in other parts
+    /// puts another rule here.
+    /// </summary>
+    internal Func<SimulationOptions, SimulationOptions> OptionsRule { get; set; } = static options => options;
+
     /// <summary>Has a step that is simulating end soon; from any thread. The world stands still from then on.</summary>
     internal void Interrupt() => interruption.Cancel();
 
@@ -208,8 +214,7 @@ internal sealed class SharedWorld
     }
 
     // The session itself decides what is forgotten, by the watermark; the simulation's own limit would go by its look-ahead.
-    private SimulationOptions WorldOptions(SimTime start) =>
-        new(
-            start, SimDuration.MaxValue, options.MaxSegments, interruption.Token,
-            options.SyncTest ? HealingMode.SyncTest : strategy.Mode, options.Threads);
+    private SimulationOptions WorldOptions(SimTime start) => OptionsRule(new SimulationOptions(
+        start, SimDuration.MaxValue, options.MaxSegments, interruption.Token,
+        options.SyncTest ? HealingMode.SyncTest : strategy.Mode, options.Threads));
 }

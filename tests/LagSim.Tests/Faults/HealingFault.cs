@@ -1,8 +1,8 @@
 using System;
 
-namespace LagSim.Timelines;
+namespace LagSim.Tests.Faults;
 
-/// <summary>Ways to heal that are known to be wrong: negative controls, which only a test sets.</summary>
+/// <summary>Ways to heal that are known to be wrong: negative controls, which <see cref="FaultyEngineParts"/> puts in.</summary>
 [Flags]
 internal enum HealingFault
 {
@@ -16,8 +16,8 @@ internal enum HealingFault
     OverlooksWhoIsAhead = 2,
 
     /// <summary>
-    /// A pending contact is given up when its partner has changed at all, as if that one would find it anew, though the piece that it was found with still
-    /// stands.
+    /// A pending contact is given up when its partner has changed at all, as if that one would find it anew, though the piece that it was
+    /// found with still stands.
     /// </summary>
     GivesUpByBody = 4,
 
@@ -42,7 +42,9 @@ internal enum HealingFault
     /// <summary>Who was looked at by a step, and found to be no part of it, is not told so.</summary>
     ForgetsWhoWasLookedAt = 512,
 
-    /// <summary>A heal ends where the members of an island are on their old chords again, whatever they carry: instants, contacts and impulses.</summary>
+    /// <summary>
+    /// A heal ends where the members of an island are on their old chords again, whatever they carry: instants, contacts and impulses.
+    /// </summary>
     StopsWhereChordsMeet = 1024,
 
     /// <summary>What has happened of an instant, of which the rest has not, stays when an earlier event comes.</summary>
@@ -56,7 +58,7 @@ internal enum HealingFault
 
     /// <summary>
     /// A body that moves on ahead of the others in a heal is taken out of the index's lists for them, though they still have to meet
-    /// it where it was. Counts for an index that is made after this is set.
+    /// it where it was.
     /// </summary>
     ForgetsWhoMovedOn = 8192,
 }

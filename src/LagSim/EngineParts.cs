@@ -1,0 +1,79 @@
+using LagSim.BroadPhase;
+using LagSim.Collisions;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Islands;
+using LagSim.Response;
+using LagSim.Rollback;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <summary>Makes those parts of an engine that another may take the place of, and has the rules that they go by.</summary>
+/// <remarks>
+/// The engine asks for each part once, when it is put together. A negative control hands in a derived class that makes a wrong part, so
+/// that no part has to know of faults. Immutable; used by many worlds.
+/// </remarks>
+internal class EngineParts
+{
+    /// <summary>The right parts.</summary>
+    internal static readonly EngineParts Usual = new();
+
+    /// <summary>What solutions of contact problems are held to.</summary>
+    internal virtual SolverRules SolverRules => SolverRules.Usual;
+
+    /// <summary>Whether contacts of a scene may last. In a periodic box none does.</summary>
+    internal virtual bool HasIslands(Scene scene) => !scene.Box.Exists;
+
+    /// <summary>What contact is measured by.</summary>
+    internal virtual ContactScale ContactScale(Scene scene, SimTime start) => new(scene.ContactTolerance, scene.Gravity, start);
+
+    internal virtual TimelineStore TimelineStore(SimTime origin, int most, INewestSegments newest, int expected, SimDuration history) =>
+        new(origin, most, newest, expected, history);
+
+    internal virtual PathView PathView(TimelineStore timelines, RollbackState rollback) => new(timelines, rollback);
+
+    internal virtual AdaptiveBroadPhase BroadPhase(Scene scene, BodyTable bodies, TimelineStore timelines, int mostPairs) =>
+        new(scene, bodies, timelines, mostPairs);
+
+    internal virtual CollisionSearch CollisionSearch(
+        BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor,
+        StepMarks stepMarks) =>
+        new(bodies, timelines, flights, surfaces, predictor, stepMarks);
+
+    internal virtual EventPredictor EventPredictor(
+        BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
+        AdaptiveBroadPhase broadPhase, CollisionSearch search, PathView view) =>
+        new(bodies, timelines, log, scheduler, rollback, flights, broadPhase, search, view);
+
+    internal virtual CutPaths CutPaths() => new();
+
+    internal virtual Rewinder Rewinder(
+        BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, Progress progress, RollbackState rollback,
+        Reconvergence reconvergence, EventPredictor predictor, HealingMode mode) =>
+        new(bodies, timelines, log, scheduler, progress, rollback, reconvergence, predictor, mode);
+
+    internal virtual Sleepers Sleepers(
+        BodyTable bodies, TimelineStore timelines, PathView view, ContactGraph graph, RewindRequests rewinds, MemberFactory members) =>
+        new(bodies, timelines, view, graph, rewinds, members);
+
+    internal virtual SegmentJoiner SegmentJoiner(
+        BodyTable bodies, TimelineStore timelines, ContactGraph graph, Partners partners, MemberFactory members) =>
+        new(bodies, timelines, graph, partners, members);
+
+    internal virtual CollapseRule CollapseRule(
+        Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, StrikeCounts strikes) =>
+        new(scene, bodies, timelines, graph, strikes);
+
+    internal virtual IsolatedImpact IsolatedImpact(
+        Scene scene, BodyTable bodies, TimelineStore timelines, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
+        ContactGraph graph, ImpactResolver resolver, ImpactNotifier notifier, ImpactSegments segments) =>
+        new(scene, bodies, timelines, scheduler, rollback, flights, graph, resolver, notifier, segments);
+
+    internal virtual ImpactGraphBuilder ImpactGraphBuilder(
+        Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, PathView view,
+        FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph) =>
+        new(scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph);
+}

@@ -1,0 +1,19 @@
+using LagSim.Collisions;
+using LagSim.Contacts;
+using LagSim.Response;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Tests.Faults;
+
+/// <summary>Ends no collapse, or takes in whoever touches, struck or not.</summary>
+internal sealed class FaultyCollapseRule(
+    Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, StrikeCounts strikes, FaultyEngineParts faults)
+    : CollapseRule(scene, bodies, timelines, graph, strikes)
+{
+    internal override bool Collapses(SimTime time) => !faults.NeverCollapses && base.Collapses(time);
+
+    private protected override bool TakesIn(int strikeCount) =>
+        faults.Has(HealingFault.CollapsesWithWhoTouches) || base.TakesIn(strikeCount);
+}

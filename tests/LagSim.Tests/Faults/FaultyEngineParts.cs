@@ -1,0 +1,111 @@
+using LagSim.BroadPhase;
+using LagSim.Collisions;
+using LagSim.Contacts;
+using LagSim.Events;
+using LagSim.Islands;
+using LagSim.Response;
+using LagSim.Rollback;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Tests.Faults;
+
+/// <summary>Makes the parts of an engine that does something wrongly, or the long way, on purpose: negative controls.</summary>
+/// <remarks>With nothing set all is right. What has a setter may be set while the world goes on.</remarks>
+internal sealed class FaultyEngineParts : EngineParts
+{
+    /// <summary>How it heals wrongly.</summary>
+    internal HealingFault Healing { get; set; }
+
+    /// <summary>Takes the operands of a contact the wrong way round.</summary>
+    internal bool SwapsOperands { get; set; }
+
+    /// <summary>Takes bodies that meet three at a time for two.</summary>
+    internal bool IgnoresTies { get; init; }
+
+    /// <summary>Builds the contact graph of every impact, however plain, and looks at every pair: the same bits by the long way.</summary>
+    internal bool TakesNoShortcut { get; init; }
+
+    /// <summary>Takes no contact for one that lasts.</summary>
+    internal bool IgnoresIslands { get; init; }
+
+    /// <summary>Bounces as often as it closes.</summary>
+    internal bool NeverCollapses { get; init; }
+
+    /// <summary>Cuts timelines at their time instead of at their key, in a full rollback.</summary>
+    internal bool CutsByTime { get; init; }
+
+    /// <summary>Does not foretell how much room timelines will need.</summary>
+    internal bool GrowsByLittle { get; init; }
+
+    /// <summary>What solutions are held to.</summary>
+    internal SolverRules Rules { get; init; } = SolverRules.Usual;
+
+    /// <summary>What contact is measured by; null for what follows from the scene.</summary>
+    internal ContactScale? Scale { get; init; }
+
+    internal override SolverRules SolverRules => Rules;
+
+    /// <summary>Whether it heals wrongly in that way.</summary>
+    internal bool Has(HealingFault wrong) => (Healing & wrong) != 0;
+
+    internal override bool HasIslands(Scene scene) => !IgnoresIslands && base.HasIslands(scene);
+
+    internal override ContactScale ContactScale(Scene scene, SimTime start) => Scale ?? base.ContactScale(scene, start);
+
+    internal override TimelineStore TimelineStore(SimTime origin, int most, INewestSegments newest, int expected, SimDuration history) =>
+        GrowsByLittle
+            ? new UnforeseeingTimelines(origin, most, newest, expected, history)
+            : base.TimelineStore(origin, most, newest, expected, history);
+
+    internal override PathView PathView(TimelineStore timelines, RollbackState rollback) =>
+        new FaultyPathView(timelines, rollback, this, isForPending: false);
+
+    internal override AdaptiveBroadPhase BroadPhase(Scene scene, BodyTable bodies, TimelineStore timelines, int mostPairs) =>
+        new FaultyBroadPhase(scene, bodies, timelines, mostPairs, this);
+
+    internal override CollisionSearch CollisionSearch(
+        BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor,
+        StepMarks stepMarks) =>
+        TakesNoShortcut
+            ? new LongSearch(bodies, timelines, flights, surfaces, predictor)
+            : base.CollisionSearch(bodies, timelines, flights, surfaces, predictor, stepMarks);
+
+    internal override EventPredictor EventPredictor(
+        BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
+        AdaptiveBroadPhase broadPhase, CollisionSearch search, PathView view) =>
+        new FaultyEventPredictor(
+            bodies, timelines, log, scheduler, rollback, flights, (FaultyBroadPhase)broadPhase, search,
+            new FaultyPathView(timelines, rollback, this, isForPending: true), this);
+
+    internal override CutPaths CutPaths() => new FaultyCutPaths(this);
+
+    internal override Rewinder Rewinder(
+        BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, Progress progress, RollbackState rollback,
+        Reconvergence reconvergence, EventPredictor predictor, HealingMode mode) =>
+        new FaultyRewinder(bodies, timelines, log, scheduler, progress, rollback, reconvergence, predictor, mode, this);
+
+    internal override Sleepers Sleepers(
+        BodyTable bodies, TimelineStore timelines, PathView view, ContactGraph graph, RewindRequests rewinds, MemberFactory members) =>
+        new FaultySleepers(bodies, timelines, (FaultyPathView)view, graph, rewinds, members, this);
+
+    internal override SegmentJoiner SegmentJoiner(
+        BodyTable bodies, TimelineStore timelines, ContactGraph graph, Partners partners, MemberFactory members) =>
+        new FaultySegmentClient(bodies, timelines, graph, partners, members, this);
+
+    internal override CollapseRule CollapseRule(
+        Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, StrikeCounts strikes) =>
+        new FaultyCollapseRule(scene, bodies, timelines, graph, strikes, this);
+
+    internal override IsolatedImpact IsolatedImpact(
+        Scene scene, BodyTable bodies, TimelineStore timelines, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
+        ContactGraph graph, ImpactResolver resolver, ImpactNotifier notifier, ImpactSegments segments) =>
+        new FaultyIsolatedImpact(scene, bodies, timelines, scheduler, rollback, flights, graph, resolver, notifier, segments, this);
+
+    internal override ImpactGraphBuilder ImpactGraphBuilder(
+        Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, PathView view,
+        FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph) =>
+        new FaultyImpactGraphBuilder(
+            scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph, this);
+}

@@ -1,0 +1,25 @@
+using LagSim.Events;
+using LagSim.Timelines;
+
+namespace LagSim.Tests.Faults;
+
+/// <summary>
+/// A view that does not see what bodies did before a late event came: all of them, those that were rewound, or the partners of pending
+/// contacts.
+/// </summary>
+internal sealed class FaultyPathView(TimelineStore timelines, RollbackState rollback, FaultyEngineParts faults, bool isForPending)
+    : PathView(timelines, rollback)
+{
+    private readonly TimelineStore timelines = timelines;
+
+    /// <summary>How far the rollback has come of which it is a view.</summary>
+    internal RollbackState Rollback { get; } = rollback;
+
+    internal override int PieceFrom(int slot, int other) =>
+        faults.Has(HealingFault.ForgetsThePast) || IsOverlooked(other) ? timelines.Last(other) : base.PieceFrom(slot, other);
+
+    private protected override int PastPieceAt(int slot, in EventKey key) =>
+        IsOverlooked(slot) || (isForPending && faults.Has(HealingFault.GivesUpByBody)) ? timelines.Last(slot) : base.PastPieceAt(slot, key);
+
+    private bool IsOverlooked(int slot) => faults.Has(HealingFault.OverlooksWhoIsAhead) && Rollback.HasTouched(slot);
+}
