@@ -85,7 +85,7 @@ internal sealed class Engine
         ImpactResolver resolver = new(scene, Bodies, Timelines, graph, capture, collapse);
         ImpactNotifier notifier = new(Bodies, Timelines, graph);
         ImpactSegments segments = new(Timelines, graph, trajectories);
-        SegmentJoiner client = parts.SegmentJoiner(Bodies, Timelines, graph, partners, members);
+        SegmentLinker linker = parts.SegmentLinker(Bodies, Timelines, graph, partners, members);
         Isolated = parts.IsolatedImpact(
             scene, Bodies, Timelines, scheduler, rollback, flights, graph, resolver, notifier, segments);
         ImpactGraphBuilder builder = parts.ImpactGraphBuilder(
@@ -95,8 +95,8 @@ internal sealed class Engine
         IslandImpact island = new(
             scene, Bodies, Timelines, rewinds, graph, Step.Scale, problem, partners, memberContacts, capture, trajectories.Friction, notifier,
             memberSegments);
-        ImpactHandler impacts = new(scene, Bodies, graph, partners, Isolated, builder, resolver, island, notifier, segments, client);
-        StepEndHandler steps = new(Timelines, graph, Stepper, trajectories, client);
+        ImpactHandler impacts = new(scene, Bodies, graph, partners, Isolated, builder, resolver, island, notifier, segments, linker);
+        StepEndHandler steps = new(Timelines, graph, Stepper, trajectories, linker);
         LonePath lonePath = new(scene, Bodies, Timelines, new LoneWorld(scene, start, options.MaxSegments));
         ExternalHandler externals = new(
             scene, Bodies, Timelines, log, flights, graph, sleepers, members, trajectories, collapse, lonePath);

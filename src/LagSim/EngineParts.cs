@@ -59,7 +59,7 @@ internal class EngineParts
         BodyTable bodies, TimelineStore timelines, PathView view, ContactGraph graph, RewindRequests rewinds, MemberFactory members) =>
         new(bodies, timelines, view, graph, rewinds, members);
 
-    internal virtual SegmentJoiner SegmentJoiner(
+    internal virtual SegmentLinker SegmentLinker(
         BodyTable bodies, TimelineStore timelines, ContactGraph graph, Partners partners, MemberFactory members) =>
         new(bodies, timelines, graph, partners, members);
 

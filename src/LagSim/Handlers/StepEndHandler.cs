@@ -9,7 +9,7 @@ namespace LagSim.Handlers;
 
 /// <summary>The end of a segment: an island takes a contact step, and any other body goes on by the law that follows.</summary>
 internal sealed class StepEndHandler(
-    TimelineStore timelines, ContactGraph graph, IslandStepper stepper, TrajectoryFactory trajectories, SegmentJoiner client)
+    TimelineStore timelines, ContactGraph graph, IslandStepper stepper, TrajectoryFactory trajectories, SegmentLinker linker)
 {
     /// <summary>Opens the segments that follow; the graph has whose they are. False if somebody has to be rewound first.</summary>
     internal bool TryHandle(int slot, in EventKey key)
@@ -27,7 +27,7 @@ internal sealed class StepEndHandler(
             return false;
         }
 
-        client.Join(canonical);
+        linker.Join(canonical);
         return true;
     }
 }

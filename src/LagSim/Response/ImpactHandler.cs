@@ -10,7 +10,7 @@ namespace LagSim.Response;
 /// <summary>Impacts: who takes part, and what comes of it.</summary>
 internal sealed class ImpactHandler(
     Scene scene, BodyTable bodies, ContactGraph graph, Partners partners, IsolatedImpact isolated, ImpactGraphBuilder builder,
-    ImpactResolver resolver, IslandImpact island, ImpactNotifier notifier, ImpactSegments segments, SegmentJoiner client)
+    ImpactResolver resolver, IslandImpact island, ImpactNotifier notifier, ImpactSegments segments, SegmentLinker linker)
 {
     /// <summary>
     /// So many rounds of impacts in one instant are endless: elastic ones, for all others collapse. The longest that end, 3,141,592 impacts
@@ -56,7 +56,7 @@ internal sealed class ImpactHandler(
             Solve(canonical, residual, collapses);
         }
 
-        client.Join(canonical);
+        linker.Join(canonical);
         return true;
     }
 

@@ -90,9 +90,9 @@ internal sealed class FaultyEngineParts : EngineParts
         BodyTable bodies, TimelineStore timelines, PathView view, ContactGraph graph, RewindRequests rewinds, MemberFactory members) =>
         new FaultySleepers(bodies, timelines, (FaultyPathView)view, graph, rewinds, members, this);
 
-    internal override SegmentJoiner SegmentJoiner(
+    internal override SegmentLinker SegmentLinker(
         BodyTable bodies, TimelineStore timelines, ContactGraph graph, Partners partners, MemberFactory members) =>
-        new FaultySegmentClient(bodies, timelines, graph, partners, members, this);
+        new FaultySegmentLinker(bodies, timelines, graph, partners, members, this);
 
     internal override CollapseRule CollapseRule(
         Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, StrikeCounts strikes) =>

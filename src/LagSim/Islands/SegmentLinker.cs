@@ -5,7 +5,7 @@ using LagSim.Timelines;
 namespace LagSim.Islands;
 
 /// <summary>Joins the segments that one event opens, so that a rollback that cuts one of them cuts all.</summary>
-internal class SegmentJoiner(
+internal class SegmentLinker(
     BodyTable bodies, TimelineStore timelines, ContactGraph graph, Partners partners, MemberFactory members)
 {
     private readonly Paths paths = new(timelines);

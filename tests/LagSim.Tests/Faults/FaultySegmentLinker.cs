@@ -6,9 +6,9 @@ using LagSim.Timelines;
 namespace LagSim.Tests.Faults;
 
 /// <summary>Does not tell who was looked at, or does not have the segments of one event cut together.</summary>
-internal sealed class FaultySegmentClient(
+internal sealed class FaultySegmentLinker(
     BodyTable bodies, TimelineStore timelines, ContactGraph graph, Partners partners, MemberFactory members, FaultyEngineParts faults)
-    : SegmentJoiner(bodies, timelines, graph, partners, members)
+    : SegmentLinker(bodies, timelines, graph, partners, members)
 {
     private readonly TimelineStore timelines = timelines;
     private readonly ContactGraph graph = graph;
