@@ -6,8 +6,8 @@ namespace LagSim.BroadPhase;
 /// <summary>The index that is none: every body is a candidate, for ever. The best for some tens of bodies.</summary>
 internal class BruteForce : IBroadPhase
 {
-    private int[] known = new int[16];
-    private int[] place = new int[16]; // slot -> 1 + position in known; 0: not there
+    private int[] known = new int[4];
+    private int[] place = new int[4]; // slot -> 1 + position in known; 0: not there
     private int count;
 
     public Span<int> Candidates(int slot, double radius, SimTime from, long heal, out SimTime until)

@@ -18,14 +18,14 @@ namespace LagSim.Contacts;
 internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, StaticSurfaces surfaces, PeriodicBox box)
 {
     private readonly Paths paths = new(timelines);
-    private int[] slots = new int[4];
-    private double[] masses = new double[4];
-    private double[] radii = new double[4];
-    private Vector3D[] positions = new Vector3D[4];
-    private Vector3D[] velocities = new Vector3D[4];
-    private Vector3D[] accelerations = new Vector3D[4];
-    private Vector3D[] spins = new Vector3D[4];
-    private ContactPoint[] contacts = new ContactPoint[1]; // as many as nearly all impacts have
+    private int[] slots = new int[2]; // as many as nearly all impacts have, as of contacts
+    private double[] masses = new double[2];
+    private double[] radii = new double[2];
+    private Vector3D[] positions = new Vector3D[2];
+    private Vector3D[] velocities = new Vector3D[2];
+    private Vector3D[] accelerations = new Vector3D[2];
+    private Vector3D[] spins = new Vector3D[2];
+    private ContactPoint[] contacts = new ContactPoint[1];
 
     /// <summary>How many bodies there are.</summary>
     internal int BodyCount { get; private set; }

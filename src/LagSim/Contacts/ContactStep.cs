@@ -20,8 +20,8 @@ internal sealed class ContactStep
     /// </summary>
     internal const int MostSweeps = 200;
 
-    private readonly NormalsAfterSweeps normals = new();
-    private readonly EnergyLimit limit = new();
+    private NormalsAfterSweeps? normals; // made when a step needs it, as the next
+    private EnergyLimit? limit;
     private readonly StepContacts contacts;
     private Motion[] free = Array.Empty<Motion>(); // by body
 
@@ -114,6 +114,7 @@ internal sealed class ContactStep
             return;
         }
 
+        limit ??= new EnergyLimit();
         limit.Remember(Problem);
         Problem.DropRebounds();
         SolveAgain(tolerance);
@@ -170,7 +171,7 @@ internal sealed class ContactStep
         else
         {
             Problem.DropImpulses();
-            Sweeps += normals.Solve(Problem, tolerance);
+            Sweeps += SolveNormals(tolerance);
         }
 
         int sweeps = ContactSolver.Solve(Problem, tolerance, MostSweeps);
@@ -178,8 +179,14 @@ internal sealed class ContactStep
         if (Rules.SettlesNormals && NormalsAfterSweeps.IsNeeded(Problem, sweeps, tolerance))
         {
             BeginAnew();
-            Sweeps += normals.Solve(Problem, tolerance);
+            Sweeps += SolveNormals(tolerance);
         }
+    }
+
+    private int SolveNormals(double tolerance)
+    {
+        normals ??= new NormalsAfterSweeps();
+        return normals.Solve(Problem, tolerance);
     }
 
     /// <summary>A velocity and a spin without contacts.</summary>

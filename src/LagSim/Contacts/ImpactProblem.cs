@@ -9,7 +9,7 @@ namespace LagSim.Contacts;
 /// </summary>
 internal sealed class ImpactProblem(ContactStep step, SolverWork work)
 {
-    private readonly NormalsAfterSweeps normals = new();
+    private NormalsAfterSweeps? normals; // made when an impact needs it
     private bool[] isReached = Array.Empty<bool>(); // whether the impulse has gone on from a body to those that it holds
     private Vector3D[] velocitiesBefore = Array.Empty<Vector3D>();
     private Vector3D[] spinsBefore = Array.Empty<Vector3D>();
@@ -78,6 +78,7 @@ internal sealed class ImpactProblem(ContactStep step, SolverWork work)
                 Problem.Bodies[i].Spin = spinsBefore[i];
             }
 
+            normals ??= new NormalsAfterSweeps();
             taken += normals.Solve(Problem, tolerance);
         }
 

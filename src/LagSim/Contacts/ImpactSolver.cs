@@ -17,7 +17,7 @@ internal sealed class ImpactSolver
     /// <summary>By what share of what is exchanged the energy may be off by rounding.</summary>
     private const double Rounding = 1e-9;
 
-    private readonly NormalImpulses normals = new();
+    private NormalImpulses? normals; // made when an impact has several contacts
     private double[] demand = Array.Empty<double>(); // by contact: target - u before
     private double[] impulse = Array.Empty<double>(); // by contact
     private Vector3D[] change = Array.Empty<Vector3D>(); // by body: of its velocity
@@ -155,6 +155,7 @@ internal sealed class ImpactSolver
     {
         Span<double> impulses = impulse.AsSpan(0, contacts.Length);
         Span<Vector3D> changes = change.AsSpan(0, bodies);
+        normals ??= new NormalImpulses();
         return normals.TrySolve(contacts, masses, demand.AsSpan(0, contacts.Length), impulses, changes);
     }
 

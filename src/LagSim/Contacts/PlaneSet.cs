@@ -6,7 +6,7 @@ namespace LagSim.Contacts;
 /// <remarks>Filled and cleared again and again: it allocates only when a body touches more planes than any before.</remarks>
 internal sealed class PlaneSet
 {
-    private int[] planes = new int[8];
+    private int[] planes = Array.Empty<int>();
     private int count;
 
     internal Span<int> Planes => planes.AsSpan(0, count);
@@ -23,7 +23,7 @@ internal sealed class PlaneSet
 
         if (count == planes.Length)
         {
-            Array.Resize(ref planes, count * 2);
+            Array.Resize(ref planes, Math.Max(4, count * 2));
         }
 
         Array.Copy(planes, ~at, planes, ~at + 1, count - ~at);

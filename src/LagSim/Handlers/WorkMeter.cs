@@ -19,8 +19,6 @@ internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, SolverWork
     /// </summary>
     private const double WorkAgain = 4;
 
-    private readonly int[] alone = new int[1];
-
     /// <summary>Is told of every event that is processed; null, the default, costs nothing.</summary>
     internal IWorkObserver? Observer { get; set; }
 
@@ -36,7 +34,7 @@ internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, SolverWork
     internal WorkVerdict Tell(int slot, in EventKey key)
     {
         bool isOfMany = graph.BodyCount > 0 && key.Kind is EventKind.Impact or EventKind.StepEnd;
-        alone[0] = slot;
+        Span<int> alone = stackalloc int[1] { slot };
         Span<int> who = isOfMany ? graph.Slots : alone;
         bool isAgain = key.Time <= rollback.Horizon;
         return Observer?.OnWork(key, who, WorkOf(who.Length, isAgain), isAgain, bodies) ?? WorkVerdict.GoOn;

@@ -15,7 +15,7 @@ internal sealed class ImpactResolver(
     private readonly StaticSurfaces surfaces = scene.Surfaces;
     private readonly ImpactSolver solver = new();
     private readonly ImpactFriction friction = new();
-    private double[] coefficients = new double[8];
+    private double[] coefficients = Array.Empty<double>();
 
     /// <summary>What each contact of the graph is to rebound with, and whether it lasts from here on.</summary>
     internal void SetTargets(bool collapses, SimTime time)

@@ -23,15 +23,9 @@ internal class CutPaths
     private readonly List<int> order = new(); // of pieces that are put back
     private readonly List<PersistentContact> contacts = new(); // of pieces, one list after the other
     private readonly List<(int Slot, int Earliest)> bodies = new();
-    private readonly Comparison<int> byKey;
-    private int[] joined = new int[4];
+    private Comparison<int>? byKey; // made when something is put back
+    private int[] joined = Array.Empty<int>();
     private int differing; // a body that was not on its old path when last looked at
-
-    internal CutPaths() => byKey = (a, b) =>
-    {
-        int compared = EventKey.Compare(pieces[a].Key, pieces[b].Key);
-        return compared != 0 ? compared : pieces[a].Slot.CompareTo(pieces[b].Slot);
-    };
 
     /// <summary>Whether everything that the heal has cut is here.</summary>
     internal bool IsWhole { get; private set; }
@@ -145,6 +139,7 @@ internal class CutPaths
             }
         }
 
+        byKey ??= CompareKeys;
         order.Sort(byKey);
         for (int from = 0; from < order.Count;)
         {
@@ -157,7 +152,7 @@ internal class CutPaths
                 PutBackContacts(timelines, piece, table.Id(piece.Slot));
                 if (count == joined.Length)
                 {
-                    Array.Resize(ref joined, count * 2);
+                    Array.Resize(ref joined, Math.Max(4, count * 2));
                 }
 
                 joined[count++] = piece.Slot;
@@ -168,6 +163,12 @@ internal class CutPaths
                 timelines.Join(joined.AsSpan(0, count)); // a key is that of no other event
             }
         }
+    }
+
+    private int CompareKeys(int a, int b)
+    {
+        int compared = EventKey.Compare(pieces[a].Key, pieces[b].Key);
+        return compared != 0 ? compared : pieces[a].Slot.CompareTo(pieces[b].Slot);
     }
 
     private bool IsMet(TimelineStore timelines, int slot, int earliest, SimTime time)

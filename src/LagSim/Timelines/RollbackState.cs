@@ -62,7 +62,7 @@ internal sealed class RollbackState
     {
         if (slot >= healedIn.Length)
         {
-            Array.Resize(ref healedIn, Math.Max(slot + 1, Math.Max(16, healedIn.Length * 2)));
+            Array.Resize(ref healedIn, Math.Max(slot + 1, Math.Max(4, healedIn.Length * 2)));
         }
 
         healedIn[slot] = 0;
