@@ -390,7 +390,7 @@ public sealed class WirePageTests
     {
         MemoryStream bytes = new();
         uint surface = contact.Surface == PersistentContact.NoSurface ? 0xFFFFFFFF : (uint)contact.Surface;
-        Write(bytes, Table(page, "### Lasting contact"), Values(
+        Write(bytes, Table(page, "### Persistent contact"), Values(
             ("partner", contact.Partner.Packed), ("surface", surface), ("holds", contact.Holds ? 1 : 0), ("push", contact.Push),
             ("turn", contact.Turn)));
         return bytes.ToArray();
