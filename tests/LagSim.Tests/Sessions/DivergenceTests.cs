@@ -19,7 +19,7 @@ namespace LagSim.Tests.Sessions;
 public sealed class DivergenceTests
 {
     private readonly SessionGroup group = new SessionGroup(
-        ScriptedActions.Box(), 3, LinkProfiles.PureDelay(20), options: _ => new SessionOptions { Window = new(SimDuration.FromMilliseconds(200)) }).Connect();
+        ScriptedActions.Box(), 3, LinkProfiles.PureDelay(20), options: _ => new HostOptions { Window = new(SimDuration.FromMilliseconds(200)) }).Connect();
     private readonly List<Divergence> told = [];
     private readonly UpdateDatagram read = new();
     private readonly byte[] buffer = new byte[WireFormat.MaxBytes];
