@@ -42,7 +42,7 @@ internal sealed class EventWayRun
 
     /// <summary>A line for each event: who did it, its kind, and from its stamp to the other's world and to its being published, from its being asked for to its stamp, in ms;
     /// and then one of the process.</summary>
-    internal static void Print(SessionOptions options, int rounds, int seed)
+    internal static void Print(HostOptions options, int rounds, int seed)
     {
         GCSettings.LatencyMode = GCLatencyMode.Interactive; // the default, told: a game has it
         Scene scene = new SceneBuilder("way")
@@ -53,7 +53,7 @@ internal sealed class EventWayRun
         long began = Stopwatch.GetTimestamp();
         using PeerThread host = PeerThread.Host(scene, options: options, bind: IPAddress.Loopback);
         double calling = Stopwatch.GetElapsedTime(began).TotalMilliseconds;
-        using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Loopback, host.LocalAddress.ToEndPoint().Port), options);
+        using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Loopback, host.LocalAddress.ToEndPoint().Port), ClientOptions.From(options));
         TimeSpan timeout = TimeSpan.FromSeconds(20);
         if (!host.WaitUntilRunning(timeout) || !client.WaitUntilRunning(timeout))
         {

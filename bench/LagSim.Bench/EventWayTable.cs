@@ -51,7 +51,7 @@ internal static class EventWayTable
 
     internal static int RunOne(string[] arguments)
     {
-        EventWayRun.Print(new SessionOptions(), int.Parse(arguments[1], CultureInfo.InvariantCulture), int.Parse(arguments[2], CultureInfo.InvariantCulture));
+        EventWayRun.Print(new HostOptions(), int.Parse(arguments[1], CultureInfo.InvariantCulture), int.Parse(arguments[2], CultureInfo.InvariantCulture));
         return 0;
     }
 

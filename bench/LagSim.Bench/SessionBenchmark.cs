@@ -30,7 +30,7 @@ public class SessionBenchmark
     {
         Scene scene = new SceneBuilder("bench").AddPlane("floor", Vector3D.Up, Vector3D.Zero).AddBody("ball", new BodySpec(0.5, 1, 0.5), new Vector3D(0, 0.5, 0)).Build();
         port = new FeedPort();
-        host = new HostSession(scene, port, clock, new SessionOptions { MaxEventsPerSecond = 100_000, StartLead = SimDuration.Zero }, 99);
+        host = new HostSession(scene, port, clock, new HostOptions { MaxEventsPerSecond = 100_000, StartLead = SimDuration.Zero }, 99);
         byte[] bytes = new byte[WireFormat.MaxBytes];
         Feed(bytes.AsSpan(0, new ConnectRequestDatagram(1).Encode(bytes)));
         ChallengeDatagram.TryDecode(port.LastSent, out ChallengeDatagram challenge, out _);

@@ -37,9 +37,9 @@ internal static class TrafficTable
         for (int peer = 0; peer < peers; peer++)
         {
             IDatagramPort port = network.CreatePort(peer);
-            SessionOptions options = new() { ExpectedClients = peers - 1 };
+            HostOptions options = new() { ExpectedClients = peers - 1 };
             steps.Add(
-                peer == 0 ? new HostSession(scene, port, clock, options, 1) : new ClientSession(null, port, clock, options, PeerAddress.Virtual(0), (ulong)peer),
+                peer == 0 ? new HostSession(scene, port, clock, options, 1) : new ClientSession(null, port, clock, ClientOptions.From(options), PeerAddress.Virtual(0), (ulong)peer),
                 port);
         }
 

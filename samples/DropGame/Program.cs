@@ -36,14 +36,13 @@ List<PeerThread> peers = [];
 try
 {
     peers.Add(there is not null ? PeerThread.Join(there) : PeerThread.Host(scene, port));
-    int own = peers[0].LocalAddress.ToEndPoint().Port;
-    Console.WriteLine(there is null ? $"listening on port {own}" : $"joining {there}");
+    PeerThread me = peers[0];
+    Console.WriteLine(there is null ? $"listening on port {me.LocalAddress.ToEndPoint().Port}" : $"joining {there}");
     if (isDemo)
     {
-        peers.Add(PeerThread.Join(new IPEndPoint(IPAddress.Loopback, own)));
+        peers.Add(PeerThread.Join(me.LocalAddress.ToEndPoint()));
     }
 
-    PeerThread me = peers[0];
     if (!me.WaitUntilRunning(TimeSpan.FromMinutes(isDemo ? 0.2 : 10)))
     {
         Console.Error.WriteLine(me.Session.EndReason ?? "Nobody came.");

@@ -17,5 +17,5 @@ public static class Pitch
         .Build();
 
     // An event may come up to five seconds late and is still accepted.
-    public static SessionOptions Options() => new() { Window = new(SimDuration.FromSeconds(5)) };
+    public static HostOptions Options() => new() { Window = new(SimDuration.FromSeconds(5)) };
 }

@@ -1,5 +1,6 @@
 using LagSim;
 using LagSim.Events;
+using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Testing;
 using LagSim.Testing.Links;
@@ -61,7 +62,7 @@ public sealed class PitchTests
             .AddBody("leaf", new BodySpec(radius: 0.1, mass: 0.1, restitution: 0.5, forces: wind), position: new Vector3D(0, 5, 0))
             .Build();
         SessionTest test = new SessionTest(scene)
-            .WithOptions(player => new() { Accelerations = [new Wind(player == 1 ? 1.0001 : 1.0)] })
+            .WithOptions(player => new ClientOptions { Accelerations = [new Wind(player == 1 ? 1.0001 : 1.0)] })
             .WithClients(1, "lan");
         WorldsDifferException thrown =
             Assert.Throws<WorldsDifferException>(() => test.Run(seconds: 3, TestContext.Current.CancellationToken));

@@ -1,6 +1,5 @@
 // Two peers share a world over UDP: what one does, both have, to the last bit.
 using System;
-using System.Net;
 using System.Threading;
 using System.Threading.Tasks;
 using LagSim;
@@ -17,7 +16,7 @@ BodyId ball = scene.BodyNamed("ball");
 
 // On two machines each would have one of these lines; the client gets the scene from the host.
 using PeerThread host = PeerThread.Host(scene);
-using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Loopback, host.LocalAddress.ToEndPoint().Port));
+using PeerThread client = PeerThread.Join(host.LocalAddress.ToEndPoint());
 if (!host.WaitUntilRunning(TimeSpan.FromSeconds(5)) || !client.WaitUntilRunning(TimeSpan.FromSeconds(5)))
 {
     Console.Error.WriteLine(client.Session.EndReason ?? "The two did not come together.");
@@ -28,11 +27,11 @@ for (int frame = 0; frame < 30; frame++)
 {
     if (frame == 15)
     {
-        Console.WriteLine("the joiner kicks the ball");
+        Console.WriteLine("the client kicks the ball");
         _ = client.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
     }
 
-    Console.WriteLine($"host {Height(host),7:0.000} m   joiner {Height(client),7:0.000} m");
+    Console.WriteLine($"host {Height(host),7:0.000} m   client {Height(client),7:0.000} m");
     Thread.Sleep(75);
 }
 

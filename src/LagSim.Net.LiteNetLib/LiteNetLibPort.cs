@@ -7,7 +7,6 @@ using System.Net.Sockets;
 using System.Text;
 using System.Threading;
 using LagSim.Net.Sessions;
-using LagSim.Net.Wire;
 using LiteNetLib;
 
 namespace LagSim.Net.Carriers;
@@ -86,7 +85,7 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     public LiteNetLibPort(IPEndPoint bind, string? key = null, int maxConnections = DefaultMaxConnections)
     {
         Check(bind, key, maxConnections);
-        this.key = Encoding.UTF8.GetBytes(key is null ? $"LagSim {WireFormat.Version}" : $"LagSim {WireFormat.Version}: {key}");
+        this.key = Encoding.UTF8.GetBytes(key is null ? $"LagSim {Session.WireVersion}" : $"LagSim {Session.WireVersion}: {key}");
         this.maxConnections = maxConnections;
         bool isDual = bind.AddressFamily == AddressFamily.InterNetworkV6;
         manager = new LiteNetManager(new Listener(this))

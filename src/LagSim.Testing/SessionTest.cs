@@ -121,11 +121,12 @@ public sealed class SessionTest
         return this;
     }
 
-    /// <summary>Sets how the peers take part: the game's own session options. Default: <c>new SessionOptions()</c>.</summary>
+    /// <summary>Sets how the peers take part: the game's own session options. Default: all defaults.</summary>
     /// <param name="options">
-    /// Called once a run for each player, with its number; must return a new object each time. The test itself sets
-    /// <see cref="SessionOptions.ExpectedClients"/>, <see cref="SessionOptions.Cancellation"/>, and a
-    /// <see cref="SessionOptions.StartLead"/> in which all hear of the start; a client without <see cref="SessionOptions.Accelerations"/>
+    /// Called once a run for each player, with its number: 0 is the host. Returns <see cref="HostOptions"/> or <see cref="ClientOptions"/>;
+    /// where a host gets a client's, or a client a host's, what both sides have counts. The test itself sets
+    /// <see cref="HostOptions.ExpectedClients"/>, <see cref="SessionOptions.Cancellation"/>, and a
+    /// <see cref="HostOptions.StartLead"/> in which all hear of the start; a client without <see cref="ClientOptions.Accelerations"/>
     /// gets the scene's; and where nobody is told of contacts, timelines are kept for the whole run
     /// (<see cref="SessionOptions.ExtraHistory"/>), so that a difference can be named to the event.
     /// </param>
@@ -242,7 +243,7 @@ public sealed class SessionTest
 
         // Its own source: the token of a whole program would keep these peers.
         using CancellationTokenSource stop = CancellationTokenSource.CreateLinkedTokenSource(cancellation);
-        return new SessionRun(scene, clients, acts, seed, options ?? (_ => new SessionOptions()), PrepareSession, stop.Token).Play(seconds);
+        return new SessionRun(scene, clients, acts, seed, options ?? (_ => new HostOptions()), PrepareSession, stop.Token).Play(seconds);
     }
 
     private static ArgumentOutOfRangeException TooShort(double seconds, string what) =>

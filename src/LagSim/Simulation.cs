@@ -16,6 +16,20 @@ namespace LagSim;
 /// <para>An exception out of <see cref="AdvanceTo"/> other than an argument's leaves it faulted: every later call throws. One that was
 /// cancelled still stands from <see cref="HistoryEdge"/> to <see cref="SimulatedTo"/>, if that is not before it.</para>
 /// </remarks>
+/// <example>
+/// A late event changes the past, and what follows is simulated again:
+/// <code>
+/// Simulation world = new(scene);
+/// world.AdvanceTo(SimTime.FromSeconds(2));
+/// ExternalEvent kick = PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)).Stamp(SimTime.FromSeconds(1.5), peer: 1, sequence: 1);
+/// world.Submit(kick);
+/// world.AdvanceTo(SimTime.FromSeconds(2)); // as if the kick had come in time, to the last bit
+/// if (world.TryRead(ball, SimTime.FromSeconds(2), out BodyState state))
+/// {
+///     Console.WriteLine($"{state.Position} {world.StateHash(SimTime.FromSeconds(2)):x16}");
+/// }
+/// </code>
+/// </example>
 public sealed class Simulation
 {
     private readonly SyncTest? syncTest;

@@ -53,16 +53,20 @@ internal static class HostCommand
                 scripted.ActionIn(loaded);
             }
 
-            request.Options.PlayerBudget = HarmCommand.Budget(parsed.GetValue(budget));
-            request.Options.ExpectedClients = parsed.GetValue(clients);
-            request.Options.Window = request.Options.Window.WithHistory(SimDuration.FromSeconds(parsed.GetValue(history)));
+            HostOptions options = HostOptions.From(request.Options) with
+            {
+                PlayerBudget = HarmCommand.Budget(parsed.GetValue(budget)),
+                ExpectedClients = parsed.GetValue(clients),
+                Window = request.Options.Window.WithHistory(SimDuration.FromSeconds(parsed.GetValue(history))),
+            };
             if (parsed.GetValue(perAddress) is int most and > 0)
             {
-                request.Options.MaxClientsPerAddress = most;
+                options = options with { MaxClientsPerAddress = most };
             }
 
+            request = request with { Options = options };
             using UdpPort carrier = new(new IPEndPoint(local, parsed.GetValue(port)));
-            HostSession session = Open(loaded, carrier, request.Options);
+            HostSession session = Open(loaded, carrier, options);
             bool json = parsed.GetValue(common.Json);
             SessionPrinter printer = new(console, json, "host", parsed.GetValue(common.Seed), request.Seconds, request.RecordFile)
             {
@@ -81,7 +85,7 @@ internal static class HostCommand
         return command;
     }
 
-    private static HostSession Open(Scene scene, UdpPort carrier, SessionOptions options)
+    private static HostSession Open(Scene scene, UdpPort carrier, HostOptions options)
     {
         try
         {

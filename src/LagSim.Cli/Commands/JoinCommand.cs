@@ -35,22 +35,23 @@ internal static class JoinCommand
         command.SetAction(parsed =>
         {
             SessionRequest request = shared.Read(parsed);
+            ClientOptions options = ClientOptions.From(request.Options);
             string? passFile = parsed.GetValue(pass);
             if (passFile is not null)
             {
                 ThrowIfSame(passFile, request.RecordFile);
-                request.Options.Pass = PassFile.Read(passFile);
+                options = options with { Pass = PassFile.Read(passFile) };
                 PassFile.ThrowIfNotWritable(passFile); // to be said before anybody has joined
             }
 
             IPEndPoint there = EndPointText.Resolve(parsed.GetValue(host)!, "join", console.Stop);
-            request = request with { Host = there };
+            request = request with { Options = options, Host = there };
             using UdpPort carrier = new(UdpDestination.Facing(there.Address));
             ClientSession session = new(
-                null, carrier, new StopwatchClock(), request.Options, PeerAddress.From(there), Session.DrawNumber());
+                null, carrier, new StopwatchClock(), options, PeerAddress.From(there), Session.DrawNumber());
             if (passFile is not null)
             {
-                PlayerPass former = request.Options.Pass;
+                PlayerPass former = options.Pass;
                 session.PassGiven += given =>
                 {
                     if (former.Number > 0 && given != former)

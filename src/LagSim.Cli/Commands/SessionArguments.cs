@@ -73,7 +73,7 @@ internal sealed class SessionArguments
         command.Options.Add(rejoin);
     }
 
-    /// <summary>What they say.</summary>
+    /// <summary>What they say; of the options what both sides have.</summary>
     /// <exception cref="UsageException">They do not go together.</exception>
     /// <exception cref="System.IO.IOException">The recording cannot be written.</exception>
     /// <exception cref="UnauthorizedAccessException">The same, for lack of permission.</exception>
@@ -98,7 +98,7 @@ internal sealed class SessionArguments
         }
 
         double silence = parsed.GetValue(timeout);
-        SessionOptions options = new()
+        ClientOptions options = new()
         {
             ConnectKey = parsed.GetValue(key) ?? "",
             Timeout = SimDuration.FromSeconds(silence),

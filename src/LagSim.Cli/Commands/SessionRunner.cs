@@ -94,6 +94,7 @@ internal sealed class SessionRunner : IDisposable
         }
 
         thread = new PeerThread(session, port, "LagSim session");
+        thread.HandlerFailed += failure => Tell(() => printer.Problem($"Something that happened could not be told: {failure.Message}"));
         onStop = stop.Register(Wake);
     }
 
@@ -131,7 +132,7 @@ internal sealed class SessionRunner : IDisposable
         }
         catch (InvalidOperationException fault) when (fault.InnerException is not null)
         {
-            throw new InputException(fault.Message, fault); // the session's thread ended by an exception, of which a handler or a force is the likeliest source
+            throw new InputException(fault.Message, fault); // the session's thread ended by an exception, of which a force is the likeliest source
         }
 
         bool isTimeReached = request.Seconds is null || (session.World is not null && Passed(session.World.Simulation.Start) >= request.Seconds);
@@ -240,7 +241,7 @@ internal sealed class SessionRunner : IDisposable
         if (!hasToldSilence && asked >= SilenceToTell && session is ClientSession { State: SessionState.Joining } && session.Counters.DatagramsReceived == 0)
         {
             hasToldSilence = true;
-            SessionOptions options = request.Options;
+            ClientOptions options = ClientOptions.From(request.Options);
             SimDuration most = options.Pass.Number > 0 && options.RejoinTime > options.Timeout ? options.RejoinTime : options.Timeout;
             printer.Problem(FormattableString.Invariant($"No host answers at {request.Host} yet; asking for up to {most.ToSeconds():0.###} s. Ctrl-C ends it."));
         }

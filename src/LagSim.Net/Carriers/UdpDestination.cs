@@ -6,7 +6,7 @@ using System.Net.Sockets;
 namespace LagSim.Net.Carriers;
 
 /// <summary>What can be sent to, and from where: the rules for who takes an address from a user.</summary>
-public static class UdpDestination
+internal static class UdpDestination
 {
     /// <summary>
     /// Whether it is the address of one machine, and a port from 1 on; what listens at "all addresses" can be reached at each of them, but not at that.

@@ -7,7 +7,7 @@ namespace LagSim.Net.Clocks;
 /// How far another peer's clock is ahead of one's own, at any own time: an offset at one instant, the drift since, and how wrong both may be.
 /// </summary>
 /// <remarks>Immutable, safe on any thread. Read with integers only. <c>default</c> says that the two clocks are the same.</remarks>
-public readonly struct ClockEstimate
+internal readonly struct ClockEstimate
 {
     /// <summary>The most that two clocks drift apart, in parts per million: 500. Two crystals differ by some 100.</summary>
     public const double MaxDrift = 500;

@@ -25,7 +25,7 @@ namespace LagSim.Net.Clocks;
 /// <para>For one thread at a time. Deterministic. Bounded memory, no allocation after construction. An exchange costs a few passes over at most 60 others,
 /// however many came.</para>
 /// </remarks>
-public sealed class ClockSync
+internal sealed class ClockSync
 {
     /// <summary>For how long an exchange counts: 60 s. The newest counts until there is a newer one.</summary>
     public static readonly SimDuration Window = SimDuration.FromSeconds(WindowSeconds);

@@ -30,7 +30,7 @@ public sealed class SharedClock : IClock
     /// <summary>A clock that is not set yet.</summary>
     /// <param name="own">This machine's own clock, which no one adjusts.</param>
     /// <exception cref="ArgumentNullException"><paramref name="own"/> is null.</exception>
-    public SharedClock(IClock own) => this.own = own ?? throw new ArgumentNullException(nameof(own));
+    internal SharedClock(IClock own) => this.own = own ?? throw new ArgumentNullException(nameof(own));
 
     /// <summary>Whether there is a shared time to read.</summary>
     public bool IsSet
@@ -94,7 +94,7 @@ public sealed class SharedClock : IClock
     /// </summary>
     /// <param name="estimate">Shared time minus own time, within 48 days of zero, with its drift.</param>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="estimate"/> is further from zero by now.</exception>
-    public void Adjust(in ClockEstimate estimate)
+    internal void Adjust(in ClockEstimate estimate)
     {
         lock (gate)
         {
@@ -130,7 +130,7 @@ public sealed class SharedClock : IClock
     /// <summary>Gives the clock an estimate without drift.</summary>
     /// <param name="offset">Shared time minus own time, within 48 days of zero.</param>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="offset"/> is further from zero.</exception>
-    public void Adjust(SimDuration offset) => Adjust(new ClockEstimate(SimTime.Zero, offset));
+    internal void Adjust(SimDuration offset) => Adjust(new ClockEstimate(SimTime.Zero, offset));
 
     private void Advance() => AdvanceTo(SimTime.Max(own.Now, read));
 

@@ -19,6 +19,23 @@ namespace LagSim.Net.Display;
 /// <para>For one world: who joins another makes another. A frame costs two readings of the render snapshot a body, and for each body with an offset one look at every
 /// other. Memory grows with the bodies of the render snapshot; otherwise nothing is allocated. Not thread-safe: for the thread that reads render snapshots.</para>
 /// </remarks>
+/// <example>
+/// Each frame:
+/// <code>
+/// DisplayOffsets display = new(me.Session.Scene!);
+///
+/// // each frame
+/// if (me.Latest() is RenderSnapshot snapshot)
+/// {
+///     display.Update(snapshot, me.Session.DisplayTime);
+/// }
+///
+/// if (display.TryRead(ball, out DrawnBody drawn))
+/// {
+///     Console.WriteLine($"drawn at {drawn.Position}, in truth at {drawn.State.Position}");
+/// }
+/// </code>
+/// </example>
 public sealed class DisplayOffsets
 {
     private readonly Scene scene;

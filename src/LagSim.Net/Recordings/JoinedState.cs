@@ -7,7 +7,7 @@ namespace LagSim.Net.Recordings;
 
 /// <summary>What a peer that joined late began with, in place of the part of the log that it never got.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
-public sealed class JoinedState
+internal sealed class JoinedState
 {
     /// <summary>A state of these.</summary>
     /// <param name="firstIndex">See <see cref="FirstIndex"/>.</param>

@@ -51,7 +51,7 @@ public sealed class Recording
     public string? SceneError { get; }
 
     /// <summary>What the peer began with, if it joined late; else null, and the log here begins with entry 1.</summary>
-    public JoinedState? Joined { get; }
+    internal JoinedState? Joined { get; }
 
     /// <summary>The host's log in its order, without a gap.</summary>
     public IReadOnlyList<LogEntry> Entries { get; }

@@ -15,7 +15,7 @@ namespace LagSim.Net.Recordings;
 /// <para>For one thread at a time. Writing entries and states allocates nothing. What the stream throws reaches the caller; a record may then
 /// be half written, so nothing more can be.</para>
 /// </remarks>
-public sealed class RecordingWriter : IDisposable
+internal sealed class RecordingWriter : IDisposable
 {
     private readonly Stream stream;
     private readonly bool leaveOpen;

@@ -15,11 +15,15 @@ internal sealed class ActionRequests
     private readonly ActionRequest[] ring = new ActionRequest[Kept];
     private int next;
 
-    internal ActionRequests()
+    private readonly Action<PlayerAction, Exception> refused;
+
+    /// <param name="refused">Told of each that is refused, on the session's thread, before the answer is there.</param>
+    internal ActionRequests(Action<PlayerAction, Exception> refused)
     {
+        this.refused = refused;
         for (int n = 0; n < Kept; n++)
         {
-            ring[n] = new ActionRequest();
+            ring[n] = new ActionRequest(refused);
         }
     }
 
@@ -32,7 +36,7 @@ internal sealed class ActionRequests
             next = (at + 1) % Kept;
             if (!ring[at].TryBegin(action))
             {
-                ring[at] = new ActionRequest();
+                ring[at] = new ActionRequest(refused);
                 ring[at].TryBegin(action);
             }
 
@@ -42,7 +46,8 @@ internal sealed class ActionRequests
 }
 
 /// <summary>One action that the session's thread is asked to do, and its answer.</summary>
-internal sealed class ActionRequest : IPeerRequest, IValueTaskSource<ExternalEvent>
+/// <param name="refused">Told if it is refused, on the session's thread, before the answer is there.</param>
+internal sealed class ActionRequest(Action<PlayerAction, Exception> refused) : IPeerRequest, IValueTaskSource<ExternalEvent>
 {
     private readonly object gate = new(); // of what tells whether it can be used again
     private ManualResetValueTaskSourceCore<ExternalEvent> core = new() { RunContinuationsAsynchronously = true };
@@ -87,6 +92,7 @@ internal sealed class ActionRequest : IPeerRequest, IValueTaskSource<ExternalEve
         }
         catch (Exception failure)
         {
+            refused(action, failure);
             core.SetException(failure);
         }
 

@@ -25,6 +25,10 @@ public sealed class ClientSession : Session
     public const int MaxUnconfirmedEvents = 1 << 14;
 
     private readonly ClientProtocol client;
+    private readonly HandlerList<Action<string>> interrupted;
+    private readonly HandlerList<Action<PlayerPass>> passGiven;
+    private readonly HandlerList<Action> regained;
+    private readonly HandlerList<Action<Divergence>> diverged;
 
     /// <summary>Asks to be let in, from the first step on.</summary>
     /// <param name="scene">The scene that the host is expected to have; null takes the host's, whichever it is.</param>
@@ -33,55 +37,64 @@ public sealed class ClientSession : Session
     /// <param name="options">How to take part.</param>
     /// <param name="host">Where the host is.</param>
     /// <param name="nonce">A number chosen at random; an answer must bear it.</param>
-    public ClientSession(Scene? scene, IDatagramPort port, IClock clock, SessionOptions options, PeerAddress host, ulong nonce)
-        : this(new ClientProtocol(new SessionParts(scene, port, clock, options, SessionState.Joining), host, nonce))
+    public ClientSession(Scene? scene, IDatagramPort port, IClock clock, ClientOptions options, PeerAddress host, ulong nonce)
+        : this(new ClientProtocol(new SessionParts(scene, port, clock, options, SessionState.Joining), options, host, nonce))
     {
     }
 
     private ClientSession(ClientProtocol client)
-        : base(client.Parts, client) => this.client = client;
+        : base(client.Parts, client)
+    {
+        this.client = client;
+        interrupted = new(client.Parts.Owner);
+        passGiven = new(client.Parts.Owner);
+        regained = new(client.Parts.Owner);
+        diverged = new(client.Parts.Owner);
+        client.Loss.Interrupted += why => interrupted.Raise(why, static (handler, told) => handler(told));
+        client.Seat.PassGiven += pass => passGiven.Raise(pass, static (handler, told) => handler(told));
+        client.Loss.Regained += () => regained.Raise(0, static (handler, _) => handler());
+        client.Finder.Found += found => diverged.Raise(found, static (handler, told) => handler(told));
+    }
 
     /// <summary>
     /// Raised on the session's thread when this peer lost its host, or its world, and asks to be let in again: with why. <see
     /// cref="Session.Renewed"/> follows, or
-    /// <see cref="Regained"/>, or the session ends. Handlers must not throw.
+    /// <see cref="Regained"/>, or the session ends.
     /// </summary>
     public event Action<string>? Interrupted
     {
-        add => client.Loss.Interrupted += value;
-        remove => client.Loss.Interrupted -= value;
+        add => interrupted.Add(value);
+        remove => interrupted.Remove(value);
     }
 
     /// <summary>
     /// Raised on the session's thread each time that the host gives this peer a number, with what shows that it is this player: <see
     /// cref="Pass"/>. That is before there
-    /// is a world, so a program that keeps it at once can come back whenever it is killed. Handlers must not throw.
+    /// is a world, so a program that keeps it at once can come back whenever it is killed.
     /// </summary>
     public event Action<PlayerPass>? PassGiven
     {
-        add => client.Seat.PassGiven += value;
-        remove => client.Seat.PassGiven -= value;
+        add => passGiven.Add(value);
+        remove => passGiven.Remove(value);
     }
 
     /// <summary>
-    /// Raised on the session's thread when a host that had fallen silent was heard again before it disconnected this peer: all goes on. Handlers
-    /// must not throw.
+    /// Raised on the session's thread when a host that had fallen silent was heard again before it disconnected this peer: all goes on.
     /// </summary>
     public event Action? Regained
     {
-        add => client.Loss.Regained += value;
-        remove => client.Loss.Regained -= value;
+        add => regained.Add(value);
+        remove => regained.Remove(value);
     }
 
     /// <summary>
     /// Raised on the session's thread, once, when it is found out what the first differing committed state comes from, or that this cannot
-    /// be. Handlers must
-    /// not throw.
+    /// be.
     /// </summary>
     public event Action<Divergence>? Diverged
     {
-        add => client.Finder.Found += value;
-        remove => client.Finder.Found -= value;
+        add => diverged.Add(value);
+        remove => diverged.Remove(value);
     }
 
     /// <summary>
@@ -93,10 +106,10 @@ public sealed class ClientSession : Session
     public SimDuration History => client.Connection.History;
 
     /// <summary>What is known of the distance between the two clocks.</summary>
-    public ClockSync ClockSync => client.Seat.Clock;
+    internal ClockSync ClockSync => client.Seat.Clock;
 
     /// <summary>
-    /// What shows a host that this is the player it was, for another session of this program: see <see cref="SessionOptions.Pass"/>. Null
+    /// What shows a host that this is the player it was, for another session of this program: see <see cref="ClientOptions.Pass"/>. Null
     /// before the host gave a
     /// number. From any thread.
     /// </summary>
@@ -105,5 +118,12 @@ public sealed class ClientSession : Session
     /// <summary>
     /// How many own events wait for the host's verdict, at most <see cref="MaxUnconfirmedEvents"/>. On the session's thread.
     /// </summary>
-    public int UnconfirmedEvents => client.Connection.Unconfirmed.Count;
+    public int UnconfirmedEvents
+    {
+        get
+        {
+            client.Parts.Owner.ThrowIfForeign();
+            return client.Connection.Unconfirmed.Count;
+        }
+    }
 }

@@ -21,6 +21,10 @@ namespace LagSim.Net.Sessions;
 public sealed class HostSession : Session
 {
     private readonly HostProtocol host;
+    private readonly HandlerList<Action<LinkTraffic>> clientCame;
+    private readonly HandlerList<Action<LinkTraffic>> clientGone;
+    private readonly HandlerList<Action<PlayerExpulsion>> playerExpelled;
+    private readonly HandlerList<Action<byte, SimTime>> clientDiverged;
 
     /// <summary>Opens a session and waits for clients.</summary>
     /// <param name="scene">The scene that all share.</param>
@@ -33,60 +37,78 @@ public sealed class HostSession : Session
     /// else can tell: it goes with every datagram, and what is still on its way from or to a former client is not taken for that of a later
     /// one.
     /// </param>
-    public HostSession(Scene scene, IDatagramPort port, IClock clock, SessionOptions options, ulong sessionId)
+    public HostSession(Scene scene, IDatagramPort port, IClock clock, HostOptions options, ulong sessionId)
         : this(new HostProtocol(
             new SessionParts(scene ?? throw new ArgumentNullException(nameof(scene)), port, clock, options, SessionState.Waiting),
+            options,
             sessionId))
     {
     }
 
     private HostSession(HostProtocol host)
-        : base(host.Parts, host) => this.host = host;
+        : base(host.Parts, host)
+    {
+        this.host = host;
+        clientCame = new(host.Parts.Owner);
+        clientGone = new(host.Parts.Owner);
+        playerExpelled = new(host.Parts.Owner);
+        clientDiverged = new(host.Parts.Owner);
+        host.Door.Seating.Came += link => clientCame.Raise(link, static (handler, told) => handler(told));
+        host.Roster.Gone += link => clientGone.Raise(link, static (handler, told) => handler(told));
+        host.Enforcer.Expelled += expulsion => playerExpelled.Raise(expulsion, static (handler, told) => handler(told));
+        host.DesyncReport.Diverged += (peer, time) =>
+            clientDiverged.Raise((peer, time), static (handler, told) => handler(told.peer, told.time));
+    }
 
     /// <summary>
-    /// Raised on the session's thread for each client that has a copy of scene and state and got its number, with its link. Handlers must
-    /// not throw.
+    /// Raised on the session's thread for each client that has a copy of scene and state and got its number, with its link.
     /// </summary>
     public event Action<LinkTraffic>? ClientCame
     {
-        add => host.Door.Seating.Came += value;
-        remove => host.Door.Seating.Came -= value;
+        add => clientCame.Add(value);
+        remove => clientCame.Remove(value);
     }
 
     /// <summary>
     /// Raised on the session's thread, once, for each client that left, fell silent, was told to go, or came anew from the same address,
     /// with what went over
-    /// its link in all. Not for those who are there when the session ends. Handlers must not throw.
+    /// its link in all. Not for those who are there when the session ends.
     /// </summary>
     public event Action<LinkTraffic>? ClientGone
     {
-        add => host.Roster.Gone += value;
-        remove => host.Roster.Gone -= value;
+        add => clientGone.Add(value);
+        remove => clientGone.Remove(value);
     }
 
     /// <summary>
-    /// Raised on the session's thread when a player is sent away because its acts cost more than <see cref="SessionOptions.PlayerBudget"/>,
+    /// Raised on the session's thread when a player is sent away because its acts cost more than <see cref="HostOptions.PlayerBudget"/>,
     /// with why, and what was
-    /// removed. <see cref="ClientGone"/> is raised too. Handlers must not throw.
+    /// removed. <see cref="ClientGone"/> is raised too.
     /// </summary>
     public event Action<PlayerExpulsion>? PlayerExpelled
     {
-        add => host.Enforcer.Expelled += value;
-        remove => host.Enforcer.Expelled -= value;
+        add => playerExpelled.Add(value);
+        remove => playerExpelled.Remove(value);
     }
 
     /// <summary>
-    /// Raised on the session's thread for each client, once, that says its committed state at that time is not this host's. Handlers must
-    /// not throw.
+    /// Raised on the session's thread for each client, once, that says its committed state at that time is not this host's.
     /// </summary>
     public event Action<byte, SimTime>? ClientDiverged
     {
-        add => host.DesyncReport.Diverged += value;
-        remove => host.DesyncReport.Diverged -= value;
+        add => clientDiverged.Add(value);
+        remove => clientDiverged.Remove(value);
     }
 
-    /// <summary>How many clients there are now, without those that are still coming in.</summary>
-    public int ClientCount => host.Roster.SeatedCount;
+    /// <summary>How many clients there are now, without those that are still coming in. On the session's thread.</summary>
+    public int ClientCount
+    {
+        get
+        {
+            host.Parts.Owner.ThrowIfForeign();
+            return host.Roster.SeatedCount;
+        }
+    }
 
     /// <summary>
     /// The time before which no event is accepted any more: the history before the clock, or before where the world stands if that is
@@ -100,18 +122,30 @@ public sealed class HostSession : Session
     /// <summary>
     /// What the players' acts cost so far, by ascending number, of those for whom anything was charged. On the session's thread.
     /// </summary>
-    public IReadOnlyList<PlayerCost> Costs => host.Budget.Costs;
+    public IReadOnlyList<PlayerCost> Costs
+    {
+        get
+        {
+            host.Parts.Owner.ThrowIfForeign();
+            return host.Budget.Costs;
+        }
+    }
 
     /// <summary>How much of the log is kept: what is not settled, and what some client has not acknowledged.</summary>
     internal int KeptLogEntries => host.Log.Lines.Kept;
 
     /// <summary>How many are coming in.</summary>
-    internal int ComingCount => host.Roster.All.Count - ClientCount;
+    internal int ComingCount => host.Roster.All.Count - host.Roster.SeatedCount;
 
     /// <summary>
     /// Has the next step write to every client, which otherwise may wait for the keep-alive: they learn sooner what is committed.
     /// </summary>
-    public void Flush() => host.Flush();
+    /// <remarks>On the session's thread.</remarks>
+    public void Flush()
+    {
+        host.Parts.Owner.ThrowIfForeign();
+        host.Flush();
+    }
 
     /// <summary>
     /// Sends a player away. It is told so, and its session ends. Its number becomes free and its pass void; it may join again as a new
@@ -125,6 +159,7 @@ public sealed class HostSession : Session
     /// <exception cref="ArgumentOutOfRangeException">It is not from 1 to <see cref="SessionOptions.MaxClients"/>.</exception>
     public bool Kick(byte player)
     {
+        host.Parts.Owner.ThrowIfForeign();
         ThrowIfNoPlayer(player);
         return host.Roster.SendAway(j => j.Peer == player) > 0;
     }
@@ -140,6 +175,7 @@ public sealed class HostSession : Session
     /// <exception cref="ArgumentOutOfRangeException">It is not from 1 to <see cref="SessionOptions.MaxClients"/>.</exception>
     public PeerAddress? Ban(byte player)
     {
+        host.Parts.Owner.ThrowIfForeign();
         ThrowIfNoPlayer(player);
         if (host.Roster.Seated(player) is not Client found)
         {
@@ -158,7 +194,12 @@ public sealed class HostSession : Session
     /// </summary>
     /// <param name="machine">What <see cref="Ban"/> gave, or any address of the machine.</param>
     /// <returns>False if it was not shut out.</returns>
-    public bool Unban(PeerAddress machine) => host.Door.ShutOuts.LetInAgain(machine.Machine, host.Parts.Clock.Now);
+    /// <remarks>On the session's thread.</remarks>
+    public bool Unban(PeerAddress machine)
+    {
+        host.Parts.Owner.ThrowIfForeign();
+        return host.Door.ShutOuts.LetInAgain(machine.Machine, host.Parts.Clock.Now);
+    }
 
     /// <summary>
     /// Removes all bodies that were spawned under a player's number, whether or not somebody has it now. The removals are events of this
@@ -172,6 +213,7 @@ public sealed class HostSession : Session
     /// <exception cref="InvalidOperationException">The session is not running.</exception>
     public int RemoveBodiesOf(byte player)
     {
+        host.Parts.Owner.ThrowIfForeign();
         ThrowIfNoPlayer(player);
         if (World is not LiveWorld world || State != SessionState.Running)
         {

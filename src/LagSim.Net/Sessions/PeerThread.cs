@@ -1,27 +1,47 @@
 using System;
-using System.Collections.Concurrent;
 using System.Net;
 using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Strategies;
 using LagSim.Scenes;
 using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
 /// <summary>A session on a thread of its own, in real time: woken by datagrams, by actions, and when something is due.</summary>
-/// <remarks>Every member may be called from any thread, but <see cref="Latest"/> from one only, the one that draws.</remarks>
+/// <remarks>
+/// Every member may be called from any thread, but <see cref="Latest"/> from one only, the one that draws, and neither that nor
+/// <see cref="WaitUntilRunning"/> from the session's own. What a handler of a session's event throws is told by
+/// <see cref="HandlerFailed"/>, and ends nothing.
+/// </remarks>
+/// <example>
+/// A host in one program and a client in another; each draws a frame and kicks the ball:
+/// <code>
+/// using PeerThread me = isHost
+///     ? PeerThread.Host(scene, udpPort: 5000)
+///     : PeerThread.Join(new IPEndPoint(IPAddress.Loopback, 5000));
+/// me.Refused += (action, why) => Console.Error.WriteLine($"{action.Kind}: {why.Message}");
+/// me.WaitUntilRunning(TimeSpan.FromSeconds(5));
+/// _ = me.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0))); // 6 N s upwards
+/// if (me.Latest() is RenderSnapshot snapshot &amp;&amp; snapshot.TryRead(ball, me.Session.DisplayTime, out BodyState state))
+/// {
+///     Console.WriteLine($"height {state.Position.Y:F2} m");
+/// }
+/// </code>
+/// </example>
 public sealed class PeerThread : IDisposable
 {
-    private readonly ConcurrentQueue<IPeerRequest> requests = new();
-    private readonly ActionRequests actions = new();
+    private readonly PeerRequests requests;
+    private readonly ActionRequests actions;
     private readonly IDatagramPort port;
+    private readonly SessionOwner owner;
     private readonly WorldThread thread;
     private readonly ManualResetEventSlim decided = new(); // running or ended
     private readonly bool ownsPort;
-    private volatile bool disposed;
     private bool isWarm; // the session's thread alone
 
     /// <summary>Gives the session a thread; it is not started yet. The port is not disposed with it.</summary>
@@ -35,18 +55,38 @@ public sealed class PeerThread : IDisposable
         this.ownsPort = ownsPort;
         Session = session ?? throw new ArgumentNullException(nameof(session));
         this.port = port ?? throw new ArgumentNullException(nameof(port));
+        requests = new PeerRequests(session);
+        actions = new ActionRequests(TellRefused);
+        owner = session.Parts.Owner;
+        owner.TellFailures(TellFailure);
         thread = new WorldThread(name, Step, session.Interrupt);
         port.Arrived += thread.Wake;
     }
 
-    /// <summary>Opens a session over UDP on a thread that is started already. Disposing it leaves the session and closes the port.</summary>
+    /// <summary>
+    /// Raised on the session's thread when a handler of one of the session's events threw, with what it threw. The other handlers are
+    /// called, and nothing ends.
+    /// </summary>
+    /// <remarks>What a handler of this event throws is lost. Where nobody listens, so is what the others throw.</remarks>
+    public event Action<Exception>? HandlerFailed;
+
+    /// <summary>
+    /// Raised on the session's thread for each action of <see cref="Do"/> that was refused, whether or not the answer is awaited, and
+    /// before it is there: the action, and the exception. The host's verdict on a client's event comes later, by
+    /// <see cref="Session.Logged"/>. What the end of the thread left unanswered is cancelled, and not told here.
+    /// </summary>
+    public event Action<PlayerAction, Exception>? Refused;
+
+    /// <summary>Opens a session over UDP, on a thread that is started. Disposing it leaves the session and closes the port.</summary>
     /// <param name="scene">The scene that all share.</param>
     /// <param name="udpPort">Where others reach it, 0 to 65,535; 0 takes any free port, which <see cref="LocalAddress"/> tells.</param>
     /// <param name="options">How to take part; default begins at once, whoever joins later.</param>
     /// <param name="bind">The address to listen at; default every IPv4 address this machine has.</param>
+    /// <param name="setUp">Called with the session before its thread starts, to subscribe to its events: so nothing is missed.</param>
     /// <exception cref="System.IO.IOException">The system does not give the port, for instance because it is in use.</exception>
     /// <exception cref="ArgumentException">The port or an option is out of its range, or the scene is too large to be shared.</exception>
-    public static PeerThread Host(Scene scene, int udpPort = 0, SessionOptions? options = null, IPAddress? bind = null)
+    public static PeerThread Host(
+        Scene scene, int udpPort = 0, HostOptions? options = null, IPAddress? bind = null, Action<HostSession>? setUp = null)
     {
         if (udpPort is < 0 or > IPEndPoint.MaxPort)
         {
@@ -54,17 +94,32 @@ public sealed class PeerThread : IDisposable
                 + " is free.");
         }
 
-        UdpPort port = new(new IPEndPoint(bind ?? IPAddress.Any, udpPort));
-        return Begin(port, () => new HostSession(scene, port, new StopwatchClock(), options ?? new SessionOptions(), Session.DrawNumber()), "LagSim host");
+        return Host(scene, new UdpPort(new IPEndPoint(bind ?? IPAddress.Any, udpPort)), options, setUp);
     }
 
-    /// <summary>Joins a session over UDP on a thread that is started already. Disposing it leaves the session and closes the port.</summary>
+    /// <summary>Opens a session over a carrier, on a thread that is started. Disposing it leaves the session and disposes the carrier.</summary>
+    /// <param name="scene">The scene that all share.</param>
+    /// <param name="carrier">What carries datagrams; from now on the thread's own. It is disposed too where this throws.</param>
+    /// <param name="options">How to take part; default begins at once, whoever joins later.</param>
+    /// <param name="setUp">Called with the session before its thread starts, to subscribe to its events: so nothing is missed.</param>
+    /// <exception cref="ArgumentException">An option is out of its range, or the scene is too large to be shared.</exception>
+    public static PeerThread Host(
+        Scene scene, IDatagramPort carrier, HostOptions? options = null, Action<HostSession>? setUp = null) => Begin(
+            carrier,
+            () => new HostSession(scene, carrier, new StopwatchClock(), options ?? new HostOptions(), Session.DrawNumber()),
+            "LagSim host",
+            setUp);
+
+    /// <summary>
+    /// Joins a session over UDP on a thread that is started already. Disposing it leaves the session and closes the port.
+    /// </summary>
     /// <param name="host">Where the host is: the address of one machine, and a port from 1 on.</param>
     /// <param name="options">How to take part.</param>
     /// <param name="scene">The scene that the host is expected to have; null takes the host's, whichever it is.</param>
+    /// <param name="setUp">Called with the session before its thread starts, to subscribe to its events: so nothing is missed.</param>
     /// <exception cref="System.IO.IOException">The system gives no port.</exception>
     /// <exception cref="ArgumentException">That is no machine's address, or an option is out of its range.</exception>
-    public static PeerThread Join(IPEndPoint host, SessionOptions? options = null, Scene? scene = null)
+    public static PeerThread Join(IPEndPoint host, ClientOptions? options = null, Scene? scene = null, Action<ClientSession>? setUp = null)
     {
         if (!UdpDestination.IsOneMachine(host, "join", out string? error))
         {
@@ -72,13 +127,30 @@ public sealed class PeerThread : IDisposable
         }
 
         PeerAddress address = PeerAddress.From(host);
-        UdpPort port = new(UdpDestination.Facing(address.ToEndPoint().Address));
-        return Begin(
-            port, () => new ClientSession(scene, port, new StopwatchClock(), options ?? new SessionOptions(), address, Session.DrawNumber()), "LagSim joiner");
+        return Join(new UdpPort(UdpDestination.Facing(address.ToEndPoint().Address)), address, options, scene, setUp);
     }
 
+    /// <summary>Joins a session over a carrier, on a thread that is started. Disposing it leaves the session and disposes the carrier.</summary>
+    /// <param name="carrier">What carries datagrams; from now on the thread's own. It is disposed too where this throws.</param>
+    /// <param name="host">Where the host is, as the carrier knows it.</param>
+    /// <param name="options">How to take part.</param>
+    /// <param name="scene">The scene that the host is expected to have; null takes the host's, whichever it is.</param>
+    /// <param name="setUp">Called with the session before its thread starts, to subscribe to its events: so nothing is missed.</param>
+    /// <exception cref="ArgumentException">An option is out of its range.</exception>
+    public static PeerThread Join(
+        IDatagramPort carrier,
+        PeerAddress host,
+        ClientOptions? options = null,
+        Scene? scene = null,
+        Action<ClientSession>? setUp = null) => Begin(
+            carrier,
+            () => new ClientSession(scene, carrier, new StopwatchClock(), options ?? new ClientOptions(), host, Session.DrawNumber()),
+            "LagSim joiner",
+            setUp);
+
     /// <summary>
-    /// Where this peer's port is reached, from this machine only if it listens at every address there is: then others use one of the machine's own.
+    /// Where this peer's port is reached, from this machine only if it listens at every address there is: then others use one of the
+    /// machine's own.
     /// </summary>
     public PeerAddress LocalAddress => port.LocalAddress;
 
@@ -99,9 +171,12 @@ public sealed class PeerThread : IDisposable
     /// <summary>Waits until there is a running world, or the session has ended.</summary>
     /// <param name="timeout">How long at most.</param>
     /// <returns>Whether it runs; if not, <see cref="Session.EndReason"/> tells why if it has ended.</returns>
-    /// <exception cref="InvalidOperationException">The thread ended by an exception, the inner one.</exception>
+    /// <exception cref="InvalidOperationException">
+    /// The thread ended by an exception, the inner one; or this is the session's own thread, which would wait for itself.
+    /// </exception>
     public bool WaitUntilRunning(TimeSpan timeout)
     {
+        ThrowIfOwn(nameof(WaitUntilRunning));
         decided.Wait(timeout);
         return State == SessionState.Running;
     }
@@ -110,20 +185,38 @@ public sealed class PeerThread : IDisposable
     public ContactNotices? Contacts => Session.World?.Contacts;
 
     /// <summary>What the thread does before its first step, given the session's strategy; to be set before it is started.</summary>
-    internal Action<string> WarmUpFor { get; set; } = SessionWarmup.Once;
+    internal Action<LateEventStrategy> WarmUpFor { get; set; } = SessionWarmup.Once;
 
     /// <summary>How many steps the thread has done.</summary>
     public long Steps => thread.Steps;
 
-    /// <summary>Starts the thread; once.</summary>
-    public void Start() => thread.Start();
+    /// <summary>Starts the thread; once. Until this is disposed, what is for the session's thread throws on any other.</summary>
+    /// <exception cref="InvalidOperationException">It has been started already.</exception>
+    /// <exception cref="ObjectDisposedException">It has been disposed.</exception>
+    public void Start()
+    {
+        bool wasTaken = owner.Take();
+        try
+        {
+            thread.Start();
+        }
+        catch when (!wasTaken)
+        {
+            owner.Release();
+            throw;
+        }
+    }
 
     /// <summary>
-    /// The newest render snapshot of the world, for the one thread that draws; null before there is a world. A frame reads it at <see cref="Session.DisplayTime"/>.
+    /// The newest render snapshot of the world, for the one thread that draws; null before there is a world. A frame reads it at
+    /// <see cref="Session.DisplayTime"/>.
     /// </summary>
-    /// <exception cref="InvalidOperationException">The thread ended by an exception, the inner one.</exception>
+    /// <exception cref="InvalidOperationException">
+    /// The thread ended by an exception, the inner one; or this is the session's own thread, which is not the one that draws.
+    /// </exception>
     public RenderSnapshot? Latest()
     {
+        ThrowIfOwn(nameof(Latest));
         thread.ThrowIfFaulted();
         return Session.World?.RenderSnapshots.Latest();
     }
@@ -131,8 +224,10 @@ public sealed class PeerThread : IDisposable
     /// <summary>Does something to the shared world as soon as the session's thread gets to it, which is at once unless it is at work.
     /// Asked before <see cref="Start"/>, it waits for the thread. From any thread. Cost: allocates nothing, and wakes the thread.</summary>
     /// <returns>
-    /// The stamped event, or the exception that <see cref="Session.Do"/> throws: look at it, or what was refused goes unnoticed. What the host makes of the
-    /// event is heard later, by <see cref="Session.Logged"/>. Await it at once, once, or let it go: an answer that nobody awaits is forgotten some 60 calls later.
+    /// The stamped event, or the exception that <see cref="Session.Do"/> throws: <see cref="Refused"/> tells that too. What the host makes
+    /// of the
+    /// event is heard later, by <see cref="Session.Logged"/>. Await it at once, once, or let it go: an answer that nobody awaits is
+    /// forgotten some 60 calls later.
     /// </returns>
     /// <exception cref="ObjectDisposedException">The thread has been disposed.</exception>
     /// <exception cref="InvalidOperationException">The thread ended by an exception, the inner one.</exception>
@@ -145,7 +240,9 @@ public sealed class PeerThread : IDisposable
         return answer;
     }
 
-    /// <summary>Asks the session something on its own thread; answered once the thread is started, cancelled if it is disposed before.</summary>
+    /// <summary>
+    /// Asks the session something on its own thread; answered once the thread is started, cancelled if it is disposed before.
+    /// </summary>
     /// <exception cref="ObjectDisposedException">The thread has been disposed.</exception>
     /// <exception cref="InvalidOperationException">The thread ended by an exception, the inner one.</exception>
     public Task<T> Ask<T>(Func<Session, T> question)
@@ -161,54 +258,99 @@ public sealed class PeerThread : IDisposable
         return request.Task;
     }
 
-    /// <summary>Stops the thread, in the middle of its work if it is at some, and waits for it. One that <see cref="Host"/> or <see cref="Join"/> made
+    /// <summary>Stops the thread, in the middle of its work if it is at some, and waits for it. One that <c>Host</c> or <c>Join</c> made
     /// leaves its session and closes its port; any other does not say goodbye, <see cref="Session.Leave"/> does.</summary>
     public void Dispose()
     {
         port.Arrived -= thread.Wake;
         thread.Dispose();
-        disposed = true;
+        owner.Release();
         decided.Set();
-        AnswerAll();
+        requests.Close();
         if (ownsPort)
         {
             Session.Leave(); // its thread has stopped, so this one may
             port.Dispose();
         }
+
+        owner.TellFailures(null); // nobody's but the caller's from now on
     }
 
-    private static PeerThread Begin(UdpPort port, Func<Session> make, string name)
+    private static PeerThread Begin<TSession>(IDatagramPort carrier, Func<TSession> make, string name, Action<TSession>? setUp)
+        where TSession : Session
     {
+        if (carrier is null)
+        {
+            throw new ArgumentNullException(nameof(carrier));
+        }
+
         try
         {
-            PeerThread peer = new(make(), port, name, ownsPort: true);
+            TSession session = make();
+            PeerThread peer = new(session, carrier, name, ownsPort: true);
+            setUp?.Invoke(session);
             peer.Start();
             return peer;
         }
         catch
         {
-            port.Dispose();
+            carrier.Dispose();
             throw;
         }
     }
 
-    /// <summary>On this thread and not the game's, and before anything is answered, so that what is done waits for it at worst once.</summary>
+    /// <summary>
+    /// On this thread and not the game's, and before anything is answered, so that what is done waits for it at worst once.
+    /// </summary>
     private void WarmUp()
     {
         if (!isWarm)
         {
             isWarm = true;
-            if (Session.WarmsUpFor is string strategy)
+            if (Session.WarmsUpFor is LateEventStrategy strategy)
             {
                 WarmUpFor(strategy);
             }
         }
     }
 
+    private void ThrowIfOwn(string member)
+    {
+        if (owner.IsCaller)
+        {
+            throw new InvalidOperationException(
+                $"'{member}' may not be called on the session's own thread, in a handler or a question: it is for the threads beside it.");
+        }
+    }
+
+    private void TellRefused(PlayerAction action, Exception why)
+    {
+        try
+        {
+            Refused?.Invoke(action, why);
+        }
+        catch (Exception failure) when (failure is not OutOfMemoryException)
+        {
+            TellFailure(failure);
+        }
+    }
+
+    private void TellFailure(Exception failure)
+    {
+        try
+        {
+            HandlerFailed?.Invoke(failure);
+        }
+        catch (Exception other) when (other is not OutOfMemoryException)
+        {
+            // There is nobody left to tell.
+        }
+    }
+
     private void ThrowIfOver()
     {
         thread.ThrowIfFaulted();
-        if (disposed)
+        if (requests.AreOver)
         {
             throw new ObjectDisposedException(nameof(PeerThread));
         }
@@ -216,26 +358,11 @@ public sealed class PeerThread : IDisposable
 
     private void Send(IPeerRequest request)
     {
-        requests.Enqueue(request);
+        requests.Add(request);
         thread.Wake();
-        if (disposed)
+        if (requests.AreOver)
         {
-            AnswerAll(); // it was disposed meanwhile, and nobody else will
-        }
-    }
-
-    private void AnswerAll()
-    {
-        while (requests.TryDequeue(out IPeerRequest? request))
-        {
-            if (disposed)
-            {
-                request.Cancel();
-            }
-            else
-            {
-                request.Answer(Session);
-            }
+            requests.AnswerAll(); // it was disposed meanwhile, and nobody else will
         }
     }
 
@@ -255,10 +382,11 @@ public sealed class PeerThread : IDisposable
     /// <summary>What its thread does again and again; for that thread alone, or whoever has not started it.</summary>
     internal SimDuration Step()
     {
+        owner.Enter();
         try
         {
             WarmUp();
-            AnswerAll();
+            requests.AnswerAll();
             SimDuration wait = Session.Step();
             if (Session.State is SessionState.Running or SessionState.Ended)
             {
@@ -275,8 +403,8 @@ public sealed class PeerThread : IDisposable
             }
 
             decided.Set();
-            disposed = true; // the thread ends with the exception: who still waits for an answer gets none
-            AnswerAll();
+            requests.Close();
+            owner.Release();
             throw;
         }
     }

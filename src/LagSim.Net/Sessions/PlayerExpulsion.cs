@@ -3,7 +3,10 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>That a host sent a player away, or removed what one who is gone had left, because it cost more than <see cref="SessionOptions.PlayerBudget"/>.</summary>
+/// <summary>
+/// That a host sent a player away, or removed what one who is gone had left, because it cost more than
+/// <see cref="HostOptions.PlayerBudget"/>.
+/// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class PlayerExpulsion
 {

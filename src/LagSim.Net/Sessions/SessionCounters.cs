@@ -5,7 +5,8 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions;
 
 /// <summary>
-/// What a session counted. That of <see cref="Session.Counters"/> goes on counting: read it on the session's thread, or once that has stopped.
+/// What a session counted. That of <see cref="Session.Counters"/> goes on counting: read it on the session's thread, or once that has
+/// stopped.
 /// </summary>
 /// <remarks>A <see cref="Copy"/> never changes and is safe on any thread.</remarks>
 public sealed class SessionCounters
@@ -67,22 +68,31 @@ public sealed class SessionCounters
     /// </summary>
     public long EventsLost { get; internal set; }
 
-    /// <summary>Own events of a client on which it has heard no verdict, because its world was replaced first: whether they happened, the new one shows.</summary>
+    /// <summary>
+    /// Own events of a client on which it has heard no verdict, because its world was replaced first: whether they happened, the new one
+    /// shows.
+    /// </summary>
     public long EventsUnanswered { get; internal set; }
 
     /// <summary>How often a fresh copy of the host's world took the place of this peer's.</summary>
     public long Renewals { get; internal set; }
 
-    /// <summary>Late events of other peers for which timelines were rewritten back to the event; none with a strategy that rewrites no past.</summary>
+    /// <summary>
+    /// Late events of other peers for which timelines were rewritten back to the event; none with a strategy that rewrites no past.
+    /// </summary>
     public long Heals { get; internal set; }
 
-    /// <summary>The shared time at which a render snapshot first showed the newest event, one's own or another's; the earliest instant before any.</summary>
+    /// <summary>
+    /// The shared time at which a render snapshot first showed the newest event, one's own or another's; the earliest instant before any.
+    /// </summary>
     public SimTime LastShown { get; internal set; } = SimTime.MinValue;
 
     /// <summary>Of the refused ones those that came in another's name; they stand in no log.</summary>
     public long EventsForged { get; internal set; }
 
-    /// <summary>Events of clients that were left for later because a client did more than <see cref="SessionOptions.MaxEventsPerSecond"/>.</summary>
+    /// <summary>
+    /// Events of clients that were left for later because a client did more than <see cref="HostOptions.MaxEventsPerSecond"/>.
+    /// </summary>
     public long EventsDeferred { get; internal set; }
 
     /// <summary>How many of this client's committed states were like the host's.</summary>
@@ -98,7 +108,8 @@ public sealed class SessionCounters
     public IReadOnlyList<SimDuration> Lateness => new ArraySegment<SimDuration>(lateness, 0, latenessCount);
 
     /// <summary>
-    /// What was counted up to now, which stays as it is. Taken on the session's thread, it may be read on any: see <see cref="PeerThread.Ask"/>.
+    /// What was counted up to now, which stays as it is. Taken on the session's thread, it may be read on any: see
+    /// <see cref="PeerThread.Ask"/>.
     /// </summary>
     /// <remarks>Cheap, however much was counted.</remarks>
     public SessionCounters Copy() => new(this);

@@ -4,6 +4,7 @@ using System.Runtime.CompilerServices;
 using System.Threading.Tasks;
 using LagSim.Events;
 using LagSim.Hosting;
+using LagSim.Net.Strategies;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -35,7 +36,7 @@ internal sealed class SessionWarmup
 
     private static readonly SimDuration Frame = SimDuration.FromMilliseconds(15);
     private static readonly object Gate = new();
-    private static readonly List<string> Done = new(); // by strategy
+    private static readonly List<LateEventStrategy> Done = new(); // by strategy
 
     private readonly ManualClock clock = new();
     private readonly WarmupPort hostPort;
@@ -44,7 +45,7 @@ internal sealed class SessionWarmup
     private readonly PeerThread client;
 
     // Threads that are never started: this one does their steps.
-    private SessionWarmup(string strategy, Scene scene)
+    private SessionWarmup(LateEventStrategy strategy, Scene scene)
     {
         (hostPort, clientPort) = WarmupPort.Pair();
         host = new PeerThread(new HostSession(scene, hostPort, clock, Options(strategy, MostSpawned), 1), hostPort, "warm-up host");
@@ -54,8 +55,7 @@ internal sealed class SessionWarmup
             host.Step();
         }
 
-        SessionOptions options = Options(strategy, 8);
-        options.Contacts = new ContactNotices();
+        ClientOptions options = ClientOptions.From(Options(strategy, 8)) with { Contacts = new ContactNotices() };
         client = new PeerThread(new ClientSession(null, clientPort, clock, options, hostPort.LocalAddress, 2), clientPort, "warm-up joiner");
         host.Session.Logged += entry => Note(entry, HeardByHost, from: 1);
         client.Session.Logged += entry => Note(entry, HeardByClient, from: 0);
@@ -83,7 +83,7 @@ internal sealed class SessionWarmup
     /// Warms up for sessions with a strategy, once a process; who comes meanwhile waits until it is done. Where nothing is compiled while a program runs it does
     /// nothing. From any thread.
     /// </summary>
-    internal static void Once(string strategy)
+    internal static void Once(LateEventStrategy strategy)
     {
         if (!RuntimeFeature.IsDynamicCodeCompiled)
         {
@@ -114,14 +114,14 @@ internal sealed class SessionWarmup
     /// <param name="strategy">What is done with late events; <see cref="SessionOptions.Strategy"/>.</param>
     /// <param name="kinds">Which events.</param>
     /// <param name="few">Among a few bodies of all kinds, or among many; <see cref="WarmupScene.Of"/>.</param>
-    internal static SessionWarmup Run(string strategy, IReadOnlyList<EventKind> kinds, bool few)
+    internal static SessionWarmup Run(LateEventStrategy strategy, IReadOnlyList<EventKind> kinds, bool few)
     {
         SessionWarmup warmup = new(strategy, WarmupScene.Of(few));
         warmup.Play(kinds);
         return warmup;
     }
 
-    private static SessionOptions Options(string strategy, int mostSpawned) => new()
+    private static HostOptions Options(LateEventStrategy strategy, int mostSpawned) => new()
     {
         Strategy = strategy,
         Warmup = false,

@@ -5,7 +5,7 @@ using LagSim.Time;
 namespace LagSim.Net.Strategies;
 
 /// <summary>No compensation: the event happens when it arrives. The worlds of the peers then differ for good.</summary>
-public sealed class ApplyOnArrival : ILateEventStrategy
+internal sealed class ApplyOnArrival : ILateEventStrategy
 {
     /// <inheritdoc/>
     public string Name => "none";

@@ -5,7 +5,7 @@ using LagSim.Time;
 namespace LagSim.Net.Strategies;
 
 /// <summary>The event happens at its own time: everything since is taken back and simulated again. Simple, and right bit for bit.</summary>
-public sealed class FullRollback : ILateEventStrategy
+internal sealed class FullRollback : ILateEventStrategy
 {
     /// <inheritdoc/>
     public string Name => "full-rollback";

@@ -6,7 +6,7 @@ namespace LagSim.Net.Strategies;
 
 /// <summary>What a peer does with an accepted event of another peer, which usually comes late.</summary>
 /// <remarks>One instance serves one session, on its thread. The same code runs in real and in virtual time.</remarks>
-public interface ILateEventStrategy
+internal interface ILateEventStrategy
 {
     /// <summary>What the strategy is called on the command line and in reports.</summary>
     string Name { get; }

@@ -13,7 +13,7 @@ namespace LagSim.Net.Strategies;
 /// The price is paid always and by everybody: all that is seen is old by the delay, what this peer itself does included. That is input latency, which no other
 /// strategy has. An event that comes later than the delay is seen to jump as with any other.
 /// </remarks>
-public sealed class Interpolation : ILateEventStrategy
+internal sealed class Interpolation : ILateEventStrategy
 {
     /// <summary>How far behind shared time the world is shown where nothing else is said: 100 ms.</summary>
     public static readonly SimDuration DefaultDelay = SimDuration.FromMilliseconds(100);

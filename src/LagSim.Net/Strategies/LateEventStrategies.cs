@@ -4,28 +4,50 @@ using LagSim.Time;
 
 namespace LagSim.Net.Strategies;
 
-/// <summary>Every strategy there is, by name.</summary>
-public static class LateEventStrategies
+/// <summary>Every strategy there is, and the name of each on the command line and in reports.</summary>
+internal static class LateEventStrategies
 {
-    /// <summary>The strategy that is used where nothing else is said.</summary>
-    public const string Default = "healing";
+    /// <summary>The name of the strategy that is used where nothing else is said.</summary>
+    internal const string Default = "healing";
 
     /// <summary>All names, the simplest first.</summary>
-    public static IReadOnlyList<string> Names { get; } = new[] { "none", "latency-forward", "interpolation", "full-rollback", "healing" };
+    internal static IReadOnlyList<string> Names { get; } = new[] { "none", "latency-forward", "interpolation", "full-rollback", "healing" };
 
-    /// <summary>A new instance of the strategy of that name.</summary>
+    /// <summary>The strategy of that name.</summary>
     /// <param name="name">One of <see cref="Names"/>.</param>
-    /// <param name="displayDelay">
-    /// How far behind shared time <c>interpolation</c> shows the world, 0 to 5 s; default 100 ms. The others show the present.
-    /// </param>
-    /// <exception cref="ArgumentException">There is none of that name, and the message lists what there is; or the delay is out of its range.</exception>
-    public static ILateEventStrategy Create(string name, SimDuration? displayDelay = null) => name switch
+    /// <exception cref="ArgumentException">There is none of that name, and the message lists what there is.</exception>
+    internal static LateEventStrategy OfName(string name) => name switch
     {
-        "none" => new ApplyOnArrival(),
-        "latency-forward" => new LatencyForward(),
-        "interpolation" => new Interpolation(displayDelay),
-        "full-rollback" => new FullRollback(),
-        "healing" => new Healing(),
+        "none" => LateEventStrategy.ApplyOnArrival,
+        "latency-forward" => LateEventStrategy.LatencyForward,
+        "interpolation" => LateEventStrategy.Interpolation,
+        "full-rollback" => LateEventStrategy.FullRollback,
+        "healing" => LateEventStrategy.Healing,
         _ => throw new ArgumentException($"There is no strategy '{name}'; there are {string.Join(", ", Names)}.", nameof(name)),
     };
+
+    /// <summary>A new instance of a strategy.</summary>
+    /// <param name="strategy">Which.</param>
+    /// <param name="displayDelay">
+    /// How far behind shared time interpolation shows the world, 0 to 5 s; default 100 ms. The others show the present.
+    /// </param>
+    /// <exception cref="ArgumentException">There is no such strategy, or the delay is out of its range.</exception>
+    internal static ILateEventStrategy Create(LateEventStrategy strategy, SimDuration? displayDelay = null) => strategy switch
+    {
+        LateEventStrategy.ApplyOnArrival => new ApplyOnArrival(),
+        LateEventStrategy.LatencyForward => new LatencyForward(),
+        LateEventStrategy.Interpolation => new Interpolation(displayDelay),
+        LateEventStrategy.FullRollback => new FullRollback(),
+        LateEventStrategy.Healing => new Healing(),
+        _ => throw new ArgumentOutOfRangeException(
+            nameof(strategy),
+            strategy,
+            $"There is no such strategy; there are {string.Join(", ", Enum.GetNames(typeof(LateEventStrategy)))}."),
+    };
+
+    /// <summary>A new instance of the strategy of that name.</summary>
+    /// <exception cref="ArgumentException">
+    /// There is none of that name, and the message lists what there is; or the delay is out of its range.
+    /// </exception>
+    internal static ILateEventStrategy Create(string name, SimDuration? displayDelay = null) => Create(OfName(name), displayDelay);
 }

@@ -8,7 +8,7 @@ namespace LagSim.Net.Strategies;
 /// The thesis's way: on arrival the body is put where it would be had the event come in time, by its own motion and contacts with static
 /// geometry since then. What other bodies would have done to it, or it to them, in between is lost.
 /// </summary>
-public sealed class LatencyForward : ILateEventStrategy
+internal sealed class LatencyForward : ILateEventStrategy
 {
     /// <inheritdoc/>
     public string Name => "latency-forward";

@@ -7,7 +7,7 @@ namespace LagSim.Net.Wire;
 /// that you are where you say you are.
 /// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
-public readonly struct ChallengeDatagram
+internal readonly struct ChallengeDatagram
 {
     /// <summary>An answer of these fields.</summary>
     public ChallengeDatagram(ulong nonce, Token128 cookie)

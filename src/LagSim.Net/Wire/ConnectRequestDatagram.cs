@@ -4,7 +4,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>A client's first word to a host. The host keeps nothing of it; it answers with a <see cref="ChallengeDatagram"/> of the same length.</summary>
 /// <remarks>Immutable, safe on any thread. Where its nonce stands is the same in every version, so that one of another version can be answered.</remarks>
-public readonly struct ConnectRequestDatagram
+internal readonly struct ConnectRequestDatagram
 {
     /// <summary>A request of this nonce.</summary>
     public ConnectRequestDatagram(ulong nonce) => Nonce = nonce;

@@ -1,7 +1,7 @@
 namespace LagSim.Net.Wire;
 
 /// <summary>What a datagram is; the fourth byte of each. Never renumber.</summary>
-public enum DatagramType : byte
+internal enum DatagramType : byte
 {
     /// <summary>No datagram.</summary>
     None = 0,

@@ -5,7 +5,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>A client whose committed state is not the host's asks which accepted events the host has between the last time they agreed and then.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
-public readonly struct DesyncQueryDatagram
+internal readonly struct DesyncQueryDatagram
 {
     /// <summary>The most events that are told in answer to one.</summary>
     public const int MaxEvents = 64;

@@ -5,7 +5,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>One of the events that a host was asked for by a <see cref="DesyncQueryDatagram"/>, or that there is none to tell.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
-public readonly struct DesyncReportDatagram
+internal readonly struct DesyncReportDatagram
 {
     /// <summary>One of the events.</summary>
     /// <param name="sessionId">The session.</param>

@@ -7,7 +7,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>How an external event travels, and which events can.</summary>
 /// <remarks>Pure functions, safe on any thread, without allocation.</remarks>
-public static class EventFormat
+internal static class EventFormat
 {
     /// <summary>The length of the longest event, a spawn, in bytes.</summary>
     public const int MaxBytes = HeadBytes + SpecBytes + (3 * VectorBytes);

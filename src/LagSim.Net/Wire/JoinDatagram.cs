@@ -4,7 +4,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>A client that was challenged asks to be let in. Repeated, unchanged, until it is answered.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
-public readonly struct JoinDatagram
+internal readonly struct JoinDatagram
 {
     /// <summary>A request of these fields.</summary>
     public JoinDatagram(ulong nonce, Token128 cookie, Token128 proof, ulong sceneHash, uint foldVersion, byte player = 0, Token128 playerProof = default)

@@ -4,7 +4,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>A peer is no longer in the session: it says so itself, or the host says it.</summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
-public readonly struct LeaveDatagram
+internal readonly struct LeaveDatagram
 {
     /// <summary>A notice of these fields.</summary>
     public LeaveDatagram(ulong sessionId, byte peer, LeaveReason reason)

@@ -1,7 +1,7 @@
 namespace LagSim.Net.Wire;
 
 /// <summary>Why a peer is no longer in the session. Never renumber.</summary>
-public enum LeaveReason : byte
+internal enum LeaveReason : byte
 {
     /// <summary>It left of its own will.</summary>
     Left = 1,

@@ -4,7 +4,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>A client whose address has changed brings back the cookie that the host sent to the new one: from then on the host writes there.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
-public readonly struct MoveDatagram
+internal readonly struct MoveDatagram
 {
     /// <summary>A move of these fields.</summary>
     public MoveDatagram(ulong sessionId, byte peer, Token128 cookie)

@@ -4,7 +4,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>The host does not let a client in, and says why.</summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>. Its layout is the same in every version.</remarks>
-public readonly struct RefusalDatagram
+internal readonly struct RefusalDatagram
 {
     /// <summary>An answer of these fields.</summary>
     public RefusalDatagram(ulong nonce, RefusalReason reason)

@@ -1,7 +1,7 @@
 namespace LagSim.Net.Wire;
 
 /// <summary>Why a host does not let a client in. Never renumber.</summary>
-public enum RefusalReason : byte
+internal enum RefusalReason : byte
 {
     /// <summary>The two speak different versions of the wire format.</summary>
     VersionDiffers = 1,

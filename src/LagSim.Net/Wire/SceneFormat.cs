@@ -11,7 +11,7 @@ namespace LagSim.Net.Wire;
 /// for a -0.0, which is accepted, read as 0.0, and never written.</para>
 /// <para>Pure functions, safe on any thread.</para>
 /// </remarks>
-public static class SceneFormat
+internal static class SceneFormat
 {
     /// <summary>
     /// The most bodies that travel. To find those that overlap takes, in the worst arrangement, the square of their number; at this

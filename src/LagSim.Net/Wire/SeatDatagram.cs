@@ -4,7 +4,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>The host gives a client that is ready its place among the players. Repeated until an update of the client bears the number.</summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
-public readonly struct SeatDatagram
+internal readonly struct SeatDatagram
 {
     /// <summary>A place of these fields.</summary>
     public SeatDatagram(ulong sessionId, byte peer, uint lastSequence, Token128 pass)

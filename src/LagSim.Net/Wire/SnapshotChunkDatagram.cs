@@ -4,7 +4,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>A piece of the copy of scene and world that a client fetches.</summary>
 /// <remarks>Its bytes are those of the datagram it was read from, or will be written from; valid as long as those are.</remarks>
-public readonly ref struct SnapshotChunkDatagram
+internal readonly ref struct SnapshotChunkDatagram
 {
     /// <summary>The length of every piece but the last.</summary>
     public const int MaxData = WireFormat.MaxBytes - WireFormat.EmptySnapshotChunkBytes;

@@ -12,7 +12,7 @@ namespace LagSim.Net.Wire;
 /// Pure functions, safe on any thread. What is read is well formed; whether it is a world of a scene
 /// <see cref="Simulation(Scene, WorldSnapshot, SimulationOptions)"/> tells. The layout stands in <c>docs/WIRE.md</c>.
 /// </remarks>
-public static class SnapshotFormat
+internal static class SnapshotFormat
 {
     private const int HeadBytes = 28; // start, time, event hash, count
     private const int MinBodyBytes = 194; // without supports, dense output, contacts and hold

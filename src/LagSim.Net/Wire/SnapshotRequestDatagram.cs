@@ -4,7 +4,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>A client asks for pieces of the copy that it was told of.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
-public readonly struct SnapshotRequestDatagram
+internal readonly struct SnapshotRequestDatagram
 {
     /// <summary>The most pieces that are asked for at once.</summary>
     public const int MaxChunks = 64;

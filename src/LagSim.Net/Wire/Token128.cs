@@ -5,7 +5,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>Sixteen bytes that only who has a secret can make.</summary>
 /// <remarks>Immutable, safe on any thread. Comparing takes the same time wherever two differ.</remarks>
-public readonly struct Token128 : IEquatable<Token128>
+internal readonly struct Token128 : IEquatable<Token128>
 {
     /// <summary>How many bytes it has.</summary>
     public const int Bytes = 16;

@@ -4,7 +4,7 @@ using LagSim.Time;
 namespace LagSim.Net.Wire;
 
 // How an update becomes bytes and comes back; the layout is in docs/WIRE.md.
-public sealed partial class UpdateDatagram
+internal sealed partial class UpdateDatagram
 {
     /// <summary>Writes the datagram.</summary>
     /// <param name="destination">At least <see cref="EncodedLength"/> bytes; <see cref="WireFormat.MaxBytes"/> always do.</param>

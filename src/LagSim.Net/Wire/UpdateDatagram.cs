@@ -10,7 +10,7 @@ namespace LagSim.Net.Wire;
 /// <para>Times that may be missing say so with <see cref="SimTime.MinValue"/>. All times are within <see cref="WireFormat.MaxTimeTicks"/>
 /// of their origin.</para>
 /// </remarks>
-public sealed partial class UpdateDatagram
+internal sealed partial class UpdateDatagram
 {
     /// <summary>The most entries that a datagram can hold: that many numbers of the addressee's own events.</summary>
     public const int MaxEntries = (WireFormat.MaxBytes - WireFormat.EmptyUpdateBytes) / OwnEntryBytes;

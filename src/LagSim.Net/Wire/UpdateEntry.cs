@@ -4,7 +4,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>An external event and what the host said about it, as one entry of an <see cref="UpdateDatagram"/>.</summary>
 /// <remarks>Immutable, safe on any thread. <c>default</c> is no entry.</remarks>
-public readonly struct UpdateEntry
+internal readonly struct UpdateEntry
 {
     private readonly uint sequence;
 

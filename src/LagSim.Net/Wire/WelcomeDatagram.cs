@@ -5,7 +5,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>The host lets a client come in, and tells it what to fetch: a copy of scene and world, and the log from where that ends.</summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
-public readonly struct WelcomeDatagram
+internal readonly struct WelcomeDatagram
 {
     /// <summary>An answer of these fields.</summary>
     public WelcomeDatagram(

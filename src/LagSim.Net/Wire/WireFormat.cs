@@ -5,7 +5,7 @@ using LagSim.Time;
 namespace LagSim.Net.Wire;
 
 /// <summary>The numbers that all datagrams share. The layouts stand in <c>docs/WIRE.md</c>; all sizes are in bytes.</summary>
-public static class WireFormat
+internal static class WireFormat
 {
     /// <summary>The first two bytes of every datagram, little-endian.</summary>
     public const ushort Magic = 0x4C53;

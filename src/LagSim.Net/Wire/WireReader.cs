@@ -11,7 +11,7 @@ namespace LagSim.Net.Wire;
 /// Never throws, never reads past the end, allocates nothing. The first thing wrong is kept in <see cref="Refusal"/>; from then on every
 /// read gives zero, so a decoder reads all its fields and asks once, in <see cref="Finish"/>.
 /// </remarks>
-public ref struct WireReader
+internal ref struct WireReader
 {
     private readonly ReadOnlySpan<byte> bytes;
     private int position;

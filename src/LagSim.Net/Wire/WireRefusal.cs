@@ -1,7 +1,7 @@
 namespace LagSim.Net.Wire;
 
 /// <summary>Why a byte string was not accepted as a datagram. For counters and messages; it does not travel.</summary>
-public enum WireRefusal : byte
+internal enum WireRefusal : byte
 {
     /// <summary>It was accepted.</summary>
     None = 0,

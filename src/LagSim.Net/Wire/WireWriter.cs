@@ -7,7 +7,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>Writes fields one after another into a span, little-endian.</summary>
 /// <remarks>Allocates nothing. Writing past the end throws <see cref="ArgumentException"/>: who writes knows the size beforehand.</remarks>
-public ref struct WireWriter
+internal ref struct WireWriter
 {
     private readonly Span<byte> bytes;
 

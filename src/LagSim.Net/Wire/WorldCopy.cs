@@ -10,7 +10,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>What a client needs to have the world: its scene, and if it has begun long enough ago the committed state.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
-public sealed class WorldCopy
+internal sealed class WorldCopy
 {
     /// <summary>The longest copy: 64 MiB, some 300,000 bodies.</summary>
     public const int MaxBytes = 1 << 26;

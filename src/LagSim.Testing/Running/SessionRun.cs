@@ -210,23 +210,36 @@ internal sealed class SessionRun
 
         SessionOptions chosen = options(number)
             ?? throw new SessionTestException($"There are no session options for player {number}: what WithOptions got returned null.");
-        chosen.ExpectedClients = expectedClients;
-        chosen.StartLead = chosen.StartLead < StartLead() ? StartLead() : chosen.StartLead;
-        chosen.Cancellation = cancellation;
-        chosen.ExtraHistory = chosen.Contacts is null ? WholeTimelines : chosen.ExtraHistory;
-        chosen.Accelerations ??= number == 0 ? null : scene.Accelerations;
+        chosen = chosen with
+        {
+            Cancellation = cancellation,
+            ExtraHistory = chosen.Contacts is null ? WholeTimelines : chosen.ExtraHistory,
+        };
         IDatagramPort port = network.CreatePort(number);
         SeededRandom luck = clockLuck.Fork((ulong)number);
         double drift = luck.NextDouble(-ClockDriftPartsPerMillion, ClockDriftPartsPerMillion);
         SimDuration apart = SimDuration.FromSeconds(luck.NextDouble(-ClockSpreadSeconds, ClockSpreadSeconds));
         SkewedClock own = new(clock, drift, apart + (client?.Link.ReceiverClockOffset ?? SimDuration.Zero));
         Session session = number == 0
-            ? new HostSession(scene, port, own, chosen, seed)
-            : new ClientSession(null, port, own, chosen, PeerAddress.Virtual(0), seed + (ulong)number);
+            ? new HostSession(scene, port, own, HostsOf(chosen, expectedClients), seed)
+            : new ClientSession(null, port, own, ClientsOf(chosen), PeerAddress.Virtual(0), seed + (ulong)number);
         int place = steps.Add(session, port);
         Member member = new(client?.Link, session, new TestPlayer(number, session, () => steps.Wake(place)), _ => acceptedEntries);
         members[number] = member;
         Watch(member);
+    }
+
+    private HostOptions HostsOf(SessionOptions chosen, int expectedClients)
+    {
+        HostOptions options = HostOptions.From(chosen);
+        SimDuration least = StartLead();
+        return options with { ExpectedClients = expectedClients, StartLead = options.StartLead < least ? least : options.StartLead };
+    }
+
+    private ClientOptions ClientsOf(SessionOptions chosen)
+    {
+        ClientOptions options = ClientOptions.From(chosen);
+        return options with { Accelerations = options.Accelerations ?? scene.Accelerations };
     }
 
     /// <summary>Long enough for all who are there from the start to hear of it before it comes, unless much is lost.</summary>

@@ -6,6 +6,13 @@ namespace LagSim.Events;
 
 /// <summary>What a player does to a body, before it is stamped with time, peer and sequence and so becomes an <see cref="ExternalEvent"/>.</summary>
 /// <remarks>Immutable, safe on any thread. <c>default</c> is no action and cannot be stamped.</remarks>
+/// <example>
+/// A kick, then a ball that is put elsewhere at rest:
+/// <code>
+/// _ = me.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0))); // 6 N s upwards
+/// _ = me.Do(PlayerAction.Teleport(ball, new Vector3D(0, 4, 0), Vector3D.Zero));
+/// </code>
+/// </example>
 public readonly struct PlayerAction
 {
     private readonly BodyId body;

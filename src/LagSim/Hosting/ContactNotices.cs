@@ -20,6 +20,20 @@ namespace LagSim.Hosting;
 /// <para>Memory: the queue, and some 150 bytes for each contact that is neither confirmed nor retracted; these are no more than the world's own pieces of path,
 /// which the world bounds.</para>
 /// </remarks>
+/// <example>
+/// A score that counts only what nothing can change any more:
+/// <code>
+/// ContactNotices contacts = new(minClosingSpeed: 0.2); // m/s
+/// using PeerThread host = PeerThread.Host(scene, options: new HostOptions { Contacts = contacts });
+/// int score = 0;
+///
+/// // each frame
+/// while (contacts.TryRead(out ContactNotice contact))
+/// {
+///     score += contact.Kind == ContactNoticeKind.Confirmed ? 1 : 0;
+/// }
+/// </code>
+/// </example>
 public sealed class ContactNotices : IImpactObserver
 {
     /// <summary>The least closing speed where nothing else is said, 0.05 m/s: ten times that of the least bounces that are followed on other bodies.</summary>

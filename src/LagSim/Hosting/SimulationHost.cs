@@ -12,6 +12,18 @@ namespace LagSim.Hosting;
 /// Every member may be called from any thread, but <see cref="RenderSnapshot"/> from one only. An action is stamped when it is done, and seen in
 /// the render snapshots that follow a moment later. For several machines see the peers of LagSim.Net, which keep their worlds in the same way.
 /// </remarks>
+/// <example>
+/// A world on one machine; each frame reads it:
+/// <code>
+/// using SimulationHost host = new(scene, new StopwatchClock());
+/// host.Start();
+/// host.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
+/// if (host.RenderSnapshot.TryRead(ball, host.Now, out BodyState state))
+/// {
+///     Console.WriteLine($"height {state.Position.Y:F2} m");
+/// }
+/// </code>
+/// </example>
 public sealed class SimulationHost : IDisposable
 {
     private readonly ConcurrentQueue<ExternalEvent> submitted = new();

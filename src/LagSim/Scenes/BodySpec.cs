@@ -4,6 +4,12 @@ namespace LagSim.Scenes;
 
 /// <summary>What a body is, apart from where it is: size, mass, material and how it flies.</summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>: a radius and a mass are above zero. A scene and a simulation check it.</remarks>
+/// <example>
+/// A football, in metres and kilograms:
+/// <code>
+/// BodySpec football = new(radius: 0.11, mass: 0.43, restitution: 0.7, friction: 0.6, rollingResistance: 0.02);
+/// </code>
+/// </example>
 public readonly struct BodySpec : System.IEquatable<BodySpec>
 {
     /// <summary>The step of <see cref="MotionLaw.RungeKutta4"/> where a scene names none: 1/200 s, as in the thesis.</summary>

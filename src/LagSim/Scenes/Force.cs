@@ -87,7 +87,7 @@ public sealed class Force
 
     /// <summary>
     /// An acceleration in C#, a program's own. It travels by name and author's version, never as code: a client that does not have it among
-    /// <c>SessionOptions.Accelerations</c> does not get in. A body under it never comes to rest, and its steps are <see cref="MotionLaw.DormandPrince54"/>'s or
+    /// <c>ClientOptions.Accelerations</c> does not get in. A body under it never comes to rest, and its steps are <see cref="MotionLaw.DormandPrince54"/>'s or
     /// fixed.
     /// </summary>
     /// <exception cref="ArgumentNullException">There is none.</exception>

@@ -5,6 +5,15 @@ namespace LagSim.Scenes;
 
 /// <summary>What exists at the start: bodies, static geometry, gravity and other forces. Made by <see cref="SceneBuilder"/>.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
+/// <example>
+/// A ball above a floor, with friction:
+/// <code>
+/// Scene scene = new SceneBuilder("bounce")
+///     .AddPlane("floor", normal: Vector3D.Up, point: Vector3D.Zero, friction: 0.4)
+///     .AddBody("ball", new BodySpec(radius: 0.5, mass: 1, restitution: 0.7), position: new Vector3D(0, 4, 0))
+///     .Build();
+/// </code>
+/// </example>
 public sealed class Scene
 {
     internal Scene(

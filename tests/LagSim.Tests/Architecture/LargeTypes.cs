@@ -11,8 +11,9 @@ internal static class LargeTypes
         new("LagSim.Timelines.TimelineStore", "waits to be split: keeping, cutting and asking are in one"),
 
         // Peers.
+        new("LagSim.Net.Sessions.Core.SessionParts", "puts the parts together, a field for each part; it has no code of its own"),
         new("LagSim.Net.Sessions.SessionCounters", "a number for each thing that is counted"),
-        new("LagSim.Net.Sessions.SessionOptions", "a field for each option, of hosts and clients alike; waits to be split by these two"),
+        new("LagSim.Net.Sessions.SessionOptions", "a field for each option that hosts and clients both have"),
         new("LagSim.Net.Wire.UpdateDatagram", "a field for each that the datagram carries"),
 
         // Tests for games.

@@ -92,6 +92,8 @@ internal static class Layers
         new("LagSim.Net.Sessions.SessionCounters", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.SessionEnd", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.SessionOptions", SessionWords, ForUsers),
+        new("LagSim.Net.Sessions.HostOptions", SessionWords, ForUsers),
+        new("LagSim.Net.Sessions.ClientOptions", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.SessionState", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.Hosts.DoorLimits", SessionWords, "an option of a session that only tests set"),
 

@@ -67,7 +67,7 @@ public sealed class ThrowingForceTests
     {
         SessionGroup group = new(
             Windy(Below(99), MotionLaw.Automatic, 1e-9), 3, LinkProfiles.PureDelay(5),
-            options: peer => new SessionOptions { Accelerations = [new FunctionForce(Below(peer == 1 ? 0 : 99))] },
+            options: peer => new ClientOptions { Accelerations = [new FunctionForce(Below(peer == 1 ? 0 : 99))] },
             scenes: peer => Windy(Below(peer == 1 ? 0 : 99), MotionLaw.Automatic, 1e-9));
         Assert.True(group.RunUntil(() => group.Sessions[1].State == SessionState.Ended && group.Sessions[2].State == SessionState.Running));
         Assert.Equal([SessionEnd.None, SessionEnd.Failed, SessionEnd.None], group.Sessions.Select(s => s.EndedBy));

@@ -135,7 +135,7 @@ public sealed class BudgetTests
     [InlineData(true)]
     public void Do_WithLessThanHalfOfTheBudgetLeft_IsRefusedAndThePlayerStays(bool hasBudget)
     {
-        SessionGroup group = new(Room(), 2, LinkProfiles.PureDelay(20), 1, _ => new SessionOptions { PlayerBudget = hasBudget ? new PlayerBudget(1, 5000) : null });
+        SessionGroup group = new(Room(), 2, LinkProfiles.PureDelay(20), 1, _ => new HostOptions { PlayerBudget = hasBudget ? new PlayerBudget(1, 5000) : null });
         group.Connect();
         group.Run(1);
         for (int n = 0; n < 400 && group.Sessions[1].Counters.EventsRefused == 0; n++)
@@ -173,7 +173,7 @@ public sealed class BudgetTests
     [Fact]
     public void RemoveBodiesOf_ASpawnThatIsStillToCome_RemovesItAsItComes()
     {
-        SessionGroup group = new(Room(), 2, LinkProfiles.PureDelay(20), 1, peer => peer == 0 ? new SessionOptions() : new SessionOptions
+        SessionGroup group = new(Room(), 2, LinkProfiles.PureDelay(20), 1, peer => peer == 0 ? new HostOptions() : new ClientOptions
         {
             Window = new LatencyCompensationWindow(lookAhead: SimDuration.FromMilliseconds(400)).WithLocalLag(EventKind.Spawn, SimDuration.FromMilliseconds(250)),
         });
@@ -225,7 +225,7 @@ public sealed class BudgetTests
 
     private static ClientSession Again(SessionGroup group, ulong nonce)
     {
-        ClientSession session = new(null, group.Ports[1], new SkewedClock(group.Clock, 0, default), new SessionOptions(), PeerAddress.Virtual(0), nonce);
+        ClientSession session = new(null, group.Ports[1], new SkewedClock(group.Clock, 0, default), new ClientOptions(), PeerAddress.Virtual(0), nonce);
         group.Steps.Replace(1, session, group.Ports[1]);
         group.Run(3);
         return session;
@@ -239,7 +239,7 @@ public sealed class BudgetTests
 
     private static SessionGroup Three(Scene? scene = null, bool hasBudget = true)
     {
-        SessionGroup group = new(scene ?? Room(), 3, LinkProfiles.PureDelay(20), 1, _ => new SessionOptions { PlayerBudget = hasBudget ? PlayerBudget.Default : null });
+        SessionGroup group = new(scene ?? Room(), 3, LinkProfiles.PureDelay(20), 1, _ => new HostOptions { PlayerBudget = hasBudget ? PlayerBudget.Default : null });
         group.Connect();
         group.Run(1);
         group.Steps.WorkPerSecond = MicrosecondsASecond;

@@ -132,7 +132,7 @@ public sealed class SessionCommandTests
     {
         // A host that says another hash than it has.
         using LyingPort port = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0)));
-        HostSession session = new(BuiltInScenes.Drop(), port, new StopwatchClock(), new SessionOptions { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
+        HostSession session = new(BuiltInScenes.Drop(), port, new StopwatchClock(), new HostOptions { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
         using PeerThread host = new(session, port, "host");
         host.Start();
         using LiveTool client = LiveTool.Run($"join {port.LocalAddress} --for-s 1");
@@ -146,7 +146,7 @@ public sealed class SessionCommandTests
     {
         using EventTakingPort port = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0)));
         HostSession session = new(
-            BuiltInScenes.Drop(), port, new StopwatchClock(), new SessionOptions { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
+            BuiltInScenes.Drop(), port, new StopwatchClock(), new HostOptions { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
         using PeerThread host = new(session, port, "host");
         host.Start();
         using LiveTool client = LiveTool.Run($"join {port.LocalAddress} --for-s 2");
@@ -209,7 +209,7 @@ public sealed class SessionCommandTests
         using TemporaryFolder folder = new();
         using EventAgingPort port = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0))) { IsAging = isAged };
         HostSession session = new(
-            BuiltInScenes.Drop(), port, new StopwatchClock(), new SessionOptions { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
+            BuiltInScenes.Drop(), port, new StopwatchClock(), new HostOptions { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
         using PeerThread host = new(session, port, "host");
         host.Start();
         using LiveTool client = LiveTool.Run($"join {port.LocalAddress} --for-s 4 --record", folder["mine.lagsim"]);
@@ -231,7 +231,7 @@ public sealed class SessionCommandTests
     {
         // What is done while nothing gets through is never heard of, and the next scripted action after it bears the same number.
         using CutPort port = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0)));
-        SessionOptions options = new() { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3), Timeout = SimDuration.FromSeconds(2) };
+        HostOptions options = new() { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3), Timeout = SimDuration.FromSeconds(2) };
         HostSession session = new(BuiltInScenes.Drop(), port, new StopwatchClock(), options, 5);
         using ManualResetEventSlim gone = new();
         session.ClientGone += _ => gone.Set();
@@ -313,7 +313,7 @@ public sealed class SessionCommandTests
     {
         using LiveTool host = LiveTool.Run("host --scene drop");
         using UdpPort port = new(new IPEndPoint(IPAddress.Loopback, 0));
-        ClientSession brief = new(null, port, new StopwatchClock(), new SessionOptions(), PeerAddress.From(IPEndPoint.Parse(host.Address)), 9);
+        ClientSession brief = new(null, port, new StopwatchClock(), new ClientOptions(), PeerAddress.From(IPEndPoint.Parse(host.Address)), 9);
         Assert.True(SpinWait.SpinUntil(
             () =>
             {

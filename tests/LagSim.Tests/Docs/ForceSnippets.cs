@@ -40,7 +40,7 @@ internal static class ForceSnippets
 
     internal static void Join(IPEndPoint address)
     {
-        SessionOptions options = new() { Accelerations = new[] { new Whirl() } };
+        ClientOptions options = new() { Accelerations = new[] { new Whirl() } };
         using PeerThread peer = PeerThread.Join(address, options);
     }
 

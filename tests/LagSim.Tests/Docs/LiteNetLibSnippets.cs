@@ -1,5 +1,4 @@
 using System.Net;
-using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
@@ -9,11 +8,12 @@ namespace LagSim.Tests.Docs;
 /// <summary>The code of the page of LagSim.Net.LiteNetLib, compiled.</summary>
 internal static class LiteNetLibSnippets
 {
-    internal static void Host(Scene scene, ulong sessionId)
+    internal static void Share(Scene scene)
     {
-        // sessionId: a random number; a client is a ClientSession in place of the HostSession
-        using LiteNetLibPort port = new(new IPEndPoint(IPAddress.Any, 5000));
-        using PeerThread host = new(new HostSession(scene, port, new StopwatchClock(), new SessionOptions(), sessionId), port, "host");
-        host.Start();
+        using PeerThread host = PeerThread.Host(scene, new LiteNetLibPort(new IPEndPoint(IPAddress.Any, 5000)));
+
+        // on another machine
+        PeerAddress there = PeerAddress.From(new IPEndPoint(IPAddress.Parse("192.0.2.1"), 5000));
+        using PeerThread client = PeerThread.Join(new LiteNetLibPort(new IPEndPoint(IPAddress.Any, 0)), there);
     }
 }

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
+using System.Net;
 using System.Text.RegularExpressions;
 using LagSim.Cli;
 using LagSim.Cli.Output;
@@ -22,7 +23,8 @@ namespace LagSim.Tests.Docs;
 public sealed partial class SnippetTests
 {
     private static readonly string Compiled = Read("tests/LagSim.Tests/Docs/Snippets.cs") + Read("tests/LagSim.Tests/Docs/ForceSnippets.cs")
-        + Read("tests/LagSim.Tests/Docs/LiteNetLibSnippets.cs") + Read("samples/FirstGame/Program.cs");
+        + Read("tests/LagSim.Tests/Docs/LiteNetLibSnippets.cs") + Read("tests/LagSim.Tests/Docs/Examples.cs")
+        + Read("samples/FirstGame/Program.cs");
 
     [Theory]
     [InlineData("README.md", 1)]
@@ -40,6 +42,26 @@ public sealed partial class SnippetTests
         Assert.Equal(count, snippets.Length);
         Assert.All(snippets, snippet => Assert.True(IsCompiled(snippet), $"{page} has code that Snippets.cs has not:\n{snippet}"));
         Assert.All(snippets, snippet => Assert.False(IsCompiled(snippet.Replace(".", "..", StringComparison.Ordinal)))); // the control
+    }
+
+    [Theory]
+    [InlineData("src/LagSim/Scenes/Scene.cs")]
+    [InlineData("src/LagSim/Scenes/BodySpec.cs")]
+    [InlineData("src/LagSim/Events/PlayerAction.cs")]
+    [InlineData("src/LagSim/Simulation.cs")]
+    [InlineData("src/LagSim/Hosting/SimulationHost.cs")]
+    [InlineData("src/LagSim/Hosting/ContactNotices.cs")]
+    [InlineData("src/LagSim.Net/Display/DisplayOffsets.cs")]
+    [InlineData("src/LagSim.Net/Sessions/PeerThread.cs")]
+    [InlineData("src/LagSim.Net/Sessions/HostOptions.cs")]
+    [InlineData("src/LagSim.Net/Sessions/ClientOptions.cs")]
+    public void Example_OfEachTypeThatIsMetFirst_IsCompiledAsItStands(string file)
+    {
+        IEnumerable<string> comments = Lines(Read(file)).Where(line => line.StartsWith("///", StringComparison.Ordinal));
+        string comment = string.Join('\n', comments.Select(line => line[3..]));
+        string code = WebUtility.HtmlDecode(Assert.Single(Example().Matches(comment)).Groups[1].Value);
+        Assert.True(IsCompiled(code), $"{file} has an example that Examples.cs has not:\n{code}");
+        Assert.False(IsCompiled(code.Replace(".", "..", StringComparison.Ordinal))); // the control
     }
 
     [Fact]
@@ -97,9 +119,9 @@ public sealed partial class SnippetTests
         VirtualNetwork network = new(clock, 1, LinkProfiles.Lan);
         VirtualSteps steps = new(network);
         IDatagramPort hostPort = network.CreatePort(0), port = network.CreatePort(1);
-        SessionOptions options = new() { Accelerations = version == 0 ? null : [new OtherWhirl(version)] };
+        ClientOptions options = new() { Accelerations = version == 0 ? null : [new OtherWhirl(version)] };
         ClientSession client = new(null, port, clock, options, PeerAddress.Virtual(0), 4);
-        steps.Add(new HostSession(ForceSnippets.Whirl(), hostPort, clock, new SessionOptions(), 1), hostPort);
+        steps.Add(new HostSession(ForceSnippets.Whirl(), hostPort, clock, new HostOptions(), 1), hostPort);
         steps.Add(client, port);
         steps.RunFor(SimDuration.FromSeconds(5));
         Assert.Equal(refusal is null ? SessionState.Running : SessionState.Ended, client.State);
@@ -170,6 +192,9 @@ public sealed partial class SnippetTests
     /// <summary>An indented line that calls the tool, without what the shell makes of its end.</summary>
     [GeneratedRegex("^    (?:lagsim|dotnet run .*?--project src/LagSim.Cli.*? --) ([^#>|\n]+)", RegexOptions.Multiline)]
     private static partial Regex Call();
+
+    [GeneratedRegex(@"<example>.*?<code>\n(.*?)</code>", RegexOptions.Singleline)]
+    private static partial Regex Example();
 
     [GeneratedRegex("^using [A-Za-z.]+;$")]
     private static partial Regex Use();

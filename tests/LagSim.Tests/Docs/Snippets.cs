@@ -174,7 +174,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
     internal void Polled(BodyId ball)
     {
         using UdpPort port = new(new IPEndPoint(IPAddress.Any, 5000));
-        HostSession session = new(scene, port, new StopwatchClock(), new SessionOptions(), Session.DrawNumber());
+        HostSession session = new(scene, port, new StopwatchClock(), new HostOptions(), Session.DrawNumber());
 
         // each frame
         session.Step();
@@ -187,9 +187,9 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         session.Leave();
     }
 
-    internal static SessionOptions Tuned()
+    internal static HostOptions Tuned()
     {
-        SessionOptions options = new()
+        HostOptions options = new()
         {
             Window = new LatencyCompensationWindow(history: SimDuration.FromMilliseconds(400), lookAhead: SimDuration.FromMilliseconds(50))
                 .WithLocalLag(EventKind.Impulse, SimDuration.FromMilliseconds(40)),

@@ -5,6 +5,7 @@ using System.Threading;
 using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Sessions;
+using LagSim.Net.Strategies;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
 using LagSim.Tests.Determinism;
@@ -78,7 +79,7 @@ public sealed class ContactNoticesTests
         LinkProfile profile = link == "loss-20" ? new LinkProfile(link, new LinkLeg(30, 0, 20)) : LinkProfiles.TryGet(link, out LinkProfile? found, out _) ? found : throw new ArgumentException(link);
         SessionGroup group = new SessionGroup(
             ScriptedActions.Box(), 3, profile, (ulong)seed,
-            peer => new SessionOptions { Window = new(SimDuration.FromSeconds(3)), Strategy = strategy, Contacts = ledgers[peer].Notices }).Connect();
+            peer => new HostOptions { Window = new(SimDuration.FromSeconds(3)), Strategy = LateEventStrategies.OfName(strategy), Contacts = ledgers[peer].Notices }).Connect();
         new ScriptedActions(seed, mostSpawns: 4).DoIn(group, 24, 0.2);
         group.Run(12);
         int count = ledgers.Min(l => l.Confirmed.Count);
@@ -96,10 +97,10 @@ public sealed class ContactNoticesTests
     public void Notices_OfOneWhoJoinsLater_AreThoseOfTheOthersFromThereOn()
     {
         Ledger early = new(), late = new();
-        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 1, LinkProfiles.PureDelay(20), 5, _ => new SessionOptions { Contacts = early.Notices }).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 1, LinkProfiles.PureDelay(20), 5, _ => new HostOptions { Contacts = early.Notices }).Connect();
         new ScriptedActions(1, mostSpawns: 2).DoIn(group, 10, 0.2);
         group.Run(3);
-        ClientSession client = group.Join(7, 77, new SessionOptions { Contacts = late.Notices });
+        ClientSession client = group.Join(7, 77, new ClientOptions { Contacts = late.Notices });
         Assert.True(group.RunUntil(() => client.State == SessionState.Running), client.EndReason);
         new ScriptedActions(2, mostSpawns: 2).DoIn(group, 20, 0.2);
         group.Run(5);

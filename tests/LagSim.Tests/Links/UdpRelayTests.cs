@@ -87,9 +87,9 @@ public sealed class UdpRelayTests : IDisposable
         using UdpRelay relay = Relay(LinkProfiles.PureDelay(5));
         using UdpPort first = new(AnyFreePort), second = new(AnyFreePort);
         using PeerThread hosting = new(
-            new HostSession(BuiltInScenes.Pair(), host, clock, new SessionOptions { ExpectedClients = 2 }, 7), host, "host");
+            new HostSession(BuiltInScenes.Pair(), host, clock, new HostOptions { ExpectedClients = 2 }, 7), host, "host");
         PeerThread[] joining = new[] { first, second }
-            .Select(port => new PeerThread(new ClientSession(BuiltInScenes.Pair(), port, clock, new SessionOptions(), relay.LocalAddress, 7), port, "joiner"))
+            .Select(port => new PeerThread(new ClientSession(BuiltInScenes.Pair(), port, clock, new ClientOptions(), relay.LocalAddress, 7), port, "joiner"))
             .ToArray();
         hosting.Start();
         Array.ForEach(joining, thread => thread.Start());

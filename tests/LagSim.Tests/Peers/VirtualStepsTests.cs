@@ -21,8 +21,8 @@ public sealed class VirtualStepsTests
         network = new VirtualNetwork(clock, 1, LinkProfiles.PureDelay(5));
         steps = new VirtualSteps(network) { BeforeStep = number => stepped[number]++ };
         IDatagramPort host = network.CreatePort(0), client = network.CreatePort(1);
-        steps.Add(new HostSession(BuiltInScenes.Billiards(), host, clock, new SessionOptions { ExpectedClients = 1 }, 7), host);
-        steps.Add(new ClientSession(null, client, clock, new SessionOptions(), PeerAddress.Virtual(0), 1), client);
+        steps.Add(new HostSession(BuiltInScenes.Billiards(), host, clock, new HostOptions { ExpectedClients = 1 }, 7), host);
+        steps.Add(new ClientSession(null, client, clock, new ClientOptions(), PeerAddress.Virtual(0), 1), client);
         steps.RunFor(SimDuration.FromSeconds(2));
     }
 
@@ -55,7 +55,7 @@ public sealed class VirtualStepsTests
         steps.Freeze(1);
         PlayerPass pass = ((ClientSession)steps.Sessions[1]).Pass!.Value;
         IDatagramPort port = network.CreatePort(2);
-        ClientSession again = new(null, port, clock, new SessionOptions { Pass = pass }, PeerAddress.Virtual(0), 2);
+        ClientSession again = new(null, port, clock, new ClientOptions { Pass = pass }, PeerAddress.Virtual(0), 2);
         steps.RunFor(SimDuration.FromSeconds(1));
         steps.Replace(1, again, port);
         steps.RunFor(SimDuration.FromSeconds(2));

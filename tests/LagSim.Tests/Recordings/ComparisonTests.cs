@@ -4,6 +4,7 @@ using System.Linq;
 using LagSim.Events;
 using LagSim.Net.Recordings;
 using LagSim.Net.Sessions;
+using LagSim.Net.Strategies;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Tests.Determinism;
@@ -236,7 +237,7 @@ public sealed class ComparisonTests
         for (ulong seed = 1; seed <= 3; seed++)
         {
             Recording[] recordings = OfPeers(AgreementTests.Play(
-                "loss-10", 3, seed, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(5)), ExtraHistory = SimDuration.FromSeconds(60) }));
+                "loss-10", 3, seed, _ => new HostOptions { Window = new(SimDuration.FromSeconds(5)), ExtraHistory = SimDuration.FromSeconds(60) }));
             Assert.All(recordings, recording => Assert.Equal(ReplayOutcome.Agrees, Replayed(recording).Outcome));
             Assert.All(recordings[1..], recording => Assert.Equal(ComparisonOutcome.Agrees, Compared(recordings[0], recording).Outcome));
             Assert.True(recordings[0].Committed.Count >= 3 && recordings[0].Entries.Count == 24, $"{recordings[0].Committed.Count} states");
@@ -248,7 +249,7 @@ public sealed class ComparisonTests
     {
         // With the strategy none a peer's world is not the fold of its log, and a recording of it shows that.
         Recording[] recordings = OfPeers(AgreementTests.Play(
-            "delay-100ms", 2, 1, _ => new SessionOptions { Strategy = "none", ExtraHistory = SimDuration.FromSeconds(60) }));
+            "delay-100ms", 2, 1, _ => new HostOptions { Strategy = LateEventStrategy.ApplyOnArrival, ExtraHistory = SimDuration.FromSeconds(60) }));
         RecordingComparison compared = Compared(recordings[0], recordings[1]);
         Assert.Equal(ComparisonOutcome.StateDiffers, compared.Outcome);
         Assert.Contains(" departs from its own replay at ", compared.Message, StringComparison.Ordinal);

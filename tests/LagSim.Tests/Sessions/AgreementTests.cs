@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Net.Sessions;
+using LagSim.Net.Strategies;
 using LagSim.Net.Wire;
 using LagSim.Testing.Links;
 using LagSim.Tests.Faults;
@@ -47,7 +48,7 @@ public sealed class AgreementTests
     {
         static SessionGroup Group(HealingFault fault, string strategy)
         {
-            SessionGroup group = new(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(150), 2, _ => new SessionOptions { SyncTest = true, Strategy = strategy });
+            SessionGroup group = new(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(150), 2, _ => new HostOptions { SyncTest = true, Strategy = LateEventStrategies.OfName(strategy) });
             group.Sessions[1].Put(new FaultyEngineParts { Healing = fault });
             group.Connect();
             try
@@ -90,7 +91,7 @@ public sealed class AgreementTests
         int forgotten = 0;
         for (ulong seed = 1; seed <= 8; seed++)
         {
-            SessionGroup group = Play(link, peers, seed, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(1)) });
+            SessionGroup group = Play(link, peers, seed, _ => new HostOptions { Window = new(SimDuration.FromSeconds(1)) });
             group.Run(5);
             Assert.True(group.Difference() is null, $"seed {seed}: {group.Difference()}");
             Assert.All(group.Sessions, s => Assert.Equal(0, s.Counters.EventsLost));
@@ -106,7 +107,7 @@ public sealed class AgreementTests
         int differences = 0;
         for (ulong seed = 1; seed <= 10; seed++)
         {
-            SessionGroup group = Play("delay-100ms", 3, seed, _ => new SessionOptions { Strategy = "none", ExtraHistory = SimDuration.FromSeconds(60) });
+            SessionGroup group = Play("delay-100ms", 3, seed, _ => new HostOptions { Strategy = LateEventStrategy.ApplyOnArrival, ExtraHistory = SimDuration.FromSeconds(60) });
             differences += group.Difference() is null ? 0 : 1;
         }
 
@@ -199,7 +200,7 @@ public sealed class AgreementTests
         return group;
     }
 
-    private static SessionOptions LongHistory(int peer) => new() { Window = new(SimDuration.FromSeconds(5)) };
+    private static HostOptions LongHistory(int peer) => new() { Window = new(SimDuration.FromSeconds(5)) };
 
     private static SessionGroup Connected(string link, int peers, ulong seed, Func<int, SessionOptions> options) =>
         new SessionGroup(ScriptedActions.Box(), peers, Link(link), seed, options).Connect();

@@ -22,7 +22,7 @@ public sealed class BlockedWorldTests
             .AddBody("light", light, right * 0.5).AddBody("heavy", heavy, right * 4, -right).Build();
         VirtualClock clock = new(SimTime.FromSeconds(10));
         VirtualNetwork network = new(clock, 1, LinkProfiles.Lan);
-        SessionOptions options = new()
+        HostOptions options = new()
         {
             ExpectedClients = 0,
             PlayerBudget = null,

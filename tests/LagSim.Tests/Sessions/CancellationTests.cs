@@ -21,7 +21,7 @@ public sealed class CancellationTests
     public void Step_AskedToStopInTheMiddleOfALongSimulation_EndsBetweenTwoInstants()
     {
         using CancellationTokenSource stop = new();
-        SessionGroup group = new(Rattle, 1, LinkProfiles.PureDelay(0), options: _ => new SessionOptions { Cancellation = stop.Token, MaxGivenSpeed = double.PositiveInfinity });
+        SessionGroup group = new(Rattle, 1, LinkProfiles.PureDelay(0), options: _ => new HostOptions { Cancellation = stop.Token, MaxGivenSpeed = double.PositiveInfinity });
         StopAt limit = new(100_000, stop);
         group.Host.Begun += () => group.Host.World!.Simulation.Engine.Reconvergence.Observer = limit;
         Assert.Throws<OperationCanceledException>(() => group.Run(10));
@@ -52,7 +52,7 @@ public sealed class CancellationTests
     {
         using CancellationTokenSource stop = new();
         Scene still = new SceneBuilder("still").WithGravity(Floating).AddBody("ball", Ball(), V(0)).Build();
-        SessionGroup group = new(still, 2, LinkProfiles.PureDelay(20), options: peer => new SessionOptions { Cancellation = peer == 1 ? stop.Token : default });
+        SessionGroup group = new(still, 2, LinkProfiles.PureDelay(20), options: peer => new HostOptions { Cancellation = peer == 1 ? stop.Token : default });
         group.Connect();
         stop.Cancel();
         group.Host.Step();

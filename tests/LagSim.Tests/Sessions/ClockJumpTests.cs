@@ -25,9 +25,9 @@ public sealed class ClockJumpTests
         VirtualNetwork network = new(clock, 1, LinkProfiles.Lan);
         VirtualSteps steps = new(network);
         IDatagramPort hostPort = network.CreatePort(0), port = network.CreatePort(1);
-        HostSession host = new(ScriptedActions.Box(), hostPort, clock, new SessionOptions(), 1);
+        HostSession host = new(ScriptedActions.Box(), hostPort, clock, new HostOptions(), 1);
         JumpingClock own = new(clock);
-        ClientSession client = new(null, port, own, new SessionOptions(), PeerAddress.Virtual(0), 4);
+        ClientSession client = new(null, port, own, new ClientOptions(), PeerAddress.Virtual(0), 4);
         steps.Add(host, hostPort);
         steps.Add(client, port);
         steps.RunFor(SimDuration.FromSeconds(5));

@@ -13,7 +13,7 @@ public sealed class ComingAndGoingTests
     [Fact]
     public void Events_ClientsThatComeLeaveFallSilentAndComeAnew_AreToldOnceEachInOrder()
     {
-        SessionGroup group = new(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), 2, _ => new SessionOptions
+        SessionGroup group = new(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), 2, _ => new HostOptions
         {
             Timeout = SimDuration.FromSeconds(3),
             KeepAlive = SimDuration.FromSeconds(0.5),
@@ -53,7 +53,7 @@ public sealed class ComingAndGoingTests
         group.DropLast();
         ClientSession other = group.Join(1, 4242);
         group.Run(1);
-        ClientSession former = group.Join(2, 77, new SessionOptions { Pass = pass });
+        ClientSession former = group.Join(2, 77, new ClientOptions { Pass = pass });
         group.Run(1);
         Assert.Equal((2, 1), (other.Peer, former.Peer));
         Assert.Equal(2, group.Host.ClientCount);
@@ -78,7 +78,7 @@ public sealed class ComingAndGoingTests
     {
         SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
         List<string> told = Listen(group.Host);
-        ClientSession wrong = group.Join(100, 77, new SessionOptions { ConnectKey = "wrong" });
+        ClientSession wrong = group.Join(100, 77, new ClientOptions { ConnectKey = "wrong" });
         group.Run(1);
         Assert.Equal(SessionEnd.Refused, wrong.EndedBy);
         Assert.Empty(told);

@@ -26,8 +26,7 @@ public sealed class ComingBackTests
         PlayerPass pass = group.Client(1).Pass!.Value;
         group.Steps.Freeze(0);
         group.Steps.Freeze(1);
-        SessionOptions options = Asking(rejoinSeconds);
-        options.Pass = pass;
+        ClientOptions options = Asking(rejoinSeconds) with { Pass = pass };
         ClientSession again = group.Join(7, 99, options);
         group.Run(frozenSeconds);
         group.Steps.Thaw(0);
@@ -50,8 +49,7 @@ public sealed class ComingBackTests
     public void Join_WithAPassAndWelcomedByAHostThatThenStops_AsksAgainOnceItIsThere()
     {
         SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
-        SessionOptions options = Asking(60);
-        options.Pass = group.Client(1).Pass!.Value;
+        ClientOptions options = Asking(60) with { Pass = group.Client(1).Pass!.Value };
         group.Steps.Freeze(1);
         ClientSession again = group.Join(7, 99, options);
         Assert.True(group.RunUntil(() => again.State == SessionState.Synchronising));
@@ -251,7 +249,7 @@ public sealed class ComingBackTests
         group.Steps.Freeze(2); // killed at once
         Assert.Equal([(late.Pass!.Value, false)], given);
         group.Ports[2].Dispose();
-        ClientSession again = group.Join(3, 100, new SessionOptions { Pass = given[0].Pass });
+        ClientSession again = group.Join(3, 100, new ClientOptions { Pass = given[0].Pass });
         Assert.True(group.RunUntil(() => again.State == SessionState.Running));
         Assert.Equal(late.Peer, again.Peer);
     }
@@ -264,22 +262,22 @@ public sealed class ComingBackTests
 
         SessionGroup second = new(ScriptedActions.Box(), 1, LinkProfiles.PureDelay(5), options: _ => Asking(60));
         second.Run(1);
-        ClientSession back = second.Join(1, 5, new SessionOptions { Pass = pass });
+        ClientSession back = second.Join(1, 5, new ClientOptions { Pass = pass });
         Assert.True(second.RunUntil(() => back.State == SessionState.Running));
         Assert.Equal(2, back.Peer);
         Assert.NotEqual(pass, back.Pass); // of this host
 
-        ClientSession other = second.Join(2, 6, new SessionOptions { Pass = pass }); // the number is taken, and the pass shows nothing
+        ClientSession other = second.Join(2, 6, new ClientOptions { Pass = pass }); // the number is taken, and the pass shows nothing
         Assert.True(second.RunUntil(() => other.State == SessionState.Running));
         Assert.Equal((1, SessionState.Running), (other.Peer, back.State));
 
         second.Run(60); // from then on a number cannot be chosen any more
         PlayerPass foreign = default;
         Assert.True(PlayerPass.TryParse("7-" + new string('a', 32), out foreign));
-        ClientSession late = second.Join(3, 7, new SessionOptions { Pass = foreign });
+        ClientSession late = second.Join(3, 7, new ClientOptions { Pass = foreign });
         Assert.True(second.RunUntil(() => late.State == SessionState.Running));
         Assert.Equal(3, late.Peer);
     }
 
-    private static SessionOptions Asking(double seconds) => new() { RejoinTime = SimDuration.FromSeconds(seconds) };
+    private static ClientOptions Asking(double seconds) => new() { RejoinTime = SimDuration.FromSeconds(seconds) };
 }

@@ -16,11 +16,11 @@ public sealed class ComingInAgainTests
 
     /// <summary>A cookie is good for one address. Who has one and is seen at another from then on cannot know why nobody answers.</summary>
     [Theory]
-    [InlineData(DatagramType.Challenge)]
-    [InlineData(DatagramType.Welcome)]
-    [InlineData(DatagramType.SnapshotChunk)]
-    [InlineData(DatagramType.Seat)]
-    public void Join_AddressThatChangesOnTheWayIn_GetsInWithinASecondMore(DatagramType after)
+    [InlineData((byte)DatagramType.Challenge)]
+    [InlineData((byte)DatagramType.Welcome)]
+    [InlineData((byte)DatagramType.SnapshotChunk)]
+    [InlineData((byte)DatagramType.Seat)]
+    public void Join_AddressThatChangesOnTheWayIn_GetsInWithinASecondMore(byte after)
     {
         (SessionGroup group, NatPort nat) = Host();
         nat.Place(Node, 1, 1000);
@@ -28,11 +28,11 @@ public sealed class ComingInAgainTests
         group.Network.Lose((from, to, datagram) =>
         {
             // It moves as the answer leaves for where it was: that one still arrives, or not.
-            if (!hasMoved && to == Node && datagram.Span[3] == (byte)after)
+            if (!hasMoved && to == Node && datagram.Span[3] == after)
             {
                 hasMoved = true;
                 nat.Place(Node, 1, 2000);
-                return after is DatagramType.Welcome or DatagramType.Seat;
+                return (DatagramType)after is DatagramType.Welcome or DatagramType.Seat;
             }
 
             return false;
@@ -73,7 +73,7 @@ public sealed class ComingInAgainTests
         group.Network.Connect(Node, 0, LinkProfiles.PureDelay(200));
         Intruder[] others = Enumerable.Range(0, 16).Select(n => Neighbour(group, nat, n)).ToArray();
         ClientSession client = group.Join(
-            Node, 99, new SessionOptions { RejoinTime = SimDuration.Zero, Timeout = SimDuration.FromSeconds(3) });
+            Node, 99, new ClientOptions { RejoinTime = SimDuration.Zero, Timeout = SimDuration.FromSeconds(3) });
         SimTime began = group.Clock.Now;
         while (client.State != SessionState.Ended && group.Clock.Now - began < SimDuration.FromSeconds(20))
         {

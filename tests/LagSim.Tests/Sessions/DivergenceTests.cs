@@ -19,7 +19,7 @@ namespace LagSim.Tests.Sessions;
 public sealed class DivergenceTests
 {
     private readonly SessionGroup group = new(
-        ScriptedActions.Box(), 3, LinkProfiles.PureDelay(20), options: _ => new SessionOptions { Window = new(SimDuration.FromMilliseconds(200)) });
+        ScriptedActions.Box(), 3, LinkProfiles.PureDelay(20), options: _ => new HostOptions { Window = new(SimDuration.FromMilliseconds(200)) });
     private readonly FaultyEngineParts parts = new(); // of the third's world
     private readonly List<Divergence> told = [];
     private readonly UpdateDatagram read = new();

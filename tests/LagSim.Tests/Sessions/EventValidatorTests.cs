@@ -18,7 +18,7 @@ public sealed class EventValidatorTests
     private static readonly BodyId Body = BodyId.OfScene(0);
 
     private readonly VirtualClock clock = new(SimTime.FromSeconds(100));
-    private readonly SessionOptions options = new();
+    private readonly HostOptions options = new();
     private readonly SharedWorld world;
     private readonly EventValidator validator;
 

@@ -107,7 +107,7 @@ public sealed class EveryProfileTests
     private static SessionGroup Play(string profile, ulong seed, double extraHistory = 0, Func<SessionGroup, int, int, ReadOnlyMemory<byte>, bool>? loses = null)
     {
         Assert.True(LinkProfiles.TryGet(profile, out LinkProfile? link, out _));
-        SessionGroup group = new(ScriptedActions.Box(), 9, link, seed, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(5)), ExtraHistory = SimDuration.FromSeconds(extraHistory), Timeout = SimDuration.FromSeconds(loses is null ? 10 : 600) });
+        SessionGroup group = new(ScriptedActions.Box(), 9, link, seed, _ => new HostOptions { Window = new(SimDuration.FromSeconds(5)), ExtraHistory = SimDuration.FromSeconds(extraHistory), Timeout = SimDuration.FromSeconds(loses is null ? 10 : 600) });
         group.Connect();
         if (loses is not null)
         {

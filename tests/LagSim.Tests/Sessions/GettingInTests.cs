@@ -109,7 +109,7 @@ public sealed class GettingInTests
     public void Events_OfOneWhoComesAgain_AreNotMoreThanAllowed()
     {
         SessionGroup group = new SessionGroup(
-            ScriptedActions.Box(), 1, LinkProfiles.PureDelay(1), options: _ => new SessionOptions { MaxEventsPerSecond = 10 }).Connect();
+            ScriptedActions.Box(), 1, LinkProfiles.PureDelay(1), options: _ => new HostOptions { MaxEventsPerSecond = 10 }).Connect();
         RawClient client = new(group);
         SimTime began = group.Clock.Now;
         for (ulong n = 1; n <= 10; n++)
@@ -131,7 +131,7 @@ public sealed class GettingInTests
     {
         Dictionary<byte, string> keys = new() { [1] = "alice", [3] = "carol" };
         Scene scene = new SceneBuilder("own").AddPlane("floor", Vector3D.Up, V(0)).AddBody("hers", Ball(), V(0, 2), default, PeerSet.Of(3)).Build();
-        SessionGroup group = new SessionGroup(scene, 1, LinkProfiles.PureDelay(1), options: _ => new SessionOptions { PlayerKeys = keys }).Connect();
+        SessionGroup group = new SessionGroup(scene, 1, LinkProfiles.PureDelay(1), options: _ => new HostOptions { PlayerKeys = keys }).Connect();
         Session stranger = Run(10, ""), carol = Run(11, "carol"), alice = Run(12, "alice"), other = Run(13, "");
         Assert.Equal((2, 3, 1, 4), (stranger.Peer, carol.Peer, alice.Peer, other.Peer));
         carol.Do(PlayerAction.Impulse(First, V(0, 1)));
@@ -142,13 +142,13 @@ public sealed class GettingInTests
         group.Run(0.1);
         Assert.Equal((3, SessionState.Running), (again.Peer, again.State));
         Assert.Equal("This player came in from elsewhere; the host at virtual:0 let this peer go.", carol.EndReason);
-        ClientSession nobody = group.Join(15, 15, new SessionOptions { ConnectKey = "dave" });
+        ClientSession nobody = group.Join(15, 15, new ClientOptions { ConnectKey = "dave" });
         Assert.True(group.RunUntil(() => nobody.State == SessionState.Ended, 1));
         Assert.Equal("The host at virtual:0 refused: the key is wrong.", nobody.EndReason);
 
         Session Run(int address, string key)
         {
-            ClientSession session = group.Join(address, (ulong)address, new SessionOptions { ConnectKey = key });
+            ClientSession session = group.Join(address, (ulong)address, new ClientOptions { ConnectKey = key });
             Assert.True(group.RunUntil(() => session.State == SessionState.Running, 5));
             return session;
         }
@@ -162,7 +162,7 @@ public sealed class GettingInTests
     public void PlayerKeys_ThatCannotBe_AreRefused(byte number, string key)
     {
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
-        SessionOptions options = new() { ConnectKey = "the connect key", PlayerKeys = new Dictionary<byte, string> { [number] = key } };
+        HostOptions options = new() { ConnectKey = "the connect key", PlayerKeys = new Dictionary<byte, string> { [number] = key } };
         ArgumentException refused = Assert.ThrowsAny<ArgumentException>(() => new HostSession(ScriptedActions.Box(), port, new VirtualClock(), options, 1));
         Assert.Equal("PlayerKeys", refused.ParamName);
     }
@@ -179,7 +179,7 @@ public sealed class GettingInTests
         {
             SlowClock clock = new();
             AnsweringPort port = new();
-            SessionOptions options = new() { ExpectedClients = 0, Window = new(SimDuration.FromSeconds(history)), StartLead = SimDuration.Zero };
+            HostOptions options = new() { ExpectedClients = 0, Window = new(SimDuration.FromSeconds(history)), StartLead = SimDuration.Zero };
             HostSession host = new(ScriptedActions.Box(), port, clock, options, 1);
             host.Step();
             clock.Time += SimDuration.OneTick;
@@ -209,7 +209,7 @@ public sealed class GettingInTests
         group.Run(30.001 - (group.Clock.Now.ToSeconds() % 30)); // a half minute begins
         bool isLost = true;
         group.Network.Lose((from, _, datagram) => isLost && from == 7 && datagram.Span[3] == (byte)DatagramType.Join);
-        ClientSession client = group.Join(7, 99, new SessionOptions { Timeout = SimDuration.FromSeconds(60) });
+        ClientSession client = group.Join(7, 99, new ClientOptions { Timeout = SimDuration.FromSeconds(60) });
         group.Run(20.5);
         Assert.Equal(SessionState.Joining, client.State);
         isLost = false;
@@ -221,10 +221,10 @@ public sealed class GettingInTests
     {
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
         Assert.Contains("The clock reads 2000001 s; a session takes one that reads less than 2000000 s", Assert.Throws<ArgumentException>(
-            () => new HostSession(ScriptedActions.Box(), port, new VirtualClock(SimTime.FromSeconds(2_000_001)), new SessionOptions(), 1)).Message, StringComparison.Ordinal);
+            () => new HostSession(ScriptedActions.Box(), port, new VirtualClock(SimTime.FromSeconds(2_000_001)), new HostOptions(), 1)).Message, StringComparison.Ordinal);
 
         VirtualClock clock = new(SimTime.FromSeconds(1_999_999));
-        HostSession host = new(ScriptedActions.Box(), port, clock, new SessionOptions { ExpectedClients = 0 }, 1);
+        HostSession host = new(ScriptedActions.Box(), port, clock, new HostOptions { ExpectedClients = 0 }, 1);
         host.Step();
         Assert.NotEqual(SessionState.Ended, host.State);
         clock.Now += SimDuration.FromSeconds(2);

@@ -106,7 +106,7 @@ public sealed class HandSenderTests
     public void Traffic_OfOneHand_IsBelowTheAim(int milliseconds, bool isSlow, double bytesASecond)
     {
         Scene scene = new SceneBuilder("hand").AddPlane("floor", Vector3D.Up, V(0, -2), 0.5).AddBody("ball", Ball(0.1), V(0)).Build();
-        SessionGroup group = new SessionGroup(scene, 2, LinkProfiles.PureDelay(milliseconds), 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(3)) }).Connect();
+        SessionGroup group = new SessionGroup(scene, 2, LinkProfiles.PureDelay(milliseconds), 1, _ => new HostOptions { Window = new(SimDuration.FromSeconds(3)) }).Connect();
         ClientSession player = group.Client(1);
         HandMotion hand = new(5, isSlow);
         HandSender sender = new(First);

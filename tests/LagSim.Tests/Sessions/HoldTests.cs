@@ -99,7 +99,7 @@ public sealed class HoldTests
     [InlineData(0, 2)]
     public void LastKeyframe_OfWhichManyDatagramsInARowAreLost_IsThereWithinTwoSeconds(int from, int to)
     {
-        SessionGroup group = new SessionGroup(Scene(PeerSet.Everyone), 3, LinkProfiles.PureDelay(200), 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(3)) }).Connect();
+        SessionGroup group = new SessionGroup(Scene(PeerSet.Everyone), 3, LinkProfiles.PureDelay(200), 1, _ => new HostOptions { Window = new(SimDuration.FromSeconds(3)) }).Connect();
         int left = 0;
         group.Network.Lose((sender, receiver, _) => sender == from && receiver == to && left-- > 0);
         group.Do(1, PlayerAction.Grab(First));
@@ -174,7 +174,7 @@ public sealed class HoldTests
             group.Run(0.2);
         }
 
-        ClientSession late = group.Join(7, 77, Long());
+        ClientSession late = group.Join(7, 77, ClientOptions.From(Long()));
         Assert.True(group.RunUntil(() => late.State == SessionState.Running));
         Assert.NotNull(late.BegunFrom);
         Assert.Equal(MotionLaw.Held, late.BegunFrom.Bodies[0].Law);
@@ -204,7 +204,7 @@ public sealed class HoldTests
         Assert.True(holds > 2, $"{holds} knots that had an effect");
     }
 
-    private static SessionOptions Long() => new() { Window = new(SimDuration.FromSeconds(5)), ExtraHistory = SimDuration.FromSeconds(60) };
+    private static HostOptions Long() => new() { Window = new(SimDuration.FromSeconds(5)), ExtraHistory = SimDuration.FromSeconds(60) };
 
     private static SessionGroup Group(int peers) => new SessionGroup(Scene(PeerSet.Everyone), peers, LinkProfiles.PureDelay(50), 3, _ => Long()).Connect();
 

@@ -64,7 +64,7 @@ public sealed class JoinAnyTimeTests
         // Spawns, removals, bodies on Runge-Kutta, others who act during the join; three addresses in turn, of which some leave and some just vanish.
         const int joins = 9;
         Assert.True(LinkProfiles.TryGet(link, out LinkProfile? profile, out _));
-        SessionOptions Options() => new() { Window = new(SimDuration.FromSeconds(3)) };
+        HostOptions Options() => new() { Window = new(SimDuration.FromSeconds(3)) };
         SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, profile, (ulong)seed, _ => Options()).Connect();
         ScriptedActions scriptedActions = new(seed, mostSpawns: 20);
         Random random = new(seed);
@@ -76,7 +76,7 @@ public sealed class JoinAnyTimeTests
         {
             done.AddRange(scriptedActions.DoIn(group, 3));
             group.Run(random.NextDouble() * 2);
-            ClientSession client = group.Join(100 + (i % 3), (ulong)(1000 + i + (100 * seed)), Options());
+            ClientSession client = group.Join(100 + (i % 3), (ulong)(1000 + i + (100 * seed)), ClientOptions.From(Options()));
             for (int tries = 0; tries < 200 && client.State is not (SessionState.Running or SessionState.Ended); tries++)
             {
                 if (tries % 3 == 0)
@@ -119,7 +119,7 @@ public sealed class JoinAnyTimeTests
         // 400 bodies are some 80 KB: seventy pieces, more than a window.
         Assert.True(LinkProfiles.TryGet(link, out LinkProfile? profile, out _));
         SessionGroup group = new SessionGroup(
-            BuiltInScenes.Crowd(400), 2, profile, 3, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(5)) }).Connect();
+            BuiltInScenes.Crowd(400), 2, profile, 3, _ => new HostOptions { Window = new(SimDuration.FromSeconds(5)) }).Connect();
         group.Run(6);
         ClientSession client = group.Join(100, 77);
         Assert.True(group.RunUntil(() => client.State == SessionState.Running), client.EndReason);
@@ -167,7 +167,7 @@ public sealed class JoinAnyTimeTests
     {
         SessionGroup group = new SessionGroup(
             ScriptedActions.Box(), 2, LinkProfiles.PureDelay(10), 3,
-            _ => new SessionOptions { Timeout = SimDuration.FromSeconds(2), KeepAlive = SimDuration.FromSeconds(0.5), RejoinTime = SimDuration.Zero }).Connect();
+            _ => new HostOptions { Timeout = SimDuration.FromSeconds(2), KeepAlive = SimDuration.FromSeconds(0.5), RejoinTime = SimDuration.Zero }).Connect();
         new ScriptedActions(1).DoIn(group, 5);
         group.Cut(0, 1);
         group.Cut(1, 0);

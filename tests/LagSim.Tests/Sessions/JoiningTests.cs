@@ -3,6 +3,7 @@ using System.Linq;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
+using LagSim.Net.Strategies;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
 using LagSim.Testing.Links;
@@ -65,7 +66,7 @@ public sealed class JoiningTests
     [Fact]
     public void Join_WrongKey_EndsWithASentence()
     {
-        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.Lan, options: peer => new SessionOptions { ConnectKey = $"key {peer}" });
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.Lan, options: peer => new HostOptions { ConnectKey = $"key {peer}" });
         Assert.True(group.RunUntil(() => group.Sessions[1].State == SessionState.Ended, 5));
         Assert.Equal("The host at virtual:0 refused: the key is wrong.", group.Sessions[1].EndReason);
         Assert.Equal(0, group.Host.ClientCount);
@@ -117,7 +118,7 @@ public sealed class JoiningTests
     [Fact]
     public void Join_NobodyThere_EndsAfterTheTimeoutWithASentence()
     {
-        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.Lan, options: _ => new SessionOptions { Timeout = SimDuration.FromSeconds(1.5), KeepAlive = SimDuration.FromSeconds(0.5) });
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.Lan, options: _ => new HostOptions { Timeout = SimDuration.FromSeconds(1.5), KeepAlive = SimDuration.FromSeconds(0.5) });
         group.Cut(1, 0);
         group.Run(1.4);
         Assert.Equal(SessionState.Joining, group.Sessions[1].State);
@@ -155,8 +156,8 @@ public sealed class JoiningTests
     public void Session_OptionOutOfRange_IsRefusedByName(double timeout, string named, double? keepAlive = null)
     {
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
-        SessionOptions options = new() { Timeout = SimDuration.FromSeconds(timeout) };
-        options.KeepAlive = keepAlive is double given ? SimDuration.FromSeconds(given) : options.KeepAlive;
+        HostOptions options = new() { Timeout = SimDuration.FromSeconds(timeout) };
+        options = keepAlive is double given ? options with { KeepAlive = SimDuration.FromSeconds(given) } : options;
         ArgumentOutOfRangeException refused = Assert.Throws<ArgumentOutOfRangeException>(
             () => new HostSession(ScriptedActions.Box(), port, new VirtualClock(), options, 1));
         Assert.Equal(named, refused.ParamName);
@@ -166,14 +167,14 @@ public sealed class JoiningTests
     [Fact]
     public void Threads_OfASessionOrAHost_AreThoseOfItsWorld()
     {
-        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), options: peer => new SessionOptions { Threads = peer == 0 ? null : 10 + peer }).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), options: peer => new HostOptions { Threads = peer == 0 ? null : 10 + peer }).Connect();
         Assert.Equal([new SimulationOptions().Threads, 11, 12], group.Sessions.Select(s => s.World!.Simulation.Engine.Threads));
         using SimulationHost host = new(ScriptedActions.Box(), new VirtualClock(), threads: 13);
         Assert.Equal(13, host.World.Simulation.Engine.Threads);
 
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
         ArgumentOutOfRangeException refused = Assert.Throws<ArgumentOutOfRangeException>(
-            () => new HostSession(ScriptedActions.Box(), port, new VirtualClock(), new SessionOptions { Threads = 65 }, 1));
+            () => new HostSession(ScriptedActions.Box(), port, new VirtualClock(), new HostOptions { Threads = 65 }, 1));
         Assert.Equal(("Threads", 65), (refused.ParamName, refused.ActualValue));
     }
 
@@ -181,9 +182,14 @@ public sealed class JoiningTests
     public void Session_UnknownStrategy_IsRefusedWithTheNamesThereAre()
     {
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
-        ArgumentException refused = Assert.Throws<ArgumentException>(
-            () => new HostSession(ScriptedActions.Box(), port, new VirtualClock(), new SessionOptions { Strategy = "guess" }, 1));
-        Assert.Contains("'guess'; there are none, latency-forward, interpolation, full-rollback, healing", refused.Message, StringComparison.Ordinal);
+        ArgumentOutOfRangeException refused = Assert.Throws<ArgumentOutOfRangeException>(
+            () => new HostSession(ScriptedActions.Box(), port, new VirtualClock(), new HostOptions { Strategy = (LateEventStrategy)9 }, 1));
+        Assert.Equal((LateEventStrategy)9, refused.ActualValue);
+        Assert.Contains(
+            "there are Healing, FullRollback, Interpolation, LatencyForward, ApplyOnArrival", refused.Message, StringComparison.Ordinal);
+        ArgumentException unnamed = Assert.Throws<ArgumentException>(() => LateEventStrategies.OfName("guess"));
+        Assert.Contains("'guess'; there are none, latency-forward, interpolation, full-rollback, healing", unnamed.Message, StringComparison.Ordinal);
+        Assert.Equal(Enum.GetValues<LateEventStrategy>(), LateEventStrategies.Names.Select(LateEventStrategies.OfName).Order());
     }
 
     private static LinkProfile Profile(string name) => LinkProfiles.TryGet(name, out LinkProfile? known, out _) ? known : throw new ArgumentException(name);

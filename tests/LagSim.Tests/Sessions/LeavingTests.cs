@@ -260,7 +260,7 @@ public sealed class LeavingTests
     private static Scene Poisoned() => new SceneBuilder("poisoned").WithSmallestRadius(0.25).AddForce(Force.Supplied(new FunctionForce((_, x, _) => V(x.X > 10 ? double.NaN : 0))))
         .AddPlane("floor", Vector3D.Up, V(0), 0.9).AddBody("a", Ball(0.3), V(0, 1)).AddBody("b", Ball(0.3), V(2, 1)).Build();
 
-    private static SessionGroup Three(double timeout = 10, Scene? scene = null, double most = 1_000) => new SessionGroup(scene ?? ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), 2, _ => new SessionOptions
+    private static SessionGroup Three(double timeout = 10, Scene? scene = null, double most = 1_000) => new SessionGroup(scene ?? ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), 2, _ => new HostOptions
     {
         Timeout = SimDuration.FromSeconds(timeout),
         RejoinTime = SimDuration.Zero, // what is asked for after an end is RejoinTests' part

@@ -33,7 +33,7 @@ public sealed class OverloadTests
 
         // a connect request is answered, what is done is validated, and heard by the others.
         SimTime asked = group.Clock.Now;
-        ClientSession late = group.Join(7, 77, Options());
+        ClientSession late = group.Join(7, 77, ClientOptions.From(Options()));
         Assert.True(group.RunUntil(() => late.Scene is not null, 3), $"{group.Clock.Now - asked}");
         ExternalEvent scripted = group.Do(2, PlayerAction.SetVelocity(Second, V(0, 0, 1)));
         Assert.True(group.RunUntil(() => group.Accepted.Contains(scripted) && group.Sessions[1].LogLength == group.Host.LogLength, 1));
@@ -50,7 +50,7 @@ public sealed class OverloadTests
         group.Run(0.2);
         Assert.All(group.Sessions, s => Assert.True(s.World!.IsBehind));
         group.Do(2, PlayerAction.Impulse(Second, V(0, 0, 3)));
-        ClientSession late = group.Join(7, 77, Options(0.1));
+        ClientSession late = group.Join(7, 77, ClientOptions.From(Options(0.1)));
         late.Begun += () => Weaken(late);
         Assert.True(group.RunUntil(() => late.World is not null, 3));
         group.Do(0, PlayerAction.SetVelocity(First, V(0)));
@@ -118,7 +118,7 @@ public sealed class OverloadTests
     /// <summary>So little a step that the tests need not simulate much to fall behind: 200 events.</summary>
     private static void Weaken(Session session) => session.World!.Effort = 10 * 200;
 
-    private static SessionOptions Options(double interval = 1) => new()
+    private static HostOptions Options(double interval = 1) => new()
     {
         CommitInterval = SimDuration.FromSeconds(interval),
         ExtraHistory = interval < 1 ? SimDuration.FromSeconds(30) : SimDuration.Zero,

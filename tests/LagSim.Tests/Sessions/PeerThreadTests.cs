@@ -146,18 +146,15 @@ public sealed class PeerThreadTests
     }
 
     [Fact]
-    public async Task Step_ThatThrows_TellsTheOthersAtOnceAndThenTheProgram()
+    public void Step_ThatThrows_TellsTheOthersAtOnceAndThenTheProgram()
     {
-        using PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), bind: IPAddress.Loopback);
+        BreakingPort carrier = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0)));
+        using PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), carrier);
         using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Loopback, host.LocalAddress.ToEndPoint().Port));
         Assert.True(client.WaitUntilRunning(Deadline), client.Session.EndReason);
         using ManualResetEventSlim ended = new();
         client.Session.Ended += ended.Set;
-        await host.Ask(session =>
-        {
-            session.Logged += _ => throw new FormatException("a handler that breaks its promise");
-            return true;
-        });
+        carrier.Breaks = true;
         _ = client.Do(PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, 1, 0)));
 
         Assert.True(ended.Wait(Deadline, TestContext.Current.CancellationToken)); // long before the time-out, whose sentence is another
@@ -174,7 +171,7 @@ public sealed class PeerThreadTests
         Session[] sessions = new Session[2000];
         for (int i = 0; i < sessions.Length; i++)
         {
-            sessions[i] = new HostSession(BuiltInScenes.Pair(), port, new VirtualClock(), new SessionOptions(), 7);
+            sessions[i] = new HostSession(BuiltInScenes.Pair(), port, new VirtualClock(), new HostOptions(), 7);
         }
 
         int missing = 0;
@@ -210,8 +207,34 @@ public sealed class PeerThreadTests
         return GC.GetAllocatedBytesForCurrentThread() - before;
     }
 
+    /// <summary>A carrier that throws when it is asked for a datagram, once it is told to.</summary>
+    private sealed class BreakingPort(IDatagramPort inner) : IDatagramPort
+    {
+        private volatile bool breaks;
+
+        public event Action? Arrived
+        {
+            add => inner.Arrived += value;
+            remove => inner.Arrived -= value;
+        }
+
+        public bool Breaks
+        {
+            set => breaks = value;
+        }
+
+        public PeerAddress LocalAddress => inner.LocalAddress;
+
+        public void Send(ReadOnlySpan<byte> datagram, PeerAddress to) => inner.Send(datagram, to);
+
+        public bool TryReceive(Span<byte> buffer, out int length, out PeerAddress from) =>
+            breaks ? throw new FormatException("a carrier that breaks its promise") : inner.TryReceive(buffer, out length, out from);
+
+        public void Dispose() => inner.Dispose();
+    }
+
     private static TimeSpan Deadline => TimeSpan.FromSeconds(20);
 
     private static PeerThread Host(UdpPort port) =>
-        new(new HostSession(BuiltInScenes.Pair(), port, new StopwatchClock(), new SessionOptions(), 7), port, "test");
+        new(new HostSession(BuiltInScenes.Pair(), port, new StopwatchClock(), new HostOptions(), 7), port, "test");
 }

@@ -47,7 +47,7 @@ public sealed class PlacesOverUdpTests
         internal Group()
         {
             UdpPort port = new(new IPEndPoint(IPAddress.Parse("127.0.0.1"), 0));
-            Add(new HostSession(ScriptedActions.Box(), port, clock, new SessionOptions(), 1), port);
+            Add(new HostSession(ScriptedActions.Box(), port, clock, new HostOptions(), 1), port);
         }
 
         internal HostSession Host => (HostSession)all[0].Session;
@@ -65,7 +65,7 @@ public sealed class PlacesOverUdpTests
         internal ClientSession Join(int machine)
         {
             UdpPort port = new(new IPEndPoint(new IPAddress([127, 0, 0, (byte)machine]), 0));
-            ClientSession session = new(null, port, clock, new SessionOptions(), all[0].Port.LocalAddress, Session.DrawNumber());
+            ClientSession session = new(null, port, clock, new ClientOptions(), all[0].Port.LocalAddress, Session.DrawNumber());
             Add(session, port);
             return session;
         }

@@ -309,11 +309,10 @@ public sealed class PlacesTests(ITestOutputHelper output)
         group.Connect();
         return (group, nat!);
 
-        SessionOptions Options()
+        HostOptions Options()
         {
-            SessionOptions options = new() { Door = door ?? new DoorLimits() };
-            options.MaxClientsPerAddress = perAddress ?? options.MaxClientsPerAddress;
-            return options;
+            HostOptions options = new() { Door = door ?? new DoorLimits() };
+            return perAddress is int most ? options with { MaxClientsPerAddress = most } : options;
         }
     }
 

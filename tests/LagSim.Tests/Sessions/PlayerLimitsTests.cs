@@ -137,7 +137,7 @@ public sealed class PlayerLimitsTests
     private static SessionGroup Group(double speed = 100, int bodies = 3) =>
         new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5), 1, _ => Options(speed, bodies)).Connect();
 
-    private static SessionOptions Options(double speed, int bodies) =>
+    private static HostOptions Options(double speed, int bodies) =>
         new() { MaxGivenSpeed = speed, MaxSpawned = bodies, ExtraHistory = SimDuration.FromSeconds(60) };
 
     private static PlayerAction Above(int place) => PlayerAction.Spawn(Ball(0.25), V(0, 10 + place));

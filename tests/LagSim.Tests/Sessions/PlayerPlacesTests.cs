@@ -24,7 +24,7 @@ public sealed class PlayerPlacesTests
             Random random = new(seed);
             byte keyed = (byte)random.Next(0, 9);
             Dictionary<byte, string> keys = keyed == 0 ? [] : new() { [keyed] = "key" };
-            SessionOptions options = new() { RejoinTime = Kept, PlayerKeys = keys, MaxClientsPerAddress = SessionOptions.MaxClients };
+            HostOptions options = new() { RejoinTime = Kept, PlayerKeys = keys, MaxClientsPerAddress = SessionOptions.MaxClients };
             SimTime now = SimTime.FromSeconds(100);
             PlayerPlaces places = new(options, now);
             Dictionary<byte, SimTime?> left = []; // of those that nobody has: since when kept, or null
@@ -64,7 +64,7 @@ public sealed class PlayerPlacesTests
     [Fact]
     public void Claimed_OnlyWithTheProofOfItsPass_OverThatNonceAndCookie()
     {
-        PlayerPlaces places = new(new SessionOptions(), SimTime.Zero);
+        PlayerPlaces places = new(new HostOptions(), SimTime.Zero);
         places[3].Take(isSamePlayer: false, default);
         Token128 pass = places[3].Pass!.Value, cookie = new(5, 6), other = new(pass.First ^ 1, pass.Second);
         Assert.Same(places[3], places.Claimed(Join(3, JoinCookies.Prove(pass, 7, cookie)), 0));
@@ -89,7 +89,7 @@ public sealed class PlayerPlacesTests
     [Fact]
     public void Claimed_NumberWithAKey_OpensToNoPassAlone()
     {
-        PlayerPlaces places = new(new SessionOptions { PlayerKeys = new Dictionary<byte, string> { [3] = "three" } }, SimTime.Zero);
+        PlayerPlaces places = new(new HostOptions { PlayerKeys = new Dictionary<byte, string> { [3] = "three" } }, SimTime.Zero);
         places[3].Take(isSamePlayer: false, default);
         Token128 cookie = new(5, 6);
         JoinDatagram join = new(7, cookie, default, 0, 0, 3, JoinCookies.Prove(places[3].Pass!.Value, 7, cookie));
@@ -101,7 +101,7 @@ public sealed class PlayerPlacesTests
     [Fact]
     public void Free_NumberWithoutSequencesLeft_IsGivenToNobody()
     {
-        PlayerPlaces places = new(new SessionOptions(), SimTime.Zero);
+        PlayerPlaces places = new(new HostOptions(), SimTime.Zero);
         places[1].LastSequence = uint.MaxValue;
         Assert.Equal(2, places.Free(SimTime.Zero, 0, default));
     }
@@ -112,7 +112,7 @@ public sealed class PlayerPlacesTests
     [InlineData(SessionOptions.MaxClients, false)] // the limit taken away
     public void Free_OneMachineThatComesAgainAndAgain_TakesNobodyElsesNumber(int perAddress, bool isLeft)
     {
-        SessionOptions options = new() { RejoinTime = Kept, MaxClientsPerAddress = perAddress };
+        HostOptions options = new() { RejoinTime = Kept, MaxClientsPerAddress = perAddress };
         SimTime now = SimTime.FromSeconds(100);
         PlayerPlaces places = new(options, now);
         PeerAddress honest = PeerAddress.Virtual(1).Machine, greedy = PeerAddress.Virtual(2).Machine;
@@ -135,7 +135,7 @@ public sealed class PlayerPlacesTests
     public void Free_NumberWithAKey_IsNotGivenToItsMachineEither()
     {
         PeerAddress machine = PeerAddress.Virtual(1).Machine;
-        SessionOptions options = new() { MaxClientsPerAddress = 1, RejoinTime = Kept, PlayerKeys = new Dictionary<byte, string> { [3] = "three" } };
+        HostOptions options = new() { MaxClientsPerAddress = 1, RejoinTime = Kept, PlayerKeys = new Dictionary<byte, string> { [3] = "three" } };
         PlayerPlaces places = new(options, SimTime.Zero);
         places[3].Take(isSamePlayer: false, machine);
         places[3].Leave(isKept: true, 1, LeaveReason.TimedOut, SimTime.Zero);

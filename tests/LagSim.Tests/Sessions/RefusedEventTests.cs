@@ -131,7 +131,7 @@ public sealed class RefusedEventTests
         // The way from the host becomes shorter all at once: until the clock has been bent, it is behind by more than the history.
         SessionGroup group = new SessionGroup(
             ScriptedActions.Box(), 2, new LinkProfile("uneven", toHost: new LinkLeg(5), fromHost: new LinkLeg(300)), 1,
-            _ => new SessionOptions { Window = new(SimDuration.FromSeconds(0.05)), KeepAlive = SimDuration.FromSeconds(0.02) }).Connect();
+            _ => new HostOptions { Window = new(SimDuration.FromSeconds(0.05)), KeepAlive = SimDuration.FromSeconds(0.02) }).Connect();
         group.Run(3);
         group.Restore(0, 1);
         group.Run(0.1);
@@ -189,5 +189,5 @@ public sealed class RefusedEventTests
 
     private static SessionGroup Group(ulong seed, double extra) => new SessionGroup(
         ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), seed,
-        _ => new SessionOptions { Window = new(SimDuration.FromSeconds(History)), ExtraHistory = SimDuration.FromSeconds(extra), KeepAlive = SimDuration.FromSeconds(0.1) }).Connect();
+        _ => new HostOptions { Window = new(SimDuration.FromSeconds(History)), ExtraHistory = SimDuration.FromSeconds(extra), KeepAlive = SimDuration.FromSeconds(0.1) }).Connect();
 }

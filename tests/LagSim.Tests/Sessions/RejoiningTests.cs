@@ -102,7 +102,7 @@ public sealed class RejoiningTests
         PlayerPass pass = before.Pass!.Value;
         group.DropLast(); // killed: it says nothing
         Assert.True(PlayerPass.TryParse(pass.ToString(), out PlayerPass kept));
-        ClientSession after = group.Join(7, 77, new SessionOptions { Pass = kept });
+        ClientSession after = group.Join(7, 77, new ClientOptions { Pass = kept });
         Assert.True(group.RunUntil(() => after.State == SessionState.Running, 2));
         Assert.Equal((before.Peer, pass, 2), (after.Peer, after.Pass, group.Host.ClientCount)); // at once: nobody waits for the time-out
         ExternalEvent next = after.Do(PlayerAction.Impulse(First, V(0, 1)));
@@ -116,7 +116,7 @@ public sealed class RejoiningTests
     {
         SessionGroup group = Group(3);
         ClientSession before = group.Client(1);
-        ClientSession after = group.Join(7, 77, new SessionOptions { Pass = before.Pass!.Value });
+        ClientSession after = group.Join(7, 77, new ClientOptions { Pass = before.Pass!.Value });
         Assert.True(group.RunUntil(() => after.State == SessionState.Running && before.State == SessionState.Ended, 2));
         Assert.Equal((before.Peer, 2, SessionEnd.Disconnect), (after.Peer, group.Host.ClientCount, before.EndedBy));
         Assert.Equal("This player came in from elsewhere; the host at virtual:0 let this peer go.", before.EndReason);
@@ -130,7 +130,7 @@ public sealed class RejoiningTests
         for (int n = 0; n < 20; n++)
         {
             Assert.True(PlayerPass.TryParse($"1-{random.NextInt64():x16}{random.NextInt64():x16}", out PlayerPass guessed));
-            ClientSession stranger = group.Join(7, 77 + (ulong)n, new SessionOptions { Pass = guessed });
+            ClientSession stranger = group.Join(7, 77 + (ulong)n, new ClientOptions { Pass = guessed });
             Assert.True(group.RunUntil(() => stranger.State == SessionState.Running, 2));
             Assert.Equal((3, 3), (stranger.Peer, group.Host.ClientCount));
             Assert.NotEqual(guessed, stranger.Pass);
@@ -161,7 +161,7 @@ public sealed class RejoiningTests
         Assert.Equal(0, group.Host.ClientCount);
         List<ClientSession> others = [.. Enumerable.Range(20, SessionOptions.MaxClients).Select(node => Running(group, node, default))];
         Assert.Equal(Enumerable.Range(2, 7).Append(1), others.Select(s => (int)s.Peer)); // its number last of all
-        ClientSession again = group.Join(40, 40, new SessionOptions { Pass = former, RejoinTime = SimDuration.FromSeconds(3) });
+        ClientSession again = group.Join(40, 40, new ClientOptions { Pass = former, RejoinTime = SimDuration.FromSeconds(3) });
         group.Run(2);
         Assert.Equal(SessionState.Joining, again.State); // who had a place asks on: somebody may leave
         Assert.True(group.RunUntil(() => again.State == SessionState.Ended, 4));
@@ -216,7 +216,7 @@ public sealed class RejoiningTests
     [Fact]
     public void RejoinTime_OfNothing_WithTimelinesFull_TellsThatItCanJoinAgain()
     {
-        SessionGroup group = new SessionGroup(BuiltInScenes.Billiards(), 3, LinkProfiles.PureDelay(20), 1, peer => new SessionOptions
+        SessionGroup group = new SessionGroup(BuiltInScenes.Billiards(), 3, LinkProfiles.PureDelay(20), 1, peer => new ClientOptions
         {
             MaxSegments = peer == 1 ? 60 : SimulationOptions.DefaultMaxSegments,
             RejoinTime = peer == 1 ? SimDuration.Zero : SimDuration.FromSeconds(60),
@@ -246,11 +246,11 @@ public sealed class RejoiningTests
         peers,
         LinkProfiles.PureDelay(5),
         (ulong)seed,
-        peer => new SessionOptions { Timeout = Timeout, RejoinTime = rejoinTime?.Invoke(peer) ?? SimDuration.FromSeconds(120) }).Connect();
+        peer => new HostOptions { Timeout = Timeout, RejoinTime = rejoinTime?.Invoke(peer) ?? SimDuration.FromSeconds(120) }).Connect();
 
     private static ClientSession Running(SessionGroup group, int node, PlayerPass pass)
     {
-        ClientSession session = group.Join(node, (ulong)node, new SessionOptions { Pass = pass });
+        ClientSession session = group.Join(node, (ulong)node, new ClientOptions { Pass = pass });
         Assert.True(group.RunUntil(() => session.State == SessionState.Running, 2), session.EndReason);
         return session;
     }

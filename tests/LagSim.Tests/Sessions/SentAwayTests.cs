@@ -81,7 +81,7 @@ public sealed class SentAwayTests
             group.Run(0.2);
         }
 
-        ClientSession again = Again(group, 79, new SessionOptions { Pass = passes[^1] }, passes.Add);
+        ClientSession again = Again(group, 79, new ClientOptions { Pass = passes[^1] }, passes.Add);
         Assert.Equal(SessionState.Running, again.State);
         Assert.Equal((2, isKicked), (passes.Count, passes[0] != passes[1]));
     }
@@ -128,9 +128,9 @@ public sealed class SentAwayTests
     }
 
     /// <summary>From the address of the one that was sent away.</summary>
-    private static ClientSession Again(SessionGroup group, ulong nonce, SessionOptions? options = null, Action<PlayerPass>? onPass = null)
+    private static ClientSession Again(SessionGroup group, ulong nonce, ClientOptions? options = null, Action<PlayerPass>? onPass = null)
     {
-        ClientSession session = new(null, group.Ports[1], new SkewedClock(group.Clock, 0, default), options ?? new SessionOptions(), PeerAddress.Virtual(0), nonce);
+        ClientSession session = new(null, group.Ports[1], new SkewedClock(group.Clock, 0, default), options ?? new ClientOptions(), PeerAddress.Virtual(0), nonce);
         session.PassGiven += pass => onPass?.Invoke(pass);
         group.Steps.Replace(1, session, group.Ports[1]);
         group.Run(3);

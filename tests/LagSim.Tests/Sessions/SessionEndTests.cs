@@ -32,7 +32,7 @@ public sealed class SessionEndTests
     [Fact]
     public void Silence_OfTheHost_IsToldApartFromThatOfThePeer()
     {
-        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), options: _ => new SessionOptions { RejoinTime = SimDuration.FromSeconds(20) }).Connect();
+        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), options: _ => new HostOptions { RejoinTime = SimDuration.FromSeconds(20) }).Connect();
         group.Cut(0, 1);
         group.Cut(2, 0);
         group.Run(15);
@@ -46,7 +46,7 @@ public sealed class SessionEndTests
     public void Join_RefusedOrWithoutAnswer_IsToldApart()
     {
         SessionGroup group = new(
-            ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), options: peer => new SessionOptions { ConnectKey = peer == 1 ? "wrong" : "" }, expected: 2);
+            ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), options: peer => new HostOptions { ConnectKey = peer == 1 ? "wrong" : "" }, expected: 2);
         List<string> told = Listen(group);
         group.Cut(0, 2);
         Assert.True(group.RunUntil(() => group.Sessions.Skip(1).All(s => s.State == SessionState.Ended), 40));
@@ -59,7 +59,7 @@ public sealed class SessionEndTests
     {
         VirtualClock clock = new(SimTime.FromSeconds(10));
         using Net.Carriers.IDatagramPort port = new VirtualNetwork(clock, 1).CreatePort(1);
-        ClientSession client = new(null, port, clock, new SessionOptions(), Net.Carriers.PeerAddress.Virtual(0), 1);
+        ClientSession client = new(null, port, clock, new ClientOptions(), Net.Carriers.PeerAddress.Virtual(0), 1);
         clock.Now += SimDuration.FromSeconds(11);
         client.Step();
         Assert.Equal(SessionState.Joining, client.State);
@@ -124,7 +124,7 @@ public sealed class SessionEndTests
         for (int n = 0; n < 2; n++)
         {
             SessionGroup group = new SessionGroup(
-                ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5), options: _ => new SessionOptions { KeepAlive = SimDuration.FromSeconds(3) }).Connect();
+                ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5), options: _ => new HostOptions { KeepAlive = SimDuration.FromSeconds(3) }).Connect();
             group.Run(3.9);
             if (n == 1)
             {

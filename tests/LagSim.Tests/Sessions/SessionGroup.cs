@@ -26,7 +26,10 @@ internal sealed class SessionGroup
     private SimTime promised = SimTime.MinValue; // the greatest watermark sent: whatever the host logs from then on is not before it
     private uint promisedFrom; // the least place in the log from which on it was promised to anybody
 
-    /// <summary>Peers that are not connected yet: the host has number 0 in the network, the clients 1 and up.</summary>
+    /// <summary>
+    /// Peers that are not connected yet: the host has number 0 in the network, the clients 1 and up. What both sides have counts for a
+    /// peer of the other side too.
+    /// </summary>
     internal SessionGroup(
         Scene scene,
         int peers,
@@ -49,8 +52,8 @@ internal sealed class SessionGroup
         steps = new VirtualSteps(Network);
         for (int peer = 0; peer < peers; peer++)
         {
-            SessionOptions chosen = options?.Invoke(peer) ?? new SessionOptions();
-            chosen.ExpectedClients = expected ?? peers - 1;
+            SessionOptions chosen = options?.Invoke(peer) ?? new HostOptions();
+            chosen = peer == 0 ? HostOptions.From(chosen) with { ExpectedClients = expected ?? peers - 1 } : chosen;
             Add(peer, scenes?.Invoke(peer) ?? scene, chosen, seed + (ulong)peer);
         }
 
@@ -102,8 +105,8 @@ internal sealed class SessionGroup
     internal ClientSession Client(int peer) => (ClientSession)Sessions[peer];
 
     /// <summary>One more client, which knows nothing of the scene, at an address of its own.</summary>
-    internal ClientSession Join(int address, ulong nonce, SessionOptions? options = null) =>
-        (ClientSession)Add(address, null, options ?? new SessionOptions(), nonce);
+    internal ClientSession Join(int address, ulong nonce, ClientOptions? options = null) =>
+        (ClientSession)Add(address, null, options ?? new ClientOptions(), nonce);
 
     /// <summary>Takes the peer that came last out of the group, gone or not.</summary>
     internal void DropLast()
@@ -208,8 +211,8 @@ internal sealed class SessionGroup
         SkewedClock own = new(Clock, (luck.NextDouble() * 40) - 20, SimDuration.FromSeconds(luck.NextDouble() * 3600));
         ports.Add(port);
         Session session = Sessions.Count == 0
-            ? new HostSession(scene!, port, own, options, SessionId)
-            : new ClientSession(scene, port, own, options, PeerAddress.Virtual(0), nonce);
+            ? new HostSession(scene!, port, own, HostOptions.From(options), SessionId)
+            : new ClientSession(scene, port, own, ClientOptions.From(options), PeerAddress.Virtual(0), nonce);
         steps.Add(session, port);
         return session;
     }

@@ -21,7 +21,7 @@ public sealed class SessionWarmupTests
     [MemberData(nameof(Warmups))]
     public void Run_ByEveryStrategy_TakesEveryKindBothWaysAndLateAndRefused(string strategy, bool few)
     {
-        SessionWarmup warmup = SessionWarmup.Run(strategy, SessionWarmup.EveryKind, few);
+        SessionWarmup warmup = SessionWarmup.Run(LateEventStrategies.OfName(strategy), SessionWarmup.EveryKind, few);
 
         Assert.Equal(PlayersKinds, warmup.HeardByHost);
         Assert.Equal(PlayersKinds, warmup.HeardByClient);
@@ -40,21 +40,21 @@ public sealed class SessionWarmupTests
     {
         foreach (EventKind missing in PlayersKinds)
         {
-            SessionWarmup warmup = SessionWarmup.Run(LateEventStrategies.Default, [.. SessionWarmup.EveryKind.Where(k => k != missing)], few: true);
+            SessionWarmup warmup = SessionWarmup.Run(LateEventStrategy.Healing, [.. SessionWarmup.EveryKind.Where(k => k != missing)], few: true);
             Assert.Equal(PlayersKinds.Where(k => k != missing), warmup.HeardByHost);
             Assert.Equal(PlayersKinds.Where(k => k != missing), warmup.HeardByClient);
         }
     }
 
     [Theory]
-    [InlineData(true, "full-rollback")]
+    [InlineData(true, LateEventStrategy.FullRollback)]
     [InlineData(false)]
-    public async Task Step_OfAThread_WarmsUpOnceBeforeAnythingIsAnswered_UnlessItIsSwitchedOff(bool isOn, params string[] expected)
+    public async Task Step_OfAThread_WarmsUpOnceBeforeAnythingIsAnswered_UnlessItIsSwitchedOff(bool isOn, params LateEventStrategy[] expected)
     {
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
-        SessionOptions options = new() { Warmup = isOn, Strategy = "full-rollback" };
+        HostOptions options = new() { Warmup = isOn, Strategy = LateEventStrategy.FullRollback };
         using PeerThread thread = new(new HostSession(BuiltInScenes.Pair(), port, new VirtualClock(), options, 7), port, "test");
-        List<string> warmed = [];
+        List<LateEventStrategy> warmed = [];
         thread.WarmUpFor = warmed.Add;
         Task<int> asked = thread.Ask(_ => warmed.Count);
 
@@ -63,7 +63,7 @@ public sealed class SessionWarmupTests
 
         Assert.Equal(expected, warmed);
         Assert.Equal(expected.Length, await asked);
-        Assert.True(new SessionOptions().Warmup);
+        Assert.True(new HostOptions().Warmup);
     }
 
     [Fact]
@@ -85,7 +85,7 @@ public sealed class SessionWarmupTests
         {
             if (warmups && steps++ % 100 == 0)
             {
-                SessionWarmup.Run(LateEventStrategies.Default, SessionWarmup.EveryKind, few: steps % 200 == 1);
+                SessionWarmup.Run(LateEventStrategy.Healing, SessionWarmup.EveryKind, few: steps % 200 == 1);
             }
         };
         new ScriptedActions(1) { HasHands = true }.DoIn(group, scriptedActions);

@@ -29,9 +29,9 @@ public sealed class StallTests
             VirtualNetwork network = new(clock, (ulong)seed, LinkProfiles.PureDelay(5 * seed));
             VirtualSteps steps = new(network);
             IDatagramPort hostPort = network.CreatePort(0), port = network.CreatePort(1);
-            SessionOptions options = new() { Timeout = SimDuration.FromSeconds(300) };
+            HostOptions options = new() { Timeout = SimDuration.FromSeconds(300) };
             steps.Add(new HostSession(ScriptedActions.Box(), hostPort, clock, options, 1), hostPort);
-            ClientSession client = new(null, port, clock, options, PeerAddress.Virtual(0), 4);
+            ClientSession client = new(null, port, clock, ClientOptions.From(options), PeerAddress.Virtual(0), 4);
             int number = steps.Add(client, port);
             steps.RunFor(SimDuration.FromSeconds(5 + (0.21 * seed)));
             Assert.Equal(SessionState.Running, client.State);

@@ -150,7 +150,7 @@ public sealed class StrangerTests
         stranger.Received();
         group.Run(30);
         List<(DatagramType Type, int Length)> received = stranger.Received();
-        double most = SessionOptions.DefaultTimeout.ToSeconds() / new SessionOptions().ResendInterval.ToSeconds();
+        double most = SessionOptions.DefaultTimeout.ToSeconds() / new HostOptions().ResendInterval.ToSeconds();
         Assert.InRange(received.Count(d => d.Type == DatagramType.Update), most / 4, most + 15); // it is new, so it is sent again and again, and a few answers come besides
         Assert.Equal(DatagramType.Leave, received[^1].Type);
         Assert.Equal(1, group.Host.ClientCount);

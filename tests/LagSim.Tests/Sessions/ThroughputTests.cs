@@ -118,7 +118,7 @@ public sealed class ThroughputTests(ITestOutputHelper output)
     {
         // Without a budget: so many events at once are more than a player may cost by default.
         SessionGroup group = new SessionGroup(
-            Floating(), 2, LinkProfiles.PureDelay(5), 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(5)), MaxEventsPerSecond = 100_000, PlayerBudget = null }).Connect();
+            Floating(), 2, LinkProfiles.PureDelay(5), 1, _ => new HostOptions { Window = new(SimDuration.FromSeconds(5)), MaxEventsPerSecond = 100_000, PlayerBudget = null }).Connect();
         for (int i = 0; i < ClientSession.MaxUnconfirmedEvents; i++)
         {
             group.Sessions[1].Do(Push);
@@ -164,7 +164,7 @@ public sealed class ThroughputTests(ITestOutputHelper output)
     private static SessionGroup Group(string profile, int peers, double history)
     {
         Assert.True(LinkProfiles.TryGet(profile, out LinkProfile? link, out _));
-        return new SessionGroup(Floating(), peers, link, 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(history)) }).Connect();
+        return new SessionGroup(Floating(), peers, link, 1, _ => new HostOptions { Window = new(SimDuration.FromSeconds(history)) }).Connect();
     }
 
     private static int Count(double rate) => (int)(Seconds * rate);

@@ -79,7 +79,7 @@ public sealed class TrafficTests
     {
         SessionGroup group = new SessionGroup(
             ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), 1,
-            _ => new SessionOptions { MaxEventsPerSecond = 50, Window = new(SimDuration.FromSeconds(5)) }).Connect();
+            _ => new HostOptions { MaxEventsPerSecond = 50, Window = new(SimDuration.FromSeconds(5)) }).Connect();
         for (int i = 0; i < 200; i++)
         {
             group.Do(1, PlayerAction.Impulse(First, V(0.01, 0.05)));
@@ -98,7 +98,7 @@ public sealed class TrafficTests
     public void Client_ThatAcknowledgesNothing_IsToldToGoAndTheLogIsForgotten()
     {
         SessionGroup group = new SessionGroup(
-            Floating(), 2, LinkProfiles.PureDelay(1), 1, _ => new SessionOptions { Window = new(SimDuration.FromSeconds(0.1)), MaxEventsPerSecond = 100_000 }).Connect();
+            Floating(), 2, LinkProfiles.PureDelay(1), 1, _ => new HostOptions { Window = new(SimDuration.FromSeconds(0.1)), MaxEventsPerSecond = 100_000 }).Connect();
         RawClient deaf = new(group);
         for (int i = 0; i < 70_000; i++)
         {

@@ -65,7 +65,7 @@ public sealed class WindowTests
     {
         LatencyCompensationWindow window = new LatencyCompensationWindow(lookAhead: SimDuration.FromSeconds(0.2))
             .WithLocalLag(EventKind.Impulse, SimDuration.FromMilliseconds(milliseconds));
-        SessionGroup group = new SessionGroup(BuiltInScenes.Billiards(), 2, LinkProfiles.PureDelay(40), 1, _ => new SessionOptions { Window = window }).Connect();
+        SessionGroup group = new SessionGroup(BuiltInScenes.Billiards(), 2, LinkProfiles.PureDelay(40), 1, _ => new HostOptions { Window = window }).Connect();
         group.Run(1);
         for (int i = 0; i < 20; i++)
         {
@@ -82,7 +82,7 @@ public sealed class WindowTests
     public void Client_WithoutRoomForWhatMayStillChange_SaysSoLeavesAndCanJoinAgain() // once fresh copies were of no use either
     {
         SessionGroup group = new SessionGroup(
-            BuiltInScenes.Billiards(), 3, LinkProfiles.PureDelay(20), 1, peer => new SessionOptions { MaxSegments = peer == 1 ? 60 : SimulationOptions.DefaultMaxSegments }).Connect();
+            BuiltInScenes.Billiards(), 3, LinkProfiles.PureDelay(20), 1, peer => new ClientOptions { MaxSegments = peer == 1 ? 60 : SimulationOptions.DefaultMaxSegments }).Connect();
         group.Run(0.5);
         for (int i = 0; i < 1000 && group.Sessions[1].State != SessionState.Ended; i++)
         {

@@ -33,7 +33,7 @@ public sealed class InterpolationTests
 
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
         refused = Assert.Throws<ArgumentOutOfRangeException>(
-            () => new HostSession(ScriptedActions.Box(), port, new VirtualClock(), new SessionOptions { DisplayDelay = delay }, 1));
+            () => new HostSession(ScriptedActions.Box(), port, new VirtualClock(), new HostOptions { DisplayDelay = delay }, 1));
         Assert.Equal("DisplayDelay", refused.ParamName);
         Assert.Contains("must lie between 0 s and 5 s", refused.Message, StringComparison.Ordinal);
     }
@@ -91,7 +91,7 @@ public sealed class InterpolationTests
     {
         SessionGroup group = Group("interpolation", 2, past: 0);
         group.Run(6);
-        ClientSession late = group.Join(7, 99, Options("interpolation", 2, 0));
+        ClientSession late = group.Join(7, 99, ClientOptions.From(Options("interpolation", 2, 0)));
         Assert.True(group.RunUntil(() => late.World is not null));
         SimTime began = late.BegunFrom!.Time;
         List<SimTime> shown = [];
@@ -161,9 +161,9 @@ public sealed class InterpolationTests
     private static SessionGroup Group(string strategy, double delay, double past, LinkProfile? link = null, double history = 0.05) =>
         new SessionGroup(ScriptedActions.Box(), 3, link ?? LinkProfiles.Lan, options: _ => Options(strategy, delay, past, history)).Connect();
 
-    private static SessionOptions Options(string strategy, double delay, double past, double history = 0.05) => new()
+    private static HostOptions Options(string strategy, double delay, double past, double history = 0.05) => new()
     {
-        Strategy = strategy,
+        Strategy = LateEventStrategies.OfName(strategy),
         DisplayDelay = SimDuration.FromSeconds(delay),
         RenderedPast = SimDuration.FromSeconds(past),
         Window = new(SimDuration.FromSeconds(history)),

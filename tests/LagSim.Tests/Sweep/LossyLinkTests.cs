@@ -41,7 +41,7 @@ public sealed class LossyLinkTests(ITestOutputHelper output)
         List<double> late = [];
         for (ulong seed = 1; seed <= Seeds; seed++)
         {
-            SessionGroup group = new(BuiltInScenes.Billiards(), Clients + 1, LinkProfiles.Awful, seed, _ => new SessionOptions
+            SessionGroup group = new(BuiltInScenes.Billiards(), Clients + 1, LinkProfiles.Awful, seed, _ => new HostOptions
             {
                 // Whatever comes late is to be accepted, and seen.
                 Window = new(SimDuration.FromSeconds(5), SimDuration.FromMilliseconds(250)),

@@ -139,10 +139,10 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
         Session Add(int number, int host, SessionFault faultOfIt)
         {
             IDatagramPort port = network.CreatePort(number);
-            SessionOptions options = new() { ExpectedClients = 2, Cancellation = TestContext.Current.CancellationToken };
+            HostOptions options = new() { ExpectedClients = 2, Cancellation = TestContext.Current.CancellationToken };
             Session session = host < 0
                 ? new HostSession(BuiltInScenes.Billiards(), port, clock, options, seed)
-                : new ClientSession(null, port, clock, options, PeerAddress.Virtual(host), seed + (ulong)number);
+                : new ClientSession(null, port, clock, ClientOptions.From(options), PeerAddress.Virtual(host), seed + (ulong)number);
             session.Put(faultOfIt);
             steps.Add(session, port);
             return session;

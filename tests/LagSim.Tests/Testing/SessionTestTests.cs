@@ -5,6 +5,7 @@ using System.Threading;
 using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Sessions;
+using LagSim.Net.Strategies;
 using LagSim.Scenes;
 using LagSim.Testing;
 using LagSim.Testing.Links;
@@ -94,12 +95,12 @@ public sealed class SessionTestTests
         SessionTest test = new SessionTest(scene)
             .WithClients(2, "lan")
             .At(1, 1, PlayerAction.SetVelocity(First, V(1, 2)))
-            .WithOptions(player => new SessionOptions { Accelerations = [new Wind(player == 2 ? 1.000001 : 1)] });
+            .WithOptions(player => new ClientOptions { Accelerations = [new Wind(player == 2 ? 1.000001 : 1)] });
         WorldsDifferException thrown = Assert.Throws<WorldsDifferException>(() => test.Run(5, Cancellation));
         Assert.Equal(2, thrown.Result!.FirstDifference!.Peer);
         Assert.True(thrown.Result.Players[2].Renewals > 0, thrown.Message); // the session has seen it too, and repaired it: it still counts
         Assert.Contains("Peer 2, body 'leaf'", thrown.Message, StringComparison.Ordinal);
-        test.WithOptions(_ => new SessionOptions()).Run(3, Cancellation); // the scene's own, which are the same for all
+        test.WithOptions(_ => new HostOptions()).Run(3, Cancellation); // the scene's own, which are the same for all
     }
 
     [Fact]
@@ -121,7 +122,7 @@ public sealed class SessionTestTests
     [Fact]
     public void Run_StrategyWithoutAgreement_SaysThatItPromisesNone()
     {
-        SessionTest test = Played(Box(), "delay-200ms").WithOptions(_ => new SessionOptions { Strategy = "none" });
+        SessionTest test = Played(Box(), "delay-200ms").WithOptions(_ => new HostOptions { Strategy = LateEventStrategy.ApplyOnArrival });
         SessionTestResult result = test.RunUnchecked(6, Cancellation);
         Assert.False(result.WorldsAgree);
         Assert.Contains("player 0 has a strategy that leaves late events as they are.", result.ToString(), StringComparison.Ordinal);
@@ -187,7 +188,7 @@ public sealed class SessionTestTests
         Dictionary<int, List<string>> confirmed = players.ToDictionary(player => player, _ => new List<string>());
         SessionTest test = new SessionTest(Box())
             .WithClients(2, "3g")
-            .WithOptions(player => new SessionOptions { Contacts = notices[player] })
+            .WithOptions(player => new HostOptions { Contacts = notices[player] })
             .At(0.5, 1, PlayerAction.SetVelocity(First, V(4, 1)))
             .At(0.6, 2, PlayerAction.SetVelocity(Second, V(-4, 1)));
         foreach (int number in players)
@@ -214,7 +215,7 @@ public sealed class SessionTestTests
     public void Run_EventsLaterThanTheWindow_AreCountedAndDoNotHappen()
     {
         SessionTestResult result = new SessionTest(Box()).WithClients(1, "delay-500ms").At(1, 1, PlayerAction.SetVelocity(First, V(1)))
-            .WithOptions(_ => new SessionOptions { Window = new(SimDuration.FromMilliseconds(100)) }).Run(3, Cancellation);
+            .WithOptions(_ => new HostOptions { Window = new(SimDuration.FromMilliseconds(100)) }).Run(3, Cancellation);
         Assert.Equal((0, 1, 1), (result.EventsAccepted, result.EventsRefused, result.EventsTooLate));
     }
 
@@ -287,7 +288,7 @@ public sealed class SessionTestTests
         Says(() => test.At(5, 0, PlayerAction.Remove(First)).Run(4, Cancellation), "Player 0 acts at 5 s; the run must last that long");
         Says(() => new SessionTest(Box()).WithLateClient(5, "lan").Run(4, Cancellation), "Player 1 asks to join at 5 s; the run must last");
         Says(() => new SessionTest(Box()).Run(1, Cancellation).StateOf(First, 1.5), "The run lasted from 0 to 1 s.");
-        SessionTest longKey = new SessionTest(Box()).WithOptions(_ => new SessionOptions { ConnectKey = new string('x', 300) });
+        SessionTest longKey = new SessionTest(Box()).WithOptions(_ => new HostOptions { ConnectKey = new string('x', 300) });
         Says(() => longKey.Run(1, Cancellation), "A connect key has 0 to 256 characters.");
         SessionTest none = new SessionTest(Box()).WithOptions(_ => null!);
         Assert.Contains("no session options for player 0", Assert.Throws<SessionTestException>(() => none.Run(1, Cancellation)).Message);
@@ -311,7 +312,7 @@ public sealed class SessionTestTests
     }
 
     private static SessionTest Played(Scene scene, string link) => new SessionTest(scene)
-        .WithOptions(_ => new SessionOptions { Window = new(LatencyCompensationWindow.MaxHistory) })
+        .WithOptions(_ => new HostOptions { Window = new(LatencyCompensationWindow.MaxHistory) })
         .WithClients(3, link)
         .At(0.5, 1, PlayerAction.SetVelocity(scene.BodyNamed("b0"), V(5, 2)))
         .At(0.5, 2, PlayerAction.SetVelocity(scene.BodyNamed("b0"), V(-5, 2)))

@@ -1,5 +1,6 @@
 using System.Collections.Generic;
 using System.Threading;
+using LagSim.Net.Sessions;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
@@ -32,14 +33,19 @@ public sealed record PeerGroupOptions(
     /// <summary>What carries datagrams in real time.</summary>
     public Carrier Carrier { get; init; } = Carrier.Udp;
 
-    /// <summary>Ends a run in virtual time, in the middle of a step if need be, by an <see cref="System.OperationCanceledException"/>; default none. In real time whoever is told of progress ends it.</summary>
+    /// <summary>
+    /// Ends a run in virtual time, in the middle of a step if need be, by an <see cref="System.OperationCanceledException"/>; default
+    /// none. In real time whoever is told of progress ends it.
+    /// </summary>
     public CancellationToken Cancellation { get; init; }
 
-    /// <summary>The session options that all peers of a test use: history enough for every link, timelines kept for the whole run.</summary>
-    internal Net.Sessions.SessionOptions ToSessionOptions() => new()
+    /// <summary>
+    /// The host's options, of which clients take what concerns them: history enough for every link, timelines kept for the whole run.
+    /// </summary>
+    internal HostOptions ToHostOptions() => new()
     {
         RejoinTime = SimDuration.Zero, // a peer that drops out is told, not waited for
-        Strategy = Strategy,
+        Strategy = LateEventStrategies.OfName(Strategy),
         DisplayDelay = DisplayDelay,
         StartLead = StartLead,
         ExpectedClients = Peers - 1,

@@ -33,6 +33,7 @@ public sealed class RealPeers : PeerGroup
     private readonly CountingPort[] ports;
     private readonly DelayedPort[] delayed;
     private readonly PeerThread[] threads;
+    private volatile Exception? handlerFailure;
     private bool finished;
 
     /// <summary>Makes the peers and binds their carriers to free ports of the loopback interface; nobody is connected yet.</summary>
@@ -53,14 +54,15 @@ public sealed class RealPeers : PeerGroup
             ports[peer] = counting;
             int receiver = peer;
             DelayedPort port = delayed[peer] = new DelayedPort(counting, trueTime, from => LinkTo(receiver, from));
-            SessionOptions session = options.ToSessionOptions();
+            HostOptions session = options.ToHostOptions();
             ulong number = (ulong)Stopwatch.GetTimestamp();
             threads[peer] = new PeerThread(
                 peer == 0
                     ? new HostSession(scene, port, own, session, number)
-                    : new ClientSession(scene, port, own, session, ports[0].LocalAddress, number),
+                    : new ClientSession(scene, port, own, ClientOptions.From(session), ports[0].LocalAddress, number),
                 port,
                 $"LagSim peer {peer}");
+            threads[peer].HandlerFailed += failure => handlerFailure ??= failure;
         }
     }
 
@@ -188,6 +190,11 @@ public sealed class RealPeers : PeerGroup
     {
         while (LeftUntil(end, clocks) > SimDuration.Zero)
         {
+            if (handlerFailure is Exception failure)
+            {
+                throw new PeerGroupException($"What watches the peers failed. {failure.Message}", failure);
+            }
+
             Sample();
             for (int peer = 0; peer < PeerCount; peer++)
             {

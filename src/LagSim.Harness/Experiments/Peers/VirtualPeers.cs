@@ -46,11 +46,10 @@ public sealed class VirtualPeers : PeerGroup
             double drift = ((2 * random.NextDouble()) - 1) * ClockDriftPartsPerMillion;
             SimDuration apart = SimDuration.FromSeconds(((2 * random.NextDouble()) - 1) * ClockSpreadSeconds);
             SkewedClock own = new(clock, drift, peer == 0 ? apart : apart + options.Link.ReceiverClockOffset);
-            SessionOptions session = options.ToSessionOptions();
-            session.Cancellation = stop.Token;
+            HostOptions session = options.ToHostOptions() with { Cancellation = stop.Token };
             sessions[peer] = peer == 0
                 ? new HostSession(scene, port, own, session, options.Seed)
-                : new ClientSession(scene, port, own, session, PeerAddress.Virtual(0), options.Seed + (ulong)peer);
+                : new ClientSession(scene, port, own, ClientOptions.From(session), PeerAddress.Virtual(0), options.Seed + (ulong)peer);
             steps.Add(sessions[peer], port);
         }
     }

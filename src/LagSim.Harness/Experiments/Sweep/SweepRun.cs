@@ -209,10 +209,10 @@ internal sealed class SweepRun
     {
         IDatagramPort port = network.CreatePort(number);
         SkewedClock own = new(clock, random.NextDouble(-30, 30), SimDuration.FromSeconds(random.NextDouble(0, 3600)));
-        SessionOptions its = new() { ExpectedClients = cell.Clients, PlayerBudget = null, Cancellation = cancellation };
+        HostOptions its = new() { ExpectedClients = cell.Clients, PlayerBudget = null, Cancellation = cancellation };
         Session session = number == 0
             ? new HostSession(BuiltInScenes.Billiards(), port, own, its, seed)
-            : new ClientSession(null, port, own, its, PeerAddress.Virtual(0), seed + (ulong)number);
+            : new ClientSession(null, port, own, ClientOptions.From(its), PeerAddress.Virtual(0), seed + (ulong)number);
         options.Prepare?.Invoke(number, session);
         steps.Add(session, port);
         return session;

@@ -7,6 +7,7 @@ using LagSim.Events;
 using LagSim.Harness.Reports;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
+using LagSim.Net.Strategies;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Testing.Invariant;
@@ -164,22 +165,23 @@ internal sealed class CheckSession
 
         IDatagramPort port = network.CreatePort(address);
         SkewedClock own = new(clock, player.ClockPartsPerMillion, SimDuration.FromSeconds(player.ClockOffsetSeconds));
-        SessionOptions sessionOptions = new()
+        HostOptions hostOptions = new()
         {
-            Accelerations = drawn.Accelerations,
             MaxGivenSpeed = double.PositiveInfinity, // a light ball among heavy ones gets faster than any player may make it
             PlayerBudget = null, // it is about bits, however dear
             Window = new(drawn.History, drawn.LookAhead),
             ExtraHistory = drawn.ExtraHistory,
             RenderedPast = SimDuration.Zero,
-            Strategy = options.Strategy,
+            Strategy = LateEventStrategies.OfName(options.Strategy),
             ExpectedClients = expectedClients,
             Timeout = SimDuration.FromSeconds(20), // several times the slowest round trip
             Cancellation = cancellation,
         };
         Session session = address == 0
-            ? new HostSession(drawn.Scene, port, own, sessionOptions, drawn.Seed)
-            : new ClientSession(null, port, own, sessionOptions, PeerAddress.Virtual(0), drawn.Seed + (ulong)address);
+            ? new HostSession(drawn.Scene, port, own, hostOptions, drawn.Seed)
+            : new ClientSession(
+                null, port, own, ClientOptions.From(hostOptions) with { Accelerations = drawn.Accelerations }, PeerAddress.Virtual(0),
+                drawn.Seed + (ulong)address);
         options.PrepareSession?.Invoke(address, session);
         Member member = new(address, session, steps.Add(session, port));
         members.Add(member);

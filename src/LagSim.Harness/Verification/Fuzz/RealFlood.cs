@@ -47,11 +47,13 @@ public static class RealFlood
         using TappedPort hostPort = new(between(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0))), seed);
         using TappedPort clientPort = new(between(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0))), seed + 1);
         using UdpPort stranger = new(new IPEndPoint(IPAddress.Loopback, 0));
-        SessionOptions options = new() { ConnectKey = "flood", PlayerBudget = null, ExtraHistory = SimDuration.FromSeconds(5) };
+        HostOptions options = new() { ConnectKey = "flood", PlayerBudget = null, ExtraHistory = SimDuration.FromSeconds(5) };
         ulong number = (ulong)Stopwatch.GetTimestamp();
         using PeerThread host = new(new HostSession(scene, hostPort, new StopwatchClock(), options, number), hostPort, "LagSim flooded host");
         using PeerThread client = new(
-            new ClientSession(null, clientPort, new StopwatchClock(), options, hostPort.LocalAddress, number), clientPort, "LagSim flooded joiner");
+            new ClientSession(null, clientPort, new StopwatchClock(), ClientOptions.From(options), hostPort.LocalAddress, number),
+            clientPort,
+            "LagSim flooded joiner");
         host.Start();
         client.Start();
         if (!host.WaitUntilRunning(Timeout) || !client.WaitUntilRunning(Timeout))

@@ -116,11 +116,11 @@ public static class SessionFuzz
             for (int peer = 0; peer < Peers; peer++)
             {
                 ports[peer] = between(network.CreatePort(peer));
-                SessionOptions options = new() { ExpectedClients = Peers - 1, ConnectKey = "fuzz", PlayerBudget = null };
+                HostOptions options = new() { ExpectedClients = Peers - 1, ConnectKey = "fuzz", PlayerBudget = null };
                 SkewedClock own = new(clock, 5 * peer, SimDuration.FromSeconds(peer));
                 sessions[peer] = peer == 0
                     ? new HostSession(scene, ports[0], own, options, random.NextUInt64())
-                    : new ClientSession(null, ports[peer], own, options, PeerAddress.Virtual(0), random.NextUInt64());
+                    : new ClientSession(null, ports[peer], own, ClientOptions.From(options), PeerAddress.Virtual(0), random.NextUInt64());
                 steps.Add(sessions[peer], ports[peer]);
             }
 

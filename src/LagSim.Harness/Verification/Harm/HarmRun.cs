@@ -55,9 +55,12 @@ internal sealed class HarmRun
         {
             IDatagramPort port = network.CreatePort(peer);
             SkewedClock own = new(clock, random.NextDouble(-30, 30), SimDuration.FromSeconds(random.NextDouble(0, 3600)));
-            SessionOptions chosen = new() { Cancellation = cancellation, ExpectedClients = Attacker, PlayerBudget = options.Budget, Threads = 1 };
+            HostOptions chosen = new() { Cancellation = cancellation, ExpectedClients = Attacker, PlayerBudget = options.Budget, Threads = 1 };
             steps.Add(
-                peer == 0 ? new HostSession(drawn.Scene, port, own, chosen, drawn.Seed) : new ClientSession(null, port, own, chosen, PeerAddress.Virtual(0), (drawn.Seed * 8) + (ulong)peer),
+                peer == 0
+                    ? new HostSession(drawn.Scene, port, own, chosen, drawn.Seed)
+                    : new ClientSession(
+                        null, port, own, ClientOptions.From(chosen), PeerAddress.Virtual(0), (drawn.Seed * 8) + (ulong)peer),
                 port);
         }
 

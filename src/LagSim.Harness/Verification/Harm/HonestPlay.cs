@@ -54,9 +54,13 @@ public static class HonestPlay
         for (int peer = 0; peer <= Players; peer++)
         {
             IDatagramPort port = network.CreatePort(peer);
-            SessionOptions options = new() { ExpectedClients = Players, PlayerBudget = budget, Cancellation = cancellation, Threads = 1 };
+            HostOptions options = new() { ExpectedClients = Players, PlayerBudget = budget, Cancellation = cancellation, Threads = 1 };
             steps.Add(
-                peer == 0 ? new HostSession(built, port, clock, options, seed) : new ClientSession(null, port, clock, options, PeerAddress.Virtual(0), (seed * 16) + (ulong)peer), port);
+                peer == 0
+                    ? new HostSession(built, port, clock, options, seed)
+                    : new ClientSession(
+                        null, port, clock, ClientOptions.From(options), PeerAddress.Virtual(0), (seed * 16) + (ulong)peer),
+                port);
         }
 
         HostSession host = (HostSession)steps.Sessions[0];

@@ -7,6 +7,7 @@ using LagSim.Events;
 using LagSim.Harness.SceneFiles;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
+using LagSim.Net.Strategies;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
 using LagSim.Testing.Running;
@@ -281,8 +282,7 @@ internal sealed class StallRun
 
     private HostSession NewHost(int expected)
     {
-        SessionOptions chosen = Options();
-        chosen.ExpectedClients = expected;
+        HostOptions chosen = Options() with { ExpectedClients = expected };
         HostSession session = new(BuiltInScenes.Billiards(), ports[0], clocks[0], chosen, drawn.Seed + (1000 * ++sessions));
         hostLog.Follow(session);
         return session;
@@ -290,8 +290,7 @@ internal sealed class StallRun
 
     private ClientSession NewClient(StallClient client)
     {
-        SessionOptions chosen = Options();
-        chosen.Pass = options.KeepsPasses ? client.Pass : default;
+        ClientOptions chosen = ClientOptions.From(Options()) with { Pass = options.KeepsPasses ? client.Pass : default };
         ClientSession session = new(
             null, ports[client.Address], clocks[client.Address], chosen, PeerAddress.Virtual(0), drawn.Seed + (1000 * ++sessions));
         options.PrepareClient?.Invoke(session);
@@ -299,11 +298,11 @@ internal sealed class StallRun
         return session;
     }
 
-    private SessionOptions Options() => new()
+    private HostOptions Options() => new()
     {
         Cancellation = cancellation,
         PlayerBudget = null, // who is gone stood still, was killed or moved, and was not sent away
-        Strategy = options.Strategy,
+        Strategy = LateEventStrategies.OfName(options.Strategy),
         RejoinTime = SimDuration.FromSeconds(options.RejoinSeconds),
     };
 

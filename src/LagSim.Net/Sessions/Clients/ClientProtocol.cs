@@ -26,10 +26,9 @@ internal sealed class ClientProtocol : ISessionProtocol
     private readonly ClientUpdates updates;
     private readonly SleepDetector sleep;
 
-    internal ClientProtocol(SessionParts parts, PeerAddress host, ulong nonce)
+    internal ClientProtocol(SessionParts parts, ClientOptions options, PeerAddress host, ulong nonce)
     {
         Parts = parts;
-        SessionOptions options = parts.Options;
         attempts = new JoinAttempts(nonce, parts.Clock.Now);
         sleep = new SleepDetector(options.Timeout / 2);
         Connection = new HostConnection(host, parts.Links, parts.Self, parts.Sender, parts.Counters);

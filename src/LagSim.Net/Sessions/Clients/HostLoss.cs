@@ -13,7 +13,7 @@ namespace LagSim.Net.Sessions.Clients;
 /// </summary>
 internal sealed class HostLoss(
     JoinAttempts attempts, HostConnection connection, SharedWorld world, SessionStatus status, SessionCounters counters,
-    IClock clock, SessionOptions options)
+    IClock clock, ClientOptions options)
 {
     private const int MostUseless = 3;
 

@@ -9,7 +9,7 @@ namespace LagSim.Net.Sessions.Clients;
 /// <summary>Asks a host to let this peer in: connect request, cookie, join, and then a welcome or a refusal.</summary>
 internal sealed class JoinRequests(
     JoinAttempts attempts, HostConnection connection, PlayerSeat seat, SharedWorld world, SessionStatus status,
-    DatagramSender sender, SessionCounters counters, IClock clock, SessionOptions options)
+    DatagramSender sender, SessionCounters counters, IClock clock, ClientOptions options)
 {
     /// <summary>Asks if it is time to.</summary>
     internal void Tend(SimTime now)

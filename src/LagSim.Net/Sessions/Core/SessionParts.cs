@@ -47,6 +47,8 @@ internal sealed class SessionParts
 
     internal SessionCounters Counters { get; } = new();
 
+    internal SessionOwner Owner { get; } = new();
+
     internal PlayerIdentity Self { get; } = new();
 
     internal EventJournal Journal { get; } = new();

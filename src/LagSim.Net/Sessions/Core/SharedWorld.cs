@@ -45,7 +45,7 @@ internal sealed class SharedWorld
         if (options.SyncTest && !(strategy.RewritesPast && strategy.Mode == HealingMode.CausalCone))
         {
             throw new ArgumentException(
-                $"The strategy is '{options.Strategy}', which does not heal; a sync test is for one that does:"
+                $"The strategy is '{strategy.Name}', which does not heal; a sync test is for one that does:"
                 + " healing or interpolation.", nameof(options));
         }
     }

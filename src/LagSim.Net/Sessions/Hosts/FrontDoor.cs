@@ -18,6 +18,7 @@ internal sealed class FrontDoor
     private readonly IClock clock;
 
     /// <param name="parts">What every session has.</param>
+    /// <param name="options">How the host takes part.</param>
     /// <param name="sessionId">The number that session ids of links are made of.</param>
     /// <param name="roster">The clients.</param>
     /// <param name="places">The numbers.</param>
@@ -26,13 +27,12 @@ internal sealed class FrontDoor
     /// <param name="timeouts">How long one may take to come in.</param>
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
     internal FrontDoor(
-        SessionParts parts, ulong sessionId, ClientRoster roster, PlayerPlaces places, AuthoritativeLog log, WorkBudget budget,
-        ClientTimeouts timeouts)
+        SessionParts parts, HostOptions options, ulong sessionId, ClientRoster roster, PlayerPlaces places, AuthoritativeLog log,
+        WorkBudget budget, ClientTimeouts timeouts)
     {
         this.roster = roster;
         counters = parts.Counters;
         clock = parts.Clock;
-        SessionOptions options = parts.Options;
         challenge = new AddressChallenge(cookies, parts.Sender, clock);
         Seating = new Seating(roster, places, budget, parts.Sender, options.MaxClientsPerAddress);
         Copies = new JoinCopies(roster, log, parts.World, options.Door, options.Timeout);

@@ -16,6 +16,7 @@ namespace LagSim.Net.Sessions.Hosts;
 /// </summary>
 internal sealed class HostProtocol : ISessionProtocol
 {
+    private readonly HostOptions options;
     private readonly PlayerPlaces places;
     private readonly ClientTimeouts timeouts;
     private readonly ClientEvents events;
@@ -23,10 +24,10 @@ internal sealed class HostProtocol : ISessionProtocol
     private readonly LogBroadcast broadcast;
 
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
-    internal HostProtocol(SessionParts parts, ulong sessionId)
+    internal HostProtocol(SessionParts parts, HostOptions options, ulong sessionId)
     {
         Parts = parts;
-        SessionOptions options = parts.Options;
+        this.options = options;
         SimTime now = parts.Clock.Now;
         places = new PlayerPlaces(options, now);
         Roster = new ClientRoster(places, parts.Sender, parts.Clock);
@@ -36,7 +37,7 @@ internal sealed class HostProtocol : ISessionProtocol
         Log.Recorded += broadcast.NoteRecorded;
         Budget = new WorkBudget(parts.World, parts.SharedTime, options.PlayerBudget);
         timeouts = new ClientTimeouts(Roster, Log.Lines, options.Timeout, options.Door.SlowestCopy, now);
-        Door = new FrontDoor(parts, sessionId, Roster, places, Log, Budget, timeouts);
+        Door = new FrontDoor(parts, options, sessionId, Roster, places, Log, Budget, timeouts);
         ForeignActs acts = new(options.PlayerBudget is not null, 10 * options.MaxEventsPerSecond);
         EventValidator validator = new(parts.World, parts.SharedTime, Watermark, Budget, options.Window.History);
         events = new ClientEvents(places, validator, parts.World, acts, Log, parts.Counters);
@@ -166,9 +167,9 @@ internal sealed class HostProtocol : ISessionProtocol
             return;
         }
 
-        if (Parts.World.Live is null && Roster.SeatedCount >= Parts.Options.ExpectedClients)
+        if (Parts.World.Live is null && Roster.SeatedCount >= options.ExpectedClients)
         {
-            Parts.Start.Begin(now + Parts.Options.StartLead);
+            Parts.Start.Begin(now + options.StartLead);
             Flush();
         }
 
@@ -186,11 +187,11 @@ internal sealed class HostProtocol : ISessionProtocol
 
     public SimTime NextDue(SimTime now)
     {
-        SimTime due = Parts.Commits.NextDue(Parts.Options.Window.History);
+        SimTime due = Parts.Commits.NextDue(options.Window.History);
         foreach (Client client in Roster.All)
         {
             due = SimTime.Min(due, client.HasWritten ? client.Link.Due : timeouts.GivenUpAt(client));
-            due = client.Incoming.HasNext ? SimTime.Min(due, now + Parts.Options.ResendInterval) : due;
+            due = client.Incoming.HasNext ? SimTime.Min(due, now + options.ResendInterval) : due;
         }
 
         return due;

@@ -7,7 +7,7 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Who may come in at all: by machine, key, version, scene and place.</summary>
-internal sealed class JoinRules(SessionOptions options, ulong sceneHash, ShutOuts shutOuts, Seating seating)
+internal sealed class JoinRules(HostOptions options, ulong sceneHash, ShutOuts shutOuts, Seating seating)
 {
     /// <summary>The number that a player's key gives; 0 if it is none.</summary>
     internal byte NumberByKey(in JoinDatagram join)

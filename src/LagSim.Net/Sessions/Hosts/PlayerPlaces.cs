@@ -14,10 +14,10 @@ namespace LagSim.Net.Sessions.Hosts;
 internal sealed class PlayerPlaces
 {
     private readonly Place[] places = new Place[SessionOptions.MaxClients + 1];
-    private readonly SessionOptions options;
+    private readonly HostOptions options;
     private readonly SimTime began;
 
-    internal PlayerPlaces(SessionOptions options, SimTime now)
+    internal PlayerPlaces(HostOptions options, SimTime now)
     {
         this.options = options;
         began = now;

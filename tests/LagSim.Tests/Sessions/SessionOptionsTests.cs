@@ -1,0 +1,127 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Reflection;
+using LagSim.Hosting;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Net.Strategies;
+using LagSim.Testing.Links;
+using LagSim.Time;
+using LagSim.Timelines;
+using Xunit;
+
+namespace LagSim.Tests.Sessions;
+
+/// <summary>
+/// What hosts and clients are told: each has its own settings, both have those of every peer, and what is not allowed is refused by name.
+/// </summary>
+public sealed class SessionOptionsTests
+{
+    private static readonly string[] OfHosts =
+        ["ExpectedClients", "MaxClientsPerAddress", "MaxEventsPerSecond", "PlayerBudget", "PlayerKeys", "StartLead"];
+
+    private static readonly string[] OfClients = ["Accelerations", "Pass"];
+
+    private static readonly SimDuration Long = SimDuration.FromSeconds(10_000);
+
+    private static readonly ClientOptions Changed = new()
+    {
+        ConnectKey = "secret",
+        RejoinTime = SimDuration.FromSeconds(3),
+        MaxGivenSpeed = 5,
+        MaxSpawned = 6,
+        CommitInterval = SimDuration.FromSeconds(2),
+        Window = new LatencyCompensationWindow(SimDuration.FromSeconds(3)),
+        MaxSegments = 1000,
+        Threads = 2,
+        ExtraHistory = SimDuration.FromSeconds(4),
+        RenderedPast = SimDuration.FromSeconds(5),
+        Timeout = SimDuration.FromSeconds(6),
+        ResendInterval = SimDuration.FromMilliseconds(40),
+        KeepAlive = SimDuration.FromSeconds(1),
+        Contacts = new ContactNotices(),
+        Strategy = LateEventStrategy.Interpolation,
+        SyncTest = true,
+        DisplayDelay = SimDuration.FromMilliseconds(70),
+        Warmup = false,
+        Cancellation = new(canceled: true),
+    };
+
+    public static TheoryData<string> Wrong => new(WrongOnes.Keys);
+
+    private static Dictionary<string, SessionOptions> WrongOnes { get; } = new()
+    {
+        ["CommitInterval"] = new ClientOptions { CommitInterval = Long },
+        ["ConnectKey"] = new ClientOptions { ConnectKey = new string('x', 257) },
+        ["DisplayDelay"] = new ClientOptions { DisplayDelay = Long },
+        ["ExpectedClients"] = new HostOptions { ExpectedClients = 9 },
+        ["ExtraHistory"] = new ClientOptions { ExtraHistory = Long },
+        ["KeepAlive"] = new ClientOptions { KeepAlive = Long },
+        ["MaxClientsPerAddress"] = new HostOptions { MaxClientsPerAddress = 0 },
+        ["MaxEventsPerSecond"] = new HostOptions { MaxEventsPerSecond = 0 },
+        ["MaxGivenSpeed"] = new HostOptions { MaxGivenSpeed = double.NaN },
+        ["MaxSegments"] = new ClientOptions { MaxSegments = 0 },
+        ["MaxSpawned"] = new ClientOptions { MaxSpawned = -1 },
+        ["PlayerKeys"] = new HostOptions { PlayerKeys = new Dictionary<byte, string> { [9] = "nine" } },
+        ["RejoinTime"] = new ClientOptions { RejoinTime = Long },
+        ["RenderedPast"] = new ClientOptions { RenderedPast = Long },
+        ["ResendInterval"] = new ClientOptions { ResendInterval = Long },
+        ["StartLead"] = new HostOptions { StartLead = Long },
+        ["Threads"] = new ClientOptions { Threads = 0 },
+        ["Timeout"] = new ClientOptions { Timeout = Long },
+        ["Window"] = new ClientOptions { Window = null! },
+    };
+
+    private static PropertyInfo[] Common => typeof(SessionOptions).GetProperties(BindingFlags.Public | BindingFlags.Instance);
+
+    [Fact]
+    public void Host_AndClient_ShowOnlyTheirOwn()
+    {
+        Assert.Equal(OfHosts, Own(typeof(HostOptions)));
+        Assert.Equal(OfClients, Own(typeof(ClientOptions)));
+    }
+
+    [Fact]
+    public void From_TheOtherSide_TakesEverySettingThatBothHave()
+    {
+        HostOptions host = HostOptions.From(Changed);
+        ClientOptions back = ClientOptions.From(host);
+        HostOptions defaults = new();
+        Assert.All(Common, setting => Assert.NotEqual(setting.GetValue(defaults), setting.GetValue(Changed))); // the control
+        Assert.All(Common, setting => Assert.Equal(setting.GetValue(Changed), setting.GetValue(host)));
+        Assert.Equal(Changed, back);
+        Assert.Same(host, HostOptions.From(host));
+        Assert.Throws<ArgumentNullException>(() => HostOptions.From(null!));
+        Assert.Throws<ArgumentNullException>(() => ClientOptions.From(null!));
+    }
+
+    [Fact]
+    public void ToString_TellsNoSecret() => Assert.Equal(("ClientOptions", "HostOptions"), ($"{Changed}", $"{HostOptions.From(Changed)}"));
+
+    [Theory]
+    [MemberData(nameof(Wrong))]
+    public void Session_WithWhatIsNotAllowed_IsRefusedByName(string named)
+    {
+        using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
+        SessionOptions wrong = WrongOnes[named];
+        ArgumentException refused = Assert.ThrowsAny<ArgumentException>(() => _ = wrong is HostOptions host
+            ? (Session)new HostSession(ScriptedActions.Box(), port, new VirtualClock(), host, 1)
+            : new ClientSession(null, port, new VirtualClock(), (ClientOptions)wrong, PeerAddress.Virtual(1), 1));
+        Assert.Equal(named, refused.ParamName);
+        Assert.EndsWith(".", refused.Message.Split(" (Parameter")[0], StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Session_WithWhatIsAllowed_IsNotRefused()
+    {
+        using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
+        HostOptions options = HostOptions.From(Changed) with { Cancellation = default };
+        HostSession host = new(ScriptedActions.Box(), port, new VirtualClock(), options, 1);
+        Assert.Equal(SessionState.Waiting, host.State);
+    }
+
+    private static string[] Own(Type type) =>
+        [.. type.GetProperties(BindingFlags.Public | BindingFlags.Instance | BindingFlags.DeclaredOnly)
+            .Select(p => p.Name).Order(StringComparer.Ordinal)];
+}
