@@ -48,7 +48,7 @@ internal sealed class EventWayRun
         Scene scene = new SceneBuilder("way")
             .AddPlane("floor", Vector3D.Up, Vector3D.Zero)
             .AddBody("host's", new BodySpec(0.5, 1, 0.5), new Vector3D(-3, 0.5, 0))
-            .AddBody("joiner's", new BodySpec(0.5, 1, 0.5), new Vector3D(3, 0.5, 0))
+            .AddBody("client's", new BodySpec(0.5, 1, 0.5), new Vector3D(3, 0.5, 0))
             .Build();
         long began = Stopwatch.GetTimestamp();
         using PeerThread host = PeerThread.Host(scene, options: options, bind: IPAddress.Loopback);
@@ -87,7 +87,7 @@ internal sealed class EventWayRun
         compiledMilliseconds = (JitInfo.GetCompilationTime() - spent).TotalMilliseconds;
         collections = GC.CollectionCount(0) - collected;
         host.Tell("host");
-        client.Tell("joiner");
+        client.Tell("client");
     }
 
     /// <summary>Every kind in turn, each on the same body, so that it is where the next kind needs it.</summary>

@@ -25,7 +25,7 @@ internal static class EventWayTable
         Run[] all = Enumerable.Range(1, runs).Select(seed => Start(rounds, seed)).ToArray();
         Console.WriteLine("| who | stamp to the other's published world | the first of its kind | of it until it is in the other's world | asked for to stamp |");
         Console.WriteLine("|---|---|---|---|---|");
-        foreach (string who in new[] { "host", "joiner" })
+        foreach (string who in new[] { "host", "client" })
         {
             List<Way> ways = all.SelectMany(r => r.Ways).Where(w => w.Who == who).ToList();
             Console.WriteLine($"| {who} | {Text(ways.Where(w => !w.IsFirst).Select(w => w.Shown))} | {Text(ways.Where(w => w.IsFirst).Select(w => w.Shown))} | {Text(ways.Select(w => w.Applied))} | {Text(ways.Select(w => w.Asked))} |");

@@ -18,8 +18,8 @@ internal static class TrafficTable
 
     internal static void Print()
     {
-        Console.WriteLine("Bytes a second of payload, host and 3 joiners on a lan, over 100 s (28 more a datagram with UDP and IPv4)");
-        Console.WriteLine("| events a second of one joiner | it sends | it gets | another joiner sends | another gets |");
+        Console.WriteLine("Bytes a second of payload, host and 3 clients on a lan, over 100 s (28 more a datagram with UDP and IPv4)");
+        Console.WriteLine("| events a second of one client | it sends | it gets | another client sends | another gets |");
         Console.WriteLine("|---|---|---|---|---|");
         foreach (double rate in new[] { 0, 1, 10, 60 })
         {

@@ -277,7 +277,7 @@ public sealed class SceneExplanation
             || (isRough && scene.PlaneArray.Length > 1);
         bool isModelled = isPressed && canTouch && !scene.Box.Exists;
         int perSecond = (int)(SimDuration.TicksPerSecond / new ContactScale(scene.ContactTolerance, scene.Gravity, default).Step.Ticks);
-        string moves = $"Bodies in lasting contact{(isRough ? ", with friction," : "")} that no closed form carries are moved together, by steps of at most"
+        string moves = $"Bodies in persistent contact{(isRough ? ", with friction," : "")} that no closed form carries are moved together, by steps of at most"
             + $" 1/{perSecond} s."
             + $" That is {perSecond} pieces/s or more for each, every step solved for all of them at once, until they rest; then it costs nothing."
             + (isRough ? "" : " Without friction a heap may sway for long.");

@@ -61,11 +61,11 @@ internal static class HoldTables
 
     internal static IEnumerable<string> Footnotes(HoldReport report)
     {
-        yield return "simulated: where that peer's world has the ball, by the last knot; predicted: drawn where the adaptive predictor tells the hand is,"
-            + " from the same knots.";
+        yield return "simulated: where that peer's world has the ball, by the last keyframe; predicted: drawn where the adaptive predictor tells the hand is,"
+            + " from the same keyframes.";
         yield return "of best: its rms error over that of the best in hindsight of what it mixes; hold, velocity: two of those; own: what the holder sees,"
-            + " which knots leave out.";
-        yield return $"A knot goes out when the others are off by more than {NumberText.Short(1000 * report.Runs[0].Options.KeyframeDistanceMetres)} mm. The"
+            + " which keyframes leave out.";
+        yield return $"A keyframe goes out when the others are off by more than {NumberText.Short(1000 * report.Runs[0].Options.KeyframeDistanceMetres)} mm. The"
             + " throw is not in these errors.";
         yield return "during: while an event of the hand is on its way to a peer, after: while none is. Bytes while it holds,"
             + " with UDP and IP headers.";

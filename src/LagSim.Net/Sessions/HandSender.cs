@@ -52,7 +52,7 @@ public sealed class HandSender
     {
         if (hasSent && time < sent)
         {
-            throw new ArgumentOutOfRangeException(nameof(time), time.ToShortString(), $"A knot of {sent.ToShortString()} was sent already; samples come in the"
+            throw new ArgumentOutOfRangeException(nameof(time), time.ToShortString(), $"A keyframe of {sent.ToShortString()} was sent already; samples come in the"
                 + " order of their times.");
         }
 

@@ -29,13 +29,13 @@ public sealed class HandSenderOptions
         SimDuration most = HandPath.Lasts / 2;
         if (Longest < SimDuration.FromMilliseconds(1) || Longest > most)
         {
-            throw new ArgumentOutOfRangeException(nameof(Longest), Longest.ToShortString(), $"The longest time without a knot lies between 1 ms and"
+            throw new ArgumentOutOfRangeException(nameof(Longest), Longest.ToShortString(), $"The longest time without a keyframe lies between 1 ms and"
                 + $" {most.ToShortString()}.");
         }
 
         if (Shortest < SimDuration.FromMilliseconds(1) || Shortest > Longest)
         {
-            throw new ArgumentOutOfRangeException(nameof(Shortest), Shortest.ToShortString(), $"The least time between two knots lies between 1 ms and the"
+            throw new ArgumentOutOfRangeException(nameof(Shortest), Shortest.ToShortString(), $"The least time between two keyframes lies between 1 ms and the"
                 + $" longest, {Longest.ToShortString()}.");
         }
 

@@ -145,7 +145,7 @@ public sealed class PeerThread : IDisposable
         Action<ClientSession>? setUp = null) => Begin(
             carrier,
             () => new ClientSession(scene, carrier, new StopwatchClock(), options ?? new ClientOptions(), host, Session.DrawNumber()),
-            "LagSim joiner",
+            "LagSim client",
             setUp);
 
     /// <summary>

@@ -56,7 +56,7 @@ internal sealed class SessionWarmup
         }
 
         ClientOptions options = ClientOptions.From(Options(strategy, 8)) with { Contacts = new ContactNotices() };
-        client = new PeerThread(new ClientSession(null, clientPort, clock, options, hostPort.LocalAddress, 2), clientPort, "warm-up joiner");
+        client = new PeerThread(new ClientSession(null, clientPort, clock, options, hostPort.LocalAddress, 2), clientPort, "warm-up client");
         host.Session.Logged += entry => Note(entry, HeardByHost, from: 1);
         client.Session.Logged += entry => Note(entry, HeardByClient, from: 0);
     }

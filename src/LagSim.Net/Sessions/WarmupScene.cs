@@ -22,9 +22,9 @@ internal static class WarmupScene
             .AddForce(Force.LinearDrag("syrup", 0.1), out ForceSet syrup)
             .AddForce(Force.QuadraticDrag("air", 0.01), out ForceSet air)
             .AddBody("host's", new BodySpec(Radius, 1, 0.5, friction: 0.3, rollingResistance: 0.01), new Vector3D(-3, Radius, 0))
-            .AddBody("joiner's", new BodySpec(Radius, 1, 0.5, few ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic), new Vector3D(3, 2, 0))
+            .AddBody("client's", new BodySpec(Radius, 1, 0.5, few ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic), new Vector3D(3, 2, 0))
             .AddBody("beside the host's", new BodySpec(Radius, 2, 0.5, friction: 0.3), new Vector3D(-1.5, Radius, 0))
-            .AddBody("beside the joiner's", new BodySpec(Radius, 2, 0.5), new Vector3D(4.5, Radius, 0));
+            .AddBody("beside the client's", new BodySpec(Radius, 2, 0.5), new Vector3D(4.5, Radius, 0));
         if (few)
         {
             return builder

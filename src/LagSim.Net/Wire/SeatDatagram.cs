@@ -35,7 +35,7 @@ internal readonly struct SeatDatagram
     {
         if (Peer == 0)
         {
-            throw new InvalidOperationException("A joiner's number is 1 to 255; 0 is the host's.");
+            throw new InvalidOperationException("A client's number is 1 to 255; 0 is the host's.");
         }
 
         WireWriter writer = new(destination);

@@ -103,7 +103,7 @@ public sealed class LatencyCompensationWindow
         if (!IsOfPlayers(kind))
         {
             throw new ArgumentOutOfRangeException(
-                nameof(kind), kind, "A local lag is that of what players do: a spawn, a teleport, a set velocity, an impulse, a grab, a knot, a release, a"
+                nameof(kind), kind, "A local lag is that of what players do: a spawn, a teleport, a set velocity, an impulse, a grab, a keyframe of a hand, a release, a"
                     + " removal.");
         }
 

@@ -64,7 +64,7 @@ internal sealed class ForceFailures(Scene scene, in Forces forces, BodyTable bod
         double most = 1 / SimDuration.FromTicks(Contacts.ContactScale.ShortestTicks).ToSeconds();
         return new SimulationException(
             $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {scene.Whose(bodies.Id(slot))}, which touches something, "
-            + $"{ActTooFast(rate, rate, most)}: there {RatesOn(slot, x, v, spin)}. What is in lasting contact moves by steps that follow at most"
+            + $"{ActTooFast(rate, rate, most)}: there {RatesOn(slot, x, v, spin)}. What is in persistent contact moves by steps that follow at most"
             + $" {Limits.Short(most)} 1/s, halved to {Limits.Short(1 / most)} s. Make them weaker, or the body heavier.");
     }
 

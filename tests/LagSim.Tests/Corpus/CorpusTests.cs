@@ -161,7 +161,7 @@ public sealed partial class CorpusTests
         .. Enum.GetNames<MotionLaw>().Where(law => law != nameof(MotionLaw.Automatic)).Select(law => $"law {law}"),
         .. Enum.GetNames<ForceKind>().Select(kind => $"force {kind}"),
         .. new[] { "Spawn", "Teleport", "SetVelocity", "Impulse", "Grab", "HoldKeyframe", "Release", "Remove" }.Select(kind => $"event {kind}"),
-        "a step's end", "an impact of two", "an impact of many", "a wake by impact", "sliding in a groove", "sliding on a plane", "a lasting contact", "a late round",
+        "a step's end", "an impact of two", "an impact of many", "a wake by impact", "sliding in a groove", "sliding on a plane", "a persistent contact", "a late round",
         "masses sixty decades apart", "a supplied acceleration", "a late start", "a place far from the origin", "a subnormal speed", "a refused event", "two events at a tick",
     ];
 
@@ -189,7 +189,7 @@ public sealed partial class CorpusTests
             ("a wake by impact", wakes),
             ("sliding in a groove", snapshots.Any(body => body is { Law: MotionLaw.Sliding, SupportCount: 2 })),
             ("sliding on a plane", snapshots.Any(body => body is { Law: MotionLaw.Sliding, SupportCount: 1 })),
-            ("a lasting contact", snapshots.Any(body => body.Contacts.Length > 0)),
+            ("a persistent contact", snapshots.Any(body => body.Contacts.Length > 0)),
             ("a late round", all.Any(entry => entry.Key.Round >= 4)),
             ("masses sixty decades apart", masses.Max() / masses.Min() >= 1e60),
             ("a supplied acceleration", world.Scene.Accelerations.Count > 0),

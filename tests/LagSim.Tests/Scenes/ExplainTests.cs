@@ -86,7 +86,7 @@ public sealed class ExplainTests
         // The default contact tolerance is 1 mm here, and in 1/128 s a fall stays within it, by 0.3 mm, but not in 1/64 s, by 1.2 mm.
         FeatureExplanation rough = Islands(Two(friction: 0.5).Build());
         Assert.True(rough.IsModelled);
-        Assert.Contains("in lasting contact, with friction, that no closed form", rough.Why, StringComparison.Ordinal);
+        Assert.Contains("in persistent contact, with friction, that no closed form", rough.Why, StringComparison.Ordinal);
         Assert.Contains("at most 1/128 s. That is 128 pieces/s or more for each", rough.Why, StringComparison.Ordinal);
         Assert.Contains("Without friction a heap may sway", Islands(Two(friction: 0).Build()).Why, StringComparison.Ordinal);
 

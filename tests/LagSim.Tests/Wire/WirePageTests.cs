@@ -273,7 +273,7 @@ public sealed class WirePageTests
 
     private static byte[] DesyncReport(string[] page, DesyncReportDatagram d)
     {
-        LayoutRow[] rows = Table(page, "## 11 Evidence");
+        LayoutRow[] rows = Table(page, "## 11 DesyncReport");
         rows = d.Total > 0 ? rows : [.. rows.Where(row => !row.Value.Contains("only with an event", StringComparison.Ordinal))];
         MemoryStream bytes = new();
         Header(bytes, page, DatagramType.DesyncReport);

@@ -393,7 +393,7 @@ internal sealed class CheckSession
             + $" states and events differ. {comparison.FirstHash}").TrimEnd()
             : lost > 0 ? $"{NumberText.Count(lost, "accepted event was", many: "accepted events were")} lost."
             : tooLate > 0 && !mayBeRefused ? $"{NumberText.Count(tooLate, "event was", many: "events were")} too late."
-            : members.Sum(m => m.Session.Counters.StatesDiffered) > 0 ? "A joiner's committed state was not what the host said."
+            : members.Sum(m => m.Session.Counters.StatesDiffered) > 0 ? "A client's committed state was not what the host said."
             : null;
         return outcome with
         {

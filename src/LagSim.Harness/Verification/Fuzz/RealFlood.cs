@@ -53,7 +53,7 @@ public static class RealFlood
         using PeerThread client = new(
             new ClientSession(null, clientPort, new StopwatchClock(), ClientOptions.From(options), hostPort.LocalAddress, number),
             clientPort,
-            "LagSim flooded joiner");
+            "LagSim flooded client");
         host.Start();
         client.Start();
         if (!host.WaitUntilRunning(Timeout) || !client.WaitUntilRunning(Timeout))
@@ -114,7 +114,7 @@ public static class RealFlood
         {
             if (host.State == SessionState.Ended || client.State == SessionState.Ended || Stopwatch.GetTimestamp() > deadline)
             {
-                return $"After the flood the host is {host.State} and the joiner {client.State}: {host.Session.EndReason} {client.Session.EndReason}";
+                return $"After the flood the host is {host.State} and the client {client.State}: {host.Session.EndReason} {client.Session.EndReason}";
             }
 
             Thread.Sleep(10);

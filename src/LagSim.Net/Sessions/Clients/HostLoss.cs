@@ -222,7 +222,7 @@ internal sealed class HostLoss(
     {
         LeaveReason.TimedOut => $"The host at {connection.Host} heard nothing from this peer for too long.",
         LeaveReason.Replaced => $"This player came in from elsewhere; the host at {connection.Host} let this peer go.",
-        LeaveReason.NotJoined => $"The host at {connection.Host} does not have this peer among its joiners, or no longer.",
+        LeaveReason.NotJoined => $"The host at {connection.Host} does not have this peer among its clients, or no longer.",
         LeaveReason.FellBehind => FormattableString.Invariant(
             $"The link to the host at {connection.Host} is too slow: what happened {options.Timeout.ToSeconds():0.###} s ago")
             + " has not come over it yet.",
