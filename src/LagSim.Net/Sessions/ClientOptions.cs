@@ -32,13 +32,11 @@ public sealed record ClientOptions : SessionOptions
 
     /// <summary>
     /// What shows the host that this is a player it had before, from <see cref="ClientSession.Pass"/> of then; default none. With one a
-    /// client asks for
-    /// <see cref="SessionOptions.RejoinTime"/> to be let in, as one does that lost its host.
+    /// client asks for <see cref="SessionOptions.RejoinTime"/> to be let in, as one does that lost its host.
     /// </summary>
     /// <remarks>
     /// A host that does not know it, or no longer, gives the client a number as it gives anybody; one that was started anew the same
-    /// number, if it is free:
-    /// without proof, and for its first <see cref="SessionOptions.RejoinTime"/> alone.
+    /// number, if it is free: without proof, and for its first <see cref="SessionOptions.RejoinTime"/> alone.
     /// </remarks>
     public PlayerPass Pass { get; init; }
 

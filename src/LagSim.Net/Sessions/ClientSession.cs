@@ -12,15 +12,13 @@ namespace LagSim.Net.Sessions;
 /// <remarks>
 /// It sets its clock by the host's before its first tick, and fetches scene and committed state from it. Its own events show at once; one
 /// that the host refuses is taken back. When it loses its host, or its world turns out to be wrong, it asks by itself to be let in again,
-/// as the same player, and
-/// goes on from a fresh copy (<see cref="SessionState.Rejoining"/>). Its address may change at any time.
+/// as the same player, and goes on from a fresh copy (<see cref="SessionState.Rejoining"/>). Its address may change at any time.
 /// </remarks>
 public sealed class ClientSession : Session
 {
     /// <summary>
     /// So many own events can wait for the host's verdict; <see cref="Session.Do"/> throws while they do. 16,384: at the rate that a host
-    /// takes by default,
-    /// more than half a minute without an answer.
+    /// takes by default, more than half a minute without an answer.
     /// </summary>
     public const int MaxUnconfirmedEvents = 1 << 14;
 
@@ -57,9 +55,8 @@ public sealed class ClientSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread when this peer lost its host, or its world, and asks to be let in again: with why. <see
-    /// cref="Session.Renewed"/> follows, or
-    /// <see cref="Regained"/>, or the session ends.
+    /// Raised on the session's thread when this peer lost its host, or its world, and asks to be let in again: with why.
+    /// <see cref="Session.Renewed"/> follows, or <see cref="Regained"/>, or the session ends.
     /// </summary>
     public event Action<string>? Interrupted
     {
@@ -68,9 +65,8 @@ public sealed class ClientSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread each time that the host gives this peer a number, with what shows that it is this player: <see
-    /// cref="Pass"/>. That is before there
-    /// is a world, so a program that keeps it at once can come back whenever it is killed.
+    /// Raised on the session's thread each time that the host gives this peer a number, with what shows that it is this player:
+    /// <see cref="Pass"/>. That is before there is a world, so a program that keeps it at once can come back whenever it is killed.
     /// </summary>
     public event Action<PlayerPass>? PassGiven
     {
@@ -110,8 +106,7 @@ public sealed class ClientSession : Session
 
     /// <summary>
     /// What shows a host that this is the player it was, for another session of this program: see <see cref="ClientOptions.Pass"/>. Null
-    /// before the host gave a
-    /// number. From any thread.
+    /// before the host gave a number. From any thread.
     /// </summary>
     public PlayerPass? Pass => client.Seat.Pass;
 

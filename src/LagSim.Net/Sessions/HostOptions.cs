@@ -48,9 +48,9 @@ public sealed record HostOptions : SessionOptions
     public IReadOnlyDictionary<byte, string> PlayerKeys { get; init; } = new Dictionary<byte, string>();
 
     /// <summary>
-    /// How many clients may be in from one address, whatever their ports, 1 to <see cref="SessionOptions.MaxClients"/>; default half of
-    /// the places, or <see
-    /// cref="ExpectedClients"/> if that is more. So nobody takes all places from one machine. Players behind one NAT share an address.
+    /// How many clients may be in from one address, whatever their ports, 1 to <see cref="SessionOptions.MaxClients"/>; default half of the
+    /// places, or <see cref="ExpectedClients"/> if that is more. So nobody takes all places from one machine. Players behind one NAT share
+    /// an address.
     /// </summary>
     public int MaxClientsPerAddress
     {
@@ -66,17 +66,14 @@ public sealed record HostOptions : SessionOptions
 
     /// <summary>
     /// What a player's acts may cost, in work to simulate what comes of them; default <see cref="PlayerBudget.Default"/>, and null for no
-    /// limit. Who has used up half of it
-    /// has its acts refused (<see cref="Wire.Verdict.NoRight"/>) but for removals and releases; who has used it up is sent away as by
-    /// <see cref="HostSession.Kick"/>, nobody is
-    /// let in from its machine for a minute, what it spawned is removed as of before the work began, and what else it moved and much of
-    /// the work was for is stopped. See <see
-    /// cref="HostSession.PlayerExpelled"/>. While the world is 150 ms late, half of it is all there is.
+    /// limit. Who has used up half of it has its acts refused (<see cref="Wire.Verdict.NoRight"/>) but for removals and releases; who has
+    /// used it up is sent away as by <see cref="HostSession.Kick"/>, nobody is let in from its machine for a minute, what it spawned is
+    /// removed as of before the work began, and what else it moved and much of the work was for is stopped. See
+    /// <see cref="HostSession.PlayerExpelled"/>. While the world is 150 ms late, half of it is all there is.
     /// </summary>
     /// <remarks>
     /// An event on a body in free flight that comes late counts 12 units and more. The default of <see cref="MaxEventsPerSecond"/> is far
-    /// from the budget; who permits thousands a second
-    /// raises it in proportion.
+    /// from the budget; who permits thousands a second raises it in proportion.
     /// </remarks>
     public PlayerBudget? PlayerBudget { get; init; } = PlayerBudget.Default;
 

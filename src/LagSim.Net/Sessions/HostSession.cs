@@ -15,8 +15,7 @@ namespace LagSim.Net.Sessions;
 /// </summary>
 /// <remarks>
 /// Its clock is the session's. The watermark, before which it accepts nothing, follows that clock, so a silent client stalls nobody. It
-/// plays
-/// itself, by <see cref="Session.Do"/>, or only serves. It keeps nothing of who has not shown, by a cookie, that it is where it says.
+/// plays itself, by <see cref="Session.Do"/>, or only serves. It keeps nothing of who has not shown, by a cookie, that it is where it says.
 /// </remarks>
 public sealed class HostSession : Session
 {
@@ -33,9 +32,8 @@ public sealed class HostSession : Session
     /// <param name="options">How to take part.</param>
     /// <param name="sessionId">
     /// A number that no other session on these machines has; choose it at random. From it and a secret of this host each join gets a
-    /// session id that nobody
-    /// else can tell: it goes with every datagram, and what is still on its way from or to a former client is not taken for that of a later
-    /// one.
+    /// session id that nobody else can tell: it goes with every datagram, and what is still on its way from or to a former client is not
+    /// taken for that of a later one.
     /// </param>
     public HostSession(Scene scene, IDatagramPort port, IClock clock, HostOptions options, ulong sessionId)
         : this(new HostProtocol(
@@ -71,8 +69,7 @@ public sealed class HostSession : Session
 
     /// <summary>
     /// Raised on the session's thread, once, for each client that left, fell silent, was told to go, or came anew from the same address,
-    /// with what went over
-    /// its link in all. Not for those who are there when the session ends.
+    /// with what went over its link in all. Not for those who are there when the session ends.
     /// </summary>
     public event Action<LinkTraffic>? ClientGone
     {
@@ -82,8 +79,7 @@ public sealed class HostSession : Session
 
     /// <summary>
     /// Raised on the session's thread when a player is sent away because its acts cost more than <see cref="HostOptions.PlayerBudget"/>,
-    /// with why, and what was
-    /// removed. <see cref="ClientGone"/> is raised too.
+    /// with why, and what was removed. <see cref="ClientGone"/> is raised too.
     /// </summary>
     public event Action<PlayerExpulsion>? PlayerExpelled
     {
@@ -166,8 +162,7 @@ public sealed class HostSession : Session
 
     /// <summary>
     /// Sends away all players from the machine of one, as <see cref="Kick"/> does, and lets nobody in from there as long as this session
-    /// lasts. A machine is an IP address,
-    /// of IPv6 its first 64 bits: everybody who shares it is shut out.
+    /// lasts. A machine is an IP address, of IPv6 its first 64 bits: everybody who shares it is shut out.
     /// </summary>
     /// <remarks>On the session's thread.</remarks>
     /// <param name="player">The player's number.</param>
@@ -203,8 +198,8 @@ public sealed class HostSession : Session
 
     /// <summary>
     /// Removes all bodies that were spawned under a player's number, whether or not somebody has it now. The removals are events of this
-    /// host, so all peers see them at the same
-    /// simulated time: now, or where the world stands if that is behind, and of a body whose spawn is still to come when it is spawned.
+    /// host, so all peers see them at the same simulated time: now, or where the world stands if that is behind, and of a body whose spawn
+    /// is still to come when it is spawned.
     /// </summary>
     /// <remarks>On the session's thread. Cost: a removal for each.</remarks>
     /// <param name="player">The player's number.</param>

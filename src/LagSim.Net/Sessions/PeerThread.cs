@@ -225,8 +225,7 @@ public sealed class PeerThread : IDisposable
     /// Asked before <see cref="Start"/>, it waits for the thread. From any thread. Cost: allocates nothing, and wakes the thread.</summary>
     /// <returns>
     /// The stamped event, or the exception that <see cref="Session.Do"/> throws: <see cref="Refused"/> tells that too. What the host makes
-    /// of the
-    /// event is heard later, by <see cref="Session.Logged"/>. Await it at once, once, or let it go: an answer that nobody awaits is
+    /// of the event is heard later, by <see cref="Session.Logged"/>. Await it at once, once, or let it go: an answer that nobody awaits is
     /// forgotten some 60 calls later.
     /// </returns>
     /// <exception cref="ObjectDisposedException">The thread has been disposed.</exception>

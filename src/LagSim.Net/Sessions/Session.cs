@@ -21,11 +21,10 @@ namespace LagSim.Net.Sessions;
 /// <remarks>
 /// For one thread, in real time (<see cref="PeerThread"/> gives it one) or in virtual time, where the harness steps it. From any thread may
 /// be read: <see cref="Scene"/>, <see cref="SharedTime"/>, <see cref="State"/>, <see cref="EndReason"/>, <see cref="Committed"/>, and which
-/// <see cref="World"/> it is; of the world itself only its render snapshots, its counts of late steps, and when it started. While a <see
-/// cref="PeerThread"/> runs it, what is for the session's thread throws an <see cref="InvalidOperationException"/> on any other.
-/// A handler of an event that throws ends nothing then, and <see cref="PeerThread.HandlerFailed"/> tells; where there is no such thread,
-/// what it throws goes
-/// through to whoever calls <see cref="Step"/>, or what else raised the event.
+/// <see cref="World"/> it is; of the world itself only its render snapshots, its counts of late steps, and when it started. While a
+/// <see cref="PeerThread"/> runs it, what is for the session's thread throws an <see cref="InvalidOperationException"/> on any other. A
+/// handler of an event that throws ends nothing then, and <see cref="PeerThread.HandlerFailed"/> tells; where there is no such thread, what
+/// it throws goes through to whoever calls <see cref="Step"/>, or what else raised the event.
 /// </remarks>
 public abstract class Session
 {
@@ -72,8 +71,7 @@ public abstract class Session
 
     /// <summary>
     /// Raised on the session's thread each time that a fresh copy of the host's world has taken the place of <see cref="World"/>, which is
-    /// another object from
-    /// then on, with why. What this peer did that the host had not validated is in neither.
+    /// another object from then on, with why. What this peer did that the host had not validated is in neither.
     /// </summary>
     public event Action<string>? Renewed
     {
@@ -115,18 +113,14 @@ public abstract class Session
 
     /// <summary>
     /// How far behind the shared time this peer shows the world: <see cref="SessionOptions.DisplayDelay"/> with <c>interpolation</c>, else
-    /// zero. From any
-    /// thread.
+    /// zero. From any thread.
     /// </summary>
     public SimDuration DisplayDelay => parts.World.DisplayDelay;
 
     /// <summary>
     /// What a frame that is drawn now reads of a render snapshot: shared time less <see cref="DisplayDelay"/>. In the first moments, when
-    /// that lies
-    /// before the world
-    /// this peer has, the earliest instant of it, so that the world stands still until it can be shown on its way. From any thread, once
-    /// there is a <see
-    /// cref="World"/>.
+    /// that lies before the world this peer has, the earliest instant of it, so that the world stands still until it can be shown on its
+    /// way. From any thread, once there is a <see cref="World"/>.
     /// </summary>
     public SimTime DisplayTime => parts.World.DisplayTime;
 
@@ -145,9 +139,8 @@ public abstract class Session
     public byte Peer => parts.Self.Number;
 
     /// <summary>
-    /// The world, from the moment its start is known; the same from then on, but for a client that got a fresh copy (<see
-    /// cref="Renewed"/>). From any thread,
-    /// but see the remarks for what is in it.
+    /// The world, from the moment its start is known; the same from then on, but for a client that got a fresh copy
+    /// (<see cref="Renewed"/>). From any thread, but see the remarks for what is in it.
     /// </summary>
     public LiveWorld? World => parts.World.Live;
 
@@ -168,8 +161,7 @@ public abstract class Session
 
     /// <summary>
     /// How many lines of the host's log this peer was not told, because every accepted event in them is in <see cref="BegunFrom"/>; the
-    /// next is the
-    /// first that <see cref="Logged"/> tells. On the session's thread.
+    /// next is the first that <see cref="Logged"/> tells. On the session's thread.
     /// </summary>
     public uint LogStart
     {
@@ -181,8 +173,8 @@ public abstract class Session
     }
 
     /// <summary>
-    /// What went over each link so far; of a host in the order in which its clients came. On the session's thread; see <see
-    /// cref="PeerThread.Ask"/>.
+    /// What went over each link so far; of a host in the order in which its clients came. On the session's thread; see
+    /// <see cref="PeerThread.Ask"/>.
     /// </summary>
     public IReadOnlyList<LinkTraffic> Links
     {
@@ -247,15 +239,13 @@ public abstract class Session
 
     /// <summary>
     /// Does something to the shared world, now, or later by what <see cref="SessionOptions.Window"/> has of local lag for it: seen here
-    /// then, by the others too
-    /// or as soon as they hear of it.
+    /// then, by the others too or as soon as they hear of it.
     /// </summary>
     /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
     /// <exception cref="InvalidOperationException">
     /// The session is not running; a <see cref="PeerThread"/> runs it, and this is another thread; or of a client's events
-    /// <see cref="ClientSession.MaxUnconfirmedEvents"/> wait for the host's verdict, and
-    /// nothing happened:
-    /// it can be done again once verdicts have come.
+    /// <see cref="ClientSession.MaxUnconfirmedEvents"/> wait for the host's verdict, and nothing happened: it can be done again once
+    /// verdicts have come.
     /// </exception>
     /// <exception cref="SceneException">
     /// A value may not enter the world, or this peer may not do that, or it is more than <see cref="SessionOptions.MaxGivenSpeed"/> or
@@ -278,8 +268,8 @@ public abstract class Session
     }
 
     /// <summary>
-    /// Does what is due: takes in datagrams, sends, brings the world ahead, by a bounded number of events; see <see
-    /// cref="LiveWorld.IsBehind"/>.
+    /// Does what is due: takes in datagrams, sends, brings the world ahead, by a bounded number of events; see
+    /// <see cref="LiveWorld.IsBehind"/>.
     /// </summary>
     /// <returns>How long until something is due again, unless a datagram or an action comes first.</returns>
     /// <remarks>

@@ -15,16 +15,14 @@ public enum LateEventStrategy
     FullRollback,
 
     /// <summary>
-    /// As <see cref="Healing"/>, but what is shown lies <see cref="Sessions.SessionOptions.DisplayDelay"/> behind, so that most events
-    /// have come before they are
-    /// drawn and nothing jumps. What a player does itself shows that much later.
+    /// As <see cref="Healing"/>, but what is shown lies <see cref="Sessions.SessionOptions.DisplayDelay"/> behind, so that most events have
+    /// come before they are drawn and nothing jumps. What a player does itself shows that much later.
     /// </summary>
     Interpolation,
 
     /// <summary>
     /// The thesis's way: on arrival the body is put where it would be by its own motion had the event come in time. What it would have met
-    /// in between is lost,
-    /// and with it the agreement of the peers.
+    /// in between is lost, and with it the agreement of the peers.
     /// </summary>
     LatencyForward,
 

@@ -9,6 +9,7 @@ using LagSim.Harness.SceneFiles;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Core;
 using LagSim.Scenes;
 using Xunit;
 
@@ -120,6 +121,21 @@ public sealed class PeerThreadRulesTests
         Assert.Equal(1, calls);
     }
 
+    [Fact]
+    public void Handlers_Called_AllocateNothing()
+    {
+        HandlerList<Action<int>> handlers = new(new SessionOwner());
+        int sum = 0;
+        handlers.Add(n => sum += n);
+        handlers.Add(n => sum -= n);
+        void Raise() => handlers.Raise(1, static (handler, told) => handler(told));
+        Raise();
+
+        Assert.Equal(0, Allocated(Raise));
+        Assert.NotEqual(0, Allocated(() => handlers.Add(_ => { }))); // the control
+        Assert.Equal(0, sum);
+    }
+
     public static TheoryData<string> OfTheHost => new(HostCalls.Keys);
 
     public static TheoryData<string> OfTheClient => new(ClientCalls.Keys);
@@ -215,6 +231,14 @@ public sealed class PeerThreadRulesTests
 
         Assert.Equal(1, told);
         await host.Do(Push);
+    }
+
+    private static long Allocated(Action work)
+    {
+        work();
+        long before = GC.GetAllocatedBytesForCurrentThread();
+        work();
+        return GC.GetAllocatedBytesForCurrentThread() - before;
     }
 
     private static Dictionary<string, Action<HostSession>> HostCalls { get; } = new(Shared<HostSession>())

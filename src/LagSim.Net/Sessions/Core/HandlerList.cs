@@ -9,8 +9,7 @@ namespace LagSim.Net.Sessions.Core;
 /// </summary>
 /// <remarks>
 /// Added and removed from any thread; calling them allocates nothing. Where nobody takes what handlers throw, it goes through to whoever
-/// steps the session, and
-/// the handlers after it are not called.
+/// steps the session, and the handlers after it are not called.
 /// </remarks>
 /// <typeparam name="THandler">The event's type.</typeparam>
 /// <param name="owner">Who takes what handlers throw.</param>
