@@ -1,8 +1,8 @@
 using System;
 using LagSim.Net.Carriers;
 using LagSim.Net.Clocks;
-using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Clients;
+using LagSim.Net.Sessions.Core;
 using LagSim.Scenes;
 using LagSim.Time;
 

@@ -1,7 +1,7 @@
 using LagSim.Events;
 using LagSim.Net.Sessions;
-using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Clients;
+using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
