@@ -75,7 +75,7 @@ internal sealed class Engine
         // Islands.
         Partners partners = new(Bodies, Timelines, view, rewinds);
         MemberFactory members = new(Bodies, Timelines, forces, Step.Scale, trajectories);
-        Sleepers sleepers = parts.Sleepers(Bodies, Timelines, view, graph, rewinds, members);
+        SleepWaker waker = parts.SleepWaker(Bodies, Timelines, view, graph, rewinds, members);
         StepSegments stepSegments = new(scene, Bodies, Timelines, graph, Step, members, trajectories);
         Stepper = new IslandStepper(Bodies, Timelines, forces, graph, Step, partners, rewinds, members, stepSegments, marks, work);
 
@@ -90,7 +90,7 @@ internal sealed class Engine
             scene, Bodies, Timelines, scheduler, rollback, flights, graph, resolver, notifier, segments);
         ImpactGraphBuilder builder = parts.ImpactGraphBuilder(
             scene, Bodies, Timelines, rollback, rewinds, view, flights, BroadPhase, collisions, collapse, graph);
-        ImpactProblem problem = new(Step, work);
+        IslandImpactProblem problem = new(Step, work);
         IslandImpactSegments memberSegments = new(Bodies, Timelines, graph, problem, members, trajectories, resolver, segments);
         IslandImpact island = new(
             scene, Bodies, Timelines, rewinds, graph, Step.Scale, problem, partners, memberContacts, capture, trajectories.Friction, notifier,
@@ -99,7 +99,7 @@ internal sealed class Engine
         StepEndHandler steps = new(Timelines, graph, Stepper, trajectories, linker);
         LonePath lonePath = new(scene, Bodies, Timelines, new LoneWorld(scene, start, options.MaxSegments));
         ExternalHandler externals = new(
-            scene, Bodies, Timelines, log, flights, graph, sleepers, members, trajectories, collapse, lonePath);
+            scene, Bodies, Timelines, log, flights, graph, waker, members, trajectories, collapse, lonePath);
         EventDispatcher dispatcher = new(Progress, graph, predictor, impacts, steps, externals, marks, rewinds, Rewinder);
         Meter = new WorkMeter(Bodies, graph, work, rollback);
         Loop = new EventLoop(

@@ -55,7 +55,7 @@ internal class EngineParts
         Reconvergence reconvergence, EventPredictor predictor, HealingMode mode) =>
         new(bodies, timelines, log, scheduler, progress, rollback, reconvergence, predictor, mode);
 
-    internal virtual Sleepers Sleepers(
+    internal virtual SleepWaker SleepWaker(
         BodyTable bodies, TimelineStore timelines, PathView view, ContactGraph graph, RewindRequests rewinds, MemberFactory members) =>
         new(bodies, timelines, view, graph, rewinds, members);
 

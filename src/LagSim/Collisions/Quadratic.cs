@@ -6,7 +6,7 @@ namespace LagSim.Collisions;
 internal static class Quadratic
 {
     /// <summary>As <see cref="RootIsolation.Find"/>, for f(t) = c0 + c1 t + c2 t^2 and all t >= 0.</summary>
-    internal static double RootIsolation(double c0, double c1, double c2)
+    internal static double FirstDescent(double c0, double c1, double c2)
     {
         if (c0 <= 0)
         {

@@ -28,7 +28,7 @@ internal static class TimeOfImpact
     private static double OfParabola(Vector3D place, Vector3D speed, in Vector3D half, double since, double radius, in StaticPlane plane)
     {
         Shift(ref place, ref speed, half, since);
-        return Quadratic.RootIsolation(plane.Gap(place, radius), Vector3D.Dot(plane.Normal, speed), Vector3D.Dot(plane.Normal, half));
+        return Quadratic.FirstDescent(plane.Gap(place, radius), Vector3D.Dot(plane.Normal, speed), Vector3D.Dot(plane.Normal, half));
     }
 
     private static double OfQuintic(in MotionSegment segment, in DenseOutput dense, double radius, in StaticPlane plane, SimTime from, double seconds)

@@ -13,7 +13,7 @@ namespace LagSim.Handlers;
 
 /// <summary>External events: what players do.</summary>
 internal sealed class ExternalHandler(
-    Scene scene, BodyTable bodies, TimelineStore timelines, EventLog log, FreeFlights flights, ContactGraph graph, Sleepers sleepers,
+    Scene scene, BodyTable bodies, TimelineStore timelines, EventLog log, FreeFlights flights, ContactGraph graph, SleepWaker waker,
     MemberFactory members, TrajectoryFactory trajectories, CollapseRule collapse, LonePath lonePath)
 {
     private readonly Paths paths = new(timelines);
@@ -24,7 +24,7 @@ internal sealed class ExternalHandler(
     /// </summary>
     internal bool TryHandle(int slot, in EventKey key)
     {
-        if (!sleepers.TryFind(slot, key))
+        if (!waker.TryFind(slot, key))
         {
             return false;
         }
@@ -37,7 +37,7 @@ internal sealed class ExternalHandler(
             graph.Clear();
         }
 
-        sleepers.Wake(slot, key);
+        waker.Wake(slot, key);
         return true;
     }
 

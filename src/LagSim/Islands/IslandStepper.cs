@@ -42,7 +42,7 @@ internal sealed class IslandStepper(
         SimTime time = canonical.Time;
         SimDuration length = FillStep(canonical.Time, StepWanted(canonical.Time));
         double tolerance = StepTolerance(out bool mayRest);
-        if (mayRest && HaveRested(canonical.Time))
+        if (mayRest && CanFallAsleep(canonical.Time))
         {
             segments.OpenRest(canonical);
         }
@@ -296,7 +296,7 @@ internal sealed class IslandStepper(
         return Math.Min(step.Scale.SweepSpeed, Math.Max(0.05 * fastest, 0.05 * step.Scale.StillSpeed));
     }
 
-    private bool HaveRested(SimTime tick)
+    private bool CanFallAsleep(SimTime tick)
     {
         bool rests = true;
         for (int i = 0; i < graph.BodyCount && rests; i++)

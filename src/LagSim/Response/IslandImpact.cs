@@ -15,7 +15,7 @@ namespace LagSim.Response;
 /// <summary>Impacts that reach islands, or begin them: an impulse spreads over persistent contacts as far as it changes velocities.</summary>
 internal sealed class IslandImpact(
     Scene scene, BodyTable bodies, TimelineStore timelines, RewindRequests rewinds, ContactGraph graph, ContactScale scale,
-    ImpactProblem impact, Partners partners, MemberContacts memberContacts, CaptureRule capture, SlipFactory friction,
+    IslandImpactProblem impact, Partners partners, MemberContacts memberContacts, CaptureRule capture, SlipFactory friction,
     ImpactNotifier notifier, IslandImpactSegments segments)
 {
     /// <summary>

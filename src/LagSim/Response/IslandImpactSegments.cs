@@ -11,7 +11,7 @@ namespace LagSim.Response;
 
 /// <summary>Opens the segments on which bodies leave an impact that has reached an island, with the contacts that last from there on.</summary>
 internal sealed class IslandImpactSegments(
-    BodyTable bodies, TimelineStore timelines, ContactGraph graph, ImpactProblem impact, MemberFactory members,
+    BodyTable bodies, TimelineStore timelines, ContactGraph graph, IslandImpactProblem impact, MemberFactory members,
     TrajectoryFactory trajectories, ImpactResolver resolver, ImpactSegments alone)
 {
     private readonly Paths paths = new(timelines);

@@ -86,9 +86,9 @@ internal sealed class FaultyEngineParts : EngineParts
         Reconvergence reconvergence, EventPredictor predictor, HealingMode mode) =>
         new FaultyRewinder(bodies, timelines, log, scheduler, progress, rollback, reconvergence, predictor, mode, this);
 
-    internal override Sleepers Sleepers(
+    internal override SleepWaker SleepWaker(
         BodyTable bodies, TimelineStore timelines, PathView view, ContactGraph graph, RewindRequests rewinds, MemberFactory members) =>
-        new FaultySleepers(bodies, timelines, (FaultyPathView)view, graph, rewinds, members, this);
+        new FaultySleepWaker(bodies, timelines, (FaultyPathView)view, graph, rewinds, members, this);
 
     internal override SegmentLinker SegmentLinker(
         BodyTable bodies, TimelineStore timelines, ContactGraph graph, Partners partners, MemberFactory members) =>

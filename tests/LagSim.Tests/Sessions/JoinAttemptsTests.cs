@@ -30,7 +30,7 @@ public sealed class JoinAttemptsTests
         Assert.Equal(SimTime.FromSeconds(2), attempts.Since);
         attempts.Restart(SimTime.FromSeconds(5));
         Assert.Equal(SimTime.FromSeconds(5), attempts.Since);
-        attempts.NoteSleep(SimDuration.FromSeconds(20), SimTime.FromSeconds(30));
+        attempts.NoteSuspend(SimDuration.FromSeconds(20), SimTime.FromSeconds(30));
         Assert.Equal((SimTime.FromSeconds(22), SimTime.FromSeconds(30)), (attempts.Began, attempts.Since));
     }
 

@@ -24,13 +24,13 @@ internal sealed class ClientProtocol : ISessionProtocol
     private readonly WorldEntry entry;
     private readonly LogFollower log;
     private readonly ClientUpdates updates;
-    private readonly SleepDetector sleep;
+    private readonly SuspendDetector suspend;
 
     internal ClientProtocol(SessionParts parts, ClientOptions options, PeerAddress host, ulong nonce)
     {
         Parts = parts;
         attempts = new JoinAttempts(nonce, parts.Clock.Now);
-        sleep = new SleepDetector(options.Timeout / 2);
+        suspend = new SuspendDetector(options.Timeout / 2);
         Connection = new HostConnection(host, parts.Links, parts.Self, parts.Sender, parts.Counters);
         Seat = new PlayerSeat(attempts, Connection, parts.SharedTime, parts.Status, parts.Counters, parts.Clock, options.Pass);
         requests = new JoinRequests(
@@ -155,13 +155,13 @@ internal sealed class ClientProtocol : ISessionProtocol
     public void Tend(SimTime now)
     {
         attempts.Begin(now);
-        SimDuration slept = sleep.Look(now);
+        SimDuration slept = suspend.Look(now);
         if (slept > SimDuration.Zero)
         {
             // It was this machine that slept, or whose clock jumped: who was not listened to was not silent.
             Connection.Link?.NoteHeard(now);
-            Loss.NoteSleep(slept);
-            attempts.NoteSleep(slept, now);
+            Loss.NoteSuspend(slept);
+            attempts.NoteSuspend(slept, now);
         }
 
         Loss.Tend(now);

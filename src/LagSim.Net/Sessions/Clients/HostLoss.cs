@@ -42,7 +42,7 @@ internal sealed class HostLoss(
     private SimDuration LongestComing => options.RejoinTime > options.Timeout ? options.RejoinTime : options.Timeout;
 
     /// <summary>Notes that this machine slept for so long: nobody was silent meanwhile.</summary>
-    internal void NoteSleep(SimDuration slept) => rejoining += slept;
+    internal void NoteSuspend(SimDuration slept) => rejoining += slept;
 
     /// <summary>Notes that this peer is in again.</summary>
     internal void NoteRenewed() => renewed = clock.Now;

@@ -34,7 +34,7 @@ internal sealed class JoinAttempts
     internal void Begin(SimTime now) => Began = Began == SimTime.MaxValue ? now : Began;
 
     /// <summary>Notes that this machine slept for so long.</summary>
-    internal void NoteSleep(SimDuration slept, SimTime now)
+    internal void NoteSuspend(SimDuration slept, SimTime now)
     {
         Began += slept;
         awake = now;

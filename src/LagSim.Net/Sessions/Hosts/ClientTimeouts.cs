@@ -17,7 +17,7 @@ internal sealed class ClientTimeouts
     private readonly LogLines log;
     private readonly SimDuration timeout;
     private readonly double slowestCopy;
-    private readonly SleepDetector sleep;
+    private readonly SuspendDetector suspend;
 
     /// <param name="roster">The clients.</param>
     /// <param name="log">What they are to take in.</param>
@@ -30,7 +30,7 @@ internal sealed class ClientTimeouts
         this.log = log;
         this.timeout = timeout;
         this.slowestCopy = slowestCopy;
-        sleep = new SleepDetector(timeout / 2, now);
+        suspend = new SuspendDetector(timeout / 2, now);
     }
 
     /// <summary>Whether a client has been silent for so long that it does not count as one that falls behind.</summary>
@@ -45,7 +45,7 @@ internal sealed class ClientTimeouts
 
     internal void Tend(SimTime now)
     {
-        bool hasSlept = sleep.Look(now) > SimDuration.Zero; // it was this machine that slept: who was not listened to was not silent
+        bool hasSlept = suspend.Look(now) > SimDuration.Zero; // it was this machine that slept: who was not listened to was not silent
         for (int i = roster.All.Count - 1; i >= 0; i--)
         {
             Client client = roster.All[i];

@@ -7,10 +7,10 @@ using LagSim.Timelines;
 namespace LagSim.Tests.Faults;
 
 /// <summary>Leaves those asleep that sleep on what a late event moved.</summary>
-internal sealed class FaultySleepers(
+internal sealed class FaultySleepWaker(
     BodyTable bodies, TimelineStore timelines, FaultyPathView view, ContactGraph graph, RewindRequests rewinds, MemberFactory members,
     FaultyEngineParts faults)
-    : Sleepers(bodies, timelines, view, graph, rewinds, members)
+    : SleepWaker(bodies, timelines, view, graph, rewinds, members)
 {
     private readonly RollbackState rollback = view.Rollback;
     private readonly ContactGraph graph = graph;

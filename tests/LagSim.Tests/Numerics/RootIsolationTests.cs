@@ -8,7 +8,7 @@ using Xunit;
 namespace LagSim.Tests.Numerics;
 
 /// <summary>The first descent of a polynomial gap, against dense sampling with a bound on what rounding can do.</summary>
-public sealed class FirstDescentTests
+public sealed class RootIsolationTests
 {
     private const int Samples = 2000;
 
@@ -89,7 +89,7 @@ public sealed class FirstDescentTests
         Prop.ForAll(Polynomials, p =>
         {
             double[] f = [p.F[0], p.F.Length > 1 ? p.F[1] : 0, p.F.Length > 2 ? p.F[2] : 0];
-            double closed = Quadratic.RootIsolation(f[0], f[1], f[2]);
+            double closed = Quadratic.FirstDescent(f[0], f[1], f[2]);
             return closed > p.Length || Satisfies(f, p.Length, closed) == "";
         }).Check(Many);
     }
@@ -111,7 +111,7 @@ public sealed class FirstDescentTests
     [InlineData(-0.25, 1.25, -1, 1)] // opening, free, back
     public void FirstDescent_CornerCases_AreAsDocumented(double c0, double c1, double c2, double expected)
     {
-        Assert.Equal(expected, Quadratic.RootIsolation(c0, c1, c2), 1e-15);
+        Assert.Equal(expected, Quadratic.FirstDescent(c0, c1, c2), 1e-15);
         Assert.Equal(expected, RootIsolation.Find([c0, c1, c2], 10), 1e-15);
         Assert.Equal(expected, RootIsolation.Find([c0, c1, c2, 0, 0, 0, 0, 0, 0, 0, 0], 10), 1e-15);
     }
@@ -122,7 +122,7 @@ public sealed class FirstDescentTests
         Prop.ForAll(Gen.Choose(1, 1023).ToArbitrary(), root =>
         {
             double r = root / 1024.0;
-            return double.IsNaN(RootIsolation.Find([r * r, -2 * r, 1], 1)) && double.IsNaN(Quadratic.RootIsolation(r * r, -2 * r, 1));
+            return double.IsNaN(RootIsolation.Find([r * r, -2 * r, 1], 1)) && double.IsNaN(Quadratic.FirstDescent(r * r, -2 * r, 1));
         }).Check(Many);
     }
 

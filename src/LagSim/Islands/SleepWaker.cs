@@ -7,7 +7,7 @@ using LagSim.Timelines;
 namespace LagSim.Islands;
 
 /// <summary>Who sleeps on a body to which something is about to happen, and wakes.</summary>
-internal class Sleepers(
+internal class SleepWaker(
     BodyTable bodies, TimelineStore timelines, PathView view, ContactGraph graph, RewindRequests rewinds, MemberFactory members)
 {
     private readonly Paths paths = new(timelines);

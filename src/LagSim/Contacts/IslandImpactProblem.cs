@@ -7,7 +7,7 @@ namespace LagSim.Contacts;
 /// An impact as a contact problem that grows: what is struck first, and then what the impulse reaches over contacts that last. It goes on
 /// from the impulses so far each time it has grown.
 /// </summary>
-internal sealed class ImpactProblem(ContactStep step, SolverWork work)
+internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
 {
     private NormalsAfterSweeps? normals; // made when an impact needs it
     private bool[] isReached = Array.Empty<bool>(); // whether the impulse has gone on from a body to those that it holds
