@@ -13,7 +13,7 @@ namespace LagSim.Net.Sessions;
 /// </summary>
 /// <remarks>
 /// Immutable, safe on any thread; <c>with</c> makes a changed copy. Values are validated when a session is made, with a sentence that names
-/// the value and what is allowed. Two are equal if all their settings are.
+/// the value and what is allowed.
 /// </remarks>
 public abstract record SessionOptions
 {
