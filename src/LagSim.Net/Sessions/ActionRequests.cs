@@ -92,11 +92,19 @@ internal sealed class ActionRequest(Action<PlayerAction, Exception> refused) : I
         }
         catch (Exception failure)
         {
-            refused(action, failure);
-            core.SetException(failure);
+            try
+            {
+                refused(action, failure);
+            }
+            finally
+            {
+                core.SetException(failure); // whatever a handler did, whoever awaits the answer gets it
+            }
         }
-
-        Answered();
+        finally
+        {
+            Answered();
+        }
     }
 
     public void Cancel()

@@ -1,9 +1,12 @@
+using System;
 using System.Collections.Concurrent;
 
 namespace LagSim.Net.Sessions;
 
 /// <summary>What a session's thread was asked and has not answered yet. From any thread, but for <see cref="AnswerAll"/>.</summary>
-internal sealed class PeerRequests(Session session)
+/// <param name="session">Answers them.</param>
+/// <param name="wake">Wakes its thread.</param>
+internal sealed class PeerRequests(Session session, Action wake)
 {
     private readonly ConcurrentQueue<IPeerRequest> waiting = new();
     private volatile bool isOver;
@@ -11,8 +14,16 @@ internal sealed class PeerRequests(Session session)
     /// <summary>Whether nothing is answered any more.</summary>
     internal bool AreOver => isOver;
 
-    /// <summary>Asks; the session's thread is to be woken.</summary>
-    internal void Add(IPeerRequest request) => waiting.Enqueue(request);
+    /// <summary>Asks, and wakes the session's thread.</summary>
+    internal void Add(IPeerRequest request)
+    {
+        waiting.Enqueue(request);
+        wake();
+        if (isOver)
+        {
+            AnswerAll(); // the thread has ended meanwhile, and nobody else will
+        }
+    }
 
     /// <summary>Answers all, on the session's thread; or cancels them once that is over.</summary>
     internal void AnswerAll()

@@ -39,27 +39,34 @@ public sealed class PeerThread : IDisposable
     private readonly ActionRequests actions;
     private readonly IDatagramPort port;
     private readonly SessionOwner owner;
+    private readonly PeerFailures failures;
     private readonly WorldThread thread;
     private readonly ManualResetEventSlim decided = new(); // running or ended
     private readonly bool ownsPort;
-    private bool isWarm; // the session's thread alone
+    private volatile bool isOwner; // from the start on
+    private volatile bool isDisposed;
+    private int hasEnded; // 1 once it has
+    private int hasClosed; // 1 once the port is
+    private Action<LateEventStrategy>? warmUp; // null once it is done; the session's thread alone
 
     /// <summary>Gives the session a thread; it is not started yet. The port is not disposed with it.</summary>
     public PeerThread(Session session, IDatagramPort port, string name)
-        : this(session, port, name, ownsPort: false)
+        : this(session, port, name, ownsPort: false, SessionWarmup.Once)
     {
     }
 
-    private PeerThread(Session session, IDatagramPort port, string name, bool ownsPort)
+    // Before its first step the thread calls warmUp, with the session's strategy.
+    internal PeerThread(Session session, IDatagramPort port, string name, bool ownsPort, Action<LateEventStrategy> warmUp)
     {
         this.ownsPort = ownsPort;
+        this.warmUp = warmUp;
         Session = session ?? throw new ArgumentNullException(nameof(session));
         this.port = port ?? throw new ArgumentNullException(nameof(port));
-        requests = new PeerRequests(session);
-        actions = new ActionRequests(TellRefused);
         owner = session.Parts.Owner;
-        owner.TellFailures(TellFailure);
-        thread = new WorldThread(name, Step, session.Interrupt);
+        failures = new PeerFailures(owner);
+        actions = new ActionRequests(failures.TellRefused);
+        thread = new WorldThread(name, Step, session.Interrupt, End);
+        requests = new PeerRequests(session, thread.Wake);
         port.Arrived += thread.Wake;
     }
 
@@ -67,15 +74,27 @@ public sealed class PeerThread : IDisposable
     /// Raised on the session's thread when a handler of one of the session's events threw, with what it threw. The other handlers are
     /// called, and nothing ends.
     /// </summary>
-    /// <remarks>What a handler of this event throws is lost. Where nobody listens, so is what the others throw.</remarks>
-    public event Action<Exception>? HandlerFailed;
+    /// <remarks>
+    /// Where nobody listens it is written to <see cref="System.Diagnostics.Trace"/>, and so is what a handler of this event throws. While the thread ends,
+    /// it may be raised by whoever disposes it.
+    /// </remarks>
+    public event Action<Exception>? HandlerFailed
+    {
+        add => failures.HandlerFailed += value;
+        remove => failures.HandlerFailed -= value;
+    }
 
     /// <summary>
     /// Raised on the session's thread for each action of <see cref="Do"/> that was refused, whether or not the answer is awaited, and
     /// before it is there: the action, and the exception. The host's verdict on a client's event comes later, by
     /// <see cref="Session.Logged"/>. What the end of the thread left unanswered is cancelled, and not told here.
     /// </summary>
-    public event Action<PlayerAction, Exception>? Refused;
+    /// <remarks>Where nobody listens, the refusal is written to <see cref="System.Diagnostics.Trace"/>.</remarks>
+    public event Action<PlayerAction, Exception>? Refused
+    {
+        add => failures.Refused.Add(value);
+        remove => failures.Refused.Remove(value);
+    }
 
     /// <summary>Opens a session over UDP, on a thread that is started. Disposing it leaves the session and closes the port.</summary>
     /// <param name="scene">The scene that all share.</param>
@@ -90,8 +109,8 @@ public sealed class PeerThread : IDisposable
     {
         if (udpPort is < 0 or > IPEndPoint.MaxPort)
         {
-            throw new ArgumentOutOfRangeException(nameof(udpPort), udpPort, $"A UDP port is a number from 1 to {IPEndPoint.MaxPort}, or 0 for any that"
-                + " is free.");
+            throw new ArgumentOutOfRangeException(
+                nameof(udpPort), udpPort, $"A UDP port is a number from 1 to {IPEndPoint.MaxPort}, or 0 for any that is free.");
         }
 
         return Host(scene, new UdpPort(new IPEndPoint(bind ?? IPAddress.Any, udpPort)), options, setUp);
@@ -110,9 +129,7 @@ public sealed class PeerThread : IDisposable
             "LagSim host",
             setUp);
 
-    /// <summary>
-    /// Joins a session over UDP on a thread that is started already. Disposing it leaves the session and closes the port.
-    /// </summary>
+    /// <summary>Joins a session over UDP, on a thread that is started. Disposing it leaves the session and closes the port.</summary>
     /// <param name="host">Where the host is: the address of one machine, and a port from 1 on.</param>
     /// <param name="options">How to take part.</param>
     /// <param name="scene">The scene that the host is expected to have; null takes the host's, whichever it is.</param>
@@ -148,10 +165,7 @@ public sealed class PeerThread : IDisposable
             "LagSim client",
             setUp);
 
-    /// <summary>
-    /// Where this peer's port is reached, from this machine only if it listens at every address there is: then others use one of the
-    /// machine's own.
-    /// </summary>
+    /// <summary>Where this peer's port is reached; where it listens at every address, others use one of the machine's own.</summary>
     public PeerAddress LocalAddress => port.LocalAddress;
 
     /// <summary>The session. While the thread runs, read of it only what it says may be read from any thread.</summary>
@@ -184,24 +198,27 @@ public sealed class PeerThread : IDisposable
     /// <summary>What tells of contacts, as the session's options gave it; null for nobody, and before there is a world.</summary>
     public ContactNotices? Contacts => Session.World?.Contacts;
 
-    /// <summary>What the thread does before its first step, given the session's strategy; to be set before it is started.</summary>
-    internal Action<LateEventStrategy> WarmUpFor { get; set; } = SessionWarmup.Once;
-
     /// <summary>How many steps the thread has done.</summary>
     public long Steps => thread.Steps;
 
     /// <summary>Starts the thread; once. Until this is disposed, what is for the session's thread throws on any other.</summary>
-    /// <exception cref="InvalidOperationException">It has been started already.</exception>
+    /// <exception cref="InvalidOperationException">It has been started already, or another thread runs the session.</exception>
     /// <exception cref="ObjectDisposedException">It has been disposed.</exception>
     public void Start()
     {
-        bool wasTaken = owner.Take();
+        if (!owner.TryTake(failures.TellFailure))
+        {
+            throw new InvalidOperationException("The session has been started already, on this PeerThread or on another: it runs on one.");
+        }
+
+        isOwner = true;
         try
         {
             thread.Start();
         }
-        catch when (!wasTaken)
+        catch
         {
+            isOwner = false;
             owner.Release();
             throw;
         }
@@ -222,7 +239,8 @@ public sealed class PeerThread : IDisposable
     }
 
     /// <summary>Does something to the shared world as soon as the session's thread gets to it, which is at once unless it is at work.
-    /// Asked before <see cref="Start"/>, it waits for the thread. From any thread. Cost: allocates nothing, and wakes the thread.</summary>
+    /// Asked before <see cref="Start"/>, it waits for the thread. From any thread. Cost: wakes the thread, and allocates nothing while
+    /// fewer than 64 answers are outstanding.</summary>
     /// <returns>
     /// The stamped event, or the exception that <see cref="Session.Do"/> throws: <see cref="Refused"/> tells that too. What the host makes
     /// of the event is heard later, by <see cref="Session.Logged"/>. Await it at once, once, or let it go: an answer that nobody awaits is
@@ -235,58 +253,46 @@ public sealed class PeerThread : IDisposable
         ThrowIfOver();
         ActionRequest request = actions.Take(action);
         ValueTask<ExternalEvent> answer = request.Task; // before it is asked: answered, it may be used again
-        Send(request);
+        requests.Add(request);
         return answer;
     }
 
-    /// <summary>
-    /// Asks the session something on its own thread; answered once the thread is started, cancelled if it is disposed before.
-    /// </summary>
+    /// <summary>Asks the session something on its own thread; answered once that is started, cancelled if it is disposed before.</summary>
     /// <exception cref="ObjectDisposedException">The thread has been disposed.</exception>
     /// <exception cref="InvalidOperationException">The thread ended by an exception, the inner one.</exception>
     public Task<T> Ask<T>(Func<Session, T> question)
     {
-        if (question is null)
-        {
-            throw new ArgumentNullException(nameof(question));
-        }
-
         ThrowIfOver();
-        SessionQuestion<T> request = new(question);
-        Send(request);
+        SessionQuestion<T> request = new(question ?? throw new ArgumentNullException(nameof(question)));
+        requests.Add(request);
         return request.Task;
     }
 
     /// <summary>Stops the thread, in the middle of its work if it is at some, and waits for it. One that <c>Host</c> or <c>Join</c> made
     /// leaves its session and closes its port; any other does not say goodbye, <see cref="Session.Leave"/> does.</summary>
+    /// <remarks>
+    /// From any thread, and more than once. On the session's own, in a handler, it returns at once, and all this is done after the step.
+    /// </remarks>
     public void Dispose()
     {
-        port.Arrived -= thread.Wake;
+        isDisposed = true;
         thread.Dispose();
-        owner.Release();
-        decided.Set();
-        requests.Close();
-        if (ownsPort)
+        if (!IsOwnThread)
         {
-            Session.Leave(); // its thread has stopped, so this one may
-            port.Dispose();
+            End(thread.Fault); // of a thread that was never started; else its thread has done so
+            ClosePort(); // that of a thread that had failed is still open
         }
-
-        owner.TellFailures(null); // nobody's but the caller's from now on
     }
 
     private static PeerThread Begin<TSession>(IDatagramPort carrier, Func<TSession> make, string name, Action<TSession>? setUp)
         where TSession : Session
     {
-        if (carrier is null)
-        {
-            throw new ArgumentNullException(nameof(carrier));
-        }
+        _ = carrier ?? throw new ArgumentNullException(nameof(carrier));
 
         try
         {
             TSession session = make();
-            PeerThread peer = new(session, carrier, name, ownsPort: true);
+            PeerThread peer = new(session, carrier, name, ownsPort: true, SessionWarmup.Once);
             setUp?.Invoke(session);
             peer.Start();
             return peer;
@@ -298,51 +304,25 @@ public sealed class PeerThread : IDisposable
         }
     }
 
-    /// <summary>
-    /// On this thread and not the game's, and before anything is answered, so that what is done waits for it at worst once.
-    /// </summary>
+    /// <summary>On this thread and not the game's, and before anything is answered, so that an action waits for it at worst once.</summary>
     private void WarmUp()
     {
-        if (!isWarm)
+        if (Session.WarmsUpFor is LateEventStrategy strategy)
         {
-            isWarm = true;
-            if (Session.WarmsUpFor is LateEventStrategy strategy)
-            {
-                WarmUpFor(strategy);
-            }
+            warmUp?.Invoke(strategy);
         }
+
+        warmUp = null;
     }
+
+    private bool IsOwnThread => isOwner && owner.IsCaller;
 
     private void ThrowIfOwn(string member)
     {
-        if (owner.IsCaller)
+        if (IsOwnThread)
         {
             throw new InvalidOperationException(
                 $"'{member}' may not be called on the session's own thread, in a handler or a question: it is for the threads beside it.");
-        }
-    }
-
-    private void TellRefused(PlayerAction action, Exception why)
-    {
-        try
-        {
-            Refused?.Invoke(action, why);
-        }
-        catch (Exception failure) when (failure is not OutOfMemoryException)
-        {
-            TellFailure(failure);
-        }
-    }
-
-    private void TellFailure(Exception failure)
-    {
-        try
-        {
-            HandlerFailed?.Invoke(failure);
-        }
-        catch (Exception other) when (other is not OutOfMemoryException)
-        {
-            // There is nobody left to tell.
         }
     }
 
@@ -355,56 +335,66 @@ public sealed class PeerThread : IDisposable
         }
     }
 
-    private void Send(IPeerRequest request)
-    {
-        requests.Add(request);
-        thread.Wake();
-        if (requests.AreOver)
-        {
-            requests.AnswerAll(); // it was disposed meanwhile, and nobody else will
-        }
-    }
-
-    /// <summary>Whatever went wrong here, the others need not wait for the time-out.</summary>
-    private void SayGoodbye()
-    {
-        try
-        {
-            Session.Leave();
-        }
-        catch (Exception failure) when (failure is not OutOfMemoryException)
-        {
-            // What ends the thread is told; that leaving failed too adds nothing.
-        }
-    }
-
     /// <summary>What its thread does again and again; for that thread alone, or whoever has not started it.</summary>
     internal SimDuration Step()
     {
         owner.Enter();
-        try
+        WarmUp();
+        requests.AnswerAll();
+        SimDuration wait = Session.Step();
+        if (Session.State is SessionState.Running or SessionState.Ended)
         {
-            WarmUp();
-            requests.AnswerAll();
-            SimDuration wait = Session.Step();
-            if (Session.State is SessionState.Running or SessionState.Ended)
-            {
-                decided.Set();
-            }
-
-            return wait;
-        }
-        catch (Exception failure)
-        {
-            if (failure is not OperationCanceledException)
-            {
-                SayGoodbye();
-            }
-
             decided.Set();
-            requests.Close();
+        }
+
+        return wait;
+    }
+
+    /// <summary>What there is to do after the last step, once: on the thread that did it, or of a thread never started on whoever disposes it.</summary>
+    /// <param name="fault">What ended it; whatever went wrong here, the others need not wait for the time-out.</param>
+    private void End(Exception? fault)
+    {
+        if (Interlocked.Exchange(ref hasEnded, 1) != 0)
+        {
+            return;
+        }
+
+        port.Arrived -= thread.Wake;
+        if (isOwner)
+        {
+            owner.Enter(); // disposed before its first step, it has not done so yet
+        }
+
+        if (fault is not (null or OperationCanceledException) || (ownsPort && isDisposed))
+        {
+            try
+            {
+                Session.Leave();
+            }
+            catch (Exception failure) when (failure is not OutOfMemoryException)
+            {
+                failures.TellFailure(failure); // beside what ended the thread, which is told whoever relies on it
+            }
+        }
+
+        if (isDisposed)
+        {
+            ClosePort();
+        }
+
+        decided.Set();
+        requests.Close();
+        if (isOwner)
+        {
             owner.Release();
-            throw;
+        }
+    }
+
+    private void ClosePort()
+    {
+        if (ownsPort && Interlocked.Exchange(ref hasClosed, 1) == 0)
+        {
+            port.Dispose();
         }
     }
 }

@@ -13,12 +13,13 @@ public sealed class WorldThread : IDisposable
 {
     private readonly Func<SimDuration> step;
     private readonly Action? interrupt;
+    private readonly Action<Exception?>? atEnd;
     private readonly AutoResetEvent wake = new(false);
     private readonly Thread thread;
     private Exception? fault;
     private long steps;
     private volatile bool stopping;
-    private bool disposed;
+    private int disposed; // 1 once it is
 
     /// <summary>A thread that is not started yet.</summary>
     /// <param name="name">What debuggers and profilers call it.</param>
@@ -27,9 +28,14 @@ public sealed class WorldThread : IDisposable
     /// Has a step that is at work end soon, by an <see cref="OperationCanceledException"/>; called once, when the thread is disposed, from
     /// whoever does that. Default: such a step is waited for.
     /// </param>
-    public WorldThread(string name, Func<SimDuration> step, Action? interrupt = null)
+    /// <param name="atEnd">
+    /// Called on the thread after its last step, with the exception that ended it or null; <see cref="Fault"/> is set by then, and
+    /// <see cref="Dispose"/> returns after it. It must not throw. Not called of a thread that was never started.
+    /// </param>
+    public WorldThread(string name, Func<SimDuration> step, Action? interrupt = null, Action<Exception?>? atEnd = null)
     {
         this.interrupt = interrupt;
+        this.atEnd = atEnd;
         this.step = step ?? throw new ArgumentNullException(nameof(step));
         thread = new Thread(Run) { IsBackground = true, Name = name };
     }
@@ -45,7 +51,7 @@ public sealed class WorldThread : IDisposable
     /// <exception cref="ObjectDisposedException">It has been disposed.</exception>
     public void Start()
     {
-        if (disposed)
+        if (Volatile.Read(ref disposed) != 0)
         {
             throw new ObjectDisposedException(thread.Name);
         }
@@ -77,18 +83,20 @@ public sealed class WorldThread : IDisposable
         }
     }
 
-    /// <summary>Interrupts the step at hand, or waits for it where nothing can, and ends. Safe to call twice, and from the thread itself.</summary>
+    /// <summary>Interrupts the step at hand, or waits for it where nothing can, and ends.</summary>
+    /// <remarks>
+    /// Safe to call twice, and from several threads: each returns once the thread has ended. Called from the thread itself it returns at
+    /// once, and the thread ends after this step.
+    /// </remarks>
     public void Dispose()
     {
-        if (disposed)
+        if (Interlocked.Exchange(ref disposed, 1) == 0)
         {
-            return;
+            stopping = true;
+            interrupt?.Invoke();
+            wake.Set();
         }
 
-        disposed = true;
-        stopping = true;
-        interrupt?.Invoke();
-        wake.Set();
         if (thread.IsAlive && thread != Thread.CurrentThread)
         {
             thread.Join();
@@ -119,6 +127,8 @@ public sealed class WorldThread : IDisposable
         {
             Volatile.Write(ref fault, failure);
         }
+
+        atEnd?.Invoke(Fault);
     }
 
     // Rounded up: a wait that ends early would only be followed by another.

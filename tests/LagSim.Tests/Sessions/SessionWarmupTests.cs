@@ -53,9 +53,9 @@ public sealed class SessionWarmupTests
     {
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
         HostOptions options = new() { Warmup = isOn, Strategy = LateEventStrategy.FullRollback };
-        using PeerThread thread = new(new HostSession(BuiltInScenes.Pair(), port, new VirtualClock(), options, 7), port, "test");
         List<LateEventStrategy> warmed = [];
-        thread.WarmUpFor = warmed.Add;
+        HostSession session = new(BuiltInScenes.Pair(), port, new VirtualClock(), options, 7);
+        using PeerThread thread = new(session, port, "test", ownsPort: false, warmed.Add);
         Task<int> asked = thread.Ask(_ => warmed.Count);
 
         thread.Step();

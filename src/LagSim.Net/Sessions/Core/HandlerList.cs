@@ -18,6 +18,9 @@ internal sealed class HandlerList<THandler>(SessionOwner owner)
 {
     private THandler[] handlers = Array.Empty<THandler>(); // replaced, never changed
 
+    /// <summary>Whether there is none.</summary>
+    internal bool IsEmpty => Volatile.Read(ref handlers).Length == 0;
+
     internal void Add(THandler? handler)
     {
         if (handler is not null)
@@ -45,7 +48,7 @@ internal sealed class HandlerList<THandler>(SessionOwner owner)
             {
                 call(handler, told);
             }
-            catch (Exception failure) when (owner.TakesFailures && failure is not OutOfMemoryException)
+            catch (Exception failure) when (owner.IsTaken && failure is not OutOfMemoryException)
             {
                 owner.TellFailure(failure);
             }

@@ -1,5 +1,6 @@
 using System;
 using System.Runtime.CompilerServices;
+using System.Threading;
 
 namespace LagSim.Net.Sessions.Core;
 
@@ -9,41 +10,37 @@ namespace LagSim.Net.Sessions.Core;
 /// </summary>
 internal sealed class SessionOwner
 {
-    private Action<Exception>? onFailure;
-    private volatile bool isTaken;
-    private volatile int thread; // by its managed id
+    private Action<Exception>? failed; // the owner's; null for nobody
+    private volatile int thread; // by its managed id; 0 until it has entered
 
-    /// <summary>Whether what handlers throw is told, and ends nothing.</summary>
-    internal bool TakesFailures => onFailure is not null;
+    /// <summary>Whether a <see cref="PeerThread"/> runs the session: then what handlers throw is told it, and ends nothing.</summary>
+    internal bool IsTaken => Volatile.Read(ref failed) is not null;
 
     /// <summary>Whether a <see cref="PeerThread"/> runs the session, and the caller is on its thread.</summary>
-    internal bool IsCaller => isTaken && thread == Environment.CurrentManagedThreadId;
+    internal bool IsCaller => IsTaken && thread == Environment.CurrentManagedThreadId;
 
-    /// <summary>Has what handlers throw told there, from now on; null lets it go through.</summary>
-    internal void TellFailures(Action<Exception>? there) => onFailure = there;
-
-    internal void TellFailure(Exception failure) => onFailure?.Invoke(failure);
-
-    /// <summary>From now on nobody may call the session but the thread that <see cref="Enter"/> names.</summary>
-    /// <returns>Whether it was taken already.</returns>
-    internal bool Take()
-    {
-        bool wasTaken = isTaken;
-        isTaken = true;
-        return wasTaken;
-    }
+    /// <summary>From now on nobody may call the session but the thread that calls <see cref="Enter"/>.</summary>
+    /// <param name="onFailure">Told what handlers throw.</param>
+    /// <returns>False if it is taken already; nothing changed then.</returns>
+    internal bool TryTake(Action<Exception> onFailure) => Interlocked.CompareExchange(ref failed, onFailure, null) is null;
 
     /// <summary>The caller's thread is the one that steps the session.</summary>
     internal void Enter() => thread = Environment.CurrentManagedThreadId;
 
     /// <summary>The thread has stopped: anybody may call the session again.</summary>
-    internal void Release() => isTaken = false;
+    internal void Release()
+    {
+        thread = 0;
+        Volatile.Write(ref failed, null);
+    }
+
+    internal void TellFailure(Exception failure) => Volatile.Read(ref failed)?.Invoke(failure);
 
     /// <summary>Throws where a <see cref="PeerThread"/> runs the session and the caller is on another thread.</summary>
     /// <exception cref="InvalidOperationException">It is.</exception>
     internal void ThrowIfForeign([CallerMemberName] string member = "")
     {
-        if (isTaken && thread != Environment.CurrentManagedThreadId)
+        if (IsTaken && thread != Environment.CurrentManagedThreadId)
         {
             ThrowForeign(member);
         }
