@@ -41,7 +41,7 @@ internal sealed class Engine
         scheduler = new EventScheduler(expected);
         log = new EventLog(expected);
         flights = new FreeFlights(scene.Gravity, scene.Resolution, scene.Box, expected, 0.5 * scene.ContactTolerance);
-        Timelines = parts.TimelineStore(start, options.MaxSegments, flights, expected, options.History);
+        Timelines = new TimelineStore(start, options.MaxSegments, flights, expected, parts.TimelineGrowth(start, options.History));
         Timelines.ForgetBefore(from);
         Reader = new StateReader(scene.Box, Bodies, Timelines, Progress);
 

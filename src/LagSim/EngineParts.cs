@@ -30,8 +30,7 @@ internal class EngineParts
     /// <summary>What contact is measured by.</summary>
     internal virtual ContactScale ContactScale(Scene scene, SimTime start) => new(scene.ContactTolerance, scene.Gravity, start);
 
-    internal virtual TimelineStore TimelineStore(SimTime origin, int most, INewestSegments newest, int expected, SimDuration history) =>
-        new(origin, most, newest, expected, history);
+    internal virtual TimelineGrowth TimelineGrowth(SimTime origin, SimDuration history) => new(origin, history);
 
     internal virtual PathView PathView(TimelineStore timelines, RollbackState rollback) => new(timelines, rollback);
 

@@ -20,6 +20,8 @@ namespace LagSim.Net.Sessions;
 /// </example>
 public sealed record ClientOptions : SessionOptions
 {
+    private readonly IReadOnlyList<IAcceleration>? accelerations;
+
     /// <summary>A client that takes what its host has.</summary>
     public ClientOptions()
     {
@@ -41,7 +43,12 @@ public sealed record ClientOptions : SessionOptions
     public PlayerPass Pass { get; init; }
 
     /// <summary>The accelerations that this program can supply to a scene that it gets from the host; default none.</summary>
-    public IReadOnlyList<IAcceleration>? Accelerations { get; init; }
+    /// <remarks>None may be null. The list is copied: what is put into it later changes nothing.</remarks>
+    public IReadOnlyList<IAcceleration>? Accelerations
+    {
+        get => accelerations;
+        init => accelerations = value is null ? null : new List<IAcceleration>(value).AsReadOnly();
+    }
 
     /// <summary>
     /// The same options, if they are a client's; else those of a client that has the settings which both sides have, and defaults.
@@ -49,4 +56,16 @@ public sealed record ClientOptions : SessionOptions
     /// <exception cref="ArgumentNullException">There are none.</exception>
     public static ClientOptions From(SessionOptions options) =>
         options as ClientOptions ?? new ClientOptions(options ?? throw new ArgumentNullException(nameof(options)));
+
+    internal override void Check()
+    {
+        base.Check();
+        for (int n = 0; n < accelerations?.Count; n++)
+        {
+            if (accelerations[n] is null)
+            {
+                throw new ArgumentException($"Acceleration {n} of {accelerations.Count} is null; each must be one.", nameof(Accelerations));
+            }
+        }
+    }
 }

@@ -27,7 +27,10 @@ namespace LagSim.Net.Sessions;
 /// </example>
 public sealed record HostOptions : SessionOptions
 {
+    private static readonly IReadOnlyDictionary<byte, string> NoKeys = new Dictionary<byte, string>();
+
     private readonly int? perAddress;
+    private readonly IReadOnlyDictionary<byte, string>? playerKeys = NoKeys;
 
     /// <summary>A host that begins at once, whoever joins later.</summary>
     public HostOptions()
@@ -44,8 +47,15 @@ public sealed record HostOptions : SessionOptions
     /// <see cref="SessionOptions.ConnectKey"/> has that number, whenever it comes, and takes it over from whoever still holds it; nobody
     /// else gets it.
     /// </summary>
-    /// <remarks>Without, numbers go by order of arrival and are given again, and with them what a scene grants to a number.</remarks>
-    public IReadOnlyDictionary<byte, string> PlayerKeys { get; init; } = new Dictionary<byte, string>();
+    /// <remarks>
+    /// Without, numbers go by order of arrival and are given again, and with them what a scene grants to a number. The dictionary is
+    /// copied: what is put into it later changes nothing.
+    /// </remarks>
+    public IReadOnlyDictionary<byte, string> PlayerKeys
+    {
+        get => playerKeys!;
+        init => playerKeys = value is null ? null : new Dictionary<byte, string>(value);
+    }
 
     /// <summary>
     /// How many clients may be in from one address, whatever their ports, 1 to <see cref="SessionOptions.MaxClients"/>; default half of the
@@ -120,7 +130,7 @@ public sealed record HostOptions : SessionOptions
 
     private void CheckPlayerKeys()
     {
-        if (PlayerKeys is null)
+        if (playerKeys is null)
         {
             throw new ArgumentException("The players' keys may be empty, but not null.", nameof(PlayerKeys));
         }

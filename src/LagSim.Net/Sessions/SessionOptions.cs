@@ -129,7 +129,9 @@ public abstract record SessionOptions
     public ContactNotices? Contacts { get; init; }
 
     /// <summary>
-    /// What to do with late events; default <see cref="LateEventStrategy.Healing"/>. The same on all peers, or they do not agree.
+    /// What to do with late events; default <see cref="LateEventStrategy.Healing"/>. Peers with <see cref="LateEventStrategy.Healing"/>,
+    /// <see cref="LateEventStrategy.FullRollback"/> and <see cref="LateEventStrategy.Interpolation"/> agree bit for bit, so these may be
+    /// mixed; a peer with another agrees with no other peer.
     /// </summary>
     public LateEventStrategy Strategy { get; init; } = LateEventStrategy.Healing;
 
@@ -228,7 +230,9 @@ public abstract record SessionOptions
         if (value < SimDuration.FromSeconds(least) || value > SimDuration.FromSeconds(most))
         {
             throw new ArgumentOutOfRangeException(
-                name, value.ToShortString(), FormattableString.Invariant($"{name} must lie between {least} s and {most} s."));
+                name,
+                value.ToShortString(),
+                $"{name} must lie between {SimDuration.FromSeconds(least).ToShortString()} and {SimDuration.FromSeconds(most).ToShortString()}.");
         }
     }
 }

@@ -215,9 +215,10 @@ internal class NeighbourLists : IBroadPhase
         stays[slot].IsListed = false;
         lookingBack -= stays[slot].Heal != 0 ? 1 : 0;
         present.Remove(slot, stays[slot].Cell);
+        bool keeps = heal != 0 && KeepsListsOfOneHeal;
         foreach (int other in lists.Of(slot))
         {
-            int at = heal != 0 && KeepsWhoMovesOn(stays[other].Heal, heal) ? -1 : lists.Of(other).IndexOf(slot);
+            int at = keeps && stays[other].Heal == heal ? -1 : lists.Of(other).IndexOf(slot);
             if (at >= 0)
             {
                 lists.RemoveAt(other, at);
@@ -227,8 +228,8 @@ internal class NeighbourLists : IBroadPhase
         lists.Clear(slot);
     }
 
-    /// <summary>Whether a list that was made in one heal keeps who moves on in another: in the same one it does.</summary>
-    private protected virtual bool KeepsWhoMovesOn(long madeIn, long heal) => madeIn == heal;
+    /// <summary>Whether a list that a heal has made keeps a body that the same heal moves on.</summary>
+    private protected virtual bool KeepsListsOfOneHeal => true;
 
     /// <summary>A shell around where a path is, so wide, but no wider than fits the cells, unless the path would lead out of it in no time.</summary>
     private Shell NewShell(in MotionSegment path, in DenseOutput dense, SimTime at, double radius, double wanted)

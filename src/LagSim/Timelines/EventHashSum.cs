@@ -10,8 +10,9 @@ namespace LagSim.Timelines;
 /// The sum of the hashes of events, of which four are made at a time: each is a chain of multiplications, and a processor that waits for one can do three
 /// others.
 /// </summary>
+/// <param name="origin">From when events count time.</param>
 /// <remarks>Cost: a copy of an event's words, and every fourth time the hashes; of what waits when the sum is read, one by one.</remarks>
-internal sealed class EventHashSum
+internal sealed class EventHashSum(SimTime origin)
 {
     private const int Words = 14;
     private const int Lanes = 4;
@@ -19,6 +20,9 @@ internal sealed class EventHashSum
     private readonly ulong[] waiting = new ulong[Words * Lanes]; // word by word, of all that wait side by side
     private int count;
     private ulong sum;
+
+    /// <summary>From when events count time.</summary>
+    internal SimTime Origin { get; } = origin;
 
     /// <summary>The sum of all that was added, modulo 2^64.</summary>
     internal ulong Value
@@ -41,9 +45,9 @@ internal sealed class EventHashSum
     }
 
     /// <summary>Adds the hash of an event that opens a piece of path.</summary>
-    internal void Add(in EventKey key, in MotionSegment motion, BodyId body, SimTime origin)
+    internal void Add(in EventKey key, in MotionSegment motion, BodyId body)
     {
-        Write(key, motion, body, origin, waiting.AsSpan(count), Lanes);
+        Write(key, motion, body, waiting.AsSpan(count), Lanes);
         if (++count == Lanes)
         {
             AddAll();
@@ -51,10 +55,10 @@ internal sealed class EventHashSum
     }
 
     /// <summary>The hash of an event that opens a piece of path, to which more may be added.</summary>
-    internal static StableHash Of(in EventKey key, in MotionSegment motion, BodyId body, SimTime origin)
+    internal StableHash Of(in EventKey key, in MotionSegment motion, BodyId body)
     {
         Span<ulong> words = stackalloc ulong[Words];
-        Write(key, motion, body, origin, words, 1);
+        Write(key, motion, body, words, 1);
         return Chain(words, 1);
     }
 
@@ -69,16 +73,16 @@ internal sealed class EventHashSum
         return hash;
     }
 
-    private static void Write(in EventKey key, in MotionSegment motion, BodyId body, SimTime origin, Span<ulong> into, int every)
+    private void Write(in EventKey key, in MotionSegment motion, BodyId body, Span<ulong> into, int every)
     {
         into[0] = body.Packed;
-        into[every] = (ulong)(key.Time - origin).Ticks;
+        into[every] = (ulong)(key.Time - Origin).Ticks;
         into[2 * every] = ((ulong)key.Round << 8) | (byte)key.Kind;
         into[3 * every] = key.Body.Packed;
         into[4 * every] = key.Other.Packed;
         into[5 * every] = key.Origin;
         into[6 * every] = (ulong)motion.Law;
-        into[7 * every] = (ulong)(motion.Epoch - origin).Ticks;
+        into[7 * every] = (ulong)(motion.Epoch - Origin).Ticks;
         into[8 * every] = StableHash.Word(motion.Position.X);
         into[9 * every] = StableHash.Word(motion.Position.Y);
         into[10 * every] = StableHash.Word(motion.Position.Z);

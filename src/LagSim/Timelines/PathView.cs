@@ -18,9 +18,22 @@ internal class PathView(TimelineStore timelines, RollbackState rollback)
     /// <summary>
     /// The first piece of another's path that a body's newest segment can still meet: the newest, but for one who is ahead.
     /// </summary>
-    internal virtual int PieceFrom(int slot, int other)
+    internal int PieceFrom(int slot, int other)
     {
         int piece = timelines.Last(other);
+        return timelines.Serial(piece) > rollback.LastOld ? piece : PastPieceFrom(slot, piece);
+    }
+
+    /// <summary>The piece on which a body comes to an event.</summary>
+    internal int PieceBefore(int slot, in EventKey key)
+    {
+        int last = timelines.Last(slot);
+        return last != TimelineStore.None && EventKey.Compare(timelines.Key(last), key) < 0 ? last : timelines.Before(slot, key);
+    }
+
+    /// <summary>The same of another that may be ahead, whose newest piece is given.</summary>
+    private protected virtual int PastPieceFrom(int slot, int piece)
+    {
         ref readonly EventKey opened = ref timelines.Key(timelines.Last(slot));
         EventKey from = EventKey.Compare(opened, rollback.Cursor) > 0 ? opened : rollback.Cursor;
         while (timelines.Serial(piece) <= rollback.LastOld && EventKey.Compare(timelines.Key(piece), from) > 0 && timelines.Previous(piece) != TimelineStore.None)
@@ -29,13 +42,6 @@ internal class PathView(TimelineStore timelines, RollbackState rollback)
         }
 
         return piece;
-    }
-
-    /// <summary>The piece on which a body comes to an event.</summary>
-    internal int PieceBefore(int slot, in EventKey key)
-    {
-        int last = timelines.Last(slot);
-        return last != TimelineStore.None && EventKey.Compare(timelines.Key(last), key) < 0 ? last : timelines.Before(slot, key);
     }
 
     /// <summary>The same of a body that is ahead: what it did before the late event came.</summary>

@@ -9,55 +9,48 @@ namespace LagSim.Timelines;
 /// <summary>Every body's timeline: its segments in the order of the keys that opened them, back to the edge of the window.</summary>
 /// <remarks>
 /// <para>Segments live in flat arrays, linked per body; nothing is overwritten, a segment is only appended, cut off at the end, or dropped
-/// behind the window. Allocates only when more segments are alive than ever before. Old segments of all bodies are dropped together, in one pass through memory
-/// when there is no room left: to look for them one by one, each long out of the cache, cost a quarter of an impact in a dense fluid. The arrays grow if that
-/// frees less than one part in 32, by a sixty-fourth once they are large, or to what is foretold: so a world takes little more than its window needs.</para>
+/// behind the window. Old segments of all bodies are dropped together, in one pass through memory when there is no room left: to look for
+/// them one by one, each long out of the cache, cost a quarter of an impact in a dense fluid. If that frees little, the arrays grow, by
+/// <see cref="TimelineGrowth"/>. Allocates only when more segments are alive than ever before.</para>
 /// <para>It keeps a running hash of all events: the sum (modulo 2^64) of one hash a segment, so that appending and cutting are O(1) and the
 /// order in which the events came leaves no trace.</para>
 /// </remarks>
-internal partial class TimelineStore
+internal sealed class TimelineStore
 {
     internal const int None = -1;
 
-    private readonly SimTime origin;
-    private readonly SimDuration history;
-    private readonly EventHashSum hashes = new();
-    private readonly INewestSegments? newest; // is told of each body's newest segment
-    private Piece[] pieces;
-    private Link[] links; // apart, so that what is old is dropped without a look at what it was
-    private DenseOutput[] dense = Array.Empty<DenseOutput>(); // only once something is integrated
-    private Hold[] holds = Array.Empty<Hold>(); // only once something is held
-    private Spin[] spins = Array.Empty<Spin>(); // only once something turns
+    /// <summary>If all that can be dropped is less than one part in this many, it would soon be looked for again.</summary>
+    private const int LittleRoom = 32;
+
+    private readonly TimelineGrowth growth;
+    private readonly SegmentExtras extras = new();
+    private readonly EventHashSum hashes;
+    private readonly INewestSegments? newest; // is notified of each body's newest segment
+    private OpenedSegment[] pieces;
+    private SegmentLinks[] links;
     private int free = None;
     private int used;
-    private int[] first;
-    private int[] last;
+    private TimelineEnds[] ends; // by body
     private SimTime edge = SimTime.MinValue; // what lies before is dropped when room is needed
 
-    /// <summary>
-    /// No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to <paramref
-    /// name="newest"/>; with room for as many bodies as are expected at first, and for few of them for a second segment each. Of how long a history it will be
-    /// helps to guess how much room it will need.
-    /// </summary>
+    /// <summary>No timelines yet.</summary>
+    /// <param name="origin">From when hashes count time.</param>
+    /// <param name="most">How many segments there may be in all.</param>
+    /// <param name="newest">Is notified of each body's newest segment; null for nothing.</param>
+    /// <param name="expected">For how many bodies there is room at first.</param>
+    /// <param name="growth">How it grows; by default as one of no history.</param>
     internal TimelineStore(
-        SimTime origin, int most = SimulationOptions.DefaultMaxSegments, INewestSegments? newest = null, int expected = 0, SimDuration history = default)
+        SimTime origin, int most = SimulationOptions.DefaultMaxSegments, INewestSegments? newest = null, int expected = 0,
+        TimelineGrowth? growth = null)
     {
-        int room = FirstRoom;
-        while (room < 2 * expected && room < Large)
-        {
-            room *= 2;
-        }
-
-        room = Math.Max(room, expected + (expected / Growth));
-        pieces = new Piece[room];
-        links = new Link[room];
-        first = new int[expected];
-        last = new int[expected];
-        Array.Fill(first, None);
-        Array.Fill(last, None);
-        this.origin = origin;
+        int room = TimelineGrowth.First(expected);
+        pieces = new OpenedSegment[room];
+        links = new SegmentLinks[room];
+        ends = new TimelineEnds[expected];
+        Array.Fill(ends, TimelineEnds.None);
+        hashes = new EventHashSum(origin);
         this.newest = newest;
-        this.history = history;
+        this.growth = growth ?? new TimelineGrowth(origin, default);
         Most = most;
     }
 
@@ -79,28 +72,24 @@ internal partial class TimelineStore
     /// <summary>Makes room for a body's timeline.</summary>
     internal void AddSlot(int slot)
     {
-        if (slot >= first.Length)
+        if (slot >= ends.Length)
         {
-            int known = first.Length;
-            int size = Math.Max(slot + 1, Math.Max(16, known * 2));
-            Array.Resize(ref first, size);
-            Array.Resize(ref last, size);
-            Array.Fill(first, None, known, size - known);
-            Array.Fill(last, None, known, size - known);
+            int known = ends.Length;
+            Array.Resize(ref ends, Math.Max(slot + 1, Math.Max(16, known * 2)));
+            Array.Fill(ends, TimelineEnds.None, known, ends.Length - known);
         }
 
-        first[slot] = None;
-        last[slot] = None;
+        ends[slot] = TimelineEnds.None;
     }
 
     /// <summary>The body's newest segment, or <see cref="None"/>.</summary>
-    internal int Last(int slot) => last[slot];
+    internal int Last(int slot) => ends[slot].Last;
 
     /// <summary>The body's oldest segment that is kept, or <see cref="None"/>.</summary>
-    internal int First(int slot) => first[slot];
+    internal int First(int slot) => ends[slot].First;
 
     /// <summary>What members' segments carry besides their paths.</summary>
-    internal CarriedContacts Carried { get; } = new();
+    internal CarriedContacts Carried => extras.Carried;
 
     internal int Next(int segment) => links[segment].Next;
 
@@ -108,19 +97,19 @@ internal partial class TimelineStore
 
     internal ref readonly MotionSegment Segment(int segment) => ref pieces[segment].Segment;
 
-    internal DenseOutput Dense(int segment) => segment < dense.Length ? dense[segment] : default;
+    internal DenseOutput Dense(int segment) => extras.Dense(segment);
 
-    /// <summary>Of a held segment who holds; of any other the default.</summary>
-    internal Hold HoldOf(int segment) => pieces[segment].Segment.Law == MotionLaw.Held ? holds[segment] : default;
+    /// <summary>The hold of a segment that is held; of any other the default.</summary>
+    internal Hold HoldOf(int segment) => pieces[segment].Segment.Law == MotionLaw.Held ? extras.Hold(segment) : default;
 
     /// <summary>How the body turns on the segment.</summary>
-    internal Spin SpinOf(int segment) => segment < spins.Length ? spins[segment] : default;
+    internal Spin SpinOf(int segment) => extras.Spin(segment);
 
     /// <summary>The key of the event that opened the segment.</summary>
     internal ref readonly EventKey Key(int segment) => ref pieces[segment].Key;
 
     /// <summary>Whether the slot is some body's.</summary>
-    internal bool IsKnown(int slot) => slot < last.Length && last[slot] != None;
+    internal bool IsKnown(int slot) => slot < ends.Length && ends[slot].Last != None;
 
     /// <summary>A number no other segment of this store ever has, 0 for one that is no more; tells whether a remembered segment is still the one.</summary>
     internal long Serial(int segment) => links[segment].Serial;
@@ -131,7 +120,7 @@ internal partial class TimelineStore
     /// <summary>The body's newest segment keyed before <paramref name="key"/>; <see cref="None"/> if none that is kept is.</summary>
     internal int Before(int slot, in EventKey key)
     {
-        int at = last[slot];
+        int at = ends[slot].Last;
         while (at != None && EventKey.Compare(pieces[at].Key, key) >= 0)
         {
             at = links[at].Previous;
@@ -146,70 +135,16 @@ internal partial class TimelineStore
         in Spin spin = default)
     {
         Openings?.OnOpened(slot, key);
-        if (free == None && (used == pieces.Length || used == Most))
-        {
-            DropAll(key.Time);
-        }
-
-        int at = free;
-        if (at != None)
-        {
-            free = links[at].Next;
-        }
-        else
-        {
-            if (used == Most)
-            {
-                throw new TimelinesFullException(
-                    $"At {key.Time.ToShortString()} the timelines hold {Most} segments, the most that the options allow: allow more, keep a shorter history,"
-                    + " or look for what makes so many events.");
-            }
-
-            at = used++;
-            if (at == pieces.Length)
-            {
-                Grow(key.Time, recent: 0);
-            }
-        }
-
-        if (segment.IsDense)
-        {
-            if (at >= dense.Length)
-            {
-                Array.Resize(ref dense, pieces.Length);
-            }
-
-            dense[at] = output;
-        }
-
-        if (segment.Law == MotionLaw.Held)
-        {
-            if (at >= holds.Length)
-            {
-                Array.Resize(ref holds, pieces.Length);
-            }
-
-            holds[at] = hold;
-        }
-
-        if (spins.Length > 0 || !spin.IsNone)
-        {
-            if (at >= spins.Length)
-            {
-                Array.Resize(ref spins, pieces.Length);
-            }
-
-            spins[at] = spin;
-        }
-
-        int before = last[slot];
-        ref Piece piece = ref pieces[at];
+        int at = TakeRoom(key.Time);
+        extras.Set(at, segment, output, hold, spin, pieces.Length);
+        int before = ends[slot].Last;
+        ref OpenedSegment piece = ref pieces[at];
         piece.Segment = segment;
         piece.Key = key;
-        links[at] = new Link { Closed = SimTime.MaxValue, Serial = ++LastSerial, Previous = before, Next = None, Owner = slot, Together = at };
+        links[at] = new SegmentLinks { Closed = SimTime.MaxValue, Serial = ++LastSerial, Previous = before, Next = None, Owner = slot, Together = at };
         if (before == None)
         {
-            first[slot] = at;
+            ends[slot].First = at;
         }
         else
         {
@@ -217,17 +152,17 @@ internal partial class TimelineStore
             links[before].Closed = key.Time;
         }
 
-        last[slot] = at;
+        ends[slot].Last = at;
         newest?.Set(slot, segment, key.Time);
         Alive++;
         if (segment.IsOfIsland)
         {
-            return; // what it carries is still to be told, and counts in its hash
+            return; // until EndMember: what it carries counts in its hash
         }
 
-        if (IsPlain(at))
+        if (!extras.MayHave(segment) && piece.IsEvent)
         {
-            hashes.Add(key, segment, body, origin);
+            hashes.Add(key, segment, body); // nothing but what every segment has
         }
         else
         {
@@ -245,7 +180,7 @@ internal partial class TimelineStore
     internal int CutFrom(int slot, BodyId body, in EventKey key)
     {
         int cut = 0;
-        while (last[slot] != None && EventKey.Compare(pieces[last[slot]].Key, key) >= 0)
+        while (ends[slot].Last != None && EventKey.Compare(pieces[ends[slot].Last].Key, key) >= 0)
         {
             CutLast(slot, body);
             cut++;
@@ -257,24 +192,24 @@ internal partial class TimelineStore
     /// <summary>Removes the body's newest segment, and it from its ring.</summary>
     internal void CutLast(int slot, BodyId body)
     {
-        int at = last[slot];
+        int at = ends[slot].Last;
         hashes.Value -= HashOf(at, body);
         if (Observer is not null && pieces[at].Key.Kind == EventKind.Impact)
         {
             Observer.OnCut(pieces[at].Key);
         }
 
-        last[slot] = links[at].Previous;
-        if (last[slot] == None)
+        ends[slot].Last = links[at].Previous;
+        if (ends[slot].Last == None)
         {
-            first[slot] = None;
+            ends[slot].First = None;
             newest?.Clear(slot);
         }
         else
         {
-            links[last[slot]].Next = None;
-            links[last[slot]].Closed = SimTime.MaxValue;
-            newest?.Set(slot, pieces[last[slot]].Segment, pieces[last[slot]].Key.Time);
+            links[ends[slot].Last].Next = None;
+            links[ends[slot].Last].Closed = SimTime.MaxValue;
+            newest?.Set(slot, pieces[ends[slot].Last].Segment, pieces[ends[slot].Last].Key.Time);
         }
 
         int before = at;
@@ -290,16 +225,15 @@ internal partial class TimelineStore
     /// <summary>Forgets the one segment that is left of a body.</summary>
     internal void Forget(int slot)
     {
-        Release(first[slot]);
-        first[slot] = None;
-        last[slot] = None;
+        Release(ends[slot].First);
+        ends[slot] = TimelineEnds.None;
         newest?.Clear(slot);
     }
 
     /// <summary>The segment that holds at <paramref name="time"/>, after all events of that tick; <see cref="None"/> before the first kept.</summary>
     internal int At(int slot, SimTime time)
     {
-        int at = last[slot];
+        int at = ends[slot].Last;
         while (at != None && links[at].Previous != None && links[links[at].Previous].Closed > time)
         {
             at = links[at].Previous;
@@ -308,21 +242,153 @@ internal partial class TimelineStore
         return at == None || pieces[at].Key.Time > time ? None : at;
     }
 
-    /// <summary>A segment and the key that opened it.</summary>
-    private struct Piece
+    /// <summary>The sum of the hashes of all segments ever opened and not cut off again, dropped ones included.</summary>
+    internal ulong EventHash => hashes.Value;
+
+    /// <summary>The hash from which this store goes on, which has what its segments would add in it already.</summary>
+    internal void ContinueFrom(ulong eventHash) => hashes.Value = eventHash;
+
+    /// <summary>What a segment adds to <see cref="EventHash"/>; 0 where no event opened it.</summary>
+    internal ulong HashOf(int segment, BodyId body)
     {
-        internal MotionSegment Segment;
-        internal EventKey Key;
+        if (!pieces[segment].IsEvent)
+        {
+            return 0;
+        }
+
+        ref readonly MotionSegment motion = ref pieces[segment].Segment;
+        StableHash hash = hashes.Of(pieces[segment].Key, motion, body);
+        extras.AddTo(ref hash, segment, motion, hashes.Origin);
+
+        return hash.Value;
     }
 
-    /// <summary>A segment's place among the others.</summary>
-    private struct Link
+    /// <summary>See <see cref="OpenedSegment.IsNote"/>.</summary>
+    internal bool IsNote(int segment) => pieces[segment].IsNote;
+
+    /// <summary>The next in the ring of segments that one impact opened; itself if it has no other.</summary>
+    internal int Together(int segment) => links[segment].Together;
+
+    /// <summary>The newest segments of these bodies were opened by one impact.</summary>
+    internal void Join(Span<int> slots)
     {
-        internal SimTime Closed; // when the next was opened; MaxValue if there is none
-        internal long Serial;
-        internal int Previous;
-        internal int Next;
-        internal int Owner;
-        internal int Together; // a ring through the segments that one impact opened
+        for (int i = 0; i < slots.Length; i++)
+        {
+            links[ends[slots[i]].Last].Together = ends[slots[i + 1 == slots.Length ? 0 : i + 1]].Last;
+        }
+    }
+
+    /// <summary>For how many segments there is room without more memory.</summary>
+    internal int Room => pieces.Length;
+
+    /// <summary>Instants before this are asked for no more; what only they need is dropped when room is needed.</summary>
+    internal void ForgetBefore(SimTime time) => edge = SimTime.Max(edge, time);
+
+    /// <summary>Drops of one body what is no longer needed for instants from <paramref name="time"/> on; the last segment opened before it stays.</summary>
+    internal void DropBefore(int slot, SimTime time)
+    {
+        int at = ends[slot].First;
+        while (at != None && links[at].Closed < time)
+        {
+            int next = links[at].Next;
+            Drop(at);
+            at = next;
+        }
+    }
+
+    /// <summary>A place for one more segment.</summary>
+    private int TakeRoom(SimTime now)
+    {
+        if (free == None && (used == pieces.Length || used == Most))
+        {
+            DropAll(now);
+        }
+
+        int at = free;
+        if (at != None)
+        {
+            free = links[at].Next;
+            return at;
+        }
+
+        if (used == Most)
+        {
+            throw new TimelinesFullException(
+                $"At {now.ToShortString()} the timelines hold {Most} segments, the most that the options allow: allow more, keep a shorter"
+                + " history, or look for what makes so many events.");
+        }
+
+        if (used == pieces.Length)
+        {
+            Grow(now, recent: 0);
+        }
+
+        return used++;
+    }
+
+    /// <summary>Drops what lies behind the window; and makes room for more if that was little, else it would soon be looked for again.</summary>
+    private void DropAll(SimTime now)
+    {
+        int recent = 0;
+        SimTime late = TimelineGrowth.RecentStart(now, edge);
+
+        // From the end, so that what is freed is given out from the beginning: segments are opened in one direction through memory.
+        for (int at = used - 1; at >= 0; at--)
+        {
+            SimTime closed = links[at].Closed;
+            if (closed < edge)
+            {
+                Drop(at);
+            }
+            else if (closed > late && closed <= now)
+            {
+                recent++;
+            }
+        }
+
+        if (Alive > used - (used / LittleRoom) && used < Most)
+        {
+            Grow(now, recent);
+        }
+    }
+
+    /// <summary>Takes a segment that has a successor out of its timeline; those before it, which are older, are dropped with it.</summary>
+    private void Drop(int at)
+    {
+        int previous = links[at].Previous;
+        int next = links[at].Next;
+        links[next].Previous = previous;
+        if (previous == None)
+        {
+            ends[links[at].Owner].First = next;
+        }
+        else
+        {
+            links[previous].Next = next;
+        }
+
+        Release(at);
+    }
+
+    private void Release(int at)
+    {
+        if (pieces[at].Segment.IsOfIsland)
+        {
+            Carried.Release(at);
+        }
+
+        links[at].Serial = 0;
+        links[at].Closed = SimTime.MaxValue; // nothing that could be dropped
+        links[at].Next = free;
+        free = at;
+        Alive--;
+    }
+
+    private void Grow(SimTime now, int recent)
+    {
+        int room = growth.Next(pieces.Length, ends.Length, now, edge, recent);
+        Array.Resize(ref pieces, room);
+        Array.Resize(ref links, room);
+        extras.Grow(room);
     }
 }

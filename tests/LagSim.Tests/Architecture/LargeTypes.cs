@@ -8,7 +8,6 @@ internal static class LargeTypes
         // The engine.
         new("LagSim.Contacts.SolverContact", "a row of the solver, kept flat: what is read together lies together"),
         new("LagSim.Engine", "puts the parts together, a field for each part; it has next to no code of its own"),
-        new("LagSim.Timelines.TimelineStore", "waits to be split: keeping, cutting and asking are in one"),
 
         // Peers.
         new("LagSim.Net.Sessions.Core.SessionParts", "puts the parts together, a field for each part; it has no code of its own"),

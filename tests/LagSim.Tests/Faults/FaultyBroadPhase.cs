@@ -53,7 +53,6 @@ internal sealed class FaultyBroadPhase(
         Span<int> IBroadPhase.Candidates(int slot, double radius, SimTime from, long heal, out SimTime until) =>
             owner.Without(Candidates(slot, radius, from, heal, out until));
 
-        private protected override bool KeepsWhoMovesOn(long madeIn, long heal) =>
-            !owner.Faults.Has(HealingFault.ForgetsWhoMovedOn) && base.KeepsWhoMovesOn(madeIn, heal);
+        private protected override bool KeepsListsOfOneHeal => !owner.Faults.Has(HealingFault.ForgetsWhoMovedOn);
     }
 }

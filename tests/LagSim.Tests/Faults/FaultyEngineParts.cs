@@ -54,10 +54,8 @@ internal sealed class FaultyEngineParts : EngineParts
 
     internal override ContactScale ContactScale(Scene scene, SimTime start) => Scale ?? base.ContactScale(scene, start);
 
-    internal override TimelineStore TimelineStore(SimTime origin, int most, INewestSegments newest, int expected, SimDuration history) =>
-        GrowsByLittle
-            ? new UnforeseeingTimelines(origin, most, newest, expected, history)
-            : base.TimelineStore(origin, most, newest, expected, history);
+    internal override TimelineGrowth TimelineGrowth(SimTime origin, SimDuration history) =>
+        GrowsByLittle ? new UnforeseeingGrowth(origin, history) : base.TimelineGrowth(origin, history);
 
     internal override PathView PathView(TimelineStore timelines, RollbackState rollback) =>
         new FaultyPathView(timelines, rollback, this, isForPending: false);

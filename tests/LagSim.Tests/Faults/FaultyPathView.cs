@@ -15,8 +15,8 @@ internal sealed class FaultyPathView(TimelineStore timelines, RollbackState roll
     /// <summary>How far the rollback has come of which it is a view.</summary>
     internal RollbackState Rollback { get; } = rollback;
 
-    internal override int PieceFrom(int slot, int other) =>
-        faults.Has(HealingFault.ForgetsThePast) || IsOverlooked(other) ? timelines.Last(other) : base.PieceFrom(slot, other);
+    private protected override int PastPieceFrom(int slot, int piece) =>
+        faults.Has(HealingFault.ForgetsThePast) || IsOverlooked(timelines.Owner(piece)) ? piece : base.PastPieceFrom(slot, piece);
 
     private protected override int PastPieceAt(int slot, in EventKey key) =>
         IsOverlooked(slot) || (isForPending && faults.Has(HealingFault.GivesUpByBody)) ? timelines.Last(slot) : base.PastPieceAt(slot, key);

@@ -2,10 +2,12 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using System.Reflection;
+using LagSim.Corpus;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Strategies;
+using LagSim.Scenes;
 using LagSim.Testing.Links;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -52,6 +54,7 @@ public sealed class SessionOptionsTests
 
     private static Dictionary<string, SessionOptions> WrongOnes { get; } = new()
     {
+        ["Accelerations"] = new ClientOptions { Accelerations = [null!] },
         ["CommitInterval"] = new ClientOptions { CommitInterval = Long },
         ["ConnectKey"] = new ClientOptions { ConnectKey = new string('x', 257) },
         ["DisplayDelay"] = new ClientOptions { DisplayDelay = Long },
@@ -110,6 +113,52 @@ public sealed class SessionOptionsTests
             : new ClientSession(null, port, new VirtualClock(), (ClientOptions)wrong, PeerAddress.Virtual(1), 1));
         Assert.Equal(named, refused.ParamName);
         Assert.EndsWith(".", refused.Message.Split(" (Parameter")[0], StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Collections_ChangedAfterwards_LeaveTheOptionsAsTheyWere()
+    {
+        Dictionary<byte, string> keys = new() { [1] = "one" };
+        List<IAcceleration> supplied = [new Eddy()];
+        HostOptions host = new() { PlayerKeys = keys };
+        ClientOptions client = new() { Accelerations = supplied };
+        keys[2] = "two";
+        supplied.Clear();
+        Assert.Equal(("one", 1), (host.PlayerKeys[1], host.PlayerKeys.Count));
+        Assert.Single(client.Accelerations);
+    }
+
+    [Fact]
+    public void Refusals_OfKeys_DoNotTellThem()
+    {
+        const string Secret = "swordfish";
+        string tooLong = string.Concat(Enumerable.Repeat(Secret, 40));
+        HostOptions[] wrong =
+        [
+            new() { ConnectKey = tooLong },
+            new() { PlayerKeys = new Dictionary<byte, string> { [1] = tooLong } },
+            new() { ConnectKey = Secret, PlayerKeys = new Dictionary<byte, string> { [1] = Secret } },
+            new() { PlayerKeys = new Dictionary<byte, string> { [1] = Secret, [2] = Secret } },
+            new() { PlayerKeys = new Dictionary<byte, string> { [0] = Secret } },
+        ];
+        using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
+        foreach (HostOptions options in wrong)
+        {
+            ArgumentException refused = Assert.ThrowsAny<ArgumentException>(() =>
+                _ = new HostSession(ScriptedActions.Box(), port, new VirtualClock(), options, 1));
+            Assert.DoesNotContain(Secret, $"{refused}", StringComparison.Ordinal);
+            Assert.Contains("key", refused.Message, StringComparison.Ordinal); // the control: it is about keys
+        }
+    }
+
+    [Fact]
+    public void Session_WithADurationOutOfRange_ShowsItAndTheLimitsInFull()
+    {
+        using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
+        HostOptions options = new() { Timeout = SimDuration.FromMilliseconds(100), KeepAlive = SimDuration.FromSeconds(1) };
+        ArgumentException refused = Assert.ThrowsAny<ArgumentException>(() =>
+            _ = new HostSession(ScriptedActions.Box(), port, new VirtualClock(), options, 1));
+        Assert.Contains("between 0.01s and 0.03333333333", refused.Message, StringComparison.Ordinal);
     }
 
     [Fact]

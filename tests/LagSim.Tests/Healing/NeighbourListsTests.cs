@@ -13,7 +13,7 @@ using static LagSim.Tests.TestWorlds;
 namespace LagSim.Tests.Healing;
 
 /// <summary>Whoever touches is on a list, now and in the past; against a look at every pair.</summary>
-public sealed class ShellIndexTests
+public sealed class NeighbourListsTests
 {
     private const double Near = 1e-6;
     private const int Bodies = 120;

@@ -12,7 +12,7 @@ using static LagSim.Tests.TestWorlds;
 namespace LagSim.Tests.Numerics;
 
 /// <summary>When two paths touch.</summary>
-public sealed class ContactFinderTests
+public sealed class TimeOfImpactTests
 {
     private static readonly SimTime Until = At(4);
 

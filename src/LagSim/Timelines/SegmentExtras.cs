@@ -1,0 +1,109 @@
+using System;
+using LagSim.Motion;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Timelines;
+
+/// <summary>
+/// What only some segments have: an integrated path, a hold, a spin, contacts that persist. Each is an array by segment, made once a segment
+/// needs it.
+/// </summary>
+/// <remarks>Apart from the segments, so that a world without them pays nothing. Not thread-safe.</remarks>
+internal sealed class SegmentExtras
+{
+    private DenseOutput[] dense = Array.Empty<DenseOutput>();
+    private Hold[] holds = Array.Empty<Hold>();
+    private Spin[] spins = Array.Empty<Spin>();
+
+    /// <summary>What members' segments carry besides their paths.</summary>
+    internal CarriedContacts Carried { get; } = new();
+
+    internal DenseOutput Dense(int segment) => segment < dense.Length ? dense[segment] : default;
+
+    /// <summary>The hold of a segment that is held.</summary>
+    internal ref readonly Hold Hold(int segment) => ref holds[segment];
+
+    /// <summary>How the body turns on the segment.</summary>
+    internal Spin Spin(int segment) => segment < spins.Length ? spins[segment] : default;
+
+    /// <summary>Whether a segment has anything here; of spins, whether any segment ever had.</summary>
+    internal bool MayHave(in MotionSegment motion) => spins.Length > 0 || motion.Law == MotionLaw.Held;
+
+    /// <summary>Notes what a segment that is opened has.</summary>
+    /// <param name="segment">The segment.</param>
+    /// <param name="motion">Its motion, whose law says what it has.</param>
+    /// <param name="output">Its integrated path.</param>
+    /// <param name="hold">Its hold.</param>
+    /// <param name="spin">Its spin.</param>
+    /// <param name="room">For how many segments there is room.</param>
+    internal void Set(int segment, in MotionSegment motion, in DenseOutput output, in Hold hold, in Spin spin, int room)
+    {
+        if (motion.IsDense)
+        {
+            Put(ref dense, segment, output, room);
+        }
+
+        if (motion.Law == MotionLaw.Held)
+        {
+            Put(ref holds, segment, hold, room);
+        }
+
+        if (spins.Length > 0 || !spin.IsNone)
+        {
+            Put(ref spins, segment, spin, room);
+        }
+    }
+
+    /// <summary>Makes room for as many segments as the store has, where any has something.</summary>
+    internal void Grow(int room)
+    {
+        Grow(ref dense, room);
+        Grow(ref holds, room);
+        Grow(ref spins, room);
+        Carried.Grow(room);
+    }
+
+    /// <summary>Adds to a hash what a segment has.</summary>
+    internal void AddTo(ref StableHash hash, int segment, in MotionSegment motion, SimTime origin)
+    {
+        if (motion.Law == MotionLaw.Held)
+        {
+            hash.Add((ulong)holds[segment].Peer);
+            hash.Add(holds[segment].Offset);
+            hash.Add(holds[segment].Keyframe - origin);
+            hash.Add(motion.Acceleration);
+            hash.Add(dense[segment].Cubic);
+        }
+
+        Spin spin = Spin(segment);
+        if (!spin.IsNone)
+        {
+            hash.Add(spin.AtEpoch);
+            hash.Add(spin.Rate);
+        }
+
+        if (motion.IsOfIsland)
+        {
+            Carried.AddTo(ref hash, segment, origin);
+        }
+    }
+
+    private static void Put<T>(ref T[] values, int segment, in T value, int room)
+    {
+        if (segment >= values.Length)
+        {
+            Array.Resize(ref values, room);
+        }
+
+        values[segment] = value;
+    }
+
+    private static void Grow<T>(ref T[] values, int room)
+    {
+        if (values.Length > 0)
+        {
+            Array.Resize(ref values, room);
+        }
+    }
+}
