@@ -1,5 +1,4 @@
 using System;
-using LagSim.Contacts;
 using LagSim.Scenes;
 using LagSim.Tests.Faults;
 using Xunit;
@@ -34,7 +33,7 @@ public sealed class EnergyOfIslandsTests
         Vector3D place = V(0.1 * random.NextDouble(), 3 + random.NextDouble(), 0.1 * random.NextDouble());
         Vector3D spin = V(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5) * 200;
         builder.AddBody("fast", new BodySpec(0.1, 1, 1, friction: 0.3), place, V(0, -8), spin: spin);
-        FaultyEngineParts parts = new() { Rules = new SolverRules(limitsEnergy: !gains) };
+        FaultyEngineParts parts = new() { Rules = new FaultySolverRules { GainsEnergy = gains } };
         Simulation world = new(builder.Build(), new SimulationOptions().WithParts(parts));
         double start = EnergyWithSpin(world, 0);
         double least = start;

@@ -1,7 +1,6 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
@@ -281,7 +280,7 @@ public sealed class HeldTests
 
         bool Passes(bool pressesOn)
         {
-            FaultyEngineParts parts = new() { Rules = new SolverRules(limitsHands: !pressesOn) };
+            FaultyEngineParts parts = new() { Rules = new FaultySolverRules { HasTirelessHands = pressesOn } };
             Simulation simulation = new(scene, new SimulationOptions().WithParts(parts));
             for (uint n = 0; n < 10; n++)
             {

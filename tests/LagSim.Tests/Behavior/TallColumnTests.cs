@@ -29,7 +29,7 @@ public sealed class TallColumnTests
     [Fact]
     public void Column_BySweepsAlone_IsSeenToSink()
     {
-        Simulation world = Column(64, 0, 0, new SolverRules(settlesNormals: false));
+        Simulation world = Column(64, 0, 0, new FaultySolverRules { SweepsAlone = true });
         (double off, MotionLaw motion, _) = Run(world);
         Assert.True(off > 2 * Fine, $"{off} m");
         Assert.Equal(MotionLaw.Constrained, motion);
@@ -43,7 +43,7 @@ public sealed class TallColumnTests
     [InlineData(true)]
     public void Column_ThatHasSunk_IsPushedOutWithoutMakingEnergy(bool gains)
     {
-        Simulation world = Column(64, 0, 0, new SolverRules(settlesNormals: false, limitsEnergy: !gains));
+        Simulation world = Column(64, 0, 0, new FaultySolverRules { SweepsAlone = true, GainsEnergy = gains });
         (_, _, double gain) = Run(world);
         Assert.Equal(gains, gain > 2);
     }

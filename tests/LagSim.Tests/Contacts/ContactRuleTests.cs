@@ -21,7 +21,7 @@ public sealed class ContactRuleTests
     public void Impact_OnAHeap_GoesOnThroughIt(bool isCutShort)
     {
         Scene scene = Heap();
-        Simulation simulation = new(scene, Options(Scale(scene, reachPart: isCutShort ? 1e9 : null)));
+        Simulation simulation = new(scene, Options(new FaultyContactScale(scene) { CutsImpactsShort = isCutShort }));
         Assert.Equal(isCutShort, Deepest(simulation, 2) > Tolerance);
         Assert.Equal(isCutShort, simulation.ImpactsProcessed > 1_000);
     }
@@ -35,7 +35,7 @@ public sealed class ContactRuleTests
     [InlineData(true)]
     public void Impact_OfWhatIsVeryHeavy_GoesOnThroughTheHeap(bool sweepsAlone)
     {
-        FaultyEngineParts parts = new() { Rules = new SolverRules(settlesNormals: !sweepsAlone) };
+        FaultyEngineParts parts = new() { Rules = new FaultySolverRules { SweepsAlone = sweepsAlone } };
         Simulation simulation = new(Heap(heavy: 1e5), new SimulationOptions().WithParts(parts));
         Assert.Equal(sweepsAlone, Deepest(simulation, 1) > 0.05 * Tolerance);
     }
@@ -88,7 +88,7 @@ public sealed class ContactRuleTests
     public void Contact_ThatClosesAsSlowlyAsImpactsLeaveIt_IsNotStruck(bool isStruck)
     {
         Scene scene = Heap();
-        Simulation simulation = new(scene, Options(Scale(scene, impactPart: isStruck ? 0 : null)));
+        Simulation simulation = new(scene, Options(new FaultyContactScale(scene) { StrikesWhatIsSlow = isStruck }));
         long most = 10_000;
         simulation.TryAdvanceTo(At(2), ref most);
         Assert.Equal(isStruck, simulation.ImpactsProcessed > 2_000);
@@ -128,14 +128,6 @@ public sealed class ContactRuleTests
 
     private static SimulationOptions Options(ContactScale scale) =>
         new SimulationOptions(default, SimDuration.FromSeconds(10)).WithParts(new FaultyEngineParts { Scale = scale });
-
-    private static ContactScale Scale(Scene scene, double? impactPart = null, double? reachPart = null)
-    {
-        ContactScale usual = new(scene.ContactTolerance, scene.Gravity, SimTime.Zero);
-        double whole = scene.ContactTolerance / usual.Step.ToSeconds();
-        return new ContactScale(
-            scene.ContactTolerance, scene.Gravity, SimTime.Zero, impactPart ?? (usual.ImpactSpeed / whole), reachPart ?? (usual.ReachSpeed / whole));
-    }
 
     /// <summary>27 balls in a pit, and a heavy one that falls on them.</summary>
     private static Scene Heap(double heavy = 10)

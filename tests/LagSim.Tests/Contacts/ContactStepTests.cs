@@ -1,6 +1,7 @@
 using System;
 using LagSim.Contacts;
 using LagSim.Scenes;
+using LagSim.Tests.Faults;
 using Xunit;
 
 namespace LagSim.Tests.Contacts;
@@ -70,7 +71,7 @@ public sealed class ContactStepTests
     [InlineData(-1, true)]
     public void OverlapOfAStack_InAHandOrWithoutTheBound_IsPushedOutAtOnce(int heldAt, bool gains)
     {
-        ContactStep step = Stack(0, heldAt, new SolverRules(limitsEnergy: !gains));
+        ContactStep step = Stack(0, heldAt, new FaultySolverRules { GainsEnergy = gains });
         double seconds = step.Scale.Step.ToSeconds();
         double before = step.Problem.KineticEnergy();
         Assert.True(before > Balls * 0.5 * 9.81 * seconds * 9.81 * seconds);

@@ -1,0 +1,22 @@
+using LagSim.Contacts;
+
+namespace LagSim.Tests.Faults;
+
+/// <summary>Rules of the contact solution of which some are missing.</summary>
+internal sealed class FaultySolverRules : SolverRules
+{
+    /// <summary>A hand pushes as hard as it takes.</summary>
+    internal bool HasTirelessHands { get; init; }
+
+    /// <summary>Overlap is pushed out, and what is struck rebounds, whatever energy that makes.</summary>
+    internal bool GainsEnergy { get; init; }
+
+    /// <summary>What sweeps do not settle stays unsettled.</summary>
+    internal bool SweepsAlone { get; init; }
+
+    internal override bool LimitsHands => !HasTirelessHands;
+
+    internal override bool LimitsEnergy => !GainsEnergy;
+
+    internal override bool SettlesNormals => !SweepsAlone;
+}
