@@ -50,7 +50,9 @@ internal sealed class EventLoop(
     /// <summary>Throws if an end was asked for.</summary>
     internal void ThrowIfCancelled() => cancellation.ThrowIfCancellationRequested();
 
-    /// <summary>Throws if an instant without an end blocks the world up to a time. It can go on once an event comes that removes the cause.</summary>
+    /// <summary>
+    /// Throws if an instant without an end blocks the world up to a time. It can go on once an event comes that removes the cause.
+    /// </summary>
     internal void ThrowIfBlockedAt(SimTime time)
     {
         if (Blocked is EndlessInstantException endless && endless.At <= time)
@@ -63,8 +65,12 @@ internal sealed class EventLoop(
     /// <returns>The exception.</returns>
     internal Exception Fail(Exception failure) => fault = failure;
 
-    /// <summary>Lets events happen up to and including a time, or as many as <paramref name="events"/> says; see <see cref="Simulation.TryAdvanceTo"/>.</summary>
-    /// <exception cref="OperationCanceledException">The token asked for an end; what lies behind <see cref="Progress.SimulatedTo"/> stands.</exception>
+    /// <summary>
+    /// Lets events happen up to and including a time, or as many as <paramref name="events"/> says; see
+    /// <see cref="Simulation.TryAdvanceTo"/>.
+    /// </summary>
+    /// <exception cref="OperationCanceledException">The token asked for an end; what lies behind <see cref="Progress.SimulatedTo"/>
+    /// stands.</exception>
     internal bool TryAdvanceTo(SimTime time, ref long events)
     {
         SimTime reached = progress.SimulatedTo;
@@ -178,7 +184,9 @@ internal sealed class EventLoop(
         rewinder.RewindInstant(instant);
     }
 
-    /// <summary>Moves the edge of the history along, event by event, so that one long advance takes no more memory than many short ones.</summary>
+    /// <summary>
+    /// Moves the edge of the history along, event by event, so that one long advance takes no more memory than many short ones.
+    /// </summary>
     private void ForgetUpTo(SimTime now)
     {
         if (progress.IsLongerThanHistory(now))

@@ -28,8 +28,10 @@ public readonly struct HealReport : IEquatable<HealReport>
     /// <summary>How many late events, or events taken back, it served; at least one.</summary>
     public int LateEvents { get; }
 
-    /// <summary>How many bodies were predicted anew because of it: the causal cone; all there are of a full rollback, and of a heal that grew to
-    /// more than 32 of them and an eighth.</summary>
+    /// <summary>
+    /// How many bodies were predicted anew because of it: the causal cone; all there are of a full rollback, and of a heal that grew to
+    /// more than 32 of them and an eighth.
+    /// </summary>
     public int Bodies { get; }
 
     /// <summary>How many segments were cut off.</summary>
@@ -39,8 +41,9 @@ public readonly struct HealReport : IEquatable<HealReport>
     public long Events { get; }
 
     /// <summary>
-    /// From when on all paths were the old ones again, to the bit, so that the heal was done: what came after stands as it was. Null if that never came, or was
-    /// not looked for: after a full rollback, after more late events before the heal was finished, and where it had cut more than 256 segments.
+    /// From when on all paths were the old ones again, to the bit, so that the heal was done: what came after stands as it was. Null if
+    /// that never came, or was not looked for: after a full rollback, after more late events before the heal was finished, and where it had
+    /// cut more than 256 segments.
     /// </summary>
     public SimTime? Met { get; }
 

@@ -22,7 +22,10 @@ public readonly struct Hold : IEquatable<Hold>
     /// <summary>From the body's centre to the hand's point, in metres; fixed while the hold lasts.</summary>
     public Vector3D Offset { get; }
 
-    /// <summary>When the hand last told where it is: its last keyframe, or the grab. The hold ends by itself <see cref="Motion.HandPath.Lasts"/> later.</summary>
+    /// <summary>
+    /// When the hand last told where it is: its last keyframe, or the grab. The hold ends by itself <see cref="Motion.HandPath.Lasts"/>
+    /// later.
+    /// </summary>
     public SimTime Keyframe { get; }
 
     /// <inheritdoc/>

@@ -32,8 +32,8 @@ public sealed class SceneExplanation
     public string? CannotBegin { get; }
 
     /// <summary>
-    /// A line for all bodies that have the same law for the same reason at the same cost, in the order of the first of them, of at most ten such groups, a
-    /// line for each thing that can be modelled, and why no world can begin, if none can; lines end with LF everywhere.
+    /// A line for all bodies that have the same law for the same reason at the same cost, in the order of the first of them, of at most ten
+    /// such groups, a line for each thing that can be modelled, and why no world can begin, if none can; lines end with LF everywhere.
     /// </summary>
     public override string ToString()
     {

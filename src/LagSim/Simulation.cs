@@ -34,7 +34,9 @@ public sealed class Simulation
 {
     private readonly SyncTest? syncTest;
 
-    /// <summary>A world at the start of its scene, with all that happens at that instant. Cost: the bodies, and which of them can meet.</summary>
+    /// <summary>
+    /// A world at the start of its scene, with all that happens at that instant. Cost: the bodies, and which of them can meet.
+    /// </summary>
     /// <param name="scene">What is simulated.</param>
     /// <param name="options">How; null for the defaults.</param>
     /// <exception cref="ArgumentNullException">There is no scene.</exception>
@@ -48,12 +50,15 @@ public sealed class Simulation
         syncTest = options.Healing == HealingMode.SyncTest ? new SyncTest(Engine, new Simulation(scene, options.FullyRolledBack())) : null;
     }
 
-    /// <summary>Goes on from a snapshot of a world of this scene: the same events give the same bits as in the world that it was taken of.</summary>
+    /// <summary>
+    /// Goes on from a snapshot of a world of this scene: the same events give the same bits as in the world that it was taken of.
+    /// </summary>
     /// <param name="scene">The scene that the snapshot's world has.</param>
     /// <param name="snapshot">From where to go on. Earlier events are in it; they are <see cref="SubmitResult.TooOld"/>.</param>
     /// <param name="options">As of a new world, but for <see cref="SimulationOptions.Start"/>, which the snapshot tells.</param>
     /// <exception cref="ArgumentNullException">The scene or the snapshot is missing.</exception>
-    /// <exception cref="SceneException">The snapshot holds a value that cannot be of a world of this scene; the sentence names it.</exception>
+    /// <exception cref="SceneException">The snapshot holds a value that cannot be of a world of this scene; the sentence names
+    /// it.</exception>
     /// <exception cref="SimulationException">It cannot be simulated.</exception>
     public Simulation(Scene scene, WorldSnapshot snapshot, SimulationOptions? options = null)
         : this(Begun(scene, snapshot, options ??= new SimulationOptions()), snapshot.Time)
@@ -67,12 +72,16 @@ public sealed class Simulation
         AdvanceTo(from);
     }
 
-    /// <summary>Which fold this library computes, from 1 on: builds of one version give one scene and events the same states and hashes, to the bit.</summary>
+    /// <summary>
+    /// Which fold this library computes, from 1 on: builds of one version give one scene and events the same states and hashes, to the bit.
+    /// </summary>
     /// <remarks>
-    /// <para>It is raised by one whenever a pinned hash or one of the corpus moves; a test holds it to that. It says nothing of layouts, which the versions of wire and
-    /// recordings count, nor of a program's own forces, which have their author's.</para>
-    /// <para>Peers of other versions would each compute a world of its own, and a recording of another version gives other hashes than stand in it.</para>
-    /// <para>Not a <see langword="const"/>: that would be copied into whatever is built against the library, and tell of another build than the one that runs.</para>
+    /// <para>It is raised by one whenever a pinned hash or one of the corpus moves; a test holds it to that. It says nothing of layouts,
+    /// which the versions of wire and recordings count, nor of a program's own forces, which have their author's.</para>
+    /// <para>Peers of other versions would each compute a world of its own, and a recording of another version gives other hashes than
+    /// stand in it.</para>
+    /// <para>Not a <see langword="const"/>: that would be copied into whatever is built against the library, and tell of another build than
+    /// the one that runs.</para>
     /// </remarks>
     public static int FoldVersion => 10;
 
@@ -82,7 +91,10 @@ public sealed class Simulation
     /// <summary>The instant at which the scene began.</summary>
     public SimTime Start => Engine.Progress.Start;
 
-    /// <summary>The instant up to which, and including which, everything has happened. A late event that is submitted takes it back to before its own time.</summary>
+    /// <summary>
+    /// The instant up to which, and including which, everything has happened. A late event that is submitted takes it back to before its
+    /// own time.
+    /// </summary>
     public SimTime SimulatedTo => Engine.Progress.SimulatedTo;
 
     /// <summary>The earliest instant that can be read or changed.</summary>
@@ -120,7 +132,8 @@ public sealed class Simulation
     }
 
     /// <summary>
-    /// Raised on the thread that advances, once per heal, when the world is again where it was. Handlers must not throw, and not change the world.
+    /// Raised on the thread that advances, once per heal, when the world is again where it was. Handlers must not throw, and not change the
+    /// world.
     /// </summary>
     public event Action<HealReport>? Healed
     {
@@ -128,11 +141,15 @@ public sealed class Simulation
         remove => Engine.Rewinder.Healed -= value;
     }
 
-    /// <summary>Lets everything happen up to and including <paramref name="time"/>; what late events have changed is simulated again.</summary>
+    /// <summary>
+    /// Lets everything happen up to and including <paramref name="time"/>; what late events have changed is simulated again.
+    /// </summary>
     /// <remarks>Reading, and advancing in smaller or larger steps, changes no bit of what happens. Cost: per event, not per time.</remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>.</exception>
-    /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their memory.</exception>
-    /// <exception cref="OperationCanceledException">The options' token asked for an end; what lies behind <see cref="SimulatedTo"/> stands.</exception>
+    /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their
+    /// memory.</exception>
+    /// <exception cref="OperationCanceledException">The options' token asked for an end; what lies behind <see cref="SimulatedTo"/>
+    /// stands.</exception>
     public void AdvanceTo(SimTime time)
     {
         long events = long.MaxValue;
@@ -141,22 +158,25 @@ public sealed class Simulation
     }
 
     /// <summary>
-    /// Lets everything happen up to and including <paramref name="time"/>, or as much of it as so many events are, and stops between two instants; the world of a
-    /// session (<see cref="Hosting.LiveWorld.WaitsForLateEvents"/>) stops within one too, if it takes too long.
+    /// Lets everything happen up to and including <paramref name="time"/>, or as much of it as so many events are, and stops between two
+    /// instants; the world of a session (<see cref="Hosting.LiveWorld.WaitsForLateEvents"/>) stops within one too, if it takes too long.
     /// </summary>
     /// <param name="time">Up to when.</param>
     /// <param name="events">
-    /// How many events may happen; what is left of them. The events of one instant all happen, so it may end below zero; at or below zero nothing happens.
-    /// Looking again what a body meets next counts as an event.
+    /// How many events may happen; what is left of them. The events of one instant all happen, so it may end below zero; at or below zero
+    /// nothing happens. Looking again what a body meets next counts as an event.
     /// </param>
     /// <returns>
-    /// Whether it got there; if not, <see cref="SimulatedTo"/> tells how far, and the next call goes on from there. A world that an instant without end blocks
-    /// (<see cref="Hosting.LiveWorld.BlockedAt"/>) gets no further, whatever is left, until an event comes that lies no later.
+    /// Whether it got there; if not, <see cref="SimulatedTo"/> tells how far, and the next call goes on from there. A world that an instant
+    /// without end blocks (<see cref="Hosting.LiveWorld.BlockedAt"/>) gets no further, whatever is left, until an event comes that lies no
+    /// later.
     /// </returns>
     /// <remarks>Advancing in pieces changes no bit of what happens. Cost: per event, not per time.</remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>.</exception>
-    /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their memory.</exception>
-    /// <exception cref="OperationCanceledException">The options' token asked for an end; what lies behind <see cref="SimulatedTo"/> stands.</exception>
+    /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their
+    /// memory.</exception>
+    /// <exception cref="OperationCanceledException">The options' token asked for an end; what lies behind <see cref="SimulatedTo"/>
+    /// stands.</exception>
     public bool TryAdvanceTo(SimTime time, ref long events)
     {
         Engine.Loop.ThrowIfFaulted();
@@ -173,14 +193,15 @@ public sealed class Simulation
     }
 
     /// <summary>
-    /// Adds an event at its own time. Should that be simulated already, what it can have touched is taken back from there on (<see
-    /// cref="SimulationOptions.Healing"/> says what that is), <see cref="SimulatedTo"/> lies before it, and the next <see cref="AdvanceTo"/> simulates it again;
-    /// <see cref="Healed"/> tells what that took.
+    /// Adds an event at its own time. Should that be simulated already, what it can have touched is taken back from there on
+    /// (<see cref="SimulationOptions.Healing"/> says what that is), <see cref="SimulatedTo"/> lies before it, and the next
+    /// <see cref="AdvanceTo"/> simulates it again; <see cref="Healed"/> tells what that took.
     /// </summary>
     /// <returns>What became of it. <see cref="SubmitResult.TooOld"/> means that nothing changed.</returns>
     /// <remarks>
-    /// That it is there does not mean that it has an effect: that depends on what it meets when its time comes, and <see cref="TookEffect"/> tells. Cost: O(1) in
-    /// the bodies if it lies ahead; else, with the next advance, that of the events since its time of the bodies it can have touched, or of all with a full rollback.
+    /// That it is there does not mean that it has an effect: that depends on what it meets when its time comes, and
+    /// <see cref="TookEffect"/> tells. Cost: O(1) in the bodies if it lies ahead; else, with the next advance, that of the events since its
+    /// time of the bodies it can have touched, or of all with a full rollback.
     /// </remarks>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult Submit(in ExternalEvent external)
@@ -191,9 +212,9 @@ public sealed class Simulation
     }
 
     /// <summary>
-    /// Adds an event that takes effect at <paramref name="arrival"/>, after its own time, by advancing the body alone from the event's time to the arrival: its
-    /// own motion and contacts with static geometry, as the thesis does. What lies before the arrival is not rewritten. What a hand does (grab, keyframe, release)
-    /// is done at the arrival as it is.
+    /// Adds an event that takes effect at <paramref name="arrival"/>, after its own time, by advancing the body alone from the event's time
+    /// to the arrival: its own motion and contacts with static geometry, as the thesis does. What lies before the arrival is not rewritten.
+    /// What a hand does (grab, keyframe, release) is done at the arrival as it is.
     /// </summary>
     /// <returns>What became of it.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The arrival is before the event's time.</exception>
@@ -211,7 +232,10 @@ public sealed class Simulation
         return external.Time < HistoryEdge ? SubmitResult.TooOld : Engine.Insert(external, external.At(arrival).Key, isForwarded: true);
     }
 
-    /// <summary>Takes an event back, as if it had never been; false if it is not there (any more). The next advance simulates again what it had touched.</summary>
+    /// <summary>
+    /// Takes an event back, as if it had never been; false if it is not there (any more). The next advance simulates again what it had
+    /// touched.
+    /// </summary>
     public bool Retract(in ExternalEvent external)
     {
         Engine.Loop.ThrowIfFaulted();
@@ -219,17 +243,23 @@ public sealed class Simulation
         return Engine.Retract(external);
     }
 
-    /// <summary>The identity of the n-th body in canonical order, 0 &lt;= n &lt; <see cref="BodyCount"/>. Later spawns may shift n.</summary>
+    /// <summary>
+    /// The identity of the n-th body in canonical order, 0 &lt;= n &lt; <see cref="BodyCount"/>. Later spawns may shift n.
+    /// </summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no n-th.</exception>
     public BodyId BodyAt(int n) => Engine.Bodies.Id(Engine.Bodies.SlotAt(n));
 
-    /// <summary>Where a body is at any instant from <see cref="HistoryEdge"/> to <see cref="Horizon"/>, after all events of that tick.</summary>
+    /// <summary>
+    /// Where a body is at any instant from <see cref="HistoryEdge"/> to <see cref="Horizon"/>, after all events of that tick.
+    /// </summary>
     /// <returns>False, and a state that is <see cref="MotionLaw.Absent"/>, if the body is unknown or not there at that time.</returns>
     /// <remarks>
-    /// Opens no segment and changes nothing. Cost: the number of the body's segments after that time. A time that is not simulated is a mistake of the caller,
-    /// who advances this world himself, and so an exception; a <see cref="Hosting.RenderSnapshot"/>, which another thread makes, returns false there.
+    /// Opens no segment and changes nothing. Cost: the number of the body's segments after that time. A time that is not simulated is a
+    /// mistake of the caller, who advances this world himself, and so an exception; a <see cref="Hosting.RenderSnapshot"/>, which another
+    /// thread makes, returns false there.
     /// </remarks>
-    /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="HistoryEdge"/> or after <see cref="Horizon"/>: advance first.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="HistoryEdge"/> or after <see cref="Horizon"/>: advance
+    /// first.</exception>
     /// <exception cref="InvalidOperationException">The simulation ended by an exception.</exception>
     public bool TryRead(BodyId body, SimTime time, out BodyState state)
     {
@@ -248,7 +278,9 @@ public sealed class Simulation
     }
 
     /// <summary>A hash of the exact bits and identities of every body that is there at <paramref name="time"/>.</summary>
-    /// <remarks>Equal on two peers if and, to 64 bits, only if their worlds are the same then. It does not depend on the time of day.</remarks>
+    /// <remarks>
+    /// Equal on two peers if and, to 64 bits, only if their worlds are the same then. It does not depend on the time of day.
+    /// </remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
     public ulong StateHash(SimTime time)
     {
@@ -256,7 +288,9 @@ public sealed class Simulation
         return Engine.Reader.StateHash(time);
     }
 
-    /// <summary>A hash of every event from the start up to and including <paramref name="time"/>, in canonical order, with what came of it.</summary>
+    /// <summary>
+    /// A hash of every event from the start up to and including <paramref name="time"/>, in canonical order, with what came of it.
+    /// </summary>
     /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
     public ulong EventHash(SimTime time)
     {
@@ -268,19 +302,28 @@ public sealed class Simulation
     /// <remarks>For reports and tests; allocates. Cost: the number of the body's segments.</remarks>
     public IReadOnlyList<TimelineEntry> Timeline(BodyId body) => Timeline(body, SimTime.MinValue);
 
-    /// <summary>Of a body's events that are kept the last one up to and including <paramref name="from"/>, whose motion it is in then, and all after it.</summary>
+    /// <summary>
+    /// Of a body's events that are kept the last one up to and including <paramref name="from"/>, whose motion it is in then, and all after
+    /// it.
+    /// </summary>
     /// <param name="body">The body. Of an unknown one there are none.</param>
     /// <param name="from">From when on, in simulated time; any instant, also one that is no longer kept or not simulated yet.</param>
     /// <returns>In order, each with the state right after it.</returns>
-    /// <remarks>For reports that go along with the simulation; allocates. Cost: the number of the events returned, however long the history is.</remarks>
+    /// <remarks>
+    /// For reports that go along with the simulation; allocates. Cost: the number of the events returned, however long the history is.
+    /// </remarks>
     public IReadOnlyList<TimelineEntry> Timeline(BodyId body, SimTime from) => Engine.Reader.Timeline(Engine.Bodies.SlotOf(body), from);
 
     /// <summary>
-    /// Whether an event changed its body, as far as is known now. False while its time is not simulated yet; if it was submitted and its time has come, it had no
-    /// effect: the body was not there, or was in a hand (or not in that hand), or an impulse would have made it faster than a body may be given to move, a tenth
-    /// of <see cref="Scene.SmallestRadius"/> in a tick. Nothing is ever clamped. A late event may change the answer.
+    /// Whether an event changed its body, as far as is known now. False while its time is not simulated yet; if it was submitted and its
+    /// time has come, it had no effect: the body was not there, or was in a hand (or not in that hand), or an impulse would have made it
+    /// faster than a body may be given to move, a tenth of <see cref="Scene.SmallestRadius"/> in a tick. Nothing is ever clamped. A late
+    /// event may change the answer.
     /// </summary>
-    /// <remarks>Pure, the same on every peer. Cost: the number of the body's segments. What lies before <see cref="HistoryEdge"/> is no longer known: false.</remarks>
+    /// <remarks>
+    /// Pure, the same on every peer. Cost: the number of the body's segments. What lies before <see cref="HistoryEdge"/> is no longer
+    /// known: false.
+    /// </remarks>
     public bool TookEffect(in ExternalEvent external) => Engine.Reader.TookEffect(external);
 
     /// <summary>The properties of a body that has been there; the default for an unknown one.</summary>
@@ -290,7 +333,9 @@ public sealed class Simulation
         return slot < 0 ? default : Engine.Bodies.Spec(slot);
     }
 
-    /// <summary>The world after everything before <paramref name="time"/>. Changes nothing. Cost: the segments of all bodies since then.</summary>
+    /// <summary>
+    /// The world after everything before <paramref name="time"/>. Changes nothing. Cost: the segments of all bodies since then.
+    /// </summary>
     /// <exception cref="ArgumentOutOfRangeException">
     /// The time is outside <see cref="HistoryEdge"/> to <see cref="SimulatedTo"/>, or not after the start.
     /// </exception>
@@ -308,7 +353,8 @@ public sealed class Simulation
     }
 
     /// <summary>
-    /// Forgets what lies before <paramref name="time"/>: nothing there can be read or changed any more. Earlier than now is kept, later is not forgotten.
+    /// Forgets what lies before <paramref name="time"/>: nothing there can be read or changed any more. Earlier than now is kept, later is
+    /// not forgotten.
     /// </summary>
     public void DropHistoryBefore(SimTime time)
     {

@@ -20,25 +20,31 @@ public sealed class SimulationOptions
     internal const int DefaultMostPairs = 64;
 
     /// <summary>Options, each with its default.</summary>
-    /// <param name="start">The instant at which the scene begins; default the origin. It has no influence on the motion, to the bit.</param>
+    /// <param name="start">The instant at which the scene begins; default the origin. It has no influence on the motion, to the
+    /// bit.</param>
     /// <param name="history">
     /// How far behind the simulated time timelines are kept, and so how late an event may come; above zero, default 1 s.
     /// <see cref="SimDuration.MaxValue"/> keeps everything.
     /// </param>
     /// <param name="maxSegments">
     /// How many pieces of path all timelines together may hold, at least one; default <see cref="DefaultMaxSegments"/>. Each takes 184 to
-    /// 356 bytes (<see cref="Timelines.LatencyCompensationWindow"/>). A simulation that would need more ends with a <see cref="TimelinesFullException"/>, which tells whose path they are.
+    /// 356 bytes (<see cref="Timelines.LatencyCompensationWindow"/>). A simulation that would need more ends with a
+    /// <see cref="TimelinesFullException"/>, which tells whose path they are.
     /// </param>
     /// <param name="cancellation">
-    /// Ends whatever the simulation is at, from any thread, between two instants, in a session within one too, with an <see cref="OperationCanceledException"/>.
+    /// Ends whatever the simulation is at, from any thread, between two instants, in a session within one too, with an
+    /// <see cref="OperationCanceledException"/>.
     /// </param>
-    /// <param name="healing">How an event is brought in that lies before the simulated time. It has no influence on the result, to the bit.</param>
+    /// <param name="healing">How an event is brought in that lies before the simulated time. It has no influence on the result, to the
+    /// bit.</param>
     /// <param name="threads">
-    /// How many threads at most may be at work for this simulation at once, the one that calls it included: from 1 to <see cref="SceneBuilder.MaxThreads"/>;
-    /// default as many as there are processors, at most 8. At present all is done on the calling thread; what comes of it is the same, to the bit, on any number.
+    /// How many threads at most may be at work for this simulation at once, the one that calls it included: from 1 to
+    /// <see cref="SceneBuilder.MaxThreads"/>; default as many as there are processors, at most 8. At present all is done on the calling
+    /// thread; what comes of it is the same, to the bit, on any number.
     /// </param>
     /// <exception cref="ArgumentOutOfRangeException">
-    /// The threads are not from 1 to 64, the history or the most segments are not above zero, or the start more than 72 days from the origin.
+    /// The threads are not from 1 to 64, the history or the most segments are not above zero, or the start more than 72 days from the
+    /// origin.
     /// </exception>
     public SimulationOptions(
         SimTime start = default, SimDuration? history = null, int maxSegments = DefaultMaxSegments, CancellationToken cancellation = default,
@@ -79,7 +85,8 @@ public sealed class SimulationOptions
     public SimDuration History { get; }
 
     /// <summary>
-    /// How many pieces of path all timelines together may hold, each of 184 to 356 bytes; more end with a <see cref="TimelinesFullException"/>.
+    /// How many pieces of path all timelines together may hold, each of 184 to 356 bytes; more end with a
+    /// <see cref="TimelinesFullException"/>.
     /// </summary>
     public int MaxSegments { get; }
 

@@ -8,7 +8,9 @@ using LagSim.Timelines;
 namespace LagSim;
 
 /// <summary>What a snapshot must satisfy to be of a world of a scene; it may come from anywhere.</summary>
-/// <remarks>It says what can be told of each body alone. Whether bodies overlap, or a path is one that this world would have taken, it does not ask.</remarks>
+/// <remarks>
+/// It says what can be told of each body alone. Whether bodies overlap, or a path is one that this world would have taken, it does not ask.
+/// </remarks>
 internal static class SnapshotCheck
 {
     /// <summary>Furthest from the origin that an instant may lie: that of a start and the longest run.</summary>

@@ -81,7 +81,9 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
         return sum;
     }
 
-    /// <summary>A body's events that are kept, from the one on whose motion it is in at a time, each with the state right after it.</summary>
+    /// <summary>
+    /// A body's events that are kept, from the one on whose motion it is in at a time, each with the state right after it.
+    /// </summary>
     internal IReadOnlyList<TimelineEntry> Timeline(int slot, SimTime from)
     {
         List<TimelineEntry> entries = new();

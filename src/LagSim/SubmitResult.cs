@@ -9,7 +9,10 @@ public enum SubmitResult
     /// </summary>
     Queued,
 
-    /// <summary>It lay inside what was simulated already: what it can have touched is taken back from there on, and simulated again by the next advance.</summary>
+    /// <summary>
+    /// It lay inside what was simulated already: what it can have touched is taken back from there on, and simulated again by the next
+    /// advance.
+    /// </summary>
     RolledBack,
 
     /// <summary>The same event (time, kind, body, peer, sequence) is there already; nothing changed.</summary>

@@ -3,7 +3,9 @@ using LagSim.Time;
 
 namespace LagSim;
 
-/// <summary>A simulation's twin, in which every late event rolls everything back: after each heal the two are held against each other.</summary>
+/// <summary>
+/// A simulation's twin, in which every late event rolls everything back: after each heal the two are held against each other.
+/// </summary>
 internal sealed class SyncTest
 {
     private readonly Engine healed;

@@ -1,6 +1,8 @@
 namespace LagSim;
 
-/// <summary>The timelines need more segments than the options allow: so much has happened inside the window. The world is right up to then.</summary>
+/// <summary>
+/// The timelines need more segments than the options allow: so much has happened inside the window. The world is right up to then.
+/// </summary>
 /// <remarks>It is this simulation's own limit, so one with more room, or that keeps less history, goes on where this one cannot.</remarks>
 public sealed class TimelinesFullException : SimulationException
 {

@@ -8,7 +8,7 @@ namespace LagSim.BroadPhase;
 /// <summary>A ball in which a body's centre stays for a while, whatever it does there: the shell of a Verlet list.</summary>
 internal readonly struct Shell
 {
-    /// <summary>What rounding may have moved, in parts of a coordinate or of the shell's radius: thousands of times of what it does.</summary>
+    /// <summary>A bound on rounding, relative to a coordinate or the shell's radius: thousands of times the true rounding.</summary>
     private const double Slack = 1e-12;
 
     internal Shell(in Vector3D centre, double stray, double radius)
@@ -35,8 +35,8 @@ internal readonly struct Shell
     }
 
     /// <summary>
-    /// Until when a path surely stays in the shell, seen from a time at which it may be in it: <see cref="SimTime.MaxValue"/> if as long as
-    /// the path goes, the time itself if it is outside, or so near to the edge that it cannot be told.
+    /// The time until which a path surely stays in the shell, from a time at which it may be in it: <see cref="SimTime.MaxValue"/> if for
+    /// the whole path, and the time itself if it is outside, or too near the edge to be certain.
     /// </summary>
     internal SimTime Leaves(in MotionSegment path, in DenseOutput dense, SimTime from, in PeriodicBox box)
     {

@@ -9,8 +9,10 @@ using LagSim.Timelines;
 namespace LagSim.Collisions;
 
 /// <summary>When a body's newest segment next meets a static surface or another's path.</summary>
-/// <remarks>A pure function of the segments, of two bodies ordered by identity; never of the time of day, of who asks first, or of what
-/// is asked besides.</remarks>
+/// <remarks>
+/// A pure function of the segments, with the two bodies ordered by identity. It does not depend on the time of day, on which body asks
+/// first, or on other queries.
+/// </remarks>
 internal sealed class CollisionPredictor(
     Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, RollbackState rollback, PathView view, MemberContacts members,
     StrikeCounts strikes, ContactScale scale, bool hasIslands)
@@ -48,8 +50,7 @@ internal sealed class CollisionPredictor(
         SimTime from = opened;
         if (segment.Epoch < opened && TouchSurface(slot, last, surface, isPlane, segment.Epoch, out contact) && contact.Tick > opened)
         {
-            // A path taken over from an event that came late: looked at from where it began, the root has the bits that it has on other
-            // peers.
+            // A path taken over from an event that came late: solved from its beginning, the root has the bits that it has on other peers.
             return true;
         }
 
@@ -291,7 +292,8 @@ internal sealed class CollisionPredictor(
         closing.IsRounding ? strikes > 0 : strikes > 1 && round > CollapseRound;
 
     /// <summary>
-    /// Whether a body closes on a surface that is no further off than places are rounded: no path can tell the instant, so it is this one.
+    /// Whether a body closes on a surface that is no further off than places are rounded. No path can resolve the instant, so it is this
+    /// one.
     /// </summary>
     private bool ClosesAtOnce(int slot, int piece, int surface, SimTime opened)
     {
@@ -313,7 +315,7 @@ internal sealed class CollisionPredictor(
     }
 
     /// <summary>
-    /// What a gap may be off by because places are rounded, in metres: four roundings of a double, 2^-52 each, of what is summed.
+    /// The error of a gap because places are rounded, in metres: four roundings of a double, 2^-52 each, of the summed terms.
     /// </summary>
     private static double RoundingOf(in Vector3D position, double reach) =>
         4.0 / (1L << 52) * (Math.Abs(position.X) + Math.Abs(position.Y) + Math.Abs(position.Z) + reach);

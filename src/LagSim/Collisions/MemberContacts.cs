@@ -14,9 +14,9 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
     private readonly Paths paths = new(timelines);
 
     /// <summary>
-    /// Whether a contact that a member's piece carries is the step's affair and no impact's: a surface that the step took into account, or
-    /// an impact by a hand, which may press no further, or that the member does not close on. What a step's solver leaves is an error of
-    /// the step, which the next goes on from.
+    /// Whether a contact that a member's segment carries is left to the step, not to impacts: a surface that the step took into account, or
+    /// one that an impact by a hand did, which may press no further, or that the member does not close on. What a step's solver leaves is
+    /// an error of the step, and the next continues from it.
     /// </summary>
     internal bool IsCovered(int slot, int piece, int surface)
     {
@@ -32,15 +32,15 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
     }
 
     /// <summary>
-    /// Whether the impact that opened a piece solved a contact that it carries: one that holds, but for an elastic one, which impacts do
-    /// not go on over.
+    /// Whether the impact that opened a segment solved a contact that it carries: one that holds, except an elastic one, which impacts do
+    /// not pass over.
     /// </summary>
     private bool IsSolved(int slot, int piece, int contact) =>
         timelines.Key(piece).Kind == EventKind.Impact && timelines.Carried.At(contact).Holds && !IsElastic(slot, timelines.Carried.At(contact));
 
     /// <summary>
-    /// Whether the impact that opened a member's piece was one with a hand that the member touches. A world that began from a snapshot may
-    /// know the hand's path only from a later piece on; then that one tells.
+    /// Whether the impact that opened a member's segment was one with a hand that the member touches. A world that began from a snapshot
+    /// may know the hand's path only from a later segment on; then that segment decides.
     /// </summary>
     private bool IsOpenedWithHand(int piece)
     {

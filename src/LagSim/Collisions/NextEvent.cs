@@ -3,7 +3,7 @@ using LagSim.Time;
 
 namespace LagSim.Collisions;
 
-/// <summary>The least of what has been considered, and whom it is with.</summary>
+/// <summary>The least event considered so far, and its partner.</summary>
 internal struct NextEvent
 {
     internal bool Any;

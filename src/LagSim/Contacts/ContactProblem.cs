@@ -17,7 +17,7 @@ internal sealed class ContactProblem
 
     internal int ContactCount { get; private set; }
 
-    /// <summary>Begins again, with nobody.</summary>
+    /// <summary>Begins again, with no body.</summary>
     internal void Clear()
     {
         BodyCount = 0;
@@ -210,7 +210,9 @@ internal struct SolverBody
     internal double Changed; // by the visits of its contacts, in m/s, all added up
 }
 
-/// <summary>One contact of a <see cref="ContactProblem"/>: what is asked of it, and the impulses that do it, on the first of the two.</summary>
+/// <summary>
+/// One contact of a <see cref="ContactProblem"/>: what is asked of it, and the impulses that do it, on the first of the two.
+/// </summary>
 internal struct SolverContact
 {
     internal int First;

@@ -28,9 +28,9 @@ internal sealed class NormalsAfterSweeps
         !problem.HasHand() && (sweeps == ContactStep.MostSweeps || !ContactSolver.CanAddUp(problem, tolerance));
 
     /// <summary>Sets velocities, and the impulses along normals: each contact opens at least at its target, or pushes.</summary>
-    /// <param name="problem">With the velocities before it, and the impulses that sweeps got to; nobody is in a hand.</param>
-    /// <param name="tolerance">What many contacts may be left to close at, in m/s; few are solved exactly.</param>
-    /// <returns>How many steps that took: each costs about as much as a sweep.</returns>
+    /// <param name="problem">With the velocities before it, and the impulses that sweeps reached; no body is held.</param>
+    /// <param name="tolerance">The closing speed, in m/s, that may be left at many contacts; few are solved exactly.</param>
+    /// <returns>The number of steps it took: each costs about as much as a sweep.</returns>
     internal int Solve(ContactProblem problem, double tolerance)
     {
         Grow(problem);

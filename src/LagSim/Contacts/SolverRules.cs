@@ -1,7 +1,7 @@
 namespace LagSim.Contacts;
 
-/// <summary>What the solutions of contact steps, and of impacts on islands, are held to: each is a rule of docs/CONTACT.md.</summary>
-/// <remarks>Immutable. A world has them all; what each is for is seen in one that lacks it.</remarks>
+/// <summary>The rules for the solutions of contact steps, and of impacts on islands: each is a rule of docs/CONTACT.md.</summary>
+/// <remarks>Immutable. A world has them all; tests leave one out to show what it is for.</remarks>
 internal sealed class SolverRules
 {
     /// <summary>All of them.</summary>

@@ -34,7 +34,9 @@ internal readonly struct ContactTime
     /// <summary>The contact at a tick itself.</summary>
     internal static ContactTime At(SimTime tick) => new(tick, 0);
 
-    /// <summary>The contact a root in seconds after <paramref name="from"/> stands for; none if the root is NaN or after <paramref name="until"/>.</summary>
+    /// <summary>
+    /// The contact a root in seconds after <paramref name="from"/> stands for; none if the root is NaN or after <paramref name="until"/>.
+    /// </summary>
     internal static bool TryMake(SimTime from, SimTime until, double root, out ContactTime contact)
     {
         // The span from..until may exceed the range of a long; as an unsigned difference it never does.

@@ -9,7 +9,8 @@ namespace LagSim.Events;
 /// <remarks>
 /// <para>What an event causes at its own tick takes the next <see cref="Round"/>, so a cause sorts before its effect. Every cut of a
 /// timeline compares whole keys. Two different events of one world never have equal keys.</para>
-/// <para>Immutable, safe on any thread; comparison is integers only and a total order. <c>default</c> is before every event at the origin.</para>
+/// <para>Immutable, safe on any thread; comparison is integers only and a total order. <c>default</c> is before every event at the
+/// origin.</para>
 /// </remarks>
 public readonly struct EventKey : IEquatable<EventKey>, IComparable<EventKey>
 {
@@ -38,8 +39,8 @@ public readonly struct EventKey : IEquatable<EventKey>, IComparable<EventKey>
     public BodyId Body { get; }
 
     /// <summary>
-    /// Of an impact the partner of <see cref="Body"/> with the least identity, <see cref="Body"/> itself where it hit only static geometry; else
-    /// <see cref="Body"/>.
+    /// Of an impact the partner of <see cref="Body"/> with the least identity, <see cref="Body"/> itself where it hit only static geometry;
+    /// else <see cref="Body"/>.
     /// </summary>
     public BodyId Other { get; }
 

@@ -1,7 +1,8 @@
 namespace LagSim.Events;
 
 /// <summary>
-/// What an event is. The number is its rank in the canonical order of one tick and round, and stands in wire, recordings and hashes: never renumber.
+/// What an event is. The number is its rank in the canonical order of one tick and round, and stands in wire, recordings and hashes: never
+/// renumber.
 /// </summary>
 /// <remarks>
 /// What comes from outside precedes what the model makes, and a spawn precedes all, so that what is said of a body at the tick of its spawn

@@ -4,11 +4,12 @@ namespace LagSim.Events;
 
 /// <summary>The pending events of a world: at most one a body, by construction, popped in canonical order.</summary>
 /// <remarks>
-/// <para>A calendar (Paul 2007, physics/0606226): time in slices, each with a list of its events in no order; those of the slice at hand, and whatever lies
-/// before it, in a heap (<see cref="NearEvents"/>); those beyond the last slice in a list of their own. So an event is put in, replaced and taken out in O(1)
-/// but for the few of the slice at hand. The slices are as long as makes them hold a few events, which the queue finds out as it goes; few events are all in
-/// the heap. Where an event is kept has no influence on the order.</para>
-/// <para>Two bodies that wait for the same impact have equal keys; which slot comes first does not matter, for the impact settles both.</para>
+/// <para>A calendar (Paul 2007, physics/0606226): time in slices, each with a list of its events in no order; those of the slice at hand,
+/// and whatever lies before it, in a heap (<see cref="NearEvents"/>); those beyond the last slice in a list of their own. So an event is
+/// put in, replaced and taken out in O(1) but for the few of the slice at hand. The slices are as long as makes them hold a few events,
+/// which the queue finds out as it goes; few events are all in the heap. Where an event is kept has no influence on the order.</para>
+/// <para>Two bodies that wait for the same impact have equal keys; which slot comes first does not matter, for the impact settles
+/// both.</para>
 /// <para>Cost: O(1), amortised, unless all happens at one tick: then O(log n). Allocates only when more is pending than ever before.</para>
 /// </remarks>
 internal sealed class EventQueue
@@ -95,7 +96,8 @@ internal sealed class EventQueue
     }
 
     /// <summary>
-    /// Whether nothing is pending up to and including the time of the least key but that, of one slot and of another that waits for the same.
+    /// Whether nothing is pending up to and including the time of the least key but that, of one slot and of another that waits for the
+    /// same.
     /// </summary>
     internal bool IsLeastAloneWith(int other, in EventKey least) =>
         other < nodes.Length && nodes[other].Where >= Near && nodes[other].Key == least && near.IsLeastAloneWith(other);

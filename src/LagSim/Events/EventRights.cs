@@ -6,7 +6,9 @@ namespace LagSim.Events;
 /// <summary>Which peer may do what, if the scene says so. A host asks it for its verdict; a world by itself knows no rights.</summary>
 public static class EventRights
 {
-    /// <summary>Whether the peer that did this may do it: spawn at all, or touch that body of the scene. What was spawned everyone may touch.</summary>
+    /// <summary>
+    /// Whether the peer that did this may do it: spawn at all, or touch that body of the scene. What was spawned everyone may touch.
+    /// </summary>
     public static bool Has(in ExternalEvent external, Scene scene)
     {
         if (scene is null)

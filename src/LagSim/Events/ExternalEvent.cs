@@ -7,7 +7,8 @@ namespace LagSim.Events;
 
 /// <summary>What did not come from the model: something a player did to a body, stamped (time, peer, sequence) once and for all.</summary>
 /// <remarks>
-/// <para>An event for a body that is not there at its time does nothing, and may still do something should a late event put the body there.</para>
+/// <para>An event for a body that is not there at its time does nothing, and may still do something should a late event put the body
+/// there.</para>
 /// <para>Immutable, safe on any thread. <c>default</c> is no event (<see cref="EventKind.None"/>) and is refused everywhere.</para>
 /// </remarks>
 public readonly struct ExternalEvent : IEquatable<ExternalEvent>
@@ -42,12 +43,14 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     public BodyId Body { get; }
 
     /// <summary>
-    /// Metres; of a spawn or teleport where the body's centre is put, of a keyframe where the hand's point is, of a grab that point less the body's centre; else
-    /// zero.
+    /// Metres; of a spawn or teleport where the body's centre is put, of a keyframe where the hand's point is, of a grab that point less
+    /// the body's centre; else zero.
     /// </summary>
     public Vector3D Position { get; }
 
-    /// <summary>Metres per second, of a spawn, teleport, set velocity, keyframe or release; newton seconds, of an impulse; else zero.</summary>
+    /// <summary>
+    /// Metres per second, of a spawn, teleport, set velocity, keyframe or release; newton seconds, of an impulse; else zero.
+    /// </summary>
     public Vector3D Velocity { get; }
 
     /// <summary>Of a spawn what appears; else <c>default</c>.</summary>
@@ -77,22 +80,24 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
         new(EventKind.SetVelocity, time, peer, sequence, body, default, velocity, default);
 
     /// <summary>
-    /// The body's momentum changes by this many newton seconds, as of a push through its centre: it turns as it did. One that would make it faster than a
-    /// tenth of the smallest radius in a tick (1.1e11 m/s times that radius in metres) has no effect, on every peer alike; what it meets is known only when its
-    /// time comes. <see cref="Simulation.TookEffect"/> tells.
+    /// The body's momentum changes by this many newton seconds, as of a push through its centre: it turns as it did. One that would make it
+    /// faster than a tenth of the smallest radius in a tick (1.1e11 m/s times that radius in metres) has no effect, on every peer alike;
+    /// what it meets is known only when its time comes. <see cref="Simulation.TookEffect"/> tells.
     /// </summary>
     public static ExternalEvent Impulse(SimTime time, byte peer, uint sequence, BodyId body, Vector3D impulse) =>
         new(EventKind.Impulse, time, peer, sequence, body, default, impulse, default);
 
     /// <summary>
-    /// The peer's hand takes the body, by a point that lies <paramref name="offset"/> from its centre, in metres. Until the first keyframe the hand is taken to be
-    /// at rest where the body was. What is held already, or faster than may be given, it does not get. What is held does not turn, nor when it is let go.
+    /// The peer's hand takes the body, by a point that lies <paramref name="offset"/> from its centre, in metres. Until the first keyframe
+    /// the hand is taken to be at rest where the body was. What is held already, or faster than may be given, it does not get. What is held
+    /// does not turn, nor when it is let go.
     /// </summary>
     public static ExternalEvent Grab(SimTime time, byte peer, uint sequence, BodyId body, Vector3D offset = default) =>
         new(EventKind.Grab, time, peer, sequence, body, offset, default, default);
 
     /// <summary>
-    /// The peer's hand, if it holds the body, is at a position (metres) with a velocity (m/s) now; see <see cref="Motion.HandPath"/> for what follows.
+    /// The peer's hand, if it holds the body, is at a position (metres) with a velocity (m/s) now; see <see cref="Motion.HandPath"/> for
+    /// what follows.
     /// </summary>
     public static ExternalEvent HoldKeyframe(SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity) =>
         new(EventKind.HoldKeyframe, time, peer, sequence, body, position, velocity, default);

@@ -3,7 +3,8 @@ using LagSim.Scenes;
 namespace LagSim.Events;
 
 /// <summary>
-/// The door: what an external event must satisfy before it may enter the world. Static geometry never moves, so this never depends on when it is asked.
+/// The door: what an external event must satisfy before it may enter the world. Static geometry never moves, so this never depends on when
+/// it is asked.
 /// </summary>
 public static class ExternalEventCheck
 {

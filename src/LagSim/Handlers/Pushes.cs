@@ -9,8 +9,8 @@ namespace LagSim.Handlers;
 internal static class Pushes
 {
     /// <summary>
-    /// The state right after an event that comes so many seconds into a segment. False if it would be faster than may be given: the check at
-    /// submission cannot know the velocity that an impulse meets, so such an event has no effect, on every peer alike.
+    /// The state right after an event that comes so many seconds into a segment. False if it would be faster than may be given: the check
+    /// at submission cannot know the velocity that an impulse meets, so such an event has no effect, on every peer alike.
     /// </summary>
     internal static bool TryApply(
         in ExternalEvent external, in MotionSegment before, in DenseOutput dense, double seconds, double mass, Scene scene,

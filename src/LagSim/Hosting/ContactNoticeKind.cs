@@ -7,11 +7,14 @@ public enum ContactNoticeKind
     None = 0,
 
     /// <summary>
-    /// By what is known now it happens, a look-ahead from now at most, or has just turned out to have happened. A late event may still take it back.
+    /// By what is known now it happens, a look-ahead from now at most, or has just turned out to have happened. A late event may still take
+    /// it back.
     /// </summary>
     Predicted = 1,
 
-    /// <summary>It happened, and no late event can change that any more. Each contact once, in the order of their keys, the same on every peer.</summary>
+    /// <summary>
+    /// It happened, and no late event can change that any more. Each contact once, in the order of their keys, the same on every peer.
+    /// </summary>
     Confirmed = 2,
 
     /// <summary>What was predicted does not happen, or not so.</summary>

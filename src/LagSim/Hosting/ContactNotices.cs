@@ -7,18 +7,21 @@ using LagSim.Timelines;
 
 namespace LagSim.Hosting;
 
-/// <summary>Tells a game of contacts: each predicted, then confirmed when nothing can change it any more, or retracted after a late event.</summary>
+/// <summary>
+/// Tells a game of contacts: each predicted, then confirmed when nothing can change it any more, or retracted after a late event.
+/// </summary>
 /// <remarks>
-/// <para>Made by the game and given to the one world it is to follow: to a <see cref="SimulationHost"/> or <see cref="LiveWorld"/>, or with the options of a
-/// session. It changes no bit of what happens.</para>
-/// <para>Told after each step of the world, so what a rewind took back and re-simulation made again just so is not told at all: nothing is retracted that is then
-/// predicted unchanged. Each contact that was predicted is in the end either retracted or confirmed, once. Confirmed ones come in ascending order of their
-/// keys, each once, and are the same on all peers from where each of them began; what is not committed when a world ends is never confirmed. Confirmation comes
-/// as late as a late event may: the history of the world or session, and up to as long as a session at rest is silent.</para>
-/// <para>The simulation's thread raises <see cref="Noticed"/>; one other thread, the game's, may read the same notices with <see cref="TryRead"/>, without a
-/// lock.</para>
-/// <para>Memory: the queue, and some 150 bytes for each contact that is neither confirmed nor retracted; these are no more than the world's own pieces of path,
-/// which the world bounds.</para>
+/// <para>Made by the game and given to the one world it is to follow: to a <see cref="SimulationHost"/> or <see cref="LiveWorld"/>, or with
+/// the options of a session. It changes no bit of what happens.</para>
+/// <para>Told after each step of the world, so what a rewind took back and re-simulation made again just so is not told at all: nothing is
+/// retracted that is then predicted unchanged. Each contact that was predicted is in the end either retracted or confirmed, once. Confirmed
+/// ones come in ascending order of their keys, each once, and are the same on all peers from where each of them began; what is not
+/// committed when a world ends is never confirmed. Confirmation comes as late as a late event may: the history of the world or session, and
+/// up to as long as a session at rest is silent.</para>
+/// <para>The simulation's thread raises <see cref="Noticed"/>; one other thread, the game's, may read the same notices with
+/// <see cref="TryRead"/>, without a lock.</para>
+/// <para>Memory: the queue, and some 150 bytes for each contact that is neither confirmed nor retracted; these are no more than the world's
+/// own pieces of path, which the world bounds.</para>
 /// </remarks>
 /// <example>
 /// A score that counts only what nothing can change any more:
@@ -36,7 +39,9 @@ namespace LagSim.Hosting;
 /// </example>
 public sealed class ContactNotices : IImpactObserver
 {
-    /// <summary>The least closing speed where nothing else is said, 0.05 m/s: ten times that of the least bounces that are followed on other bodies.</summary>
+    /// <summary>
+    /// The least closing speed where nothing else is said, 0.05 m/s: ten times that of the least bounces that are followed on other bodies.
+    /// </summary>
     public const double DefaultMinClosingSpeed = 0.05;
 
     /// <summary>How many notices wait to be read at most, where nothing else is said.</summary>
@@ -60,9 +65,10 @@ public sealed class ContactNotices : IImpactObserver
     private bool isFollowing;
 
     /// <summary>Notices of the contacts of one world, which is told of them.</summary>
-    /// <param name="minClosingSpeed">Slower contacts are not told, in m/s; at least zero, default <see cref="DefaultMinClosingSpeed"/>. With zero a body that
-    /// lies on another is told a thousand times a second. The same on all peers that are to be told the same.</param>
-    /// <param name="capacity">How many notices may wait to be read, 16 to <see cref="MaxCapacity"/>, default <see cref="DefaultCapacity"/>.</param>
+    /// <param name="minClosingSpeed">Slower contacts are not told, in m/s; at least zero, default <see cref="DefaultMinClosingSpeed"/>.
+    /// With zero a body that lies on another is told a thousand times a second. The same on all peers that are to be told the same.</param>
+    /// <param name="capacity">How many notices may wait to be read, 16 to <see cref="MaxCapacity"/>, default
+    /// <see cref="DefaultCapacity"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     public ContactNotices(double minClosingSpeed = DefaultMinClosingSpeed, int capacity = DefaultCapacity)
     {
@@ -81,7 +87,9 @@ public sealed class ContactNotices : IImpactObserver
         queue = new ContactQueue(capacity);
     }
 
-    /// <summary>Raised on the simulation's thread for every notice, none left out. Handlers must not throw, and not change the world.</summary>
+    /// <summary>
+    /// Raised on the simulation's thread for every notice, none left out. Handlers must not throw, and not change the world.
+    /// </summary>
     public event Action<ContactNotice>? Noticed;
 
     /// <summary>Slower contacts are not told, in m/s.</summary>
@@ -91,8 +99,9 @@ public sealed class ContactNotices : IImpactObserver
     public int Capacity => queue.Capacity;
 
     /// <summary>
-    /// How many notices <see cref="TryRead"/> will never give, because too many waited: predictions take at most half of the queue, and what else finds no room
-    /// is left out too, each with a gap in <see cref="ContactNotice.Number"/>. <see cref="Noticed"/> had them. From any thread.
+    /// How many notices <see cref="TryRead"/> will never give, because too many waited: predictions take at most half of the queue, and
+    /// what else finds no room is left out too, each with a gap in <see cref="ContactNotice.Number"/>. <see cref="Noticed"/> had them. From
+    /// any thread.
     /// </summary>
     public long Lost => Volatile.Read(ref lost);
 
@@ -141,7 +150,8 @@ public sealed class ContactNotices : IImpactObserver
     }
 
     /// <summary>
-    /// Tells what a step changed and what can no longer change. While a heal is under way it waits: most of what that takes back it makes again.
+    /// Tells what a step changed and what can no longer change. While a heal is under way it waits: most of what that takes back it makes
+    /// again.
     /// </summary>
     internal void Tell(Simulation simulation)
     {
@@ -163,7 +173,9 @@ public sealed class ContactNotices : IImpactObserver
         }
     }
 
-    /// <summary>When a world that forgets by itself has the next to be confirmed; <see cref="SimTime.MaxValue"/> if none waits for that.</summary>
+    /// <summary>
+    /// When a world that forgets by itself has the next to be confirmed; <see cref="SimTime.MaxValue"/> if none waits for that.
+    /// </summary>
     internal SimTime NextDue(SimDuration history, SimDuration lookAhead)
     {
         if (Pending == 0 || history > SimDuration.FromSeconds(1 << 20))
@@ -183,7 +195,9 @@ public sealed class ContactNotices : IImpactObserver
         }
     }
 
-    /// <summary>Leaves of the changes of each impact whether it was cut, and what was made after that; in the order of the impacts.</summary>
+    /// <summary>
+    /// Leaves of the changes of each impact whether it was cut, and what was made after that; in the order of the impacts.
+    /// </summary>
     private void PutTogether()
     {
         changes.Sort(static (a, b) =>
@@ -241,7 +255,8 @@ public sealed class ContactNotices : IImpactObserver
 
             at += changes[at].IsCut ? 1 : 0;
 
-            // An impact is made anew only after it was cut, so this is what stood of it against what stands now; both in the order of contacts.
+            // An impact is made anew only after it was cut, so this is what stood of it against what stands now; both in the order of
+            // contacts.
             while ((old < tail.Count && tail[old].Key == key) || (at < changes.Count && changes[at].Contact.Key == key))
             {
                 bool hasOld = old < tail.Count && tail[old].Key == key;

@@ -10,9 +10,9 @@ namespace LagSim.Hosting;
 
 /// <summary>A simulation kept ahead of a clock: it is advanced to now plus the look-ahead, and its render snapshot published.</summary>
 /// <remarks>
-/// For the simulation's thread, in real or virtual time alike, except <see cref="RenderSnapshots"/>, which is how another thread reads, and <see cref="LateSteps"/>
-/// and <see cref="MaxLateness"/>, which any thread may read, each for itself, and what <see cref="Contacts"/> says of itself. What changes the world goes
-/// through this type, so that the next <see cref="Step"/> publishes it.
+/// For the simulation's thread, in real or virtual time alike, except <see cref="RenderSnapshots"/>, which is how another thread reads, and
+/// <see cref="LateSteps"/> and <see cref="MaxLateness"/>, which any thread may read, each for itself, and what <see cref="Contacts"/> says
+/// of itself. What changes the world goes through this type, so that the next <see cref="Step"/> publishes it.
 /// </remarks>
 public sealed class LiveWorld
 {
@@ -20,7 +20,8 @@ public sealed class LiveWorld
     public static readonly SimDuration DefaultRenderedPast = SimDuration.FromMilliseconds(250);
 
     /// <summary>
-    /// What a step may cost where nothing else is said, as <see cref="Effort"/> counts: some hundredths of a second for a heap, which costs most.
+    /// What a step may cost where nothing else is said, as <see cref="Effort"/> counts: some hundredths of a second for a heap, which costs
+    /// most.
     /// </summary>
     private const long DefaultEffort = 8_192;
 
@@ -86,7 +87,8 @@ public sealed class LiveWorld
     public ContactNotices? Contacts { get; }
 
     /// <summary>
-    /// Keeps account of what players' acts cost, and bounds what a step may cost by it; null, the default, for none. Of one world at a time. It changes no bit of what happens.
+    /// Keeps account of what players' acts cost, and bounds what a step may cost by it; null, the default, for none. Of one world at a
+    /// time. It changes no bit of what happens.
     /// </summary>
     public WorkLedger? Work
     {
@@ -104,36 +106,45 @@ public sealed class LiveWorld
     public SimDuration MaxLateness => SimDuration.FromTicks(Volatile.Read(ref maxLatenessTicks));
 
     /// <summary>
-    /// How far the newest render snapshot can be read. During a rollback it stays where it was, though <see cref="Simulation.SimulatedTo"/> goes back. The latest time there is
-    /// before the first render snapshot. On the simulation's thread.
+    /// How far the newest render snapshot can be read. During a rollback it stays where it was, though <see cref="Simulation.SimulatedTo"/>
+    /// goes back. The latest time there is before the first render snapshot. On the simulation's thread.
     /// </summary>
     public SimTime RenderedTo => renderedTo;
 
-    /// <summary>The furthest the clock was beyond the newest render snapshot when a step began, so that who draws had nothing newer to show. From any thread.</summary>
+    /// <summary>
+    /// The furthest the clock was beyond the newest render snapshot when a step began, so that who draws had nothing newer to show. From
+    /// any thread.
+    /// </summary>
     public SimDuration MaxRenderLateness => SimDuration.FromTicks(Volatile.Read(ref maxRenderLateness));
 
     /// <summary>
-    /// Whether the world is not where it should be, <see cref="LookAhead"/> beyond the clock of the last <see cref="Step"/> or <see cref="Advance"/>, because
-    /// there was more to do than may be done at a time; the next step goes on. From any thread.
+    /// Whether the world is not where it should be, <see cref="LookAhead"/> beyond the clock of the last <see cref="Step"/> or
+    /// <see cref="Advance"/>, because there was more to do than may be done at a time; the next step goes on. From any thread.
     /// </summary>
     public bool IsBehind => isBehind;
 
     /// <summary>
-    /// What a step may cost, as looks of one body at another: an event of a body looks at all others, or at those that the index names. Counted, not timed, so
-    /// that where a step stops depends on the world alone.
+    /// What a step may cost, as looks of one body at another: an event of a body looks at all others, or at those that the index names.
+    /// Counted, not timed, so that where a step stops depends on the world alone.
     /// </summary>
     internal long Effort { get; set; } = DefaultEffort;
 
     private long EventsAStep => Math.Max(LeastEvents, Effort / (Math.Min(Simulation.BodyCount, AdaptiveBroadPhase.MostLooks) + 8));
 
-    /// <summary>Gives the contact notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to be stepped again.</summary>
+    /// <summary>
+    /// Gives the contact notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to
+    /// be stepped again.
+    /// </summary>
     public void Retire() => Contacts?.Restart();
 
     /// <summary>
-    /// Whether a step may end within an instant, and whether an instant with more impacts than can be followed blocks the world until an event comes that lies no later
-    /// than it; default no: then an instant happens as a whole, and such a one ends the simulation.
+    /// Whether a step may end within an instant, and whether an instant with more impacts than can be followed blocks the world until an
+    /// event comes that lies no later than it; default no: then an instant happens as a whole, and such a one ends the simulation.
     /// </summary>
-    /// <remarks>For a session, whose host removes the cause. Without effect in a sync test (<see cref="HealingMode.SyncTest"/>). On the world's thread.</remarks>
+    /// <remarks>
+    /// For a session, whose host removes the cause. Without effect in a sync test (<see cref="HealingMode.SyncTest"/>). On the world's
+    /// thread.
+    /// </remarks>
     public bool WaitsForLateEvents
     {
         get => Simulation.WaitsForLateEvents;
@@ -152,7 +163,8 @@ public sealed class LiveWorld
 
     /// <summary>Submits an event at its own time.</summary>
     /// <remarks>
-    /// What a late event has simulated again counts as this step's work: if it is too much, the next step goes on, and the world is behind meanwhile.
+    /// What a late event has simulated again counts as this step's work: if it is too much, the next step goes on, and the world is behind
+    /// meanwhile.
     /// </remarks>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult Submit(in ExternalEvent external)
@@ -176,7 +188,9 @@ public sealed class LiveWorld
         return change.Finish(Simulation.Retract(external));
     }
 
-    /// <summary>Brings the world ahead of <paramref name="now"/>, without publishing, as far as this step's work goes; see <see cref="IsBehind"/>.</summary>
+    /// <summary>
+    /// Brings the world ahead of <paramref name="now"/>, without publishing, as far as this step's work goes; see <see cref="IsBehind"/>.
+    /// </summary>
     public void Advance(SimTime now)
     {
         SimTime target = SimTime.Max(now, Simulation.Start) + LookAhead;
@@ -187,12 +201,15 @@ public sealed class LiveWorld
 
     /// <summary>Brings the world ahead of <paramref name="now"/> again and publishes it if it changed.</summary>
     /// <returns>
-    /// When the next step is due if nothing changes before: <paramref name="now"/> while the world <see cref="IsBehind"/>, but a look-ahead later while an instant blocks it, and
-    /// <see cref="SimTime.MaxValue"/> for a world in which nothing will happen, and of which no contact is to be confirmed.
+    /// When the next step is due if nothing changes before: <paramref name="now"/> while the world <see cref="IsBehind"/>, but a look-ahead
+    /// later while an instant blocks it, and <see cref="SimTime.MaxValue"/> for a world in which nothing will happen, and of which no
+    /// contact is to be confirmed.
     /// </returns>
-    /// <remarks>It does a bounded number of events, so that whoever calls it gets to other things in between. While a rollback takes several steps
-    /// the last whole render snapshot stays, until the world has caught up with it. Half of the look-ahead may be used up before the next step is due, so a moving
-    /// world steps about once a frame, one at rest never.</remarks>
+    /// <remarks>
+    /// It does a bounded number of events, so that whoever calls it gets to other things in between. While a rollback takes several steps
+    /// the last whole render snapshot stays, until the world has caught up with it. Half of the look-ahead may be used up before the next
+    /// step is due, so a moving world steps about once a frame, one at rest never.
+    /// </remarks>
     public SimTime Step(SimTime now)
     {
         if (Simulation.Horizon < now)
@@ -212,7 +229,8 @@ public sealed class LiveWorld
         Advance(now);
         if (changed && !(isBehind && Simulation.SimulatedTo < shownTo))
         {
-            // What is behind shows where it stands, and ends there; but a world that went back to heal does not run a second time before everybody's eyes.
+            // What is behind shows where it stands, and ends there; but a world that went back to heal does not run a second time before
+            // everybody's eyes.
             shownTo = Simulation.SimulatedTo;
             SimTime from = SimTime.Min(SimTime.Max(now, Simulation.Start), Simulation.SimulatedTo) - renderedPast;
             RenderSnapshots.Publish(Simulation, SimTime.Max(from, Simulation.HistoryEdge));
@@ -263,7 +281,9 @@ public sealed class LiveWorld
         return contacts is null ? options : options.WithObserver(contacts);
     }
 
-    /// <summary>A change of the world: what a late event takes back is simulated again as part of the step's work, which may end before it is done.</summary>
+    /// <summary>
+    /// A change of the world: what a late event takes back is simulated again as part of the step's work, which may end before it is done.
+    /// </summary>
     private readonly ref struct Change
     {
         private readonly LiveWorld world;
@@ -281,7 +301,8 @@ public sealed class LiveWorld
         {
             if (world.Simulation.SimulatedTo < front)
             {
-                // The instant of a late event is simulated at once, whatever this step may still cost: else one such event a step would keep the world there.
+                // The instant of a late event is simulated at once, whatever this step may still cost: else one such event a step would
+                // keep the world there.
                 long all = long.MaxValue;
                 world.Simulation.TryAdvanceTo(world.Simulation.SimulatedTo + SimDuration.OneTick, ref all);
             }

@@ -90,7 +90,8 @@ internal sealed class RenderTimeline
     }
 
     /// <summary>
-    /// The largest change of velocity at one stroke after one instant and up to another, in m/s; infinite if the body was put elsewhere, came or went.
+    /// The largest change of velocity at one stroke after one instant and up to another, in m/s; infinite if the body was put elsewhere,
+    /// came or went.
     /// </summary>
     internal double SuddenChange(SimTime after, SimTime upTo, in PeriodicBox box)
     {

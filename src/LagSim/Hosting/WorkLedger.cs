@@ -9,15 +9,17 @@ namespace LagSim.Hosting;
 
 /// <summary>Keeps account of what it costs to simulate a world, and of whose acts it is for.</summary>
 /// <remarks>
-/// <para>Each body is on the account of the player who spawned it, or whose act touched it last; a body of the scene that nobody touched is on nobody's. One of the scene that is touched is on
-/// that account for 30 s of simulated time, and one that is struck by a body on an account for 2 s, and no longer than 2 s after the act that it comes of: what the scene would do
-/// without them is not the players'. What happens is charged to the accounts of the bodies that take part, to each in equal shares, however many bodies it has in it. What a late event has simulated again is charged
-/// by one half to the player whose event it was.</para>
+/// <para>Each body is on the account of the player who spawned it, or whose act touched it last; a body of the scene that nobody touched is
+/// on nobody's. One of the scene that is touched is on that account for 30 s of simulated time, and one that is struck by a body on an
+/// account for 2 s, and no longer than 2 s after the act that it comes of: what the scene would do without them is not the players'. What
+/// happens is charged to the accounts of the bodies that take part, to each in equal shares, however many bodies it has in it. What a late
+/// event has simulated again is charged by one half to the player whose event it was.</para>
 /// <para>The unit is about a microsecond on one core of a machine of the 2020s. It is counted by events, by how many bodies take part in
 /// each and what contact solvers did for it. Where the ledger has a clock, and something took longer by that than was counted, that is what
-/// it cost: no count foresees all that can be
-/// dear, and a clock that stands still, as in virtual time, leaves what was counted, the same in every run. The world never hears of it: it enters no state and no hash.</para>
-/// <para>For the simulation's thread. Cost: some ten nanoseconds an event, and a reading of the clock; for each body that was there at a time some 24 bytes.</para>
+/// it cost: no count foresees all that can be dear, and a clock that stands still, as in virtual time, leaves what was counted, the same in
+/// every run. The world never hears of it: it enters no state and no hash.</para>
+/// <para>For the simulation's thread. Cost: some ten nanoseconds an event, and a reading of the clock; for each body that was there at a
+/// time some 24 bytes.</para>
 /// </remarks>
 public sealed class WorkLedger : IWorkObserver
 {
@@ -59,7 +61,9 @@ public sealed class WorkLedger : IWorkObserver
     /// <summary>All that was done so far, in units of about a microsecond.</summary>
     public double Total { get; private set; }
 
-    /// <summary>What a step may cost at most before it goes on in the next, in units of about a microsecond; above zero, default 20,000.</summary>
+    /// <summary>
+    /// What a step may cost at most before it goes on in the next, in units of about a microsecond; above zero, default 20,000.
+    /// </summary>
     public double MostAStep { get; set; } = DefaultMostAStep;
 
     /// <summary>What was charged to a player's account so far, in units of about a microsecond.</summary>
@@ -68,13 +72,20 @@ public sealed class WorkLedger : IWorkObserver
     /// <summary>What of that was for what happened the first time, not for what was simulated again: whose own doing it is.</summary>
     public double FirstChargedTo(byte player) => accounts[player].First;
 
-    /// <summary>The earliest simulated instant of what was charged to a player since <see cref="Calm"/>; the latest there is if nothing was.</summary>
+    /// <summary>
+    /// The earliest simulated instant of what was charged to a player since <see cref="Calm"/>; the latest there is if nothing was.
+    /// </summary>
     public SimTime ChargedSince(byte player) => accounts[player].Since;
 
-    /// <summary>Sets up to which <see cref="ChargedTo"/> a player may be charged before each advance stops; <see cref="double.PositiveInfinity"/> for no limit.</summary>
+    /// <summary>
+    /// Sets up to which <see cref="ChargedTo"/> a player may be charged before each advance stops; <see cref="double.PositiveInfinity"/>
+    /// for no limit.
+    /// </summary>
     public void Limit(byte player, double most) => accounts[player].Most = most;
 
-    /// <summary>What was charged so far is forgiven: from here on counts for <see cref="ChargedSince"/> and <see cref="CostlyBodiesOf"/>.</summary>
+    /// <summary>
+    /// What was charged so far is forgiven: from here on counts for <see cref="ChargedSince"/> and <see cref="CostlyBodiesOf"/>.
+    /// </summary>
     public void Calm(byte player)
     {
         ref Account account = ref accounts[player];
@@ -82,7 +93,10 @@ public sealed class WorkLedger : IWorkObserver
         account.Period++;
     }
 
-    /// <summary>Notes whose late event is being applied: what it has simulated again is charged to that player by one half, shared with those whose late events are being healed already.</summary>
+    /// <summary>
+    /// Notes whose late event is being applied: what it has simulated again is charged to that player by one half, shared with those whose
+    /// late events are being healed already.
+    /// </summary>
     internal void NoteLateEvent(byte player, bool isHealing)
     {
         if (!isHealing)
@@ -110,7 +124,9 @@ public sealed class WorkLedger : IWorkObserver
         }
     }
 
-    /// <summary>The bodies on a player's account with more than so much charged for them since <see cref="Calm"/>, the costliest first.</summary>
+    /// <summary>
+    /// The bodies on a player's account with more than so much charged for them since <see cref="Calm"/>, the costliest first.
+    /// </summary>
     public IReadOnlyList<BodyId> CostlyBodiesOf(byte player, double atLeast)
     {
         List<(double Charged, BodyId Body)> found = [];
@@ -133,7 +149,9 @@ public sealed class WorkLedger : IWorkObserver
     /// <summary>The world is at work from now on.</summary>
     internal void Resume() => measured = clock?.Now ?? default;
 
-    /// <summary>A late event was applied: what that took, besides the events of its instant, is charged to the player whose it was.</summary>
+    /// <summary>
+    /// A late event was applied: what that took, besides the events of its instant, is charged to the player whose it was.
+    /// </summary>
     internal void ChargeLateEvent(SimTime at)
     {
         double took = Measure();

@@ -4,7 +4,9 @@ using LagSim.Time;
 
 namespace LagSim.Hosting;
 
-/// <summary>One dedicated thread that does a step, waits until the next is due or something wakes it, and does the next. It never spins.</summary>
+/// <summary>
+/// One dedicated thread that does a step, waits until the next is due or something wakes it, and does the next. It never spins.
+/// </summary>
 /// <remarks>
 /// Thread-safe. An exception in a step ends the thread; <see cref="Fault"/> tells, and <see cref="ThrowIfFaulted"/> throws it to whoever
 /// still relies on it.
@@ -23,7 +25,8 @@ public sealed class WorldThread : IDisposable
 
     /// <summary>A thread that is not started yet.</summary>
     /// <param name="name">What debuggers and profilers call it.</param>
-    /// <param name="step">Does what is due and tells how long until something is due again; <see cref="SimDuration.MaxValue"/>: until woken.</param>
+    /// <param name="step">Does what is due and tells how long until something is due again; <see cref="SimDuration.MaxValue"/>: until
+    /// woken.</param>
     /// <param name="interrupt">
     /// Has a step that is at work end soon, by an <see cref="OperationCanceledException"/>; called once, when the thread is disposed, from
     /// whoever does that. Default: such a step is waited for.

@@ -4,7 +4,8 @@ using LagSim.Time;
 namespace LagSim.Motion;
 
 /// <summary>
-/// The cubic, quartic and quintic coefficients of a path whose acceleration is not constant; kept apart so that parabolas do not pay for them.
+/// The cubic, quartic and quintic coefficients of a path whose acceleration is not constant; kept apart so that parabolas do not pay for
+/// them.
 /// </summary>
 internal readonly struct DenseOutput
 {
@@ -26,8 +27,8 @@ internal readonly struct DenseOutput
     internal SimDuration NextStep { get; }
 
     /// <summary>
-    /// The quintic Hermite polynomial of a step: through position, velocity and acceleration at both ends. Its error is h^6 |x^(6)| / 46080 in the position at
-    /// most.
+    /// The quintic Hermite polynomial of a step: through position, velocity and acceleration at both ends. Its error is h^6 |x^(6)| / 46080
+    /// in the position at most.
     /// </summary>
     /// <param name="h">The step in seconds.</param>
     /// <param name="dx">How far the position moves in the step.</param>

@@ -6,10 +6,12 @@ namespace LagSim.Motion;
 
 /// <summary>Flight under one inverse-square pull alone, in closed form: ellipse, parabola or hyperbola.</summary>
 /// <remarks>
-/// <para>Kepler's equation in universal variables (Battin, An Introduction to the Mathematics and Methods of Astrodynamics, 4.5): with beta = 2 mu / r - v² and
-/// the functions G of s, t = r G1 + (x.v) G2 + mu G3 is solved for s by Newton's method; then x(t) = f x + g v. One formula for every eccentricity.</para>
-/// <para>A piece of path is the quintic Hermite polynomial between two such states, within the body's tolerance of the orbit. It lasts a tenth of the time in
-/// which the body could reach the centre or circle it, at most; in that time the sixth and seventh derivative grow by less than four.</para>
+/// <para>Kepler's equation in universal variables (Battin, An Introduction to the Mathematics and Methods of Astrodynamics, 4.5): with beta
+/// = 2 mu / r - v² and the functions G of s, t = r G1 + (x.v) G2 + mu G3 is solved for s by Newton's method; then x(t) = f x + g v. One
+/// formula for every eccentricity.</para>
+/// <para>A piece of path is the quintic Hermite polynomial between two such states, within the body's tolerance of the orbit. It lasts a
+/// tenth of the time in which the body could reach the centre or circle it, at most; in that time the sixth and seventh derivative grow by
+/// less than four.</para>
 /// </remarks>
 internal readonly struct KeplerFlight
 {
@@ -59,7 +61,8 @@ internal readonly struct KeplerFlight
     }
 
     /// <summary>
-    /// The s that belongs to a time: the time is a growing function of s, with the distance as its slope, and nearly a straight line over a tenth of an orbit.
+    /// The s that belongs to a time: the time is a growing function of s, with the distance as its slope, and nearly a straight line over a
+    /// tenth of an orbit.
     /// </summary>
     private double Solve(double h, double r, double eta, double beta, out UniversalFunctions g)
     {

@@ -3,7 +3,9 @@ using LagSim.Time;
 
 namespace LagSim.Motion;
 
-/// <summary>How long a step may be whose length follows from an error: its limits, and roots of what gives the same bits everywhere.</summary>
+/// <summary>
+/// How long a step may be whose length follows from an error: its limits, and roots of what gives the same bits everywhere.
+/// </summary>
 internal static class StepSize
 {
     /// <summary>The longest: 1 s.</summary>
@@ -20,8 +22,8 @@ internal static class StepSize
     }
 
     /// <summary>
-    /// A root of a positive number, to about 1e-5, as good as the size of a step needs to be. Newton's method from above, where it falls monotonically; made of
-    /// nothing but multiplication and division.
+    /// A root of a positive number, to about 1e-5, as good as the size of a step needs to be. Newton's method from above, where it falls
+    /// monotonically; made of nothing but multiplication and division.
     /// </summary>
     /// <param name="number">Above zero, 1e-30 to 1e30.</param>
     /// <param name="degree">2 or more.</param>

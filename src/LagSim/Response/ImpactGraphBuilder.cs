@@ -9,7 +9,9 @@ using LagSim.Timelines;
 
 namespace LagSim.Response;
 
-/// <summary>Builds the contact graph of an impact: all contacts of its tick and round that share bodies, and the bodies as they meet.</summary>
+/// <summary>
+/// Builds the contact graph of an impact: all contacts of its tick and round that share bodies, and the bodies as they meet.
+/// </summary>
 internal class ImpactGraphBuilder(
     Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, PathView view,
     FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph)

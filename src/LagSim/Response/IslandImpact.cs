@@ -12,7 +12,9 @@ using LagSim.Trajectories;
 
 namespace LagSim.Response;
 
-/// <summary>Impacts that reach islands, or begin them: an impulse spreads over persistent contacts as far as it changes velocities.</summary>
+/// <summary>
+/// Impacts that reach islands, or begin them: an impulse spreads over persistent contacts as far as it changes velocities.
+/// </summary>
 internal sealed class IslandImpact(
     Scene scene, BodyTable bodies, TimelineStore timelines, RewindRequests rewinds, ContactGraph graph, ContactScale scale,
     IslandImpactProblem impact, Partners partners, MemberContacts memberContacts, CaptureRule capture, SlipFactory friction,
@@ -100,7 +102,9 @@ internal sealed class IslandImpact(
         AddSupports();
     }
 
-    /// <summary>Solves again and again, as long as the impulse reaches more; whether it presses a body against a surface that is near.</summary>
+    /// <summary>
+    /// Solves again and again, as long as the impulse reaches more; whether it presses a body against a surface that is near.
+    /// </summary>
     private bool Spread(in EventKey key, double residual, bool presses)
     {
         double tolerance = scale.SweepSpeed;
@@ -204,7 +208,9 @@ internal sealed class IslandImpact(
         return any;
     }
 
-    /// <summary>Adds the persistent contacts of a body whose velocity the impact has changed, and the bodies on their other sides.</summary>
+    /// <summary>
+    /// Adds the persistent contacts of a body whose velocity the impact has changed, and the bodies on their other sides.
+    /// </summary>
     private bool TryReachOn(int body, in EventKey key, double residual, bool presses)
     {
         int slot = graph.Slots[body];

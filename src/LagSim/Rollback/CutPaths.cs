@@ -9,9 +9,12 @@ using LagSim.Timelines;
 namespace LagSim.Rollback;
 
 /// <summary>
-/// What the heal at hand has cut off of the paths that stood before it, kept as long as it is little: where the new paths meet it, it is put back.
+/// What the heal at hand has cut off of the paths that stood before it, kept as long as it is little: where the new paths meet it, it is
+/// put back.
 /// </summary>
-/// <remarks>Copies, since the store gives the room of what it cuts to what comes next. It allocates only until it has held as much as it ever does.</remarks>
+/// <remarks>
+/// Copies, since the store gives the room of what it cuts to what comes next. It allocates only until it has held as much as it ever does.
+/// </remarks>
 internal class CutPaths
 {
     /// <summary>A heal that has cut more, or that has touched more bodies, goes on to its end: it would hardly meet what was.</summary>
@@ -107,7 +110,8 @@ internal class CutPaths
     }
 
     /// <summary>
-    /// Whether after everything up to and including <paramref name="time"/> each body that was touched is on the very piece of path that it was on before.
+    /// Whether after everything up to and including <paramref name="time"/> each body that was touched is on the very piece of path that it
+    /// was on before.
     /// </summary>
     /// <param name="timelines">The paths as they are now.</param>
     /// <param name="time">An instant of which the heal has done all.</param>

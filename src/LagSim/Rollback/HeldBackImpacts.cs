@@ -42,7 +42,8 @@ internal sealed class HeldBackImpacts : IImpactObserver
     internal void Hold() => holds = true;
 
     /// <summary>
-    /// Tells what was kept back of impacts up to and including <paramref name="last"/>, in the order in which it came; the rest was as nothing.
+    /// Tells what was kept back of impacts up to and including <paramref name="last"/>, in the order in which it came; the rest was as
+    /// nothing.
     /// </summary>
     internal void Release(SimTime last)
     {

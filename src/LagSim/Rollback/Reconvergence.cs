@@ -46,9 +46,12 @@ internal sealed class Reconvergence(
         heldBack.Release(SimTime.MaxValue);
     }
 
-    /// <summary>Whether at an instant, of which the rollback has done all, each body that it has touched is on the path that it was on before.</summary>
+    /// <summary>
+    /// Whether at an instant, of which the rollback has done all, each body that it has touched is on the path that it was on before.
+    /// </summary>
     /// <param name="at">The instant.</param>
-    /// <param name="until">How far the world is to be advanced: less than the rollback horizon means that it may not jump there yet.</param>
+    /// <param name="until">How far the world is to be advanced: less than the rollback horizon means that it may not jump there
+    /// yet.</param>
     internal bool IsReached(SimTime at, SimTime until)
     {
         bool mayBe = rollback.IsActive && at < rollback.Horizon && at >= rollback.Cursor.Time && until >= rollback.Horizon;
@@ -61,7 +64,9 @@ internal sealed class Reconvergence(
         return mayBe && cut.AreMet(timelines, at);
     }
 
-    /// <summary>Puts back what was cut after an instant at which it is reached: the world is simulated to the rollback horizon again.</summary>
+    /// <summary>
+    /// Puts back what was cut after an instant at which it is reached: the world is simulated to the rollback horizon again.
+    /// </summary>
     internal void PutBack(SimTime at)
     {
         SimTime to = rollback.Horizon;

@@ -12,7 +12,8 @@ internal static class FlightLaws
     internal const double RateTimesStepOfDormandPrince54 = 1;
 
     /// <summary>
-    /// What a body flies by: what it asks for, or the cheapest law that is exact for its forces, or, where none is, the one under error control.
+    /// What a body flies by: what it asks for, or the cheapest law that is exact for its forces, or, where none is, the one under error
+    /// control.
     /// </summary>
     internal static MotionLaw Chosen(in BodySpec spec, in Vector3D gravity, Force[] forces) =>
         spec.Flight != MotionLaw.Automatic ? spec.Flight
@@ -20,7 +21,9 @@ internal static class FlightLaws
         : HasClosedForm(spec, gravity, forces) ? MotionLaw.ClosedForm
         : MotionLaw.DormandPrince54;
 
-    /// <summary>Whether a body's forces have a closed form together: all linear in position and velocity, or one inverse-square pull alone.</summary>
+    /// <summary>
+    /// Whether a body's forces have a closed form together: all linear in position and velocity, or one inverse-square pull alone.
+    /// </summary>
     internal static bool HasClosedForm(in BodySpec spec, in Vector3D gravity, Force[] forces) =>
         AreLinear(spec, forces) || IsKepler(spec, gravity, forces);
 

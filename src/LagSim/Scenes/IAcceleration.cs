@@ -1,9 +1,12 @@
 namespace LagSim.Scenes;
 
-/// <summary>An acceleration a(t, x, v) of a program's own, which acts as a <see cref="Force"/> besides uniform gravity on the bodies that name it.</summary>
+/// <summary>
+/// An acceleration a(t, x, v) of a program's own, which acts as a <see cref="Force"/> besides uniform gravity on the bodies that name it.
+/// </summary>
 /// <remarks>
 /// It must be a pure function and deterministic under the rules of the simulated world: only <c>+ - * /</c>, square root and comparison on
-/// <see cref="double"/>. It is called on the simulation's thread, five to seven times a step and body; it must not allocate if the event path shall not.
+/// <see cref="double"/>. It is called on the simulation's thread, five to seven times a step and body; it must not allocate if the event
+/// path shall not.
 /// </remarks>
 public interface IAcceleration
 {

@@ -14,7 +14,9 @@ internal static class Limits
     internal const double MinMass = 1e-30;
     internal const double MaxMass = 1e30;
 
-    /// <summary>The fastest that forces may change a deviation, in 1/s: what is stiffer is not moved by steps of which there are millions a second.</summary>
+    /// <summary>
+    /// The fastest that forces may change a deviation, in 1/s: what is stiffer is not moved by steps of which there are millions a second.
+    /// </summary>
     internal const double MaxRate = 1e6;
 
     /// <summary>The largest coefficient of friction, which leaves it to whatever touches.</summary>
@@ -71,7 +73,8 @@ internal static class Limits
     }
 
     /// <summary>
-    /// No point of a body's surface turns faster than a body may be given to move, nor does a Magnus force turn its path faster than may be followed.
+    /// No point of a body's surface turns faster than a body may be given to move, nor does a Magnus force turn its path faster than may be
+    /// followed.
     /// </summary>
     internal static void CheckSpin<T>(in Vector3D spin, in BodySpec spec, double smallestRadius, T whose, Force[] forces)
     {
@@ -120,8 +123,8 @@ internal static class Limits
     }
 
     /// <summary>
-    /// Forces whose rate does not depend on where the body is are not too stiff for its mass, nor is quadratic drag at the speed that gravity keeps up; and what
-    /// is moved by fixed steps has no more of them together than those follow.
+    /// Forces whose rate does not depend on where the body is are not too stiff for its mass, nor is quadratic drag at the speed that
+    /// gravity keeps up; and what is moved by fixed steps has no more of them together than those follow.
     /// </summary>
     private static void CheckRate<T>(in BodySpec spec, T whose, in Vector3D gravity, Force[] forces)
     {
@@ -154,7 +157,9 @@ internal static class Limits
         }
     }
 
-    /// <summary>A body is not at the very centre of a pull that grows without bound towards it: there is no direction in which it would be drawn.</summary>
+    /// <summary>
+    /// A body is not at the very centre of a pull that grows without bound towards it: there is no direction in which it would be drawn.
+    /// </summary>
     internal static void CheckCentres<T>(in Vector3D position, in BodySpec spec, T whose, Force[] forces)
     {
         foreach (Force force in spec.Forces.Among(forces))
@@ -171,12 +176,15 @@ internal static class Limits
     /// <summary>The highest speed that a scene or a player may give a body: a tenth of the smallest radius in a tick.</summary>
     internal static double MaxGivenSpeed(double smallestRadius) => 0.1 * smallestRadius * SimDuration.TicksPerSecond;
 
-    /// <summary>The highest speed that a body may reach by impacts and forces: twice that, so that gravity does not end what a player just began.</summary>
+    /// <summary>
+    /// The highest speed that a body may reach by impacts and forces: twice that, so that gravity does not end what a player just began.
+    /// </summary>
     internal static double MaxSpeed(double smallestRadius) => 2 * MaxGivenSpeed(smallestRadius);
 
     /// <summary>
-    /// The highest speed that an impact leaves: a light body that meets a heavy one would otherwise leave the range in which its state means something, and
-    /// so whoever may spawn two bodies could end a world. Halfway between the two above, so that gravity does not end at once what an impact begins.
+    /// The highest speed that an impact leaves: a light body that meets a heavy one would otherwise leave the range in which its state
+    /// means something, and so whoever may spawn two bodies could end a world. Halfway between the two above, so that gravity does not end
+    /// at once what an impact begins.
     /// </summary>
     internal static double MaxReboundSpeed(double smallestRadius) => 1.5 * MaxGivenSpeed(smallestRadius);
 

@@ -50,12 +50,14 @@ public sealed class Scene
     /// <summary>The uniform acceleration of free bodies in m/s^2; usually (0, -9.81, 0).</summary>
     public Vector3D Gravity { get; }
 
-    /// <summary>The length in metres below which a bounce on a plane is not followed hop by hop; 1 nm unless the scene says otherwise.</summary>
+    /// <summary>
+    /// The length in metres below which a bounce on a plane is not followed hop by hop; 1 nm unless the scene says otherwise.
+    /// </summary>
     public double Resolution { get; }
 
     /// <summary>
-    /// How far, in metres, bodies in persistent contact may be from where an exact calculation has them: the one knob between speed and error in heaps. A millimetre,
-    /// or a hundredth of <see cref="SmallestRadius"/> if that is less, unless the scene says otherwise.
+    /// How far, in metres, bodies in persistent contact may be from where an exact calculation has them: the one knob between speed and
+    /// error in heaps. A millimetre, or a hundredth of <see cref="SmallestRadius"/> if that is less, unless the scene says otherwise.
     /// </summary>
     public double ContactTolerance { get; }
 
@@ -71,7 +73,9 @@ public sealed class Scene
     /// <summary>The forces besides gravity, in the order in which they were added; see <see cref="ForceSet"/>.</summary>
     public IReadOnlyList<Force> Forces => ForceArray;
 
-    /// <summary>The least radius of a body in metres, of those at the start and those that may be spawned; it bounds the permitted speed.</summary>
+    /// <summary>
+    /// The least radius of a body in metres, of those at the start and those that may be spawned; it bounds the permitted speed.
+    /// </summary>
     public double SmallestRadius { get; }
 
     /// <summary>Which peers may spawn bodies, in a session.</summary>

@@ -7,7 +7,9 @@ using LagSim.Time;
 namespace LagSim.Timelines;
 
 /// <summary>One body of a <see cref="WorldSnapshot"/>: what it is, and the piece of path it is on.</summary>
-/// <remarks>Immutable. Any values can be put in; <see cref="Simulation(Scene, WorldSnapshot, SimulationOptions)"/> says which make a world.</remarks>
+/// <remarks>
+/// Immutable. Any values can be put in; <see cref="Simulation(Scene, WorldSnapshot, SimulationOptions)"/> says which make a world.
+/// </remarks>
 public readonly struct BodySnapshot
 {
     /// <summary>The most planes that carry a body together.</summary>

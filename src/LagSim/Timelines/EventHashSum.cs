@@ -7,8 +7,8 @@ using LagSim.Time;
 namespace LagSim.Timelines;
 
 /// <summary>
-/// The sum of the hashes of events, of which four are made at a time: each is a chain of multiplications, and a processor that waits for one can do three
-/// others.
+/// The sum of the hashes of events, of which four are made at a time: each is a chain of multiplications, and a processor that waits for
+/// one can do three others.
 /// </summary>
 /// <remarks>Cost: a copy of an event's words, and every fourth time the hashes; of what waits when the sum is read, one by one.</remarks>
 internal sealed class EventHashSum

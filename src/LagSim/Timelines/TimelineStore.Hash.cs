@@ -48,8 +48,8 @@ internal partial class TimelineStore
     }
 
     /// <summary>
-    /// Whether a segment only notes that an event looked at a body which is gone: for heals, which cut the event with it. A peer that joined later has no such body, so
-    /// it is in no hash and in no list of events.
+    /// Whether a segment only notes that an event looked at a body which is gone: for heals, which cut the event with it. A peer that
+    /// joined later has no such body, so it is in no hash and in no list of events.
     /// </summary>
     internal bool IsNote(int segment) =>
         !pieces[segment].Segment.IsPresent && pieces[segment].Key.Kind is (EventKind.Impact or EventKind.StepEnd);

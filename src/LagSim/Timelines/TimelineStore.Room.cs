@@ -28,7 +28,9 @@ internal partial class TimelineStore
     /// <summary>Instants before this are asked for no more; what only they need is dropped when room is needed.</summary>
     internal void ForgetBefore(SimTime time) => edge = SimTime.Max(edge, time);
 
-    /// <summary>Drops of one body what is no longer needed for instants from <paramref name="time"/> on; the last segment opened before it stays.</summary>
+    /// <summary>
+    /// Drops of one body what is no longer needed for instants from <paramref name="time"/> on; the last segment opened before it stays.
+    /// </summary>
     internal void DropBefore(int slot, SimTime time)
     {
         int at = first[slot];
@@ -40,7 +42,9 @@ internal partial class TimelineStore
         }
     }
 
-    /// <summary>Drops what lies behind the window; and makes room for more if that was little, else it would soon be looked for again.</summary>
+    /// <summary>
+    /// Drops what lies behind the window; and makes room for more if that was little, else it would soon be looked for again.
+    /// </summary>
     private void DropAll(SimTime now)
     {
         int recent = 0;
@@ -123,15 +127,19 @@ internal partial class TimelineStore
         Carried.Grow(size);
     }
 
-    /// <summary>When the last part of what is kept began. The span since the edge may exceed the range of a long; as an unsigned difference it never does.</summary>
+    /// <summary>
+    /// When the last part of what is kept began. The span since the edge may exceed the range of a long; as an unsigned difference it never
+    /// does.
+    /// </summary>
     private SimTime SinceWhen(SimTime now) =>
         now <= edge ? now : SimTime.FromTicks(now.Ticks - (long)(((ulong)now.Ticks - (ulong)edge.Ticks) / RecentPart));
 
     /// <summary>
-    /// For how many segments room will be needed, as far as can be told. Once a whole history has gone by: if as many are opened as in the last part of what is
-    /// kept, less two standard deviations of such a number, so that where it goes on evenly that is no more than there is. Before: if as many are opened for the
-    /// rest of it, from an eighth of it on, or from where each body has many. No more than a quarter above what there is, for what begins need not go on. To
-    /// grow by little where more and more are opened would be to copy everything some hundred times.
+    /// For how many segments room will be needed, as far as can be told. Once a whole history has gone by: if as many are opened as in the
+    /// last part of what is kept, less two standard deviations of such a number, so that where it goes on evenly that is no more than there
+    /// is. Before: if as many are opened for the rest of it, from an eighth of it on, or from where each body has many. No more than a
+    /// quarter above what there is, for what begins need not go on. To grow by little where more and more are opened would be to copy
+    /// everything some hundred times.
     /// </summary>
     private protected virtual int Expected(SimTime now, int recent)
     {

@@ -9,9 +9,10 @@ namespace LagSim.Timelines;
 /// <summary>Every body's timeline: its segments in the order of the keys that opened them, back to the edge of the window.</summary>
 /// <remarks>
 /// <para>Segments live in flat arrays, linked per body; nothing is overwritten, a segment is only appended, cut off at the end, or dropped
-/// behind the window. Allocates only when more segments are alive than ever before. Old segments of all bodies are dropped together, in one pass through memory
-/// when there is no room left: to look for them one by one, each long out of the cache, cost a quarter of an impact in a dense fluid. The arrays grow if that
-/// frees less than one part in 32, by a sixty-fourth once they are large, or to what is foretold: so a world takes little more than its window needs.</para>
+/// behind the window. Allocates only when more segments are alive than ever before. Old segments of all bodies are dropped together, in one
+/// pass through memory when there is no room left: to look for them one by one, each long out of the cache, cost a quarter of an impact in
+/// a dense fluid. The arrays grow if that frees less than one part in 32, by a sixty-fourth once they are large, or to what is foretold: so
+/// a world takes little more than its window needs.</para>
 /// <para>It keeps a running hash of all events: the sum (modulo 2^64) of one hash a segment, so that appending and cutting are O(1) and the
 /// order in which the events came leaves no trace.</para>
 /// </remarks>
@@ -35,9 +36,9 @@ internal partial class TimelineStore
     private SimTime edge = SimTime.MinValue; // what lies before is dropped when room is needed
 
     /// <summary>
-    /// No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told to <paramref
-    /// name="newest"/>; with room for as many bodies as are expected at first, and for few of them for a second segment each. Of how long a history it will be
-    /// helps to guess how much room it will need.
+    /// No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told
+    /// to <paramref name="newest"/>; with room for as many bodies as are expected at first, and for few of them for a second segment each.
+    /// Of how long a history it will be helps to guess how much room it will need.
     /// </summary>
     internal TimelineStore(
         SimTime origin, int most = SimulationOptions.DefaultMaxSegments, INewestSegments? newest = null, int expected = 0, SimDuration history = default)
@@ -122,7 +123,9 @@ internal partial class TimelineStore
     /// <summary>Whether the slot is some body's.</summary>
     internal bool IsKnown(int slot) => slot < last.Length && last[slot] != None;
 
-    /// <summary>A number no other segment of this store ever has, 0 for one that is no more; tells whether a remembered segment is still the one.</summary>
+    /// <summary>
+    /// A number no other segment of this store ever has, 0 for one that is no more; tells whether a remembered segment is still the one.
+    /// </summary>
     internal long Serial(int segment) => links[segment].Serial;
 
     /// <summary>The slot of the body whose path the segment is part of.</summary>
@@ -296,7 +299,9 @@ internal partial class TimelineStore
         newest?.Clear(slot);
     }
 
-    /// <summary>The segment that holds at <paramref name="time"/>, after all events of that tick; <see cref="None"/> before the first kept.</summary>
+    /// <summary>
+    /// The segment that holds at <paramref name="time"/>, after all events of that tick; <see cref="None"/> before the first kept.
+    /// </summary>
     internal int At(int slot, SimTime time)
     {
         int at = last[slot];

@@ -4,7 +4,9 @@ using LagSim.Time;
 
 namespace LagSim.Timelines;
 
-/// <summary>All that a world is after everything before an instant has happened: whoever goes on from it has the same world, bit for bit.</summary>
+/// <summary>
+/// All that a world is after everything before an instant has happened: whoever goes on from it has the same world, bit for bit.
+/// </summary>
 /// <remarks>Immutable, safe on any thread. Of what comes from outside it holds nothing that is stamped at its time or later.</remarks>
 public sealed class WorldSnapshot
 {

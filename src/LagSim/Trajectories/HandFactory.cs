@@ -9,8 +9,8 @@ namespace LagSim.Trajectories;
 /// <summary>Opens the paths of held bodies: a hand takes one, tells now and then where it is, and lets go.</summary>
 /// <remarks>
 /// While it is held a body's path is the hand's: nothing it meets changes it, and it pushes others as if its mass were infinite. Static
-/// geometry does not stop a hand, and two held bodies pass through each other. Where it is at t depends on the grab and the keyframes up to t
-/// alone.
+/// geometry does not stop a hand, and two held bodies pass through each other. Where it is at t depends on the grab and the keyframes up to
+/// t alone.
 /// </remarks>
 internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits, FlightFactory flights)
 {
@@ -26,8 +26,8 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// Does what a hand does to a body that is there. To grab what is held has no effect, nor has a keyframe or a release of a hand that does
-    /// not hold it, nor what would move it faster than may be given. An event that comes late may change that.
+    /// Does what a hand does to a body that is there. To grab what is held has no effect, nor has a keyframe or a release of a hand that
+    /// does not hold it, nor what would move it faster than may be given. An event that comes late may change that.
     /// </summary>
     internal void Act(int slot, in EventKey key, in ExternalEvent external)
     {
@@ -53,8 +53,8 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// Converges on the path that a keyframe foretells. A body that is on it already, as far as the scene resolves, follows it: so a hand that
-    /// only says that it keeps still moves nothing.
+    /// Converges on the path that a keyframe foretells. A body that is on it already, as far as the scene resolves, follows it: so a hand
+    /// that only says that it keeps still moves nothing.
     /// </summary>
     private void Converge(
         int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D target, in Vector3D targetVelocity, in Hold hold)
