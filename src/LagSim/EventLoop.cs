@@ -51,7 +51,7 @@ internal sealed class EventLoop(
     internal void ThrowIfCancelled() => cancellation.ThrowIfCancellationRequested();
 
     /// <summary>
-    /// Throws if an instant without an end blocks the world up to a time. It can go on once an event comes that removes the cause.
+    /// Throws if an endless instant blocks the world up to a time. The world can continue once an event comes that removes the cause.
     /// </summary>
     internal void ThrowIfBlockedAt(SimTime time)
     {

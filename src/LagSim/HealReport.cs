@@ -3,7 +3,7 @@ using LagSim.Time;
 
 namespace LagSim;
 
-/// <summary>What a heal did: the rewriting of the past for one late event, or for several that came before it was finished.</summary>
+/// <summary>The report of a heal: the rewriting of the past for one late event, or for several that came before it was finished.</summary>
 /// <remarks>Immutable. The counts follow from the world and the late events alone, not from the machine.</remarks>
 public readonly struct HealReport : IEquatable<HealReport>
 {
@@ -25,12 +25,12 @@ public readonly struct HealReport : IEquatable<HealReport>
     /// <summary>How far the world was simulated when the first of them came, and is again.</summary>
     public SimTime To { get; }
 
-    /// <summary>How many late events, or events taken back, it served; at least one.</summary>
+    /// <summary>The number of late or retracted events it served; at least one.</summary>
     public int LateEvents { get; }
 
     /// <summary>
-    /// How many bodies were predicted anew because of it: the causal cone; all there are of a full rollback, and of a heal that grew to
-    /// more than 32 of them and an eighth.
+    /// The number of bodies that were predicted again because of it: the causal cone. All bodies for a full rollback, and for a heal that
+    /// grew to more than 32 of them and an eighth.
     /// </summary>
     public int Bodies { get; }
 

@@ -183,7 +183,7 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
     }
 
     /// <summary>
-    /// Marks the bodies that might strike another member within the solved step at something that is not a contact of it. All others need
+    /// Marks the bodies that might strike another member within the solved step although the pair is not a contact of it. All others need
     /// no test.
     /// </summary>
     internal void FindMeetings(double seconds)

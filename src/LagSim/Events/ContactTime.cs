@@ -20,8 +20,8 @@ internal readonly struct ContactTime
     internal double Residual { get; }
 
     /// <summary>
-    /// 2^-20 s. What closes a gap of rounding later than that closes at less than 1 nm/s. What closes slowly is asked for again only so
-    /// much later.
+    /// 2^-20 s. A pair that closes a gap of rounding later than that closes at less than 1 nm/s. A slowly closing pair is rechecked only
+    /// this much later.
     /// </summary>
     internal static readonly SimDuration Soon = SimDuration.FromTicks(SoonTicks);
 

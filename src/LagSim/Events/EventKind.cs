@@ -1,12 +1,12 @@
 namespace LagSim.Events;
 
 /// <summary>
-/// What an event is. The number is its rank in the canonical order of one tick and round, and stands in wire, recordings and hashes: never
-/// renumber.
+/// The kind of an event. The number is its rank in the canonical order of one tick and round, and is part of wire, recordings and hashes:
+/// never renumber.
 /// </summary>
 /// <remarks>
-/// What comes from outside precedes what the model makes, and a spawn precedes all, so that what is said of a body at the tick of its spawn
-/// finds it there. An impact precedes the end of a step, so that a contact in a step's last tick is found on the step that it ends.
+/// External events precede those that the model makes, and a spawn precedes all, so that other events at the tick of a body's spawn find it
+/// there. An impact precedes the end of a step, so that a contact in a step's last tick is found on the step that it ends.
 /// </remarks>
 public enum EventKind : byte
 {

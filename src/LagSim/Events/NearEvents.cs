@@ -3,8 +3,8 @@ using System;
 namespace LagSim.Events;
 
 /// <summary>
-/// The events of an <see cref="EventQueue"/> that come next, as a heap with four children a node; times stand in it, keys are looked at
-/// only where times are equal.
+/// The next events of an <see cref="EventQueue"/>, as a heap with four children a node. The heap holds times; keys are read only where
+/// times are equal.
 /// </summary>
 internal sealed class NearEvents
 {

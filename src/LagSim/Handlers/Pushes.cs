@@ -5,7 +5,7 @@ using LagSim.Scenes;
 
 namespace LagSim.Handlers;
 
-/// <summary>What impulses, new velocities and teleports make of a state.</summary>
+/// <summary>Applies impulses, new velocities and teleports to a state.</summary>
 internal static class Pushes
 {
     /// <summary>

@@ -8,11 +8,11 @@ using LagSim.Timelines;
 namespace LagSim.Hosting;
 
 /// <summary>
-/// Two things that meet: a body and another, or a body and a surface of the scene; what a game needs for a sound or a score.
+/// A contact: a body meets another, or a surface of the scene. It has what a game needs for a sound or a score.
 /// </summary>
 /// <remarks>
-/// Immutable, safe on any thread. What it tells of the contact has the same bits on every peer; <see cref="Number"/> and which come as
-/// predicted are a peer's own.
+/// Immutable, safe on any thread. The data of the contact has the same bits on every peer. <see cref="Number"/>, and which contacts come as
+/// predicted, are each peer's own.
 /// </remarks>
 public readonly struct ContactNotice : IEquatable<ContactNotice>
 {
@@ -56,8 +56,8 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>
     public BodyId Second { get; }
 
     /// <summary>
-    /// What of the scene it met: below the number of <see cref="Scene.Planes"/> the plane of that index, from there on the static sphere of
-    /// what is left; -1 where two bodies met.
+    /// The surface that it met. Below the number of <see cref="Scene.Planes"/> it is the index of a plane; from there on the rest is the
+    /// index of a static sphere; -1 where two bodies met.
     /// </summary>
     public int Surface { get; }
 
@@ -65,7 +65,7 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>
     public Vector3D Position { get; }
 
     /// <summary>
-    /// How fast they approach along their normal right before, in m/s, above zero. With the masses it tells how hard the blow is.
+    /// How fast they approach along their normal right before, in m/s, above zero. With the masses it gives the strength of the impact.
     /// </summary>
     public double ClosingSpeed { get; }
 

@@ -1,6 +1,6 @@
 namespace LagSim.Hosting;
 
-/// <summary>What a <see cref="ContactNotice"/> says of its contact.</summary>
+/// <summary>The kind of a <see cref="ContactNotice"/>.</summary>
 public enum ContactNoticeKind
 {
     /// <summary>None: of <c>default</c> alone.</summary>
@@ -17,6 +17,6 @@ public enum ContactNoticeKind
     /// </summary>
     Confirmed = 2,
 
-    /// <summary>What was predicted does not happen, or not so.</summary>
+    /// <summary>The predicted contact does not happen, or happens differently.</summary>
     Retracted = 3,
 }

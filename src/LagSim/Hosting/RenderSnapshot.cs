@@ -4,9 +4,11 @@ using LagSim.Time;
 
 namespace LagSim.Hosting;
 
-/// <summary>What a game's frame reads: the paths of all bodies over a span of time, as the simulation had them at one moment.</summary>
+/// <summary>
+/// The data that a game's frame reads: the paths of all bodies over a span of time, as the simulation had them at one moment.
+/// </summary>
 /// <remarks>
-/// It does not change while its reader has it, that is until that reader asks its <see cref="RenderTripleBuffer"/> for the next. For the
+/// It does not change while its reader has it, that is, until the reader asks its <see cref="RenderTripleBuffer"/> for the next. For the
 /// one reading thread. Reading is a pure function of the render snapshot and the time, takes no lock and allocates nothing.
 /// </remarks>
 public sealed class RenderSnapshot

@@ -11,7 +11,7 @@ internal sealed class RenderTimeline
 {
     private const double LeastStep = 1e-6; // m; less between two pieces of a path is rounding, or a hop's height
 
-    private Entry[] entries = Array.Empty<Entry>(); // a body that is only heard of never needs one
+    private Entry[] entries = Array.Empty<Entry>(); // a body that is known only by name never needs one
     private int first;
     private int end;
 

@@ -36,12 +36,11 @@ public sealed class SimulationHost : IDisposable
     private uint lastSequence;
     private volatile bool disposed;
 
-    /// <summary>A world whose scene starts now by the clock. It stands still until <see cref="Start"/>.</summary>
-    /// <param name="scene">What is simulated.</param>
-    /// <param name="clock">Tells the time; usually a <see cref="StopwatchClock"/>.</param>
+    /// <summary>Creates a world whose scene starts now by the clock. It stands still until <see cref="Start"/>.</summary>
+    /// <param name="scene">The scene to simulate.</param>
+    /// <param name="clock">The clock; usually a <see cref="StopwatchClock"/>.</param>
     /// <param name="lookAhead">How far ahead of the clock the world is simulated; default two frames.</param>
-    /// <param name="contacts">What tells of contacts, of this world alone; null, the default, for nobody. They are confirmed after 2
-    /// s.</param>
+    /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none. They are confirmed after 2 s.</param>
     /// <param name="threads">How many threads at most may be at work for the world at once; as in <see cref="SimulationOptions"/>.</param>
     /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
     /// <exception cref="ArgumentOutOfRangeException">The threads are not from 1 to 64.</exception>
@@ -72,7 +71,7 @@ public sealed class SimulationHost : IDisposable
         }
     }
 
-    /// <summary>What tells of contacts; null for nobody. For the game's thread <see cref="ContactNotices.TryRead"/>.</summary>
+    /// <summary>Receives contacts; null for none. For the game's thread <see cref="ContactNotices.TryRead"/>.</summary>
     public ContactNotices? Contacts => world.Contacts;
 
     /// <summary>How often the clock was beyond what was simulated when a step began.</summary>
@@ -96,12 +95,12 @@ public sealed class SimulationHost : IDisposable
     public void Start() => thread.Start();
 
     /// <summary>
-    /// Does something to the world, now by the clock; the render snapshot has it as soon as the world's thread has simulated it. From any
-    /// thread.
+    /// Applies an action to the world, now by the clock. The render snapshot has it as soon as the world's thread has simulated it. From
+    /// any thread.
     /// </summary>
-    /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
+    /// <returns>The stamped event; for a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
     /// <remarks>
-    /// What meets a body that is not there, or gives it more speed than it may be given, has no effect; see
+    /// An action on a body that is not there, or one that gives it more speed than allowed, has no effect; see
     /// <see cref="Simulation.TookEffect"/>.
     /// </remarks>
     /// <exception cref="SceneException">A value may not enter the world; nothing happened.</exception>

@@ -56,7 +56,7 @@ internal sealed class CaptureRule(
             return false;
         }
 
-        if (restitution < 1 && isPair && members > 0) // leaves at the next tick if nothing presses it: a chord's acceleration does not tell
+        if (restitution < 1 && isPair && members > 0) // leaves at the next tick if nothing presses it: a chord has no acceleration to test
         {
             return rebound <= scale.CaptureSpeedAt(Math.Max(PullOn(c.First, time), PullOn(c.Second, time)));
         }

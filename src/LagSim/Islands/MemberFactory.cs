@@ -12,7 +12,7 @@ namespace LagSim.Islands;
 /// <summary>Opens the paths of members of islands: chords to the next tick, and rest.</summary>
 internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, in Forces forces, ContactScale scale, TrajectoryFactory trajectories)
 {
-    /// <summary>So far, in parts of a force's own time, a step may go.</summary>
+    /// <summary>The longest step, in parts of a force's own time.</summary>
     private const double MostRateTimesStep = 1.0 / 16;
 
     private readonly Forces forces = forces;

@@ -40,7 +40,7 @@ internal readonly struct DenseOutput
     internal static DenseOutput Between(
         double h, in Vector3D dx, in Vector3D dv, in Vector3D v0, in Vector3D a0, in Vector3D a1, SimDuration nextStep = default)
     {
-        // What the parabola from the start misses at the end, scaled to the size of a third derivative.
+        // The error at the end of the parabola from the start, scaled to the size of a third derivative.
         Vector3D p = (dx - ((v0 + (a0 * (0.5 * h))) * h)) / (h * h * h);
         Vector3D q = (dv - (a0 * h)) / (h * h);
         Vector3D r = (a1 - a0) / h;

@@ -19,7 +19,7 @@ namespace LagSim.Motion;
 /// </remarks>
 internal static class DormandPrince54
 {
-    /// <summary>The first step that is tried of a flight: 1/64 s. What is smooth gets to the longest in three steps.</summary>
+    /// <summary>The first step tried in a flight: 1/64 s. A smooth flight reaches the longest step in three steps.</summary>
     private static readonly SimDuration FirstTried = SimDuration.FromTicks(1L << 34);
 
     /// <summary>
@@ -28,7 +28,7 @@ internal static class DormandPrince54
     /// </summary>
     internal const double MaxRateTimesStep = FlightLaws.RateTimesStepOfDormandPrince54;
 
-    /// <summary>What an estimate cannot be below, in parts of what it was subtracted from.</summary>
+    /// <summary>The floor of an error estimate, relative to the terms that it is the difference of.</summary>
     private const double Rounding = 4 * 2.220446049250313e-16;
 
     /// <summary>One step from a state.</summary>

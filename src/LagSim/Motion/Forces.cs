@@ -43,7 +43,7 @@ internal readonly struct Forces
         return sum;
     }
 
-    /// <summary>What a program's own force adds; what that throws is told as what it is.</summary>
+    /// <summary>The acceleration by a program's own force; what it throws is reported as such.</summary>
     /// <exception cref="SimulationException">The program's code threw.</exception>
     private Vector3D Supplied(Force force, double at, SimTime epoch, double seconds, in Vector3D position, in Vector3D velocity)
     {

@@ -4,8 +4,8 @@ using LagSim.Time;
 namespace LagSim.Motion;
 
 /// <summary>
-/// How a hand is taken to move on after it has told where it is: the one rule by which every peer extrapolates, and a sender foresees what
-/// they do.
+/// How a hand is assumed to move after its last keyframe: the one rule by which every peer extrapolates, and by which a sender foresees
+/// what they do.
 /// </summary>
 /// <remarks>
 /// <para>From a keyframe on the hand brakes evenly, from the keyframe's velocity to rest, for <see cref="Stops"/>, and then keeps still: so
@@ -22,14 +22,15 @@ public static class HandPath
     public static readonly SimDuration Settles = SimDuration.FromMilliseconds(50);
 
     /// <summary>
-    /// How long a hand of which nothing more is heard takes to come to rest: 300 ms, about as long as one movement of a hand goes on one
+    /// The time that a hand takes to come to rest if no more keyframes come: 300 ms, about as long as one movement of a hand continues one
     /// way. A shorter braking needs more keyframes for the same error, and a longer one hardly fewer, but goes further astray where a hand
     /// turns back.
     /// </summary>
     public static readonly SimDuration Stops = SimDuration.FromMilliseconds(300);
 
     /// <summary>
-    /// How long a hold lasts after its last keyframe, or its grab: 1 s. Whoever holds a body still has to say so more often.
+    /// The time that a hold lasts after its last keyframe, or its grab: 1 s. A hand that keeps a body still has to send keyframes more
+    /// often than that.
     /// </summary>
     public static readonly SimDuration Lasts = SimDuration.FromSeconds(1);
 

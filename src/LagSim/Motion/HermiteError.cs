@@ -17,9 +17,9 @@ internal static class HermiteError
     /// <summary>
     /// The longest step, in seconds, within which the polynomial is off by no more than a tolerance, or by rounding where that is more.
     /// </summary>
-    /// <param name="tolerance">What may be, in metres and in m/s.</param>
-    /// <param name="size">What the position is rounded as, in metres.</param>
-    /// <param name="speed">What the velocity is rounded as, in m/s, at the start.</param>
+    /// <param name="tolerance">The tolerance, in metres and in m/s.</param>
+    /// <param name="size">The size at which the position is rounded, in metres.</param>
+    /// <param name="speed">The size at which the velocity is rounded, in m/s, at the start.</param>
     /// <param name="acceleration">By how much it changes in a second, in m/s²: at a turning point there is no speed, but after a step there
     /// is this much.</param>
     /// <param name="sixth">The sixth derivative's size at the start.</param>
@@ -38,8 +38,8 @@ internal static class HermiteError
     }
 
     /// <summary>
-    /// No longer than the h with h^n derivative = allowed. What is not a number changes nothing here: it is found where the state is
-    /// checked.
+    /// Limits a step to the h with h^n derivative = allowed. A value that is not a number changes nothing here: it is found where the state
+    /// is checked.
     /// </summary>
     private static double Shorter(double h, double allowed, double derivative, int n)
     {

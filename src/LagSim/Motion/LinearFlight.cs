@@ -68,7 +68,7 @@ internal readonly struct LinearFlight
         return new MotionSegment(MotionLaw.ClosedForm, epoch, epoch + step, x, v, a);
     }
 
-    /// <summary>What depends on the velocity in the acceleration, and in every derivative on the one before.</summary>
+    /// <summary>The part of the acceleration that depends on the velocity, and of every derivative on the one before.</summary>
     private Vector3D Damped(in Vector3D v) => (v * -gamma) + Vector3D.Cross(omega, v);
 
     private SimDuration Length(in Vector3D x, in Vector3D v, in Vector3D a)

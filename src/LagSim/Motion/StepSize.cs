@@ -11,7 +11,7 @@ internal static class StepSize
     /// <summary>The longest: 1 s.</summary>
     internal static readonly SimDuration Longest = SimDuration.FromTicks(SimDuration.TicksPerSecond);
 
-    /// <summary>The shortest: 16 ticks, 1.5e-11 s. What needs shorter ones is a singularity.</summary>
+    /// <summary>The shortest step: 16 ticks, 1.5e-11 s. A path that needs shorter ones is at a singularity.</summary>
     internal static readonly SimDuration Shortest = SimDuration.FromTicks(16);
 
     /// <summary>A step made so many times as long, within the limits.</summary>

@@ -6,7 +6,7 @@ namespace LagSim.Motion;
 /// <summary>How fast forces of which nothing is known change a deviation, seen from stages of a step that are of one time.</summary>
 internal static class Stiffness
 {
-    /// <summary>What changes an acceleration by less than this part of it is rounding, and says nothing.</summary>
+    /// <summary>A change of an acceleration by less than this part of it is rounding, and is ignored.</summary>
     private const double Significant = 1e-10;
 
     /// <summary>

@@ -97,7 +97,8 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
             Draw(state.Position);
         }
 
-        // the action shows here at once, and takes effect on every other machine at the same instant; it throws if it is not allowed, and does nothing if the body is gone
+        // the action shows here at once, and takes effect on every other machine at the same instant;
+        // it throws if it is not allowed, and does nothing if the body is gone
         await peer.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
     }
 
