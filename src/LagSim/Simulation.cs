@@ -37,13 +37,14 @@ public sealed class Simulation
     /// <summary>
     /// A world at the start of its scene, with all that happens at that instant. Cost: the bodies, and which of them can meet.
     /// </summary>
-    /// <param name="scene">What is simulated.</param>
+    /// <param name="scene">The scene to simulate.</param>
     /// <param name="options">How; null for the defaults.</param>
-    /// <exception cref="ArgumentNullException">There is no scene.</exception>
+    /// <exception cref="ArgumentNullException">The scene is null.</exception>
     /// <exception cref="SimulationException">
-    /// The scene's forces are too much for the first step of a body, or what happens at the first instant for the timelines.
+    /// The scene's forces are too strong for the first step of a body, or the first instant needs more segments than the timelines may
+    /// hold.
     /// </exception>
-    /// <exception cref="OperationCanceledException">The options' token asked for an end.</exception>
+    /// <exception cref="OperationCanceledException">The options' token was cancelled.</exception>
     public Simulation(Scene scene, SimulationOptions? options = null)
         : this(Begun(scene ?? throw new ArgumentNullException(nameof(scene)), options ??= new SimulationOptions()), options.Start)
     {
@@ -51,14 +52,13 @@ public sealed class Simulation
     }
 
     /// <summary>
-    /// Goes on from a snapshot of a world of this scene: the same events give the same bits as in the world that it was taken of.
+    /// Continues from a snapshot of a world of this scene: the same events give the same bits as in the world it was taken from.
     /// </summary>
-    /// <param name="scene">The scene that the snapshot's world has.</param>
-    /// <param name="snapshot">From where to go on. Earlier events are in it; they are <see cref="SubmitResult.TooOld"/>.</param>
-    /// <param name="options">As of a new world, but for <see cref="SimulationOptions.Start"/>, which the snapshot tells.</param>
+    /// <param name="scene">The scene of the snapshot's world.</param>
+    /// <param name="snapshot">The snapshot to continue from. Earlier events are in it; they are <see cref="SubmitResult.TooOld"/>.</param>
+    /// <param name="options">As for a new world, except <see cref="SimulationOptions.Start"/>, which comes from the snapshot.</param>
     /// <exception cref="ArgumentNullException">The scene or the snapshot is missing.</exception>
-    /// <exception cref="SceneException">The snapshot holds a value that cannot be of a world of this scene; the sentence names
-    /// it.</exception>
+    /// <exception cref="SceneException">The snapshot holds a value that no world of this scene can have; the message names it.</exception>
     /// <exception cref="SimulationException">It cannot be simulated.</exception>
     public Simulation(Scene scene, WorldSnapshot snapshot, SimulationOptions? options = null)
         : this(Begun(scene, snapshot, options ??= new SimulationOptions()), snapshot.Time)
@@ -73,19 +73,20 @@ public sealed class Simulation
     }
 
     /// <summary>
-    /// Which fold this library computes, from 1 on: builds of one version give one scene and events the same states and hashes, to the bit.
+    /// The version of the fold that this library computes, from 1 on: builds of one version give the same scene and events the same states
+    /// and hashes, to the bit.
     /// </summary>
     /// <remarks>
     /// <para>It is raised by one whenever a pinned hash or one of the corpus moves; a test holds it to that. It says nothing of layouts,
     /// which the versions of wire and recordings count, nor of a program's own forces, which have their author's.</para>
     /// <para>Peers of other versions would each compute a world of its own, and a recording of another version gives other hashes than
-    /// stand in it.</para>
-    /// <para>Not a <see langword="const"/>: that would be copied into whatever is built against the library, and tell of another build than
-    /// the one that runs.</para>
+    /// those stored in it.</para>
+    /// <para>Not a <see langword="const"/>: that would be copied into assemblies built against the library, and could name another build
+    /// than the one that runs.</para>
     /// </remarks>
     public static int FoldVersion => 10;
 
-    /// <summary>What was there at the start.</summary>
+    /// <summary>The scene at the start.</summary>
     public Scene Scene => Engine.Scene;
 
     /// <summary>The instant at which the scene began.</summary>
@@ -112,7 +113,7 @@ public sealed class Simulation
     /// <summary>How many impacts were among them; what bodies do to each other at one tick and round is one.</summary>
     public long ImpactsProcessed => Engine.Progress.ImpactsProcessed;
 
-    /// <summary>How often timelines were cut for an event that came late or was taken back.</summary>
+    /// <summary>The number of times that timelines were cut for a late or a retracted event.</summary>
     public long Rollbacks => Engine.Rollback.Count;
 
     /// <summary>How many segments were cut off by rollbacks, to be simulated again.</summary>
@@ -148,8 +149,8 @@ public sealed class Simulation
     /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>.</exception>
     /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their
     /// memory.</exception>
-    /// <exception cref="OperationCanceledException">The options' token asked for an end; what lies behind <see cref="SimulatedTo"/>
-    /// stands.</exception>
+    /// <exception cref="OperationCanceledException">The options' token was cancelled; everything before <see cref="SimulatedTo"/>
+    /// stays.</exception>
     public void AdvanceTo(SimTime time)
     {
         long events = long.MaxValue;
@@ -158,25 +159,25 @@ public sealed class Simulation
     }
 
     /// <summary>
-    /// Lets everything happen up to and including <paramref name="time"/>, or as much of it as so many events are, and stops between two
-    /// instants; the world of a session (<see cref="Hosting.LiveWorld.WaitsForLateEvents"/>) stops within one too, if it takes too long.
+    /// Advances the world up to and including <paramref name="time"/>, or by a number of events, and stops between two instants. The world
+    /// of a session (<see cref="Hosting.LiveWorld.WaitsForLateEvents"/>) stops within one too, if it takes too long.
     /// </summary>
     /// <param name="time">Up to when.</param>
     /// <param name="events">
-    /// How many events may happen; what is left of them. The events of one instant all happen, so it may end below zero; at or below zero
-    /// nothing happens. Looking again what a body meets next counts as an event.
+    /// The number of events that may happen; on return, what is left of it. The events of one instant all happen, so it may end below zero.
+    /// At or below zero nothing happens. Predicting a body's next event again counts as an event.
     /// </param>
     /// <returns>
-    /// Whether it got there; if not, <see cref="SimulatedTo"/> tells how far, and the next call goes on from there. A world that an instant
-    /// without end blocks (<see cref="Hosting.LiveWorld.BlockedAt"/>) gets no further, whatever is left, until an event comes that lies no
-    /// later.
+    /// Whether it got there; if not, <see cref="SimulatedTo"/> is how far it got, and the next call continues from there. A world that an
+    /// endless instant blocks (<see cref="Hosting.LiveWorld.BlockedAt"/>) gets no further, whatever is left, until an event comes that is
+    /// no later.
     /// </returns>
     /// <remarks>Advancing in pieces changes no bit of what happens. Cost: per event, not per time.</remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>.</exception>
     /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their
     /// memory.</exception>
-    /// <exception cref="OperationCanceledException">The options' token asked for an end; what lies behind <see cref="SimulatedTo"/>
-    /// stands.</exception>
+    /// <exception cref="OperationCanceledException">The options' token was cancelled; everything before <see cref="SimulatedTo"/>
+    /// stays.</exception>
     public bool TryAdvanceTo(SimTime time, ref long events)
     {
         Engine.Loop.ThrowIfFaulted();
@@ -193,15 +194,15 @@ public sealed class Simulation
     }
 
     /// <summary>
-    /// Adds an event at its own time. Should that be simulated already, what it can have touched is taken back from there on
-    /// (<see cref="SimulationOptions.Healing"/> says what that is), <see cref="SimulatedTo"/> lies before it, and the next
-    /// <see cref="AdvanceTo"/> simulates it again; <see cref="Healed"/> tells what that took.
+    /// Adds an event at its own time. If that time is simulated already, the paths that it can have touched are undone from there on
+    /// (<see cref="SimulationOptions.Healing"/> decides which). <see cref="SimulatedTo"/> then lies before it, the next
+    /// <see cref="AdvanceTo"/> simulates them again, and <see cref="Healed"/> reports what that took.
     /// </summary>
-    /// <returns>What became of it. <see cref="SubmitResult.TooOld"/> means that nothing changed.</returns>
+    /// <returns>The result. <see cref="SubmitResult.TooOld"/> means that nothing changed.</returns>
     /// <remarks>
-    /// That it is there does not mean that it has an effect: that depends on what it meets when its time comes, and
-    /// <see cref="TookEffect"/> tells. Cost: O(1) in the bodies if it lies ahead; else, with the next advance, that of the events since its
-    /// time of the bodies it can have touched, or of all with a full rollback.
+    /// A submitted event need not have an effect: that depends on what it meets when its time comes; see <see cref="TookEffect"/>. Cost:
+    /// O(1) in the bodies if it lies ahead. Otherwise, with the next advance, the events since its time of the bodies it can have touched,
+    /// or of all bodies with a full rollback.
     /// </remarks>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult Submit(in ExternalEvent external)
@@ -213,10 +214,10 @@ public sealed class Simulation
 
     /// <summary>
     /// Adds an event that takes effect at <paramref name="arrival"/>, after its own time, by advancing the body alone from the event's time
-    /// to the arrival: its own motion and contacts with static geometry, as the thesis does. What lies before the arrival is not rewritten.
-    /// What a hand does (grab, keyframe, release) is done at the arrival as it is.
+    /// to the arrival: its own motion and contacts with static geometry, as the thesis does. Nothing before the arrival is rewritten. A
+    /// hand's actions (grab, keyframe, release) are applied at the arrival as they are.
     /// </summary>
-    /// <returns>What became of it.</returns>
+    /// <returns>The result.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The arrival is before the event's time.</exception>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult SubmitForwarded(in ExternalEvent external, SimTime arrival)
@@ -254,8 +255,8 @@ public sealed class Simulation
     /// </summary>
     /// <returns>False, and a state that is <see cref="MotionLaw.Absent"/>, if the body is unknown or not there at that time.</returns>
     /// <remarks>
-    /// Opens no segment and changes nothing. Cost: the number of the body's segments after that time. A time that is not simulated is a
-    /// mistake of the caller, who advances this world himself, and so an exception; a <see cref="Hosting.RenderSnapshot"/>, which another
+    /// Opens no segment and changes nothing. Cost: the number of the body's segments after that time. A time that is not simulated is an
+    /// error of the caller, which advances this world itself, and so an exception. A <see cref="Hosting.RenderSnapshot"/>, which another
     /// thread makes, returns false there.
     /// </remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="HistoryEdge"/> or after <see cref="Horizon"/>: advance
@@ -268,8 +269,10 @@ public sealed class Simulation
         return state.Motion != MotionLaw.Absent;
     }
 
-    /// <summary>Who holds a body at an instant that can be read, by which point, and when its hand last told where it is.</summary>
-    /// <returns>False, and the default, if nobody does.</returns>
+    /// <summary>
+    /// The hold on a body at an instant that can be read: which peer holds it, by which point, and the time of the hand's last keyframe.
+    /// </summary>
+    /// <returns>False, and the default, if no peer holds it.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
     public bool TryReadHold(BodyId body, SimTime time, out Hold hold)
     {
@@ -303,8 +306,8 @@ public sealed class Simulation
     public IReadOnlyList<TimelineEntry> Timeline(BodyId body) => Timeline(body, SimTime.MinValue);
 
     /// <summary>
-    /// Of a body's events that are kept the last one up to and including <paramref name="from"/>, whose motion it is in then, and all after
-    /// it.
+    /// The kept events of a body: the last one up to and including <paramref name="from"/>, which began the motion that it is in then, and
+    /// all after it.
     /// </summary>
     /// <param name="body">The body. Of an unknown one there are none.</param>
     /// <param name="from">From when on, in simulated time; any instant, also one that is no longer kept or not simulated yet.</param>
@@ -321,7 +324,7 @@ public sealed class Simulation
     /// event may change the answer.
     /// </summary>
     /// <remarks>
-    /// Pure, the same on every peer. Cost: the number of the body's segments. What lies before <see cref="HistoryEdge"/> is no longer
+    /// Pure, the same on every peer. Cost: the number of the body's segments. Before <see cref="HistoryEdge"/> the answer is no longer
     /// known: false.
     /// </remarks>
     public bool TookEffect(in ExternalEvent external) => Engine.Reader.TookEffect(external);

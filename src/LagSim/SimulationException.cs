@@ -6,7 +6,7 @@ namespace LagSim;
 /// The simulation cannot go on: a state left the range in which it means something. The message names the body and the value.
 /// </summary>
 /// <remarks>
-/// Deterministic like the world itself: every peer that simulates the same events meets it at the same event, but for a
+/// Deterministic like the world itself: every peer that simulates the same events gets it at the same event, except for a
 /// <see cref="TimelinesFullException"/>.
 /// </remarks>
 public class SimulationException : Exception

@@ -16,7 +16,7 @@ public sealed class SimulationOptions
     /// <summary>The most segments where nothing else is said: 8,388,608, of 1.5 to 3 GB, and as much again while they grow.</summary>
     public const int DefaultMaxSegments = 1 << 23;
 
-    /// <summary>Above this an index of the paths costs less than to look at everybody.</summary>
+    /// <summary>The number of bodies above which neighbour lists cost less than testing every body.</summary>
     internal const int DefaultMostPairs = 64;
 
     /// <summary>Options, each with its default.</summary>
@@ -29,18 +29,18 @@ public sealed class SimulationOptions
     /// <param name="maxSegments">
     /// How many pieces of path all timelines together may hold, at least one; default <see cref="DefaultMaxSegments"/>. Each takes 184 to
     /// 356 bytes (<see cref="Timelines.LatencyCompensationWindow"/>). A simulation that would need more ends with a
-    /// <see cref="TimelinesFullException"/>, which tells whose path they are.
+    /// <see cref="TimelinesFullException"/>, which names the body with most of them.
     /// </param>
     /// <param name="cancellation">
-    /// Ends whatever the simulation is at, from any thread, between two instants, in a session within one too, with an
-    /// <see cref="OperationCanceledException"/>.
+    /// Ends the simulation's current call, from any thread, with an <see cref="OperationCanceledException"/>: between two instants, in a
+    /// session within one too.
     /// </param>
     /// <param name="healing">How an event is brought in that lies before the simulated time. It has no influence on the result, to the
     /// bit.</param>
     /// <param name="threads">
     /// How many threads at most may be at work for this simulation at once, the one that calls it included: from 1 to
-    /// <see cref="SceneBuilder.MaxThreads"/>; default as many as there are processors, at most 8. At present all is done on the calling
-    /// thread; what comes of it is the same, to the bit, on any number.
+    /// <see cref="SceneBuilder.MaxThreads"/>; default as many as there are processors, at most 8. At present everything is done on the
+    /// calling thread; the result is the same, to the bit, for any number.
     /// </param>
     /// <exception cref="ArgumentOutOfRangeException">
     /// The threads are not from 1 to 64, the history or the most segments are not above zero, or the start more than 72 days from the
@@ -96,10 +96,12 @@ public sealed class SimulationOptions
     /// <summary>How many threads at most may be at work for the simulation at once.</summary>
     public int Threads { get; }
 
-    /// <summary>Up to how many bodies all pairs are looked at; a test sets it to have an index in small worlds.</summary>
+    /// <summary>
+    /// The number of bodies up to which the broad phase is brute force; a test sets it to have neighbour lists in small worlds.
+    /// </summary>
     internal int MostPairs { get; set; } = DefaultMostPairs;
 
-    /// <summary>What makes the engine's parts.</summary>
+    /// <summary>The factory of the engine's parts.</summary>
     internal EngineParts Parts { get; private set; } = EngineParts.Usual;
 
     /// <summary>Ends whatever the simulation is at.</summary>
@@ -111,7 +113,7 @@ public sealed class SimulationOptions
     internal SimulationOptions FullyRolledBack() =>
         new(Start, History, MaxSegments, default, HealingMode.FullRollback, 1) { MostPairs = MostPairs };
 
-    /// <summary>Is told of impacts, those of the very first instant included; null for nobody.</summary>
+    /// <summary>Notified of impacts, including those of the very first instant; null for none.</summary>
     internal IImpactObserver? Observer { get; private set; }
 
     /// <summary>The same with an observer.</summary>

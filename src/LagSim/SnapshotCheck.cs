@@ -7,9 +7,9 @@ using LagSim.Timelines;
 
 namespace LagSim;
 
-/// <summary>What a snapshot must satisfy to be of a world of a scene; it may come from anywhere.</summary>
+/// <summary>Checks that a snapshot can be of a world of a scene; it may come from anywhere.</summary>
 /// <remarks>
-/// It says what can be told of each body alone. Whether bodies overlap, or a path is one that this world would have taken, it does not ask.
+/// It checks each body alone. It does not check whether bodies overlap, or whether a path is one that this world would have taken.
 /// </remarks>
 internal static class SnapshotCheck
 {

@@ -1,6 +1,6 @@
 namespace LagSim;
 
-/// <summary>What became of an external event that was submitted.</summary>
+/// <summary>The result of submitting an external event.</summary>
 public enum SubmitResult
 {
     /// <summary>
@@ -10,8 +10,8 @@ public enum SubmitResult
     Queued,
 
     /// <summary>
-    /// It lay inside what was simulated already: what it can have touched is taken back from there on, and simulated again by the next
-    /// advance.
+    /// Its time was simulated already: the paths that it can have touched are undone from there on, and the next advance simulates them
+    /// again.
     /// </summary>
     RolledBack,
 

@@ -15,7 +15,7 @@ internal sealed class Reconvergence(
 {
     private readonly HeldBackImpacts heldBack = new();
 
-    /// <summary>Who is told of impacts made and cut; null, the default, for nobody.</summary>
+    /// <summary>The observer of impacts made and cut; null, the default, for none.</summary>
     internal IImpactObserver? Observer
     {
         get => heldBack.Listener;
@@ -39,7 +39,7 @@ internal sealed class Reconvergence(
     /// <summary>Of a body that was touched the newest segment is about to be cut.</summary>
     internal void Keep(int slot, int segment) => cut.Keep(timelines, slot, segment);
 
-    /// <summary>Nothing will be put back of what the rollback at hand cuts.</summary>
+    /// <summary>Nothing that the current rollback cuts will be put back.</summary>
     internal void GiveUp()
     {
         cut.GiveUp();
@@ -84,7 +84,7 @@ internal sealed class Reconvergence(
         }
 
         progress.SimulatedTo = to;
-        rollback.End(); // nobody is ahead of anybody
+        rollback.End(); // no body is ahead of another
         rollback.Cursor = EventKey.Before(next);
         for (int n = 0; n < cut.BodyCount; n++)
         {

@@ -16,7 +16,7 @@ internal struct ActingForces
         next = 0;
     }
 
-    /// <summary>The force at hand.</summary>
+    /// <summary>The current force.</summary>
     public readonly Force Current => forces[next - 1];
 
     /// <summary>Itself.</summary>

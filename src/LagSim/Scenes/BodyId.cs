@@ -4,8 +4,8 @@ using System.Globalization;
 namespace LagSim.Scenes;
 
 /// <summary>
-/// Who a body is, on every peer: (peer, sequence) of the event that spawned it and its index in that event; (0, 0, index) for a scene's
-/// own.
+/// The identity of a body, the same on every peer: (peer, sequence) of the event that spawned it and its index in that event; (0, 0, index)
+/// for a scene's own.
 /// </summary>
 /// <remarks>
 /// <para>Order is by peer, then sequence, then index. It decides operand order and ties, so an array slot never does.</para>

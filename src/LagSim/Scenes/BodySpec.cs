@@ -2,7 +2,7 @@ using LagSim.Time;
 
 namespace LagSim.Scenes;
 
-/// <summary>What a body is, apart from where it is: size, mass, material and how it flies.</summary>
+/// <summary>The properties of a body, apart from its state: size, mass, material and how it flies.</summary>
 /// <remarks>
 /// Immutable, safe on any thread. Not valid as <c>default</c>: a radius and a mass are above zero. A scene and a simulation check it.
 /// </remarks>
@@ -90,7 +90,7 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
     public ForceSet Forces { get; }
 
     /// <summary>
-    /// What an error may be, in metres and m/s; 0 for fixed steps or, of a closed form, for rounding. See the constructor.
+    /// The tolerance, in metres and m/s; 0 for fixed steps or, with a closed form, for rounding alone. See the constructor.
     /// </summary>
     public double Tolerance { get; }
 

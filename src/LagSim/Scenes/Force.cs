@@ -14,7 +14,7 @@ public sealed class Force
     /// <summary>Which formula it has.</summary>
     public ForceKind Kind { get; }
 
-    /// <summary>What it is called in the scene; 1 to 64 characters.</summary>
+    /// <summary>The name of the force in the scene; 1 to 64 characters.</summary>
     public string Name { get; }
 
     /// <summary>
@@ -36,7 +36,7 @@ public sealed class Force
     /// <summary>Of a central pull the power of the distance: -2 for gravity and electrostatics; else 0.</summary>
     public int Power { get; private set; }
 
-    /// <summary>What a program supplies; null for all other kinds.</summary>
+    /// <summary>The acceleration that a program supplies; null for all other kinds.</summary>
     public IAcceleration? Acceleration { get; private set; }
 
     /// <summary>Stokes drag, F = -c (v - w): slow motion in what is viscous.</summary>
@@ -61,7 +61,7 @@ public sealed class Force
     public static Force Spring(string name, Vector3D anchor, double stiffness, double damping = 0) =>
         new(ForceKind.Spring, name) { Strength = stiffness, Damping = damping, Vector = anchor.WithoutNegativeZero() };
 
-    /// <summary>What a uniform magnetic field does to a charge, F = q v x B: it turns the velocity and leaves the speed.</summary>
+    /// <summary>The force of a uniform magnetic field on a charge, F = q v x B: it turns the velocity and keeps the speed.</summary>
     /// <param name="name">1 to 64 characters.</param>
     /// <param name="field">B in T, each component within 1e12.</param>
     /// <param name="charge">q in C, within 1e30.</param>
@@ -98,7 +98,7 @@ public sealed class Force
     public static Force Supplied(IAcceleration acceleration) =>
         new(ForceKind.Supplied, (acceleration ?? throw new ArgumentNullException(nameof(acceleration))).Name) { Acceleration = acceleration };
 
-    /// <summary>What it adds to the acceleration of a body, in m/s².</summary>
+    /// <summary>The acceleration that it gives a body, in m/s².</summary>
     internal Vector3D At(double mass, double seconds, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         switch (Kind)
@@ -149,8 +149,8 @@ public sealed class Force
     }
 
     /// <summary>
-    /// How fast, in 1/s, the force itself changes because the body moves past a centre where it has no bound: (1 - p) |v| / |r|. What is
-    /// integrated by steps that know no error could else step over such a centre, and leave it with any speed. Zero of all other forces.
+    /// How fast, in 1/s, the force itself changes because the body moves past a centre where it has no bound: (1 - p) |v| / |r|.
+    /// Integration by fixed steps could otherwise step over such a centre, and leave it with any speed. Zero for all other forces.
     /// </summary>
     internal double PassingRateAt(in Vector3D position, in Vector3D velocity) =>
         Kind == ForceKind.Central && Power < 0 && Strength != 0 ? (1 - Power) * velocity.Length / (position - Vector).Length : 0;

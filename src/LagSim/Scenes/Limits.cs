@@ -5,7 +5,7 @@ using LagSim.Time;
 namespace LagSim.Scenes;
 
 /// <summary>The ranges of every value that enters the world, each checked in one place with a sentence that names the value.</summary>
-/// <remarks>Whose value it is comes as anything that has a text, which is asked for only where there is something to say.</remarks>
+/// <remarks>The owner of a value comes as any object that has a text, which is made only if there is an error.</remarks>
 internal static class Limits
 {
     internal const double MaxCoordinate = 1e12;
@@ -183,8 +183,8 @@ internal static class Limits
 
     /// <summary>
     /// The highest speed that an impact leaves: a light body that meets a heavy one would otherwise leave the range in which its state
-    /// means something, and so whoever may spawn two bodies could end a world. Halfway between the two above, so that gravity does not end
-    /// at once what an impact begins.
+    /// means something, so any player that may spawn two bodies could end a world. Halfway between the two above, so that gravity does not
+    /// end at once what an impact begins.
     /// </summary>
     internal static double MaxReboundSpeed(double smallestRadius) => 1.5 * MaxGivenSpeed(smallestRadius);
 
@@ -206,7 +206,7 @@ internal static class Limits
         }
     }
 
-    /// <summary>What is put into a box is small enough for it, flies as it must there, and lies in it.</summary>
+    /// <summary>Checks that everything put into a box is small enough for it, flies as it must there, and lies in it.</summary>
     internal static void CheckInBox<T>(in BodySpec spec, in Vector3D position, in PeriodicBox box, T whose)
     {
         if (spec.Flight != MotionLaw.Ballistic)
@@ -269,17 +269,17 @@ internal static class Limits
 
     internal static string Text(double value) => value.ToString("R", CultureInfo.InvariantCulture);
 
-    /// <summary>What was computed, not given: six digits say all that there is to say.</summary>
+    /// <summary>The text of a computed value: six digits are enough.</summary>
     internal static string Short(double value) =>
         Text(double.Parse(value.ToString("G6", CultureInfo.InvariantCulture), NumberStyles.Float, CultureInfo.InvariantCulture));
 
     internal static string Short(in Vector3D v) => $"({Short(v.X)}, {Short(v.Y)}, {Short(v.Z)})";
 
-    /// <summary>So many of a thing: "1 plane", "2 planes".</summary>
+    /// <summary>A number of things: "1 plane", "2 planes".</summary>
     internal static string Count(int count, string one, string? many = null) =>
         $"{count.ToString(CultureInfo.InvariantCulture)} {(count == 1 ? one : many ?? one + "s")}";
 
-    /// <summary>What is above a limit, so that nobody reads the limit itself.</summary>
+    /// <summary>The text of a value above a limit, so that it is not read as the limit itself.</summary>
     private static string Above(double value, double limit) => Short(value) == Short(limit) ? $"just above {Short(limit)}" : Short(value);
 
     private static string Forces(int count) => count == 0 ? "none" : count == 1 ? "1, number 0" : $"{count}, numbers 0 to {count - 1}";

@@ -45,7 +45,7 @@ public enum MotionLaw : byte
 
     /// <summary>
     /// The cheapest of the laws above that is exact for the forces that act on the body: <see cref="Ballistic"/> under gravity alone,
-    /// <see cref="ClosedForm"/> where there is one, else <see cref="DormandPrince54"/>. What a scene may ask for, never how a body moves.
+    /// <see cref="ClosedForm"/> where there is one, else <see cref="DormandPrince54"/>. A scene may ask for it; no body ever moves by it.
     /// </summary>
     Automatic = 8,
 

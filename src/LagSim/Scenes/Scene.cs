@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace LagSim.Scenes;
 
-/// <summary>What exists at the start: bodies, static geometry, gravity and other forces. Made by <see cref="SceneBuilder"/>.</summary>
+/// <summary>The start of a world: bodies, static geometry, gravity and other forces. Made by <see cref="SceneBuilder"/>.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 /// <example>
 /// A ball above a floor, with friction:
@@ -44,7 +44,7 @@ public sealed class Scene
         Hash = ComputeHash();
     }
 
-    /// <summary>What the scene is called.</summary>
+    /// <summary>The name of the scene.</summary>
     public string Name { get; }
 
     /// <summary>The uniform acceleration of free bodies in m/s^2; usually (0, -9.81, 0).</summary>
@@ -248,7 +248,7 @@ public sealed class Scene
         }
     }
 
-    // Only where somebody is kept from something, so that a scene in which all may do all has the hash it always had.
+    // Only where some peer lacks a right, so that a scene in which all peers may do everything has the hash it always had.
     private void AddRights(ref StableHash hash)
     {
         if (Spawners != PeerSet.Everyone)

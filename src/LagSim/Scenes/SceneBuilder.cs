@@ -73,12 +73,12 @@ public sealed class SceneBuilder
 
     /// <summary>
     /// Sets how far, in metres, bodies in persistent contact may be from where an exact calculation has them, 1e-9 to 0.1. Default 1e-3, or
-    /// a hundredth of the smallest radius if that is less: nobody sees it, and a heap of a game is far faster than real time.
+    /// a hundredth of the smallest radius if that is less: too small to see, and a game's heap is far faster than real time.
     /// </summary>
     /// <remarks>
-    /// It is the one knob between speed and error where bodies crowd, rest and roll on each other: how long a contact step is, when a
-    /// rebound is the last, how well the steps are solved and when a heap sleeps follow from it. What flies, and what rests, slides or
-    /// rolls alone on a plane, is exact whatever it is.
+    /// It is the one trade-off between speed and error where bodies crowd, rest and roll on each other. It decides how long a contact step
+    /// is, when a rebound is the last, how well the steps are solved and when a heap sleeps. Bodies in flight, and those that rest, slide
+    /// or roll alone on a plane, are exact whatever the tolerance.
     /// </remarks>
     public SceneBuilder WithContactTolerance(double metres)
     {
@@ -106,8 +106,8 @@ public sealed class SceneBuilder
     /// processors.
     /// </summary>
     /// <remarks>
-    /// It has no influence on the scene, to the bit, nor on which error is told. Less than 16,384 bodies are checked on the caller's thread
-    /// alone, and so is everything where there is one processor.
+    /// It has no influence on the scene, to the bit, nor on which error is reported. Fewer than 16,384 bodies are checked on the caller's
+    /// thread alone, and so is everything where there is one processor.
     /// </remarks>
     public SceneBuilder WithThreads(int most)
     {
@@ -180,7 +180,7 @@ public sealed class SceneBuilder
         return this;
     }
 
-    /// <summary>Which peers may spawn bodies, in a session; default everyone. What was spawned everyone may touch.</summary>
+    /// <summary>Sets which peers may spawn bodies in a session; default everyone. Everyone may touch spawned bodies.</summary>
     public SceneBuilder WithSpawners(PeerSet peers)
     {
         spawners = peers;
@@ -188,12 +188,12 @@ public sealed class SceneBuilder
     }
 
     /// <summary>
-    /// Puts everything in a box from the origin to <paramref name="size"/> whose opposite sides meet: what leaves it on one side comes in
-    /// on the other.
+    /// Puts everything in a periodic box from the origin to <paramref name="size"/>: a body that leaves it on one side comes in on the
+    /// opposite side.
     /// </summary>
     /// <remarks>
-    /// It goes with free flight alone: no gravity, planes, static spheres or other forces, and bodies that fly by Ballistic. Each side is
-    /// at least five times the largest diameter; bodies start, and are spawned or put, inside. Their paths are opened anew after an eighth
+    /// It allows free flight alone: no gravity, planes, static spheres or other forces, and only bodies that fly by Ballistic. Each side is
+    /// at least five times the largest diameter; bodies start, and are spawned or put, inside. Their paths are opened again after an eighth
     /// of the least side, so that no body meets two images of another at once.
     /// </remarks>
     public SceneBuilder WithPeriodicBox(Vector3D size)
@@ -212,8 +212,8 @@ public sealed class SceneBuilder
     }
 
     /// <summary>
-    /// Adds a force; the n-th added, counted from 0, is <see cref="ForceSet.Of"/> n. It acts on the bodies whose
-    /// <see cref="BodySpec.Forces"/> have it, at most <see cref="ForceSet.Most"/> there are.
+    /// Adds a force; the n-th added, counted from 0, is <see cref="ForceSet.Of"/> n. It acts on the bodies that have it in
+    /// <see cref="BodySpec.Forces"/>, at most <see cref="ForceSet.Most"/> there are.
     /// </summary>
     /// <exception cref="ArgumentNullException">There is no force.</exception>
     public SceneBuilder AddForce(Force force)
@@ -412,7 +412,7 @@ public sealed class SceneBuilder
         }
     }
 
-    /// <summary>Whose value is wrong, in words: made only where there is something to say.</summary>
+    /// <summary>The owner of a wrong value, in words: made only if there is an error.</summary>
     internal readonly struct BodyText
     {
         private readonly string name;

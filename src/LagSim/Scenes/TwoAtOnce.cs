@@ -4,10 +4,10 @@ using System.Threading;
 
 namespace LagSim.Scenes;
 
-/// <summary>Does two things that have nothing to do with each other on two threads, and comes back when both are done.</summary>
+/// <summary>Does two independent things on two threads, and returns when both are done.</summary>
 /// <remarks>
-/// What they do must not depend on which thread they are on, and each writes to places of its own. Errors come as from one after the other:
-/// that of the first, or else that of the second. Where there are no threads, one thing is done after the other.
+/// They must not depend on which thread they are on, and each writes to places of its own. Errors come as if one ran after the other: that
+/// of the first, or else that of the second. Without threads, one thing is done after the other.
 /// </remarks>
 internal static class TwoAtOnce
 {

@@ -94,10 +94,10 @@ public readonly struct BodySnapshot
         ContactArray = contacts;
     }
 
-    /// <summary>Who it is.</summary>
+    /// <summary>The identity of the body.</summary>
     public BodyId Id { get; }
 
-    /// <summary>What it is.</summary>
+    /// <summary>The spec of the body.</summary>
     public BodySpec Spec { get; }
 
     /// <summary>The event that opened this piece of path.</summary>
@@ -147,7 +147,7 @@ public readonly struct BodySnapshot
     /// <summary>Of a step under error control how long the next is to be tried; else zero.</summary>
     public SimDuration NextStep => Dense.NextStep;
 
-    /// <summary>Of a body in a hand who holds it; else the default.</summary>
+    /// <summary>The hold on a held body; the default for any other.</summary>
     public Hold Hold { get; }
 
     /// <summary>How the body turns at the epoch, in rad/s.</summary>

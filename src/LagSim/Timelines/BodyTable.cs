@@ -9,7 +9,7 @@ namespace LagSim.Timelines;
 /// thread-safe.</remarks>
 internal sealed class BodyTable
 {
-    /// <summary>There is room for so many bodies at least: whether a quarter is free tells whether there is to be more.</summary>
+    /// <summary>The least number of bodies that there is room for. The room grows unless a quarter is free.</summary>
     private const int FewestSlots = 4;
 
     private readonly List<int> order; // slots by ascending identity
@@ -35,12 +35,12 @@ internal sealed class BodyTable
     /// <summary>Whether another body needs more memory, or one that is forgotten first.</summary>
     internal bool IsFull => free.Count == 0 && SlotCount == bodies.Length;
 
-    /// <summary>A number that changes whenever a body is added or forgotten: who keeps a list of them compares it.</summary>
+    /// <summary>A number that changes whenever a body is added or forgotten: keepers of a list of bodies compare it.</summary>
     internal long Version { get; private set; }
 
     internal BodyId Id(int slot) => bodies[slot].Id;
 
-    /// <summary>What a body is; the default of one of which nothing but its name was heard.</summary>
+    /// <summary>The spec of a body; the default if only its name is known.</summary>
     internal ref readonly BodySpec Spec(int slot) => ref bodies[slot].Spec;
 
     internal void SetSpec(int slot, in BodySpec spec) => bodies[slot].Spec = spec;
@@ -58,7 +58,7 @@ internal sealed class BodyTable
         return at < 0 ? -1 : order[at];
     }
 
-    /// <summary>Adds a body that is not known, and tells its slot.</summary>
+    /// <summary>Adds a body that is not known, and returns its slot.</summary>
     internal int Add(BodyId id, in BodySpec spec)
     {
         if (IsFull)

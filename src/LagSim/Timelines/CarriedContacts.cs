@@ -5,7 +5,7 @@ using LagSim.Time;
 namespace LagSim.Timelines;
 
 /// <summary>
-/// What the segments of members of islands carry from step to step, besides their paths: persistent contacts, and the instants of their
+/// The data that segments of island members carry from step to step, besides their paths: persistent contacts, and the instants of their
 /// step.
 /// </summary>
 /// <remarks>By segment; allocates only once there is an island, and when more is carried than ever before. Not thread-safe.</remarks>

@@ -77,7 +77,7 @@ internal sealed class EventLog
 
     internal int Next(int entry) => entries[entry].Next;
 
-    /// <summary>Adds an event; false if the body has one of that key, which is then the same event heard again.</summary>
+    /// <summary>Adds an event; false if the body has one of that key, which is then the same event received again.</summary>
     internal bool TryAdd(int slot, in ExternalEvent external, in EventKey key, bool forwarded)
     {
         int before = LastBefore(slot, key);

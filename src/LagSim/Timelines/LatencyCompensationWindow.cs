@@ -7,7 +7,7 @@ namespace LagSim.Timelines;
 
 /// <summary>
 /// The stretch of time around now in which a peer works: it takes events that are up to <see cref="History"/> late, and knows the world
-/// <see cref="LookAhead"/> beyond now. What is older is committed.
+/// <see cref="LookAhead"/> beyond now. Anything older is committed.
 /// </summary>
 /// <remarks>
 /// <para>Immutable, safe on any thread. The history is the session's, and so the host's: whether an event is too late is validated once,
@@ -94,10 +94,10 @@ public sealed class LatencyCompensationWindow
     /// <exception cref="ArgumentOutOfRangeException">It is out of its range, or shorter than a lag.</exception>
     public LatencyCompensationWindow WithLookAhead(SimDuration lookAhead) => new(History, lookAhead, lags);
 
-    /// <summary>The same window with a lag for what this peer does of a kind.</summary>
-    /// <param name="kind">Of which kind. Grab, keyframe and release of a hand should have the same, or they overtake each other.</param>
-    /// <param name="lag">So much later than it is done it is to happen, here as elsewhere; from zero, the default, to the look-ahead, and
-    /// no more than half the history. Above the delay of the links nobody ever has to heal it, and whoever did it sees it that much
+    /// <summary>The same window with a local lag for this peer's actions of one kind.</summary>
+    /// <param name="kind">The kind. Grab, keyframe and release of a hand should have the same lag, or they overtake each other.</param>
+    /// <param name="lag">How much later than the action it takes effect, here as on other peers; from zero, the default, to the look-ahead,
+    /// and no more than half the history. Above the delay of the links no peer ever has to heal it, and the player sees it that much
     /// later.</param>
     /// <exception cref="ArgumentOutOfRangeException">The kind is none of a player's, or the lag is out of its range.</exception>
     public LatencyCompensationWindow WithLocalLag(EventKind kind, SimDuration lag)

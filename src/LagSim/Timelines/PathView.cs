@@ -16,7 +16,7 @@ internal class PathView(TimelineStore timelines, RollbackState rollback)
     }
 
     /// <summary>
-    /// The first piece of another's path that a body's newest segment can still meet: the newest, but for one who is ahead.
+    /// The first segment of another body that a body's newest segment can still meet: the newest, unless that body is ahead.
     /// </summary>
     internal virtual int PieceFrom(int slot, int other)
     {

@@ -10,7 +10,7 @@ internal partial class TimelineStore
     /// <summary>The sum of the hashes of all segments ever opened and not cut off again, dropped ones included.</summary>
     internal ulong EventHash => hashes.Value;
 
-    /// <summary>The hash from which this store goes on, which has what its segments would add in it already.</summary>
+    /// <summary>The hash that this store continues from, which already contains what its segments would add.</summary>
     internal void ContinueFrom(ulong eventHash) => hashes.Value = eventHash;
 
     internal ulong HashOf(int segment, BodyId body)
@@ -48,13 +48,13 @@ internal partial class TimelineStore
     }
 
     /// <summary>
-    /// Whether a segment only notes that an event looked at a body which is gone: for heals, which cut the event with it. A peer that
-    /// joined later has no such body, so it is in no hash and in no list of events.
+    /// Whether a segment only notes that an event tested a body that is gone: heals need it, since they cut the event with it. A peer that
+    /// joined later has no such body, so the segment is in no hash and in no list of events.
     /// </summary>
     internal bool IsNote(int segment) =>
         !pieces[segment].Segment.IsPresent && pieces[segment].Key.Kind is (EventKind.Impact or EventKind.StepEnd);
 
-    /// <summary>Whether an event opened a segment: nothing did where a body is heard of that is not there yet.</summary>
+    /// <summary>Whether an event opened a segment: none did for a body that is known by name but not there yet.</summary>
     private bool IsEvent(int segment) => pieces[segment].Key.Kind != EventKind.None && !IsNote(segment);
 
     /// <summary>Whether nothing counts in the segment's hash but what is known of every segment.</summary>

@@ -13,13 +13,13 @@ internal partial class TimelineStore
 
     private const int FirstRoom = 4;
 
-    /// <summary>By what was opened in one part in so many of the window it is told how much will be in a whole one.</summary>
+    /// <summary>The room for a whole window is estimated from the segments opened in one part in this many.</summary>
     private const ulong RecentPart = 8;
 
-    /// <summary>So many segments of each body tell how it goes on, however short the time.</summary>
+    /// <summary>The number of segments of each body that is enough for an estimate, however short the time.</summary>
     private const int Many = 64;
 
-    /// <summary>If all that can be dropped is less than one part in so many, it would soon be looked for again.</summary>
+    /// <summary>If all that can be dropped is less than one part in this many, the search would soon be due again.</summary>
     private const int LittleRoom = 32;
 
     /// <summary>For how many segments there is room without more memory.</summary>
@@ -50,7 +50,7 @@ internal partial class TimelineStore
         int recent = 0;
         SimTime late = SinceWhen(now);
 
-        // From the end, so that what is freed is given out from the beginning: whoever opens segments goes through memory in one direction.
+        // From the end, so that freed room is given out from the beginning: opening segments goes through memory in one direction.
         for (int at = used - 1; at >= 0; at--)
         {
             SimTime closed = links[at].Closed;
@@ -135,11 +135,11 @@ internal partial class TimelineStore
         now <= edge ? now : SimTime.FromTicks(now.Ticks - (long)(((ulong)now.Ticks - (ulong)edge.Ticks) / RecentPart));
 
     /// <summary>
-    /// For how many segments room will be needed, as far as can be told. Once a whole history has gone by: if as many are opened as in the
-    /// last part of what is kept, less two standard deviations of such a number, so that where it goes on evenly that is no more than there
-    /// is. Before: if as many are opened for the rest of it, from an eighth of it on, or from where each body has many. No more than a
-    /// quarter above what there is, for what begins need not go on. To grow by little where more and more are opened would be to copy
-    /// everything some hundred times.
+    /// An estimate of the number of segments that room will be needed for. Once a whole history has gone by, it assumes that as many are
+    /// opened as in the last part of what is kept, less two standard deviations of such a number, so that at an even rate that is no more
+    /// than there is. Before, it assumes that as many are opened for the rest of the history, from an eighth of it on, or from where each
+    /// body has many. It is no more than a quarter above what there is, because a beginning need not continue. Growing by little where more
+    /// and more are opened would copy everything some hundred times.
     /// </summary>
     private protected virtual int Expected(SimTime now, int recent)
     {

@@ -23,7 +23,7 @@ internal partial class TimelineStore
     private readonly SimTime origin;
     private readonly SimDuration history;
     private readonly EventHashSum hashes = new();
-    private readonly INewestSegments? newest; // is told of each body's newest segment
+    private readonly INewestSegments? newest; // notified of each body's newest segment
     private Piece[] pieces;
     private Link[] links; // apart, so that what is old is dropped without a look at what it was
     private DenseOutput[] dense = Array.Empty<DenseOutput>(); // only once something is integrated
@@ -36,9 +36,9 @@ internal partial class TimelineStore
     private SimTime edge = SimTime.MinValue; // what lies before is dropped when room is needed
 
     /// <summary>
-    /// No timelines yet; of at most <paramref name="most"/> segments in all, whose hashes count time from <paramref name="origin"/>; told
-    /// to <paramref name="newest"/>; with room for as many bodies as are expected at first, and for few of them for a second segment each.
-    /// Of how long a history it will be helps to guess how much room it will need.
+    /// An empty store of at most <paramref name="most"/> segments in all. Hashes count time from <paramref name="origin"/>, and
+    /// <paramref name="newest"/> is notified of newest segments. There is room for as many bodies as are expected at first, and for few of
+    /// them for a second segment each. The length of the history helps to estimate how much room it will need.
     /// </summary>
     internal TimelineStore(
         SimTime origin, int most = SimulationOptions.DefaultMaxSegments, INewestSegments? newest = null, int expected = 0, SimDuration history = default)
@@ -65,10 +65,10 @@ internal partial class TimelineStore
     /// <summary>The serial of the segment that was opened last.</summary>
     internal long LastSerial { get; private set; }
 
-    /// <summary>Is told of impacts that are cut; null for nobody.</summary>
+    /// <summary>Notified of impacts that are cut; null for none.</summary>
     internal IImpactObserver? Observer { get; set; }
 
-    /// <summary>Is told of segments that are opened; null for nobody.</summary>
+    /// <summary>Notified of segments that are opened; null for none.</summary>
     internal IOpeningObserver? Openings { get; set; }
 
     /// <summary>How many segments may be kept.</summary>
@@ -100,7 +100,7 @@ internal partial class TimelineStore
     /// <summary>The body's oldest segment that is kept, or <see cref="None"/>.</summary>
     internal int First(int slot) => first[slot];
 
-    /// <summary>What members' segments carry besides their paths.</summary>
+    /// <summary>The data that members' segments carry besides their paths.</summary>
     internal CarriedContacts Carried { get; } = new();
 
     internal int Next(int segment) => links[segment].Next;
@@ -111,7 +111,7 @@ internal partial class TimelineStore
 
     internal DenseOutput Dense(int segment) => segment < dense.Length ? dense[segment] : default;
 
-    /// <summary>Of a held segment who holds; of any other the default.</summary>
+    /// <summary>The hold of a held segment; the default for any other.</summary>
     internal Hold HoldOf(int segment) => pieces[segment].Segment.Law == MotionLaw.Held ? holds[segment] : default;
 
     /// <summary>How the body turns on the segment.</summary>
@@ -124,11 +124,12 @@ internal partial class TimelineStore
     internal bool IsKnown(int slot) => slot < last.Length && last[slot] != None;
 
     /// <summary>
-    /// A number no other segment of this store ever has, 0 for one that is no more; tells whether a remembered segment is still the one.
+    /// A number that no other segment of this store ever has, 0 for one that is gone; it shows whether a remembered segment is still the
+    /// same.
     /// </summary>
     internal long Serial(int segment) => links[segment].Serial;
 
-    /// <summary>The slot of the body whose path the segment is part of.</summary>
+    /// <summary>The slot of the segment's body.</summary>
     internal int Owner(int segment) => links[segment].Owner;
 
     /// <summary>The body's newest segment keyed before <paramref name="key"/>; <see cref="None"/> if none that is kept is.</summary>
@@ -225,7 +226,7 @@ internal partial class TimelineStore
         Alive++;
         if (segment.IsOfIsland)
         {
-            return; // what it carries is still to be told, and counts in its hash
+            return; // the contacts it carries are still to be set, and count in its hash
         }
 
         if (IsPlain(at))

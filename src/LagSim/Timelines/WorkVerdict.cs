@@ -1,9 +1,9 @@
 namespace LagSim.Timelines;
 
-/// <summary>What an <see cref="IWorkObserver"/> says of an advance; of two the greater holds.</summary>
+/// <summary>The verdict of an <see cref="IWorkObserver"/> on an advance; of two the greater counts.</summary>
 internal enum WorkVerdict
 {
-    /// <summary>It goes on.</summary>
+    /// <summary>The advance continues.</summary>
     GoOn,
 
     /// <summary>It stops after this instant.</summary>

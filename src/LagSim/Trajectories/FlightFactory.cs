@@ -55,7 +55,7 @@ internal sealed class FlightFactory(
         return piece;
     }
 
-    /// <summary>What the step before proposes, if there was one; else nothing.</summary>
+    /// <summary>The step that the one before proposes, if there was one; else none.</summary>
     private SimDuration StepToTry(int slot)
     {
         int last = timelines.Last(slot);

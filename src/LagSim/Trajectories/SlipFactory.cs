@@ -24,7 +24,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     /// <summary>By how much a direction of slip or rolling may turn in one piece of path, in radians, where gravity pulls aslant.</summary>
     private const double MostTurn = 1.0 / 128;
 
-    /// <summary>What slips, or moves or turns on a surface slower than this, in m/s, is what rounding leaves of nothing.</summary>
+    /// <summary>A slip, motion or turning on a surface slower than this, in m/s, counts as the rounding of zero.</summary>
     private const double RoundingSlip = 1e-10;
 
     private readonly StaticSurfaces surfaces = scene.Surfaces;
@@ -54,7 +54,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
             Supports = supports,
         };
 
-        // What a tick changes of a speed: times are rounded to ticks.
+        // The change of a speed in a tick: times are rounded to ticks.
         double tick = SimDuration.OneTick.ToSeconds() * (pull.Length + (3.5 * at.Grip) + (2.5 * at.Resistance));
         at.Pivot = n * Vector3D.Dot(n, spin);
         at.Slowing = Slowing(ref at.Pivot, 2.5 * at.Resistance / spec.Radius, RoundingSlip / spec.Radius);
@@ -110,7 +110,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
         MotionSegment path;
         if (left > SimDuration.Zero)
         {
-            // What has stopped turning before the bounces that are left out would have been over stops with them.
+            // A body that has stopped turning before the bounces that are left out would have been over stops with them.
             slowing = still < key.Time + left ? at.Pivot * (1 / left.ToSeconds()) : slowing;
             path = new MotionSegment(MotionLaw.Sliding, key.Time, key.Time + left, at.Position, Vector3D.Zero, Vector3D.Zero, at.Supports);
         }
@@ -155,14 +155,14 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// What rolling resistance takes from what turns about the normal, in rad/s²; where it is slower than <paramref name="least"/>, or than
-    /// a tick takes, it turns no more.
+    /// The deceleration by rolling resistance of a body that turns about the normal, in rad/s². If it turns slower than
+    /// <paramref name="least"/>, or than a tick takes, it turns no more.
     /// </summary>
     private static Vector3D Slowing(ref Vector3D pivot, double rate, double least)
     {
         if (!(rate > 0))
         {
-            return Vector3D.Zero; // and goes on turning
+            return Vector3D.Zero; // and continues to turn
         }
 
         double speed = pivot.Length;
@@ -188,7 +188,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
         return aslant > 1e-13 * pull.Length && velocity.Length > 0 ? Math.Min(seconds, Turn(velocity.Length, pull) * velocity.Length / aslant) : seconds;
     }
 
-    /// <summary>So many seconds from then on, a tick at least; false if that is beyond all time.</summary>
+    /// <summary>Some seconds from then on, a tick at least; false if that is beyond all time.</summary>
     private static bool TryTicks(SimTime from, double seconds, out SimDuration span)
     {
         bool fits = TickConversion.TryFromSeconds(seconds, out long ticks) && ticks <= SimTime.MaxValue.Ticks - Math.Max(0, from.Ticks);
@@ -213,9 +213,9 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     /// which it turns follows that of the slip, at the rate of what drives it by the speed.
     /// </summary>
     /// <remarks>
-    /// From where less is left of that than may turn in a piece the rest of it fades away within some speed / drive, of which a piece is at
-    /// most a quarter, but not below 2^-8 s: <see cref="Following"/> bears any. What is slow follows in no time, and as little as
-    /// resistance lets it gain it stays slow.
+    /// Once less of that is left than may turn in a segment, the rest fades away within some speed / drive. A segment is at most a quarter
+    /// of that, but not below 2^-8 s: <see cref="Following"/> works for any length. A slow direction follows at once, and stays slow as
+    /// long as resistance lets it gain little.
     /// </remarks>
     private SimTime EndOfFollowing(SimTime from, in Vector3D turn, in Vector3D over, in Vector3D drive, double resistance)
     {

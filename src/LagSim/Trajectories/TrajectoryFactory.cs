@@ -8,7 +8,7 @@ using LagSim.Timelines;
 namespace LagSim.Trajectories;
 
 /// <summary>Opens the next segment of a body that is no member of an island: which law it follows from a state on.</summary>
-/// <remarks>What it meets on the way is not its affair.</remarks>
+/// <remarks>Contacts on the way are predicted elsewhere.</remarks>
 internal sealed class TrajectoryFactory
 {
     private readonly Scene scene;
@@ -34,7 +34,7 @@ internal sealed class TrajectoryFactory
         Hands = new HandFactory(scene, bodies, timelines, limits, Flights);
     }
 
-    /// <summary>What is said where forces are too much.</summary>
+    /// <summary>The messages for forces that are too strong.</summary>
     internal ForceFailures Failures { get; }
 
     /// <summary>Opens flights.</summary>
