@@ -27,7 +27,7 @@ public sealed partial class LiteNetLibPort
                 return;
             }
 
-            // Forced, for a polite refusal would have LiteNetLib remember every stranger for seconds.
+            // Forced: after a polite refusal LiteNetLib would remember every stranger for seconds.
             Interlocked.Increment(ref port.connectionsRefused);
             request.RejectForce();
         }

@@ -37,14 +37,15 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     /// <summary>How many characters a user's key may have.</summary>
     public const int MaxKeyLength = 100;
 
-    /// <summary>How many connections there may be where nothing else is said: four times the clients that a host can have.</summary>
+    /// <summary>The default limit on connections: four times the clients that a host can have.</summary>
     public const int DefaultMaxConnections = 4 * SessionOptions.MaxClients;
 
     /// <summary>The most connections that can be asked for.</summary>
     public const int MostConnections = 4096;
 
     /// <summary>
-    /// LiteNetLib remembers a closed connection for as long as a silent one; so many of those at most, beside the living.
+    /// The largest number of closed connections kept beside the live ones: LiteNetLib remembers a closed connection for as long as a silent
+    /// one.
     /// </summary>
     private const int MaxClosed = 256;
 
@@ -127,7 +128,7 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     /// <remarks>Stopping it, or changing its timing, its events or its MTU, breaks the port.</remarks>
     public LiteNetManager Manager => manager;
 
-    /// <summary>How many connections stand.</summary>
+    /// <summary>The number of open connections.</summary>
     public int Connections => manager.ConnectedPeersCount;
 
     /// <summary>
@@ -182,7 +183,7 @@ public sealed partial class LiteNetLibPort : IDatagramPort
         }
 
         peer.Send(datagram, DeliveryMethod.Unreliable);
-        manager.TriggerUpdate(); // else it would wait for LiteNetLib's next round
+        manager.TriggerUpdate(); // otherwise it would wait for LiteNetLib's next round
     }
 
     /// <inheritdoc/>
@@ -247,7 +248,7 @@ public sealed partial class LiteNetLibPort : IDatagramPort
         }
     }
 
-    /// <summary>LiteNetLib says no more than that it could not be opened; a socket of our own says why.</summary>
+    /// <summary>LiteNetLib reports only that it could not be opened; a socket of our own shows why.</summary>
     private static SocketException? WhyNot(IPEndPoint bind)
     {
         try
@@ -284,7 +285,8 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     }
 
     /// <summary>
-    /// The connection to an address, asked for if there is none; null if there is no room for it or the other side is asking just now.
+    /// The connection to an address, requested if there is none; null if there is no room for it, or if the other side is requesting one at
+    /// the moment.
     /// </summary>
     private LiteNetPeer? Connect(IPEndPoint endPoint, PeerAddress to)
     {

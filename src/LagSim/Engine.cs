@@ -243,7 +243,7 @@ internal sealed class Engine
         }
 
         Loop.Reconsider(key.Time);
-        if (key == due && log.Due(slot) == next) // else an earlier one is due again
+        if (key == due && log.Due(slot) == next) // otherwise an earlier one is due again
         {
             log.SetDueFrom(slot, key);
         }
@@ -312,7 +312,7 @@ internal sealed class Engine
     }
 
     /// <summary>
-    /// Forgets the timeline of a body that is not there and that nothing inside the window says anything of; false for any other.
+    /// Forgets the timeline of a body that is not there and that nothing inside the window refers to; false for any other.
     /// </summary>
     private bool ForgetIfAbsent(int slot)
     {

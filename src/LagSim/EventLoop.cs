@@ -21,7 +21,7 @@ internal sealed class EventLoop(
     CancellationToken cancellation)
 {
     private Exception? fault;
-    private SimTime partDone = SimTime.MinValue; // the instant of which some has happened and the rest has not; the least time if there is none
+    private SimTime partDone = SimTime.MinValue; // the instant that has happened only in part; the least time if there is none
 
     /// <summary>
     /// Whether an advance may stop within an instant, and whether one with more impacts than can be followed blocks the world until an
@@ -66,11 +66,11 @@ internal sealed class EventLoop(
     internal Exception Fail(Exception failure) => fault = failure;
 
     /// <summary>
-    /// Lets events happen up to and including a time, or as many as <paramref name="events"/> says; see
+    /// Processes events up to and including a time, or as many as <paramref name="events"/> allows; see
     /// <see cref="Simulation.TryAdvanceTo"/>.
     /// </summary>
-    /// <exception cref="OperationCanceledException">The token asked for an end; what lies behind <see cref="Progress.SimulatedTo"/>
-    /// stands.</exception>
+    /// <exception cref="OperationCanceledException">The token was cancelled; everything before <see cref="Progress.SimulatedTo"/>
+    /// stays.</exception>
     internal bool TryAdvanceTo(SimTime time, ref long events)
     {
         SimTime reached = progress.SimulatedTo;

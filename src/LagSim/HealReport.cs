@@ -41,9 +41,9 @@ public readonly struct HealReport : IEquatable<HealReport>
     public long Events { get; }
 
     /// <summary>
-    /// From when on all paths were the old ones again, to the bit, so that the heal was done: what came after stands as it was. Null if
-    /// that never came, or was not looked for: after a full rollback, after more late events before the heal was finished, and where it had
-    /// cut more than 256 segments.
+    /// The instant from which all paths were the old ones again, to the bit, so that the heal was done; later segments stay as they were.
+    /// Null if that never came, or was not tested: after a full rollback, after more late events before the heal was finished, and where it
+    /// had cut more than 256 segments.
     /// </summary>
     public SimTime? Met { get; }
 

@@ -9,15 +9,15 @@ namespace LagSim;
 
 /// <summary>A deterministic world that can be advanced, changed and read at any time in its window.</summary>
 /// <remarks>
-/// <para>Its state is a pure function of the scene and the external events submitted, whatever the order in which they came:
-/// <c>state(t) = Fold(scene, events up to t, in canonical order)</c>, bit for bit.</para>
-/// <para>Not thread-safe: one thread at a time. <c>LagSim.Hosting</c> gives it a thread of its own. No allocation per event once as many
-/// segments were alive as will be.</para>
-/// <para>An exception out of <see cref="AdvanceTo"/> other than an argument's leaves it faulted: every later call throws. One that was
-/// cancelled still stands from <see cref="HistoryEdge"/> to <see cref="SimulatedTo"/>, if that is not before it.</para>
+/// <para>Its state is a pure function of the scene and the submitted external events, in whatever order they came: <c>state(t) =
+/// Fold(scene, events up to t, in canonical order)</c>, bit for bit.</para>
+/// <para>Not thread-safe: one thread at a time. <c>LagSim.Hosting</c> gives it a thread of its own. No allocation per event once the number
+/// of live segments has reached its maximum.</para>
+/// <para>An exception from <see cref="AdvanceTo"/>, except for a wrong argument, leaves it faulted: every later call throws. A cancelled
+/// world can still be read from <see cref="HistoryEdge"/> to <see cref="SimulatedTo"/>, if that is not before it.</para>
 /// </remarks>
 /// <example>
-/// A late event changes the past, and what follows is simulated again:
+/// A late event changes the past, and everything that depends on it is simulated again:
 /// <code>
 /// Simulation world = new(scene);
 /// world.AdvanceTo(SimTime.FromSeconds(2));
@@ -77,8 +77,8 @@ public sealed class Simulation
     /// and hashes, to the bit.
     /// </summary>
     /// <remarks>
-    /// <para>It is raised by one whenever a pinned hash or one of the corpus moves; a test holds it to that. It says nothing of layouts,
-    /// which the versions of wire and recordings count, nor of a program's own forces, which have their author's.</para>
+    /// <para>It is raised by one whenever a pinned hash or one of the corpus moves; a test holds it to that. It does not cover layouts,
+    /// which have the versions of wire and recordings, nor a program's own forces, which have their author's version.</para>
     /// <para>Peers of other versions would each compute a world of its own, and a recording of another version gives other hashes than
     /// those stored in it.</para>
     /// <para>Not a <see langword="const"/>: that would be copied into assemblies built against the library, and could name another build
@@ -309,19 +309,19 @@ public sealed class Simulation
     /// The kept events of a body: the last one up to and including <paramref name="from"/>, which began the motion that it is in then, and
     /// all after it.
     /// </summary>
-    /// <param name="body">The body. Of an unknown one there are none.</param>
-    /// <param name="from">From when on, in simulated time; any instant, also one that is no longer kept or not simulated yet.</param>
+    /// <param name="body">The body. An unknown one has no events.</param>
+    /// <param name="from">The start, in simulated time; any instant, also one that is no longer kept or not simulated yet.</param>
     /// <returns>In order, each with the state right after it.</returns>
     /// <remarks>
-    /// For reports that go along with the simulation; allocates. Cost: the number of the events returned, however long the history is.
+    /// For reports during the simulation; allocates. Cost: the number of the events returned, however long the history is.
     /// </remarks>
     public IReadOnlyList<TimelineEntry> Timeline(BodyId body, SimTime from) => Engine.Reader.Timeline(Engine.Bodies.SlotOf(body), from);
 
     /// <summary>
     /// Whether an event changed its body, as far as is known now. False while its time is not simulated yet; if it was submitted and its
-    /// time has come, it had no effect: the body was not there, or was in a hand (or not in that hand), or an impulse would have made it
-    /// faster than a body may be given to move, a tenth of <see cref="Scene.SmallestRadius"/> in a tick. Nothing is ever clamped. A late
-    /// event may change the answer.
+    /// time has come, it had no effect: the body was not there, or was held (or not held by that hand), or an impulse would have made it
+    /// faster than a player may make a body, a tenth of <see cref="Scene.SmallestRadius"/> in a tick. Nothing is ever clamped. A late event
+    /// may change the answer.
     /// </summary>
     /// <remarks>
     /// Pure, the same on every peer. Cost: the number of the body's segments. Before <see cref="HistoryEdge"/> the answer is no longer

@@ -10,10 +10,10 @@ namespace LagSim;
 /// <remarks>Immutable.</remarks>
 public sealed class SimulationOptions
 {
-    /// <summary>The history where nothing else is said: 1 s.</summary>
+    /// <summary>The default history: 1 s.</summary>
     public static readonly SimDuration DefaultHistory = SimDuration.FromSeconds(1);
 
-    /// <summary>The most segments where nothing else is said: 8,388,608, of 1.5 to 3 GB, and as much again while they grow.</summary>
+    /// <summary>The default limit on segments: 8,388,608, of 1.5 to 3 GB, and as much again while they grow.</summary>
     public const int DefaultMaxSegments = 1 << 23;
 
     /// <summary>The number of bodies above which neighbour lists cost less than testing every body.</summary>
@@ -27,7 +27,7 @@ public sealed class SimulationOptions
     /// <see cref="SimDuration.MaxValue"/> keeps everything.
     /// </param>
     /// <param name="maxSegments">
-    /// How many pieces of path all timelines together may hold, at least one; default <see cref="DefaultMaxSegments"/>. Each takes 184 to
+    /// The largest number of segments in all timelines together, at least one; default <see cref="DefaultMaxSegments"/>. Each takes 184 to
     /// 356 bytes (<see cref="Timelines.LatencyCompensationWindow"/>). A simulation that would need more ends with a
     /// <see cref="TimelinesFullException"/>, which names the body with most of them.
     /// </param>
@@ -35,10 +35,9 @@ public sealed class SimulationOptions
     /// Ends the simulation's current call, from any thread, with an <see cref="OperationCanceledException"/>: between two instants, in a
     /// session within one too.
     /// </param>
-    /// <param name="healing">How an event is brought in that lies before the simulated time. It has no influence on the result, to the
-    /// bit.</param>
+    /// <param name="healing">How an event before the simulated time is brought in. It has no influence on the result, to the bit.</param>
     /// <param name="threads">
-    /// How many threads at most may be at work for this simulation at once, the one that calls it included: from 1 to
+    /// The largest number of threads that work for this simulation at once, including the caller's: from 1 to
     /// <see cref="SceneBuilder.MaxThreads"/>; default as many as there are processors, at most 8. At present everything is done on the
     /// calling thread; the result is the same, to the bit, for any number.
     /// </param>
@@ -90,10 +89,10 @@ public sealed class SimulationOptions
     /// </summary>
     public int MaxSegments { get; }
 
-    /// <summary>How an event is brought in that lies before the simulated time.</summary>
+    /// <summary>How an event before the simulated time is brought in.</summary>
     public HealingMode Healing { get; }
 
-    /// <summary>How many threads at most may be at work for the simulation at once.</summary>
+    /// <summary>The largest number of threads that work for the simulation at once.</summary>
     public int Threads { get; }
 
     /// <summary>
@@ -104,7 +103,7 @@ public sealed class SimulationOptions
     /// <summary>The factory of the engine's parts.</summary>
     internal EngineParts Parts { get; private set; } = EngineParts.Usual;
 
-    /// <summary>Ends whatever the simulation is at.</summary>
+    /// <summary>Ends the simulation's current call.</summary>
     public CancellationToken Cancellation { get; }
 
     /// <summary>

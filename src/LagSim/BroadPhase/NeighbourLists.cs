@@ -61,10 +61,10 @@ internal class NeighbourLists : IBroadPhase
     /// <param name="timelines">The paths.</param>
     /// <param name="cell">The least size of a cell, in metres: about two diameters of most bodies.</param>
     /// <param name="speed">How fast most bodies are at most, in m/s.</param>
-    /// <param name="near">How far apart two bodies may be, in metres, that are still candidates.</param>
+    /// <param name="near">The largest distance, in metres, at which two bodies are still candidates.</param>
     /// <param name="tickLength">How far a body moves in a tick at most, in metres.</param>
-    /// <param name="box">The box whose sides meet; empty if there is none.</param>
-    /// <param name="expected">For how many bodies there is room at first.</param>
+    /// <param name="box">The periodic box; empty if there is none.</param>
+    /// <param name="expected">The number of bodies that there is room for at first.</param>
     internal NeighbourLists(TimelineStore timelines, double cell, double speed, double near, double tickLength, in PeriodicBox box, int expected = 0)
     {
         this.timelines = timelines;

@@ -26,8 +26,8 @@ internal sealed class PastShells
         slabs.Get(SlabRing.NumberOf(until)).Add(cell, new Stay(slot, shell, from, until));
 
     /// <summary>
-    /// The same of what is healed, which as a rule is where it was before: one entry is made to stand for both, if it can, so that what is
-    /// healed again and again does not fill the cells.
+    /// The same for a body in a heal, which as a rule is where it was before: one entry covers both, if it can, so that repeated heals do
+    /// not fill the cells.
     /// </summary>
     internal void AddAgain(ulong cell, int slot, in Shell shell, SimTime from, SimTime until)
     {

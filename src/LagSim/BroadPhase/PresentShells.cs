@@ -28,9 +28,9 @@ internal sealed class PresentShells
 
     /// <summary>No body yet.</summary>
     /// <param name="grid">The cells.</param>
-    /// <param name="box">The box whose sides meet; empty if there is none.</param>
+    /// <param name="box">The periodic box; empty if there is none.</param>
     /// <param name="widestInCells">The extent, in metres, above which a shell is in no cell.</param>
-    /// <param name="expected">For how many bodies there are lists at first.</param>
+    /// <param name="expected">The number of bodies that there are lists for at first.</param>
     internal PresentShells(CellGrid grid, in PeriodicBox box, double widestInCells, int expected)
     {
         int lists = FewestLists;
@@ -189,7 +189,7 @@ internal sealed class PresentShells
 
     private int Bucket(ulong number) => CellGrid.Bucket(number, cells.Count);
 
-    /// <summary>Twice as many lists, for there are more bodies than lists.</summary>
+    /// <summary>Doubles the lists, because there are more bodies than lists.</summary>
     private void Spread()
     {
         ManyLists<Entry> before = cells;

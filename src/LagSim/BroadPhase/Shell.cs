@@ -55,8 +55,8 @@ internal readonly struct Shell
     }
 
     /// <summary>
-    /// The largest acceleration, or more, that a path has so many seconds after its epoch and for a span after that, but not after
-    /// its end: a polynomial says nothing there, and where forces are strong it ends soon.
+    /// An upper bound on the acceleration of a path from some seconds after its epoch and for a span after that, but not after its end: a
+    /// polynomial means nothing there, and where forces are strong it ends soon.
     /// </summary>
     internal static double LargestAcceleration(in MotionSegment path, in DenseOutput dense, double seconds, double span)
     {
@@ -70,11 +70,11 @@ internal readonly struct Shell
         return largest;
     }
 
-    // A tick more, for what happens at the last one may lie half of one after it.
+    // A tick more, because an event at the last one may lie half of one after it.
     private static double SecondsLeft(in MotionSegment path, double seconds) =>
         path.IsDense ? Math.Max(0, path.End.SecondsSince(path.Epoch) - seconds) + TickConversion.SecondsPerTick : double.PositiveInfinity;
 
-    // A tick less, for what happens at a tick may lie half of one after it.
+    // A tick less, because an event at a tick may lie half of one after it.
     private static SimTime Later(SimTime from, double seconds)
     {
         double ticks = Math.Floor(seconds * SimDuration.TicksPerSecond) - 1;

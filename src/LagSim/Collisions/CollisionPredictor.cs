@@ -38,7 +38,7 @@ internal sealed class CollisionPredictor(
         bool isPlane = surfaces.IsPlane(surface);
         if (segment.Law is MotionLaw.Resting or MotionLaw.Held || (isPlane && segment.Supports.Contains(surface)))
         {
-            return false; // what carries a body stays below it until something else happens, and nothing static stops a hand
+            return false; // the surface that carries a body stays below it until another event, and nothing static stops a hand
         }
 
         if (segment.Law == MotionLaw.Constrained && (members.IsOutOfReach(slot, segment, surface) || members.IsCovered(slot, last, surface)))
@@ -253,9 +253,9 @@ internal sealed class CollisionPredictor(
         path.At(path.Position + (box.Nearest(at - point) - (at - point)));
 
     /// <summary>
-    /// How long a contact that closes from the opening of its segments on needs not be looked for: so slow, as rounding leaves it, or a
-    /// step's sweeps where it holds, that it uses up its room only then. An elastic one has what is left of that room, for no step makes up
-    /// for what its impacts leave. If that is sooner than <see cref="ContactTime.Soon"/> it may have to be struck at once.
+    /// How long the search for a contact that closes from the opening of its segments on can wait. It closes so slowly, as rounding leaves
+    /// it, or a step's sweeps where it holds, that it uses up its room only then. An elastic contact has what is left of that room, because
+    /// no step makes up for what its impacts leave. If that is sooner than <see cref="ContactTime.Soon"/> it may have to be struck at once.
     /// </summary>
     private SimDuration WaitFor(in Closing closing, bool holds, bool isElastic)
     {
@@ -276,7 +276,7 @@ internal sealed class CollisionPredictor(
     }
 
     /// <summary>
-    /// From when on it is looked for again, after such a wait; <see cref="SimTime.MaxValue"/> if the segments end before.
+    /// When it is searched for again, after such a wait; <see cref="SimTime.MaxValue"/> if the segments end before.
     /// </summary>
     private static SimTime LookAgain(SimTime opened, SimTime end, SimDuration wait)
     {

@@ -92,7 +92,7 @@ internal class CollisionSearch(
     }
 
     /// <summary>
-    /// The same of one in free flight, without a look at the segments unless the two touch as soon as both paths are open.
+    /// The same for a body in free flight, without reading the segments unless the two touch as soon as both paths are open.
     /// </summary>
     private void ConsiderFlights(int slot, int other, bool isClose, SimTime until, ref NextEvent next)
     {

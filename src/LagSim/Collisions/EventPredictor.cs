@@ -108,7 +108,7 @@ internal class EventPredictor(
     }
 
     /// <summary>
-    /// With which segment of its partner a contact stands that was found with one that is not its newest: with that very one.
+    /// The partner's segment of a contact that was found with a segment that is not the partner's newest: that very segment.
     /// </summary>
     private protected virtual int StandsWith(int partner, int piece) => piece;
 

@@ -33,7 +33,7 @@ internal sealed class FreeFlights : INewestSegments
     private readonly PeriodicBox box;
     private readonly double near;
     private readonly double sunk;
-    private readonly Vector3D halfBox; // its sides by two; endless if there is none
+    private readonly Vector3D halfBox; // half its sides; infinite if there is none
     private readonly bool hasBox;
     private readonly bool falls;
     private Flight[] flights;
@@ -43,10 +43,10 @@ internal sealed class FreeFlights : INewestSegments
 
     /// <summary>No body yet.</summary>
     /// <param name="gravity">The acceleration of free flight, in m/s².</param>
-    /// <param name="near">How far apart two may be, in metres, that are not to be called apart.</param>
-    /// <param name="box">The box whose sides meet; empty if there is none.</param>
-    /// <param name="expected">For how many bodies there is room at first.</param>
-    /// <param name="sunk">How deep two may be in each other, in metres, without a closer look, though they do not close.</param>
+    /// <param name="near">The largest distance, in metres, at which two bodies do not count as apart.</param>
+    /// <param name="box">The periodic box; empty if there is none.</param>
+    /// <param name="expected">The number of bodies that there is room for at first.</param>
+    /// <param name="sunk">The largest overlap of two bodies, in metres, that needs no closer test while they do not close.</param>
     internal FreeFlights(in Vector3D gravity, double near, in PeriodicBox box, int expected = 0, double sunk = double.PositiveInfinity)
     {
         flights = new Flight[expected];

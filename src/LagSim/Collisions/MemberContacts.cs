@@ -8,7 +8,7 @@ using LagSim.Timelines;
 
 namespace LagSim.Collisions;
 
-/// <summary>Which contacts of members are their steps' affair, so that no impact is looked for.</summary>
+/// <summary>Decides which contacts of members are left to their steps, so that no impact is searched for.</summary>
 internal sealed class MemberContacts(TimelineStore timelines, PathView view, BodyTable bodies, StaticSurfaces surfaces, ContactScale scale)
 {
     private readonly Paths paths = new(timelines);

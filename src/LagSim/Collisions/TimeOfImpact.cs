@@ -138,7 +138,7 @@ internal static class TimeOfImpact
             int terms = SquaredDistance(d, reach, f);
             if (OnlyGrows(f, terms))
             {
-                return double.NaN; // as after some seconds whatever falls away from what does not: the end of time is far
+                return double.NaN; // as when one body has fallen away from one that does not fall for some seconds: the end of time is far
             }
 
             double root = RootIsolation.Find(f.Slice(0, terms), window);

@@ -12,8 +12,7 @@ namespace LagSim.Contacts;
 /// </summary>
 /// <remarks>
 /// Bodies are numbered within the graph; each has a place in every span of states. A graph is filled, solved and cleared again and again:
-/// it
-/// allocates only when an event has more bodies or contacts than any before.
+/// it allocates only when an event has more bodies or contacts than any before.
 /// </remarks>
 internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, StaticSurfaces surfaces, PeriodicBox box)
 {
@@ -36,7 +35,7 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
     /// <summary>The slots of the bodies that these states belong to.</summary>
     internal Span<int> Slots => slots.AsSpan(0, BodyCount);
 
-    /// <summary>In kg; infinite of a body in a hand.</summary>
+    /// <summary>In kg; infinite for a held body.</summary>
     internal Span<double> Masses => masses.AsSpan(0, BodyCount);
 
     /// <summary>In metres.</summary>
@@ -122,7 +121,7 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
         return has;
     }
 
-    /// <summary>Whether some body is in a hand.</summary>
+    /// <summary>Whether some body is held.</summary>
     internal bool HasHand()
     {
         bool has = false;
@@ -206,7 +205,7 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
         spins[body] = timelines.SpinOf(last).At(seconds);
     }
 
-    /// <summary>Whether one of a contact's two bodies is in a hand, which goes its own way, so that nothing lasts on it.</summary>
+    /// <summary>Whether one of a contact's two bodies is held. A hand follows its own path, so no contact with it persists.</summary>
     internal bool IsByHand(in ContactPoint c) =>
         double.IsPositiveInfinity(masses[c.First]) || (c.Second != ContactPoint.Static && double.IsPositiveInfinity(masses[c.Second]));
 

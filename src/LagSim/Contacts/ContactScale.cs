@@ -20,7 +20,7 @@ internal sealed class ContactScale
     /// <summary>No step is longer: a picture a frame of an old screen, so that what moves in a heap is seen to.</summary>
     private const long LongestTicks = SimDuration.TicksPerSecond / 64;
 
-    /// <summary>No step is shorter than 2^-20 s, whatever asks for it: what closes sooner is as good as at once.</summary>
+    /// <summary>The shortest step, 2^-20 s, whatever asks for less: a gap that closes sooner counts as closing at once.</summary>
     internal const long ShortestTicks = ContactTime.SoonTicks;
 
     /// <summary>
@@ -90,7 +90,7 @@ internal sealed class ContactScale
     internal double Pull { get; }
 
     /// <summary>
-    /// How long a contact step is where no force asks for less: the largest power of two of ticks in which a fall stays within the
+    /// The length of a contact step where no force asks for less: the largest power of two of ticks in which a fall stays within the
     /// tolerance.
     /// </summary>
     internal SimDuration Step { get; }
@@ -102,7 +102,7 @@ internal sealed class ContactScale
     internal double CaptureSpeedAt(double pull) => pull > Pull ? Math.Sqrt(2 * Length * pull) : CaptureSpeed;
 
     /// <summary>
-    /// How long, in seconds, a fall by the tolerance takes where forces pull a body harder than gravity does; else as long as you like.
+    /// The time, in seconds, of a fall by the tolerance where forces pull a body harder than gravity does; infinite otherwise.
     /// </summary>
     internal double FallAt(double pull) => pull > Pull ? Math.Sqrt(2 * Length / pull) : double.PositiveInfinity;
 

@@ -4,8 +4,8 @@ using LagSim.Scenes;
 namespace LagSim.Contacts;
 
 /// <summary>
-/// Finds the impulses of a <see cref="ContactProblem"/>: no contact opens slower than its target or else it pushes, with Coulomb friction
-/// and rolling resistance.
+/// Finds the impulses of a <see cref="ContactProblem"/>: each contact opens at least at its target, or pushes, with Coulomb friction and
+/// rolling resistance.
 /// </summary>
 /// <remarks>
 /// <para>The law of Stewart and Trinkle (1996, Int. J. Numer. Methods Eng. 39, 2673-2691) and of Anitescu and Potra (1997, Nonlinear Dyn.
@@ -123,8 +123,8 @@ internal static class ContactSolver
     }
 
     /// <summary>
-    /// A hand pushes with no more than would give all that takes part the speed that it asks for, and some more: so it throws and lifts
-    /// whatever can give way, and goes through what cannot.
+    /// Limits each hand's push to what would give all bodies that take part the speed that it asks for, and some more. So a hand throws and
+    /// lifts whatever can give way, and goes through what cannot.
     /// </summary>
     /// <param name="problem">With targets, and the velocities before.</param>
     /// <param name="more">The speed, in m/s, that may be asked for besides.</param>

@@ -57,7 +57,7 @@ internal sealed class ContactStep
     /// <param name="gain">The velocity that forces add until the middle of this step; zero for a held body, whose velocity is its mean in
     /// the step.</param>
     /// <param name="spin">Its spin.</param>
-    /// <param name="isHeld">Whether it is in a hand.</param>
+    /// <param name="isHeld">Whether it is held.</param>
     /// <param name="pull">How hard forces pull it, in m/s².</param>
     internal void AddBody(in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D gain, in Vector3D spin, bool isHeld, double pull = 0)
     {
@@ -74,7 +74,7 @@ internal sealed class ContactStep
     /// <summary>Finds what touches, or might within the step, among the bodies and with static surfaces.</summary>
     internal void FindContacts(double seconds) => contacts.Find(seconds);
 
-    /// <summary>Leaves out what did not hold before and is impacts' affair; see <see cref="StepContacts.DropImpacts"/>.</summary>
+    /// <summary>Leaves out contacts that did not hold before and are left to impacts; see <see cref="StepContacts.DropImpacts"/>.</summary>
     internal void DropImpacts(double seconds) => contacts.DropImpacts(seconds);
 
     /// <summary>Whether a body might strike another of the island within the step.</summary>
@@ -99,9 +99,10 @@ internal sealed class ContactStep
     }
 
     /// <summary>
-    /// No step leaves more energy than its bodies came with, what forces give in it included, or than the pull gives them from rest. Each
-    /// contact pushes its overlap out no faster than a fall of a step, but in a stack these speeds add up and would throw its top into the
-    /// air; so it goes from a solution that pushes nothing out only as far towards the one that does as there is energy for.
+    /// Limits the energy of a step to what its bodies came with, including what forces give in it, or to what the pull gives them from
+    /// rest. Each contact pushes its overlap out no faster than a fall of a step, but in a stack these speeds add up and would throw its
+    /// top into the air. So the result moves from a solution that pushes nothing out towards the one that does only as far as there is
+    /// energy for.
     /// </summary>
     internal void LimitEnergy(double seconds, double tolerance)
     {

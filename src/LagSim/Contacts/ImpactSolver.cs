@@ -24,8 +24,8 @@ internal sealed class ImpactSolver
     private int bodies;
 
     /// <summary>
-    /// Changes the velocities by the impulses of all contacts. <paramref name="masses"/> and velocities by number of body; one in a hand
-    /// has an infinite mass.
+    /// Changes the velocities by the impulses of all contacts. <paramref name="masses"/> and velocities by number of body; a held one has
+    /// an infinite mass.
     /// </summary>
     internal void Solve(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities)
     {
@@ -65,7 +65,7 @@ internal sealed class ImpactSolver
             contact.Normal,
             contact.Second == ContactPoint.Static ? velocities[contact.First] : velocities[contact.First] - velocities[contact.Second]);
 
-    /// <summary>How much an impulse changes a velocity: of a body in a hand nothing does.</summary>
+    /// <summary>How much an impulse changes a velocity: zero for a held body.</summary>
     internal static double Inverse(double mass) => IsHand(mass) ? 0 : 1 / mass;
 
     // By mass fractions instead of impulses: a few ulp at any mass ratio, and an elastic bounce off a plane is exactly a mirror.

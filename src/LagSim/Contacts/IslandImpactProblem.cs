@@ -43,7 +43,7 @@ internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
     /// <summary>Whether the impact has changed how a body moves or turns.</summary>
     internal bool HasChanged(int body, in Vector3D velocity, in Vector3D spin) => velocity != velocitiesBefore[body] || spin != spinsBefore[body];
 
-    /// <summary>Whether the impulse has gone on from a body to those that it holds; it never does from one in a hand.</summary>
+    /// <summary>Whether the impulse has passed from a body to those that it holds; it never does from a held body.</summary>
     internal bool IsReached(int body) => isReached[body];
 
     /// <summary>The impulse passes on from a body.</summary>

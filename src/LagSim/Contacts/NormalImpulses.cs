@@ -35,7 +35,7 @@ internal sealed class NormalImpulses
 
     /// <summary>Solves; false if some demand cannot be met, or was not. Leaves the impulses, and the change of every velocity.</summary>
     /// <param name="contacts">With their normals.</param>
-    /// <param name="masses">By number of body, in kg; one in a hand has an infinite mass.</param>
+    /// <param name="masses">By number of body, in kg; a held one has an infinite mass.</param>
     /// <param name="demand">By contact: by how much faster it is to open, at least.</param>
     /// <param name="impulse">By contact: is set.</param>
     /// <param name="change">By body: is set.</param>

@@ -3,7 +3,7 @@ using LagSim.Scenes;
 
 namespace LagSim.Contacts;
 
-/// <summary>Finds the contacts of a contact step: what touches, or might within the step, and is no impact's affair.</summary>
+/// <summary>Finds the contacts of a contact step: pairs that touch, or might within the step, and are not left to impacts.</summary>
 /// <remarks>Order counts: contacts are found in the order of their bodies. Cost: the pairs that are near along one axis.</remarks>
 internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, ContactProblem problem)
 {
@@ -122,8 +122,8 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
     }
 
     /// <summary>
-    /// Whether two may touch in the step, and are then a contact of it: not what closes so fast that its rebound would rise by more than
-    /// the tolerance, for which there are impacts.
+    /// Whether two may touch in the step, and so are a contact of it. A pair that closes so fast that its rebound would rise by more than
+    /// the tolerance is left to impacts.
     /// </summary>
     private bool MayTouch(double gap, double opening, double seconds, double restitution, double pull)
     {

@@ -35,7 +35,7 @@ internal readonly struct ContactTime
     internal static ContactTime At(SimTime tick) => new(tick, 0);
 
     /// <summary>
-    /// The contact a root in seconds after <paramref name="from"/> stands for; none if the root is NaN or after <paramref name="until"/>.
+    /// The contact of a root in seconds after <paramref name="from"/>; none if the root is NaN or after <paramref name="until"/>.
     /// </summary>
     internal static bool TryMake(SimTime from, SimTime until, double root, out ContactTime contact)
     {

@@ -39,8 +39,8 @@ public readonly struct EventKey : IEquatable<EventKey>, IComparable<EventKey>
     public BodyId Body { get; }
 
     /// <summary>
-    /// Of an impact the partner of <see cref="Body"/> with the least identity, <see cref="Body"/> itself where it hit only static geometry;
-    /// else <see cref="Body"/>.
+    /// For an impact, the partner of <see cref="Body"/> with the least identity, or <see cref="Body"/> itself where it hit only static
+    /// geometry; for any other event, <see cref="Body"/>.
     /// </summary>
     public BodyId Other { get; }
 

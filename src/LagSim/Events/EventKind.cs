@@ -31,10 +31,10 @@ public enum EventKind : byte
     /// <summary>External: a hand takes a body. One that is held it does not get.</summary>
     Grab = 12,
 
-    /// <summary>External: where the hand that holds a body is, and how fast. Without one for a second it has let go.</summary>
+    /// <summary>External: the position and velocity of the hand that holds a body. Without one for a second the hold ends.</summary>
     HoldKeyframe = 13,
 
-    /// <summary>External: the hand that holds a body lets go of it, with a velocity.</summary>
+    /// <summary>External: the hand that holds a body releases it, with a velocity.</summary>
     Release = 14,
 
     /// <summary>External: a body disappears.</summary>

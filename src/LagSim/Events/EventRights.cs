@@ -3,7 +3,7 @@ using LagSim.Scenes;
 
 namespace LagSim.Events;
 
-/// <summary>Which peer may do what, if the scene says so. A host asks it for its verdict; a world by itself knows no rights.</summary>
+/// <summary>Which peer may do what, if the scene limits it. A host uses it to validate events; a world by itself knows no rights.</summary>
 public static class EventRights
 {
     /// <summary>

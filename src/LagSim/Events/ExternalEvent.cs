@@ -44,20 +44,20 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     public BodyId Body { get; }
 
     /// <summary>
-    /// Metres; of a spawn or teleport where the body's centre is put, of a keyframe where the hand's point is, of a grab that point less
-    /// the body's centre; else zero.
+    /// In metres. For a spawn or teleport, where the body's centre is put; for a keyframe, where the hand's point is; for a grab, that
+    /// point less the body's centre; zero for any other.
     /// </summary>
     public Vector3D Position { get; }
 
     /// <summary>
-    /// Metres per second, of a spawn, teleport, set velocity, keyframe or release; newton seconds, of an impulse; else zero.
+    /// In metres per second for a spawn, teleport, set velocity, keyframe or release; in newton seconds for an impulse; zero for any other.
     /// </summary>
     public Vector3D Velocity { get; }
 
-    /// <summary>Of a spawn what appears; else <c>default</c>.</summary>
+    /// <summary>The spec of a spawned body; <c>default</c> for any other event.</summary>
     public BodySpec Spec { get; }
 
-    /// <summary>Radians per second about the vector, of a spawn; else zero.</summary>
+    /// <summary>The spin of a spawned body, in radians per second about the vector; zero for any other event.</summary>
     public Vector3D Spin { get; }
 
     /// <summary>Its place in the canonical order.</summary>

@@ -12,7 +12,7 @@ internal sealed class NearEvents
 
     private Item[] items;
 
-    /// <summary>No events yet; with room for so many at first, at least one.</summary>
+    /// <summary>No events yet; with room for that many at first, at least one.</summary>
     internal NearEvents(int room) => items = new Item[room];
 
     internal int Count { get; private set; }

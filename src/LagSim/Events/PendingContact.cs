@@ -9,7 +9,7 @@ internal struct PendingContact
     /// <summary>The other body's slot, or <see cref="NoPartner"/>.</summary>
     internal int Partner;
 
-    /// <summary>Where there is no partner, which static surface.</summary>
+    /// <summary>The static surface, if there is no partner.</summary>
     internal int Surface;
 
     /// <summary>The serial of the partner's segment that the impact was found with.</summary>

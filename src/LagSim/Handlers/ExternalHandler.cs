@@ -67,7 +67,7 @@ internal sealed class ExternalHandler(
         }
         else if (paths.IsHeld(last))
         {
-            return; // what is in a hand goes where the hand goes
+            return; // a held body goes where the hand goes
         }
         else if (isForwarded)
         {

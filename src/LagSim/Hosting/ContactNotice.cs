@@ -86,7 +86,7 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>
                 + $" {scene.Planes.Count + scene.StaticSpheres.Count}.", nameof(scene));
     }
 
-    /// <summary>Whether it is of the same contact, to the bit, whatever it says of it.</summary>
+    /// <summary>Whether it is about the same contact, to the bit, whatever its kind.</summary>
     public bool IsSameContact(in ContactNotice other) =>
         Compare(this, other) == 0 && Position.Equals(other.Position) && ClosingSpeed.Equals(other.ClosingSpeed);
 

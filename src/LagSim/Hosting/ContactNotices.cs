@@ -40,11 +40,11 @@ namespace LagSim.Hosting;
 public sealed class ContactNotices : IImpactObserver
 {
     /// <summary>
-    /// The least closing speed where nothing else is said, 0.05 m/s: ten times that of the least bounces that are followed on other bodies.
+    /// The default least closing speed, 0.05 m/s: ten times that of the least bounces that are followed on other bodies.
     /// </summary>
     public const double DefaultMinClosingSpeed = 0.05;
 
-    /// <summary>How many notices wait to be read at most, where nothing else is said.</summary>
+    /// <summary>The default limit on notices that wait to be read.</summary>
     public const int DefaultCapacity = 4096;
 
     /// <summary>The largest queue.</summary>
@@ -54,11 +54,11 @@ public sealed class ContactNotices : IImpactObserver
     private const int FewChanges = 1024;
 
     private readonly ContactQueue queue;
-    private readonly List<ContactNotice> tail = new(); // of what stands, while it is merged with what changed
+    private readonly List<ContactNotice> tail = new(); // the known contacts, while they are merged with the changes
     private List<Change> changes = new(); // since the last step that was reported, in the order in which they came
     private List<Change> spare = new();
     private readonly List<ContactNotice> standing = new(); // predicted and neither confirmed nor retracted, in order
-    private int confirmed; // so many of these at the front have been confirmed
+    private int confirmed; // the number of these at the front that have been confirmed
     private int settledChanges; // how many changes were left when they were last put together
     private long number;
     private long lost;
@@ -100,9 +100,9 @@ public sealed class ContactNotices : IImpactObserver
     public int Capacity => queue.Capacity;
 
     /// <summary>
-    /// How many notices <see cref="TryRead"/> will never give, because too many waited: predictions take at most half of the queue, and
-    /// what else finds no room is left out too, each with a gap in <see cref="ContactNotice.Number"/>. <see cref="Noticed"/> had them. From
-    /// any thread.
+    /// The number of notices that <see cref="TryRead"/> will never return, because too many waited. Predictions take at most half of the
+    /// queue; other notices that find no room are left out too, each with a gap in <see cref="ContactNotice.Number"/>.
+    /// <see cref="Noticed"/> had them. From any thread.
     /// </summary>
     public long Lost => Volatile.Read(ref lost);
 
@@ -289,7 +289,9 @@ public sealed class ContactNotices : IImpactObserver
         settledChanges = 0;
     }
 
-    /// <summary>Where in what stands the first contact of that impact or a later one is; what is confirmed is before all.</summary>
+    /// <summary>
+    /// The place in the known contacts of the first contact of that impact or a later one; confirmed contacts come first.
+    /// </summary>
     private int FirstFrom(in EventKey key)
     {
         int low = confirmed;

@@ -16,7 +16,7 @@ namespace LagSim.Hosting;
 /// </remarks>
 public sealed class LiveWorld
 {
-    /// <summary>How much of the past render snapshots show where nothing else is said: 250 ms.</summary>
+    /// <summary>The default length of the past that render snapshots show: 250 ms.</summary>
     public static readonly SimDuration DefaultRenderedPast = SimDuration.FromMilliseconds(250);
 
     /// <summary>
@@ -300,8 +300,8 @@ public sealed class LiveWorld
         {
             if (world.Simulation.SimulatedTo < front)
             {
-                // The instant of a late event is simulated at once, whatever this step may still cost: else one such event a step would
-                // keep the world there.
+                // The instant of a late event is simulated at once, whatever this step may still cost. Otherwise one such event a step
+                // would keep the world there.
                 long all = long.MaxValue;
                 world.Simulation.TryAdvanceTo(world.Simulation.SimulatedTo + SimDuration.OneTick, ref all);
             }

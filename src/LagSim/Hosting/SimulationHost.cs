@@ -41,7 +41,7 @@ public sealed class SimulationHost : IDisposable
     /// <param name="clock">The clock; usually a <see cref="StopwatchClock"/>.</param>
     /// <param name="lookAhead">How far ahead of the clock the world is simulated; default two frames.</param>
     /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none. They are confirmed after 2 s.</param>
-    /// <param name="threads">How many threads at most may be at work for the world at once; as in <see cref="SimulationOptions"/>.</param>
+    /// <param name="threads">The largest number of threads that work for the world at once; as in <see cref="SimulationOptions"/>.</param>
     /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
     /// <exception cref="ArgumentOutOfRangeException">The threads are not from 1 to 64.</exception>
     public SimulationHost(Scene scene, IClock clock, SimDuration? lookAhead = null, ContactNotices? contacts = null, int? threads = null)

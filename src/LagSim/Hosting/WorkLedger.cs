@@ -47,7 +47,7 @@ public sealed class WorkLedger : IWorkObserver
     private SimTime measured; // up to then all is accounted for
 
     /// <summary>An empty ledger, for one world.</summary>
-    /// <param name="clock">By what it is measured how long things take; null only counts them.</param>
+    /// <param name="clock">The clock that measures how long work takes; null to only count it.</param>
     public WorkLedger(IClock? clock = null)
     {
         this.clock = clock;
@@ -73,7 +73,7 @@ public sealed class WorkLedger : IWorkObserver
     public double FirstChargedTo(byte player) => accounts[player].First;
 
     /// <summary>
-    /// The earliest simulated instant of what was charged to a player since <see cref="Calm"/>; the latest there is if nothing was.
+    /// The earliest simulated instant of the charges to a player since <see cref="Calm"/>; the latest there is if there were none.
     /// </summary>
     public SimTime ChargedSince(byte player) => accounts[player].Since;
 

@@ -91,7 +91,7 @@ internal sealed class IslandStepper(
             int piece = timelines.Last(graph.Slots[i]);
             if (!paths.IsMember(piece))
             {
-                continue; // in a hand
+                continue; // held
             }
 
             for (int at = timelines.Carried.First(piece); at != TimelineStore.None; at = timelines.Carried.Next(at))
@@ -203,9 +203,8 @@ internal sealed class IslandStepper(
 
     /// <summary>
     /// Has forces act at the mean of the velocities before the tick and after it, contacts included: the implicit midpoint rule, under
-    /// which a magnetic force makes and
-    /// takes no speed, and a damper none but what it should. At the velocity that the body came with, a force across it would drive away
-    /// what lies still.
+    /// which a magnetic force makes and takes no speed, and a damper none but what it should. At the velocity that the body came with, a
+    /// force across it would drive away what lies still.
     /// </summary>
     private void SettleForces(SimTime tick, SimDuration length, double tolerance)
     {

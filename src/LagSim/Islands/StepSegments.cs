@@ -63,7 +63,7 @@ internal sealed class StepSegments(
     }
 
     /// <summary>
-    /// Opens the pieces of the step that was solved: chords of those that something holds, else whatever law they follow alone.
+    /// Opens the segments of the solved step: chords for bodies that something holds, and for the others the law that they follow alone.
     /// </summary>
     internal void OpenStep(in EventKey key, SimDuration length)
     {
@@ -105,8 +105,7 @@ internal sealed class StepSegments(
 
     /// <summary>
     /// Whether a body is so slow that in the time before a sleep it does not move by the tolerance; nor its surface, against what it rubs
-    /// on,
-    /// or what rolling resistance is to have it turn with.
+    /// on, or what rolling resistance is to have it turn with.
     /// </summary>
     private bool IsStill(int body, in SolverBody solved)
     {

@@ -23,7 +23,7 @@ internal readonly struct DenseOutput
 
     internal Vector3D Quintic { get; }
 
-    /// <summary>Of a step under error control how long the next is to be tried; else zero.</summary>
+    /// <summary>For a step under error control, the proposed length of the next; zero otherwise.</summary>
     internal SimDuration NextStep { get; }
 
     /// <summary>

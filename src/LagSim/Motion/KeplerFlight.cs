@@ -37,7 +37,8 @@ internal readonly struct KeplerFlight
     /// <param name="position">The position then.</param>
     /// <param name="velocity">The velocity then.</param>
     /// <param name="dense">The path's higher coefficients.</param>
-    /// <param name="error">How many times too long the shortest piece there is would be, which is then not to be used. Else zero.</param>
+    /// <param name="error">How many times too long the shortest possible segment would be, which must then not be used; zero
+    /// otherwise.</param>
     internal MotionSegment Piece(SimTime epoch, in Vector3D position, in Vector3D velocity, out DenseOutput dense, out double error)
     {
         Vector3D x = position - centre;

@@ -21,8 +21,8 @@ internal class CollapseRule(
     private readonly InelasticCollapse collapse = new();
 
     /// <summary>
-    /// Whether something there can take energy, or could once: an inelastic body or surface, or a hand. Where nothing can there is no
-    /// collapse to look for, which costs more than the impacts do.
+    /// Whether something can take energy, or could once: an inelastic body or surface, or a hand. If nothing can, there is no search for a
+    /// collapse, which costs more than the impacts do.
     /// </summary>
     internal bool HasLosses { get; set; } = scene.Surfaces.TakesEnergy();
 

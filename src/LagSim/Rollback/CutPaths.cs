@@ -192,7 +192,7 @@ internal class CutPaths
         return IsSamePath(timelines, last, pieces[old]) && CarriesTheSame(timelines, last, pieces[old]);
     }
 
-    /// <summary>Whether a segment is a piece of path, but for what it carries.</summary>
+    /// <summary>Whether a segment equals a copied path, apart from what it carries.</summary>
     private protected virtual bool IsSamePath(TimelineStore timelines, int segment, in Piece piece) => timelines.Key(segment) == piece.Key
         && timelines.Segment(segment).IsSameAs(piece.Segment)
         && (!timelines.Segment(segment).IsDense || timelines.Dense(segment).IsSameAs(piece.Dense))

@@ -62,8 +62,8 @@ internal class Rewinder : IOpeningObserver
     internal SimTime KnownTo => mode == HealingMode.FullRollback ? progress.SimulatedTo : SimTime.Max(progress.SimulatedTo, rollback.Horizon);
 
     /// <summary>
-    /// Whether what bodies do at a key is known of some. Of the instant to which a full rollback has gone back, what lies before the key of
-    /// the late event still stands.
+    /// Whether the events at a key are known for some bodies. Of the instant that a full rollback has rewound to, events before the key of
+    /// the late event stay valid.
     /// </summary>
     internal bool IsKnown(in EventKey key) =>
         key.Time <= KnownTo || (mode == HealingMode.FullRollback && EventKey.Compare(key, rollback.Cursor) < 0);

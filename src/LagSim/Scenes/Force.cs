@@ -24,7 +24,7 @@ public sealed class Force
     /// </summary>
     public double Strength { get; private set; }
 
-    /// <summary>Of a spring the damper's coefficient in kg/s; else 0.</summary>
+    /// <summary>For a spring, the damper's coefficient in kg/s; 0 for any other force.</summary>
     public double Damping { get; private set; }
 
     /// <summary>
@@ -33,7 +33,7 @@ public sealed class Force
     /// </summary>
     public Vector3D Vector { get; private set; }
 
-    /// <summary>Of a central pull the power of the distance: -2 for gravity and electrostatics; else 0.</summary>
+    /// <summary>For a central pull, the power of the distance: -2 for gravity and electrostatics; 0 for any other force.</summary>
     public int Power { get; private set; }
 
     /// <summary>The acceleration that a program supplies; null for all other kinds.</summary>
@@ -90,7 +90,7 @@ public sealed class Force
     public static Force Magnus(string name, double coefficient) => new(ForceKind.Magnus, name) { Strength = coefficient };
 
     /// <summary>
-    /// An acceleration in C#, a program's own. It travels by name and author's version, never as code: a client that does not have it among
+    /// An acceleration in C#, a program's own. It is sent by name and author's version, never as code: a client that does not have it among
     /// <c>ClientOptions.Accelerations</c> does not get in. A body under it never comes to rest, and its steps are
     /// <see cref="MotionLaw.DormandPrince54"/>'s or fixed.
     /// </summary>

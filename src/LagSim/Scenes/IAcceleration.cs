@@ -13,7 +13,7 @@ public interface IAcceleration
     /// <summary>The name of the force, 1 to 64 characters; it is part of the scene's hash.</summary>
     string Name { get; }
 
-    /// <summary>The author's version, raised with every change of a result; it stands in the scene's hash.</summary>
+    /// <summary>The author's version, raised with every change of a result; it is part of the scene's hash.</summary>
     int Version { get; }
 
     /// <summary>

@@ -4,7 +4,7 @@ using LagSim.Time;
 
 namespace LagSim.Scenes;
 
-/// <summary>The ranges of every value that enters the world, each checked in one place with a sentence that names the value.</summary>
+/// <summary>The ranges of every value that enters the world, each checked in one place with a message that names the value.</summary>
 /// <remarks>The owner of a value comes as any object that has a text, which is made only if there is an error.</remarks>
 internal static class Limits
 {
@@ -19,7 +19,7 @@ internal static class Limits
     /// </summary>
     internal const double MaxRate = 1e6;
 
-    /// <summary>The largest coefficient of friction, which leaves it to whatever touches.</summary>
+    /// <summary>The largest coefficient of friction, which leaves friction to the other side of a contact.</summary>
     internal const double MaxFriction = 100;
 
     private const double MaxStrength = 1e30;

@@ -1,6 +1,6 @@
 namespace LagSim.Scenes;
 
-/// <summary>How a body moves between events. The numbers stand in wire and hashes: never renumber.</summary>
+/// <summary>How a body moves between events. The numbers are part of wire and hashes: never renumber.</summary>
 public enum MotionLaw : byte
 {
     /// <summary>The body is not there: before its spawn or after its removal. Never a scene's choice.</summary>
@@ -26,8 +26,8 @@ public enum MotionLaw : byte
     Resting = 4,
 
     /// <summary>
-    /// In a hand, whose path it has, a cubic or parabola from keyframe to keyframe; nothing it meets changes that. Entered by a grab, never
-    /// a scene's choice.
+    /// Held by a hand, with the hand's path: a cubic or parabola from keyframe to keyframe, which no contact changes. Entered by a grab,
+    /// never a scene's choice.
     /// </summary>
     Held = 5,
 

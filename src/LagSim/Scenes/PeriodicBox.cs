@@ -2,7 +2,7 @@ using System;
 
 namespace LagSim.Scenes;
 
-/// <summary>A box without walls: what leaves it on one side comes in on the opposite one. <c>default</c> is none.</summary>
+/// <summary>A box without walls: a body that leaves it on one side comes in on the opposite one. <c>default</c> is no box.</summary>
 /// <remarks>Immutable. For statistics and measurements of a world that has the same density everywhere and no edge.</remarks>
 public readonly struct PeriodicBox : IEquatable<PeriodicBox>
 {

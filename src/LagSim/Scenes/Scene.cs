@@ -51,13 +51,13 @@ public sealed class Scene
     public Vector3D Gravity { get; }
 
     /// <summary>
-    /// The length in metres below which a bounce on a plane is not followed hop by hop; 1 nm unless the scene says otherwise.
+    /// The restitution threshold: the length in metres below which bounces on a plane are not followed one by one; default 1 nm.
     /// </summary>
     public double Resolution { get; }
 
     /// <summary>
-    /// How far, in metres, bodies in persistent contact may be from where an exact calculation has them: the one knob between speed and
-    /// error in heaps. A millimetre, or a hundredth of <see cref="SmallestRadius"/> if that is less, unless the scene says otherwise.
+    /// How far, in metres, bodies in persistent contact may be from where an exact calculation has them: the one trade-off between speed
+    /// and error in heaps. Default a millimetre, or a hundredth of <see cref="SmallestRadius"/> if that is less.
     /// </summary>
     public double ContactTolerance { get; }
 
@@ -81,7 +81,7 @@ public sealed class Scene
     /// <summary>Which peers may spawn bodies, in a session.</summary>
     public PeerSet Spawners { get; }
 
-    /// <summary>The box without walls that everything is in; none unless the scene says so.</summary>
+    /// <summary>The periodic box that everything is in; none by default.</summary>
     public PeriodicBox Box { get; }
 
     /// <summary>A hash of everything above but the name: equal on two peers exactly if they mean the same world (to 64 bits).</summary>
@@ -216,7 +216,7 @@ public sealed class Scene
         return hash.Value;
     }
 
-    // Only where the scene says something of it, so that any other has the hash it always had.
+    // Only where the scene sets it, so that any other scene has the hash it always had.
     private void AddFriction(ref StableHash hash)
     {
         for (int i = 0; i < PlaneArray.Length; i++)

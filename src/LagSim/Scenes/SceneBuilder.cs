@@ -102,8 +102,8 @@ public sealed class SceneBuilder
     }
 
     /// <summary>
-    /// On how many threads <see cref="Build"/> checks a large scene at most, 1 to <see cref="MaxThreads"/>; default as many as there are
-    /// processors.
+    /// Sets the largest number of threads on which <see cref="Build"/> checks a large scene, 1 to <see cref="MaxThreads"/>; default as many
+    /// as there are processors.
     /// </summary>
     /// <remarks>
     /// It has no influence on the scene, to the bit, nor on which error is reported. Fewer than 16,384 bodies are checked on the caller's
@@ -203,7 +203,7 @@ public sealed class SceneBuilder
     }
 
     /// <summary>Adds a force; it acts on the bodies that name it.</summary>
-    /// <param name="force">The force; its name is no other part's.</param>
+    /// <param name="force">The force; its name must not be another part's.</param>
     /// <param name="itself">The set of this force alone, for a <see cref="BodySpec"/>.</param>
     public SceneBuilder AddForce(Force force, out ForceSet itself)
     {
@@ -287,7 +287,7 @@ public sealed class SceneBuilder
     }
 
     /// <summary>
-    /// The normal at unit length. One that has it but for rounding stays as it is, so that a plane read back has the same bits.
+    /// The normal at unit length. One that has it, apart from rounding, stays as it is, so that a plane read back has the same bits.
     /// </summary>
     private static Vector3D Unit(string planeName, in Vector3D normal)
     {

@@ -12,8 +12,8 @@ namespace LagSim.Scenes;
 internal static class TwoAtOnce
 {
     /// <summary>
-    /// Fewer bodies than so many are not worth a thread: they are checked in a few milliseconds, and a thread takes some tenth of one to
-    /// begin, or more where others are at work.
+    /// The number of bodies below which a thread is not worth it: they are checked in a few milliseconds, and a thread takes some tenth of
+    /// one to start, or more where others are at work.
     /// </summary>
     internal const int LeastBodies = 16_384;
 

@@ -4,9 +4,10 @@ using LagSim.Scenes;
 
 namespace LagSim.Timelines;
 
-/// <summary>The bodies that a world knows, absent ones included: which slot each has, what it is, and their canonical order.</summary>
-/// <remarks>A body keeps its slot until it is forgotten; then another may get it. No slot enters an order or a hash. Not
-/// thread-safe.</remarks>
+/// <summary>The bodies that a world knows, including absent ones: the slot and spec of each, and their canonical order.</summary>
+/// <remarks>
+/// A body keeps its slot until it is forgotten; then another may get it. No slot enters an order or a hash. Not thread-safe.
+/// </remarks>
 internal sealed class BodyTable
 {
     /// <summary>The least number of bodies that there is room for. The room grows unless a quarter is free.</summary>
@@ -29,7 +30,7 @@ internal sealed class BodyTable
     /// <summary>All slots that were ever given are below this.</summary>
     internal int SlotCount { get; private set; }
 
-    /// <summary>For how many bodies there is room without more memory.</summary>
+    /// <summary>The number of bodies that there is room for without more memory.</summary>
     internal int Room => bodies.Length;
 
     /// <summary>Whether another body needs more memory, or one that is forgotten first.</summary>
@@ -74,9 +75,8 @@ internal sealed class BodyTable
     }
 
     /// <summary>
-    /// Forgets all bodies of which that is so, and makes more room where few slots come free: else every other body that is added would
-    /// have
-    /// all of them looked through.
+    /// Forgets all bodies that are gone, and makes more room if few slots become free. Otherwise every other added body would cause a
+    /// search through all of them.
     /// </summary>
     /// <param name="isGone">Asked for each slot, in canonical order, and only once.</param>
     internal void Forget(Predicate<int> isGone)

@@ -78,7 +78,7 @@ internal sealed class CarriedContacts
     /// <param name="segment">The segment.</param>
     /// <param name="centre">See <see cref="CentreOf"/>.</param>
     /// <param name="still">See <see cref="StillSince"/>.</param>
-    /// <param name="room">For how many segments there is room.</param>
+    /// <param name="room">The number of segments that there is room for.</param>
     internal void Begin(int segment, SimTime centre, SimTime still, int room)
     {
         if (segment >= members.Length)

@@ -23,8 +23,8 @@ public sealed class LatencyCompensationWindow
     public static readonly SimDuration MinHistory = SimDuration.FromMilliseconds(50);
 
     /// <summary>
-    /// The history where nothing else is said: 1 s, two hops of most links there are. It has to be fixed before the first event, so before
-    /// anything is measured.
+    /// The default history: 1 s, two hops of most links there are. It has to be fixed before the first event, so before anything is
+    /// measured.
     /// </summary>
     public static readonly SimDuration DefaultHistory = SimDuration.FromSeconds(1);
 
@@ -34,7 +34,7 @@ public sealed class LatencyCompensationWindow
     /// <summary>The history that <see cref="HistoryFor"/> gives at least, however fast the links are: 250 ms.</summary>
     public static readonly SimDuration LeastMeasuredHistory = SimDuration.FromMilliseconds(250);
 
-    /// <summary>The look-ahead where nothing else is said: two frames of a sixtieth of a second.</summary>
+    /// <summary>The default look-ahead: two frames of a sixtieth of a second.</summary>
     public static readonly SimDuration DefaultLookAhead = SimDuration.FromSeconds(2.0 / 60.0);
 
     /// <summary>The longest look-ahead: 1 s.</summary>
@@ -99,7 +99,7 @@ public sealed class LatencyCompensationWindow
     /// <param name="lag">How much later than the action it takes effect, here as on other peers; from zero, the default, to the look-ahead,
     /// and no more than half the history. Above the delay of the links no peer ever has to heal it, and the player sees it that much
     /// later.</param>
-    /// <exception cref="ArgumentOutOfRangeException">The kind is none of a player's, or the lag is out of its range.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The kind is not a player's, or the lag is out of its range.</exception>
     public LatencyCompensationWindow WithLocalLag(EventKind kind, SimDuration lag)
     {
         if (!IsOfPlayers(kind))

@@ -3,7 +3,7 @@ using LagSim.Time;
 
 namespace LagSim.Timelines;
 
-/// <content>Room: what lies behind the window is dropped when there is none left, and if that was little, there is more.</content>
+/// <content>Room: when none is left, segments behind the window are dropped, and if those were few, the store grows.</content>
 internal partial class TimelineStore
 {
     /// <summary>Below this the arrays double, above they grow by one part in <see cref="Growth"/>.</summary>
@@ -22,7 +22,7 @@ internal partial class TimelineStore
     /// <summary>If all that can be dropped is less than one part in this many, the search would soon be due again.</summary>
     private const int LittleRoom = 32;
 
-    /// <summary>For how many segments there is room without more memory.</summary>
+    /// <summary>The number of segments that there is room for without more memory.</summary>
     internal int Room => pieces.Length;
 
     /// <summary>Instants before this are asked for no more; what only they need is dropped when room is needed.</summary>
@@ -43,7 +43,7 @@ internal partial class TimelineStore
     }
 
     /// <summary>
-    /// Drops what lies behind the window; and makes room for more if that was little, else it would soon be looked for again.
+    /// Drops the segments behind the window, and makes room for more if those were few: otherwise the search would soon be due again.
     /// </summary>
     private void DropAll(SimTime now)
     {

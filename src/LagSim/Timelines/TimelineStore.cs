@@ -10,9 +10,9 @@ namespace LagSim.Timelines;
 /// <remarks>
 /// <para>Segments live in flat arrays, linked per body; nothing is overwritten, a segment is only appended, cut off at the end, or dropped
 /// behind the window. Allocates only when more segments are alive than ever before. Old segments of all bodies are dropped together, in one
-/// pass through memory when there is no room left: to look for them one by one, each long out of the cache, cost a quarter of an impact in
-/// a dense fluid. The arrays grow if that frees less than one part in 32, by a sixty-fourth once they are large, or to what is foretold: so
-/// a world takes little more than its window needs.</para>
+/// pass through memory when there is no room left: dropping them one by one, each long out of the cache, cost a quarter of an impact in a
+/// dense fluid. The arrays grow if that frees less than one part in 32, by a sixty-fourth once they are large, or to the estimate. So a
+/// world takes little more than its window needs.</para>
 /// <para>It keeps a running hash of all events: the sum (modulo 2^64) of one hash a segment, so that appending and cutting are O(1) and the
 /// order in which the events came leaves no trace.</para>
 /// </remarks>
@@ -25,7 +25,7 @@ internal partial class TimelineStore
     private readonly EventHashSum hashes = new();
     private readonly INewestSegments? newest; // notified of each body's newest segment
     private Piece[] pieces;
-    private Link[] links; // apart, so that what is old is dropped without a look at what it was
+    private Link[] links; // apart, so that old segments are dropped without reading their paths
     private DenseOutput[] dense = Array.Empty<DenseOutput>(); // only once something is integrated
     private Hold[] holds = Array.Empty<Hold>(); // only once something is held
     private Spin[] spins = Array.Empty<Spin>(); // only once something turns

@@ -9,6 +9,6 @@ internal enum WorkVerdict
     /// <summary>It stops after this instant.</summary>
     StopAfterInstant,
 
-    /// <summary>It stops at once in a session's world, though an instant be done in part; elsewhere after this instant.</summary>
+    /// <summary>It stops at once in a session's world, even if an instant is done in part; elsewhere after this instant.</summary>
     StopNow,
 }

@@ -53,8 +53,8 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// Converges on the path that a keyframe foretells. A body that is on it already, as far as the scene resolves, follows it: so a hand
-    /// that only says that it keeps still moves nothing.
+    /// Converges on the path that a keyframe extrapolates. A body that is on it already, as far as the scene resolves, follows it. So a
+    /// keyframe of a hand that keeps still moves nothing.
     /// </summary>
     private void Converge(
         int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D target, in Vector3D targetVelocity, in Hold hold)

@@ -9,15 +9,14 @@ namespace LagSim.Trajectories;
 
 /// <summary>Opens motion on a plane with friction: slipping, rolling, rest.</summary>
 /// <remarks>
-/// <para>A solid sphere that moves with v, turns with q = r w x n, as fast as it would have to move to roll so, and slips with u = v - q
-/// is slowed down by mu g_n against u and turned by 5/2 as much, with g_n and g_t what gravity has across and along the plane. Rolling
+/// <para>A solid sphere that moves with v, turns with q = r w x n, as fast as it would have to move to roll so, and slips with u = v - q is
+/// slowed down by mu g_n against u and turned by 5/2 as much, with g_n and g_t what gravity has across and along the plane. Rolling
 /// resistance c takes 5/2 c g_n from q. So v' = g_t - mu g_n u/|u|, q' = 5/2 mu g_n u/|u| - 5/2 c g_n q/|q|: even, but for the two
-/// directions, which turn where they and gravity are aslant. What does not
-/// turn yet begins to do so with q' along u, for c counts for no more than mu.</para>
-/// <para>Once u is zero it rolls, with 5/7 of g_t - c g_n v/|v|, if 2/7 g_t + 5/7 c g_n v/|v|, which friction then has to give, is no
-/// more than mu g_n. Resistance holds at rest what gravity pulls by no more than c g_n. From what turns about the normal it takes 5/2 c g_n
-/// / r, whether the sphere slips, rolls
-/// or stays where it is.</para>
+/// directions, which turn where they and gravity are aslant. What does not turn yet begins to do so with q' along u, for c counts for no
+/// more than mu.</para>
+/// <para>Once u is zero it rolls, with 5/7 of g_t - c g_n v/|v|, if 2/7 g_t + 5/7 c g_n v/|v|, which friction then has to give, is no more
+/// than mu g_n. Resistance holds at rest what gravity pulls by no more than c g_n. From what turns about the normal it takes 5/2 c g_n / r,
+/// whether the sphere slips, rolls or stays where it is.</para>
 /// </remarks>
 internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits)
 {
@@ -209,8 +208,8 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// When something that slips and turns with that surface speed has stopped turning, or a new piece is due because the direction in
-    /// which it turns follows that of the slip, at the rate of what drives it by the speed.
+    /// The time when a body that slips and turns with that surface speed has stopped turning, or when a new segment is due because the
+    /// direction in which it turns follows that of the slip, at the rate of drive / speed.
     /// </summary>
     /// <remarks>
     /// Once less of that is left than may turn in a segment, the rest fades away within some speed / drive. A segment is at most a quarter
@@ -229,8 +228,8 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// The direction in which something turns in a piece, if that which drives it does so throughout: the one at its middle, which makes it
-    /// right to the second order; or where that is long against speed / drive, the one at its end, which bears any length.
+    /// The direction in which a body turns in a segment under a constant drive: the one at its middle, which is right to second order; or,
+    /// for a segment long against speed / drive, the one at its end, which works for any length.
     /// </summary>
     private static Vector3D Following(in Vector3D turn, in Vector3D drive, SimTime from, SimTime end)
     {

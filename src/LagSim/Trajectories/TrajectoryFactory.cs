@@ -43,7 +43,7 @@ internal sealed class TrajectoryFactory
     /// <summary>Opens motion on a plane with friction.</summary>
     internal SlipFactory Friction { get; }
 
-    /// <summary>Opens paths of what is in a hand.</summary>
+    /// <summary>Opens paths of held bodies.</summary>
     internal HandFactory Hands { get; }
 
     /// <summary>Throws if a body may not be in a state.</summary>
