@@ -43,16 +43,12 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     /// <summary>The most connections that can be asked for.</summary>
     public const int MostConnections = 4096;
 
-    /// <summary>
-    /// The largest number of closed connections kept beside the live ones: LiteNetLib remembers a closed connection for as long as a silent
-    /// one.
-    /// </summary>
+    /// <summary>The largest number of closed connections kept beside the live ones: LiteNetLib remembers a closed connection for as long as
+    /// a silent one.</summary>
     private const int MaxClosed = 256;
 
-    /// <summary>
-    /// The longest that LiteNetLib's threads sleep: a send wakes one, a packet the other. Closing may take this long. In a world at rest
-    /// they wake for nothing far less often than with LiteNetLib's default.
-    /// </summary>
+    /// <summary>The longest that LiteNetLib's threads sleep: a send wakes one, a packet the other. Closing may take this long. In a world
+    /// at rest they wake for nothing far less often than with LiteNetLib's default.</summary>
     private const int SleepMilliseconds = 100;
 
     private const int SilenceMilliseconds = 5000;
@@ -63,10 +59,8 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     private readonly byte[] key;
     private readonly int maxConnections;
 
-    /// <summary>
-    /// The LiteNetLib peer at each address. Only a cache: the peer's state decides whether the connection is alive, and LiteNetLib has all
-    /// peers.
-    /// </summary>
+    /// <summary>The LiteNetLib peer at each address. Only a cache: the peer's state decides whether the connection is alive, and LiteNetLib
+    /// has all peers.</summary>
     /// <remarks>No lock of ours is held while LiteNetLib is called, which calls back under locks of its own.</remarks>
     private readonly ConcurrentDictionary<PeerAddress, LiteNetPeer> peers = new();
 
@@ -122,18 +116,16 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     /// <summary>Where this port is reached; on this machine only, if it is bound to every address there is.</summary>
     public PeerAddress LocalAddress { get; }
 
-    /// <summary>
-    /// The LiteNetLib manager of this port, for NAT punching (<see cref="LiteNetManager.NatPunchModule"/>) and statistics.
-    /// </summary>
+    /// <summary>The LiteNetLib manager of this port, for NAT punching (<see cref="LiteNetManager.NatPunchModule"/>) and
+    /// statistics.</summary>
     /// <remarks>Stopping it, or changing its timing, its events or its MTU, breaks the port.</remarks>
     public LiteNetManager Manager => manager;
 
     /// <summary>The number of open connections.</summary>
     public int Connections => manager.ConnectedPeersCount;
 
-    /// <summary>
-    /// How many datagrams came in over a connection and were thrown away: too long, empty, not sent as unreliable, or no room in the ring.
-    /// </summary>
+    /// <summary>How many datagrams came in over a connection and were thrown away: too long, empty, not sent as unreliable, or no room in
+    /// the ring.</summary>
     public long Dropped => Interlocked.Read(ref dropped);
 
     /// <summary>How many datagrams were not sent because there was no connection yet, or no room for one.</summary>
@@ -142,9 +134,8 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     /// <summary>The number of datagrams that the network refused, as far as LiteNetLib reports it.</summary>
     public long SendFailures => Interlocked.Read(ref sendFailures);
 
-    /// <summary>
-    /// The number of errors that the system reported instead of a packet. A report that no process listens at the other end is not counted.
-    /// </summary>
+    /// <summary>The number of errors that the system reported instead of a packet. A report that no process listens at the other end is not
+    /// counted.</summary>
     public long ReceiveFailures => Interlocked.Read(ref receiveFailures);
 
     /// <summary>How many requests for a connection were not granted: another key, or no room.</summary>
@@ -198,9 +189,8 @@ public sealed partial class LiteNetLibPort : IDatagramPort
         return ring.TryTake(buffer, out length, out from);
     }
 
-    /// <summary>
-    /// Notifies all connected peers, closes the port and ends its threads. Datagrams that wait in the ring can still be received.
-    /// </summary>
+    /// <summary>Notifies all connected peers, closes the port and ends its threads. Datagrams that wait in the ring can still be
+    /// received.</summary>
     public void Dispose()
     {
         if (Interlocked.Exchange(ref disposed, 1) == 0)
@@ -284,10 +274,8 @@ public sealed partial class LiteNetLibPort : IDatagramPort
         }
     }
 
-    /// <summary>
-    /// The connection to an address, requested if there is none; null if there is no room for it, or if the other side is requesting one at
-    /// the moment.
-    /// </summary>
+    /// <summary>The connection to an address, requested if there is none; null if there is no room for it, or if the other side is
+    /// requesting one at the moment.</summary>
     private LiteNetPeer? Connect(IPEndPoint endPoint, PeerAddress to)
     {
         if (peers.Count > maxConnections)

@@ -111,7 +111,7 @@ internal sealed class Engine
 
     internal Scene Scene { get; }
 
-    /// <summary>How many threads at most may be at work for it.</summary>
+    /// <summary>The largest number of threads that work for it.</summary>
     internal int Threads { get; }
 
     internal Progress Progress { get; }

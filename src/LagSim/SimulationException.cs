@@ -3,7 +3,7 @@ using System;
 namespace LagSim;
 
 /// <summary>
-/// The simulation cannot go on: a state left the range in which it means something. The message names the body and the value.
+/// The simulation cannot continue: a state left the range in which it means something. The message names the body and the value.
 /// </summary>
 /// <remarks>
 /// Deterministic like the world itself: every peer that simulates the same events gets it at the same event, except for a

@@ -7,14 +7,10 @@ using LagSim.Timelines;
 
 namespace LagSim.Collisions;
 
-/// <summary>
-/// The packed data of each body whose newest segment is free flight under the scene's gravity. Seen from each other, two such bodies move
-/// along a straight line, so most pairs are quickly found to stay apart. So are two that rest or slide straight on.
-/// </summary>
-/// <remarks>
-/// In doubt it answers no, and the pair is then tested in the general way, so it changes no bit of the result. It only saves time: reading
-/// a pair's segments takes several loads from far apart, and nearly all pairs that a broad phase names do not meet.
-/// </remarks>
+/// <summary>The packed data of each body whose newest segment is free flight under the scene's gravity. Seen from each other, two such
+/// bodies move along a straight line, so most pairs are quickly found to stay apart. So are two that rest or slide straight on.</summary>
+/// <remarks>In doubt it answers no, and the pair is then tested in the general way, so it changes no bit of the result. It only saves time:
+/// reading a pair's segments takes several loads from far apart, and nearly all pairs that a broad phase names do not meet.</remarks>
 internal sealed class FreeFlights : INewestSegments
 {
     /// <summary>A bound on rounding, relative to the summed terms; four thousand times the true rounding.</summary>
@@ -23,10 +19,8 @@ internal sealed class FreeFlights : INewestSegments
     /// <summary>Two that touch surely part only if the cosine between their distance and their opening is above this.</summary>
     private const double Parting = 1e-9;
 
-    /// <summary>
-    /// A bound on the rounding of the square of a distance, and of a miss, relative to the distance's square; thirty times the true
-    /// rounding.
-    /// </summary>
+    /// <summary>A bound on the rounding of the square of a distance, and of a miss, relative to the distance's square; thirty times the
+    /// true rounding.</summary>
     private const double FarSlack = 1e-14;
 
     private readonly Vector3D gravity;
@@ -107,11 +101,10 @@ internal sealed class FreeFlights : INewestSegments
         }
     }
 
-    /// <summary>
-    /// Whether two bodies surely stay apart from a time on, on their newest segments, opened by then; false if that is not easily decided.
-    /// A tick more on both sides is included. It is decided for two free flights, and for two bodies that rest or slide straight on. For
-    /// one of each it is decided where they begin at rest to each other, or come no nearer within the span however the one falls.
-    /// </summary>
+    /// <summary>Whether two bodies surely stay apart from a time on, on their newest segments, opened by then; false if that is not easily
+    /// decided. A tick more on both sides is included. It is decided for two free flights, and for two bodies that rest or slide straight
+    /// on. For one of each it is decided where they begin at rest to each other, or come no nearer within the span however the one
+    /// falls.</summary>
     internal bool AreApart(int slot, int other, SimTime from, SimTime until)
     {
         bool isFree = IsFree(slot);
@@ -175,9 +168,8 @@ internal sealed class FreeFlights : INewestSegments
     /// <summary>Since when the body rests or slides straight on; never if it does not.</summary>
     private SimTime StraightFrom(int slot) => slot < straightFrom.Length ? straightFrom[slot] : SimTime.MaxValue;
 
-    /// <summary>
-    /// Where a body is so many seconds after its path was opened, and how fast; what rounding may do to it there widens the reach.
-    /// </summary>
+    /// <summary>Where a body is so many seconds after its path was opened, and how fast; what rounding may do to it there widens the
+    /// reach.</summary>
     private void StateAt(
         in Flight flight, double since, bool isFalling, ref double reach, out double x, out double y, out double z, out double u, out double v, out double w)
     {
@@ -216,11 +208,9 @@ internal sealed class FreeFlights : INewestSegments
     /// <summary>Whether the body's newest piece of path is free flight.</summary>
     internal bool IsFree(int slot) => flights[slot].From != SimTime.MaxValue;
 
-    /// <summary>
-    /// Which of the other bodies a body in free flight may touch in a span that begins at its opening or later, and from when on: in
-    /// seconds from the beginning, never too many. No body that is touched is left out. A body that is not in free flight may be touched at
-    /// once.
-    /// </summary>
+    /// <summary>Which of the other bodies a body in free flight may touch in a span that begins at its opening or later, and from when on:
+    /// in seconds from the beginning, never too many. No body that is touched is left out. A body that is not in free flight may be touched
+    /// at once.</summary>
     internal Span<Approach> Approaches(int slot, Span<int> others, SimTime from, SimTime until)
     {
         if (others.Length > approaches.Length)
@@ -322,10 +312,9 @@ internal sealed class FreeFlights : INewestSegments
         velocity = flight.Velocity + (gravity * seconds);
     }
 
-    /// <summary>
-    /// Whether two bodies in free flight touch, however late, and when: the bits that <see cref="TimeOfImpact"/> gives for their segments,
-    /// with the body of lesser identity first. False if they touch so soon after both hold that the general way is needed.
-    /// </summary>
+    /// <summary>Whether two bodies in free flight touch, however late, and when: the bits that <see cref="TimeOfImpact"/> gives for their
+    /// segments, with the body of lesser identity first. False if they touch so soon after both hold that the general way is
+    /// needed.</summary>
     internal bool TryTouch(int first, int second, out bool touches, out ContactTime contact)
     {
         ref readonly Flight a = ref flights[first];
@@ -345,9 +334,8 @@ internal sealed class FreeFlights : INewestSegments
         return !touches || !contact.IsSoonAfter(from);
     }
 
-    /// <summary>
-    /// Whether two bodies in free flight are so deep in each other, once both are open, that it has to be looked whether they part.
-    /// </summary>
+    /// <summary>Whether two bodies in free flight are so deep in each other, once both are open, that it has to be looked whether they
+    /// part.</summary>
     internal bool AreSunk(int first, int second)
     {
         ref readonly Flight a = ref flights[first];
@@ -384,9 +372,8 @@ internal sealed class FreeFlights : INewestSegments
         return least > slack + (TickConversion.SecondsPerTick * Math.Abs(opening)); // not so of what is not a number
     }
 
-    /// <summary>
-    /// The radius, plus how far rounding and a tick may move a body in flight that is read at another time, apart from its fall.
-    /// </summary>
+    /// <summary>The radius, plus how far rounding and a tick may move a body in flight that is read at another time, apart from its
+    /// fall.</summary>
     private double MarginOf(int slot) =>
         radii[slot] + (2 * Slack * Size(flights[slot].Position)) + (2 * TickConversion.SecondsPerTick * Size(flights[slot].Velocity));
 

@@ -246,7 +246,7 @@ internal class Rewinder : IOpeningObserver
     private void RewindAll(in EventKey key)
     {
         rollback.Cursor = key;
-        rollback.LastOld = -1; // nobody is ahead of anybody
+        rollback.LastOld = -1; // no body is ahead of another
         EventKey from = CutsAllFrom(key);
         for (int slot = 0; slot < bodies.SlotCount; slot++)
         {
