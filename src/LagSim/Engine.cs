@@ -225,7 +225,7 @@ internal sealed class Engine
         return SubmitResult.Queued;
     }
 
-    /// <summary>Takes an external event back; false if it is not there (any more).</summary>
+    /// <summary>Retracts an external event; false if it is not there (any more).</summary>
     internal bool Retract(in ExternalEvent external)
     {
         int slot = Bodies.SlotOf(external.Body);

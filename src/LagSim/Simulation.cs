@@ -86,8 +86,9 @@ public sealed class Simulation
     /// <summary>The instant at which the scene began.</summary>
     public SimTime Start => Engine.Progress.Start;
 
-    /// <summary>The instant up to which, and including which, everything has happened. A late event that is submitted takes it back to
-    /// before its own time.</summary>
+    /// <summary>
+    /// The instant up to which, and including which, everything has happened. A submitted late event rewinds it to before its own time.
+    /// </summary>
     public SimTime SimulatedTo => Engine.Progress.SimulatedTo;
 
     /// <summary>The earliest instant that can be read or changed.</summary>
@@ -208,8 +209,10 @@ public sealed class Simulation
         return external.Time < HistoryEdge ? SubmitResult.TooOld : Engine.Insert(external, external.At(arrival).Key, isForwarded: true);
     }
 
-    /// <summary>Takes an event back, as if it had never been; false if it is not there (any more). The next advance simulates again what it
-    /// had touched.</summary>
+    /// <summary>
+    /// Retracts an event, as if it had never been; false if it is not there (any more). The next advance simulates again what it had
+    /// touched.
+    /// </summary>
     public bool Retract(in ExternalEvent external)
     {
         Engine.Loop.ThrowIfFaulted();

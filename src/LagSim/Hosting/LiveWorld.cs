@@ -180,7 +180,7 @@ public sealed class LiveWorld
         return change.Finish(Simulation.SubmitForwarded(external, arrival));
     }
 
-    /// <summary>Takes an event back; see <see cref="Simulation.Retract"/>.</summary>
+    /// <summary>Retracts an event; see <see cref="Simulation.Retract"/>.</summary>
     public bool Retract(in ExternalEvent external)
     {
         Change change = new(this);

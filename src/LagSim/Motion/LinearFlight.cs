@@ -5,13 +5,13 @@ namespace LagSim.Motion;
 
 /// <summary>
 /// Flight under forces that are linear in position and velocity, in closed form: gravity, linear drag, springs with dampers, magnetic
-/// fields, the Magnus force of a body that turns evenly, together x'' = f - kappa x - gamma v + Omega x v.
+/// fields, and the Magnus force of a body that turns evenly. Together they are x'' = f - kappa x - gamma v + Omega x v.
 /// </summary>
 /// <remarks>
-/// <para>A piece of path is the quintic Hermite polynomial between two states of which the second follows from the first by
-/// <see cref="LinearResponse"/>. So no error adds up but rounding; that of the polynomial, within a piece, is the body's tolerance at most.
-/// For that |x^(6)| stays below |x^(6)(0)| + t |x^(7)(0)|: the derivatives obey the same equation without f, whose answers to a position
-/// and a velocity of 1 never exceed 1 and t.</para>
+/// <para>A segment is the quintic Hermite polynomial between two states. The second follows from the first by <see cref="LinearResponse"/>,
+/// so only rounding adds up. The error of the polynomial within a segment is at most the body's tolerance. The bound uses that |x^(6)|
+/// stays below |x^(6)(0)| + t |x^(7)(0)|: the derivatives obey the same equation without f, and its responses to a position and a velocity
+/// of 1 never exceed 1 and t.</para>
 /// </remarks>
 internal readonly struct LinearFlight
 {
