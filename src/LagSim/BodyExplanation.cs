@@ -26,8 +26,8 @@ public sealed class BodyExplanation
     public string Why { get; }
 
     /// <summary>
-    /// How many pieces its path has in a simulated second where it starts, besides those that impacts open; 0: one piece from impact to
-    /// impact. No number (<see cref="double.NaN"/>) if it cannot take a first step.
+    /// The number of segments of its path in a simulated second where it starts, besides those that impacts open; 0: one segment from
+    /// impact to impact. No number (<see cref="double.NaN"/>) if it cannot take a first step.
     /// </summary>
     public double SegmentsPerSecond { get; }
 

@@ -5,7 +5,7 @@ using LagSim.Time;
 namespace LagSim;
 
 /// <summary>Which peer holds a body, by which point, and when the hand's last keyframe was.</summary>
-/// <remarks>Immutable, safe on any thread. It belongs to a piece of the body's path, and is cut and kept with it.</remarks>
+/// <remarks>Immutable, safe on any thread. It belongs to a segment of the body's path, and is cut and kept with it.</remarks>
 public readonly struct Hold : IEquatable<Hold>
 {
     /// <summary>A hold of these.</summary>

@@ -84,7 +84,7 @@ public sealed class SimulationOptions
     public SimDuration History { get; }
 
     /// <summary>
-    /// How many pieces of path all timelines together may hold, each of 184 to 356 bytes; more end with a
+    /// The largest number of segments in all timelines together, each of 184 to 356 bytes; more end with a
     /// <see cref="TimelinesFullException"/>.
     /// </summary>
     public int MaxSegments { get; }

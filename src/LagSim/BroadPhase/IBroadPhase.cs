@@ -23,7 +23,7 @@ internal interface IBroadPhase
     /// </summary>
     Span<int> CandidatesAt(int slot, double radius, SimTime time, bool isHealing);
 
-    /// <summary>A piece of a body's path of which no <see cref="Candidates"/> was asked, and up to when the body is on it.</summary>
+    /// <summary>Adds a segment for which <see cref="Candidates"/> was not called, with the time up to which the body is on it.</summary>
     void Add(int slot, double radius, int segment, SimTime from, SimTime until);
 
     /// <summary>A body is gone for good.</summary>

@@ -110,8 +110,8 @@ internal sealed class CollisionPredictor(
     }
 
     /// <summary>
-    /// The next contact of a body's newest segment with another body's path: with its newest piece, or, where that body is ahead of what is
-    /// being healed, with the first piece until then that is touched before what ended it.
+    /// The next contact of a body's newest segment with another body's path: with its newest segment or, where that body is ahead of the
+    /// heal, with the first segment until then that is touched before it ended.
     /// </summary>
     internal bool TryMeet(int slot, int other, SimTime until, out int piece, out ContactTime contact, out uint round)
     {
@@ -140,7 +140,7 @@ internal sealed class CollisionPredictor(
     }
 
     /// <summary>
-    /// The next contact of a body's newest segment with a piece of another's path; a pure function of the two, ordered by identity.
+    /// The next contact of a body's newest segment with a segment of another body; a pure function of the two, ordered by identity.
     /// </summary>
     internal bool TryTouchBody(int slot, int other, int piece, out ContactTime contact, out uint round)
     {

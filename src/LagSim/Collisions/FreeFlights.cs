@@ -75,7 +75,7 @@ internal sealed class FreeFlights : INewestSegments
         flights[slot].Margin = MarginOf(slot);
     }
 
-    /// <summary>The body's newest piece of path, and when it was opened.</summary>
+    /// <summary>The body's newest segment, and when it was opened.</summary>
     public void Set(int slot, in MotionSegment path, SimTime opened)
     {
         ref Flight flight = ref flights[slot];
@@ -205,7 +205,7 @@ internal sealed class FreeFlights : INewestSegments
         straightFrom[slot] = from;
     }
 
-    /// <summary>Whether the body's newest piece of path is free flight.</summary>
+    /// <summary>Whether the body's newest segment is free flight.</summary>
     internal bool IsFree(int slot) => flights[slot].From != SimTime.MaxValue;
 
     /// <summary>Which of the other bodies a body in free flight may touch in a span that begins at its opening or later, and from when on:

@@ -70,7 +70,9 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
         return gap > 0 && gap * gap > chord.Velocity.LengthSquared * way * way + (scale.Length * scale.Length * 1e-6);
     }
 
-    /// <summary>The same of two bodies: pieces of one step or impact, or such that do not close where the later one begins.</summary>
+    /// <summary>
+    /// The same for two bodies: segments of one step or impact, or segments that do not close where the later one begins.
+    /// </summary>
     internal bool IsCovered(int slot, int piece, int other, int otherPiece)
     {
         if (paths.IsHeld(otherPiece))
@@ -106,7 +108,7 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
     }
 
     /// <summary>
-    /// The same of a hand, which may speed up, and a member: neither where the later piece begins nor where the step ends do they close.
+    /// The same for a hand, which may speed up, and a member: they close neither where the later segment begins nor where the step ends.
     /// </summary>
     private bool IsCoveredFromHand(int hand, int handPiece, int piece)
     {

@@ -18,7 +18,7 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
     private readonly Forces forces = forces;
 
     /// <summary>
-    /// Opens the next piece of a member from a state: a chord to the end of the step under way, or of one that begins if it slept.
+    /// Opens the next segment of a member from a state: a chord to the end of the step under way, or of one that begins if it slept.
     /// </summary>
     internal void GoOn(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D spin, bool hasChanged)
     {

@@ -9,7 +9,7 @@ namespace LagSim.Motion;
 /// <para>Kepler's equation in universal variables (Battin, An Introduction to the Mathematics and Methods of Astrodynamics, 4.5): with beta
 /// = 2 mu / r - v² and the functions G of s, t = r G1 + (x.v) G2 + mu G3 is solved for s by Newton's method; then x(t) = f x + g v. One
 /// formula for every eccentricity.</para>
-/// <para>A piece of path is the quintic Hermite polynomial between two such states, within the body's tolerance of the orbit. It lasts a
+/// <para>A segment is the quintic Hermite polynomial between two such states, within the body's tolerance of the orbit. It lasts a
 /// tenth of the time in which the body could reach the centre or circle it, at most; in that time the sixth and seventh derivative grow by
 /// less than four.</para>
 /// </remarks>
@@ -32,7 +32,7 @@ internal readonly struct KeplerFlight
         mu = pull.Strength;
     }
 
-    /// <summary>A piece of the orbit from a state on.</summary>
+    /// <summary>A segment of the orbit from a state on.</summary>
     /// <param name="epoch">When it begins.</param>
     /// <param name="position">The position then.</param>
     /// <param name="velocity">The velocity then.</param>
@@ -83,7 +83,7 @@ internal readonly struct KeplerFlight
         }
     }
 
-    /// <summary>How long the piece may be, in seconds.</summary>
+    /// <summary>How long the segment may be, in seconds.</summary>
     private double Length(in Vector3D x, in Vector3D v, double r)
     {
         // The power series of the orbit by the recurrences of w = |x|² and u = mu w^(-3/2).

@@ -41,7 +41,7 @@ internal readonly struct LinearFlight
         turn = omega.Length;
     }
 
-    /// <summary>A piece of the flight from a state on, as long as a quintic follows it within the body's tolerance.</summary>
+    /// <summary>A segment of the flight from a state on, as long as a quintic follows it within the body's tolerance.</summary>
     internal MotionSegment Piece(in Forces forces, SimTime epoch, in Vector3D x, in Vector3D v, out DenseOutput dense)
     {
         Vector3D still = forces.At(spec, epoch, 0, x, Vector3D.Zero, spin);

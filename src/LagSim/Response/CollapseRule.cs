@@ -135,7 +135,7 @@ internal class CollapseRule(
     private protected virtual bool TakesIn(int strikeCount) => strikeCount > 0;
 
     /// <summary>
-    /// The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits in whichever order the bodies
+    /// The distance between two bodies' surfaces at a tick, on these segments; the same bits in whichever order the bodies
     /// come.
     /// </summary>
     private double Gap(int slot, int piece, int other, int otherPiece, SimTime time) =>

@@ -33,8 +33,8 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
     /// <param name="forces">Those of the scene's forces that act on it besides gravity.</param>
     /// <param name="tolerance">
     /// 0 to 1. Of <see cref="MotionLaw.DormandPrince54"/> the estimated error that a step may have, in metres for the position and in m/s
-    /// for the velocity; 0 means fixed steps. Of <see cref="MotionLaw.ClosedForm"/> how far in metres the path may be off within a piece,
-    /// at whose ends it is exact; 0 means to rounding. Ignored by the others.
+    /// for the velocity; 0 means fixed steps. For <see cref="MotionLaw.ClosedForm"/> it is how far, in metres, the path may be off within a
+    /// segment, which is exact at its ends; 0 means to rounding. Ignored by the others.
     /// </param>
     /// <param name="friction">
     /// The coefficient of Coulomb friction, 0 (none, the default) to 100. Of two things that meet, the lesser counts. Bodies are solid

@@ -100,7 +100,7 @@ public readonly struct BodySnapshot
     /// <summary>The spec of the body.</summary>
     public BodySpec Spec { get; }
 
-    /// <summary>The event that opened this piece of path.</summary>
+    /// <summary>The event that opened this segment.</summary>
     public EventKey Opened { get; }
 
     /// <summary>How it moves on it.</summary>
@@ -155,7 +155,7 @@ public readonly struct BodySnapshot
     /// <summary>How the body turns at the epoch, in rad/s.</summary>
     public Vector3D Spin => SpinPath.AtEpoch;
 
-    /// <summary>How its spin changes on this piece of path, in rad/s².</summary>
+    /// <summary>The change of its spin on this segment, in rad/s².</summary>
     public Vector3D SpinRate => SpinPath.Rate;
 
     internal Spin SpinPath { get; }

@@ -40,7 +40,7 @@ internal sealed class EventHashSum
         }
     }
 
-    /// <summary>Adds the hash of an event that opens a piece of path.</summary>
+    /// <summary>Adds the hash of an event that opens a segment.</summary>
     internal void Add(in EventKey key, in MotionSegment motion, BodyId body, SimTime origin)
     {
         Write(key, motion, body, origin, waiting.AsSpan(count), Lanes);
@@ -50,7 +50,7 @@ internal sealed class EventHashSum
         }
     }
 
-    /// <summary>The hash of an event that opens a piece of path, to which more may be added.</summary>
+    /// <summary>The hash of an event that opens a segment, to which more may be added.</summary>
     internal static StableHash Of(in EventKey key, in MotionSegment motion, BodyId body, SimTime origin)
     {
         Span<ulong> words = stackalloc ulong[Words];

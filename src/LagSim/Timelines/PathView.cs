@@ -6,7 +6,7 @@ namespace LagSim.Timelines;
 internal class PathView(TimelineStore timelines, RollbackState rollback)
 {
     /// <summary>
-    /// The piece of its path on which a body meets an impact of this tick and round: its newest, unless it is ahead, with what it did
+    /// The segment on which a body meets an impact of this tick and round: its newest, unless it is ahead, with what it did
     /// before the heal from there on still standing.
     /// </summary>
     internal int PieceAt(int slot, in EventKey key)
@@ -31,7 +31,7 @@ internal class PathView(TimelineStore timelines, RollbackState rollback)
         return piece;
     }
 
-    /// <summary>The piece on which a body comes to an event.</summary>
+    /// <summary>The segment on which a body comes to an event.</summary>
     internal int PieceBefore(int slot, in EventKey key)
     {
         int last = timelines.Last(slot);

@@ -20,7 +20,7 @@ namespace LagSim.Trajectories;
 /// </remarks>
 internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits)
 {
-    /// <summary>By how much a direction of slip or rolling may turn in one piece of path, in radians, where gravity pulls aslant.</summary>
+    /// <summary>By how much a direction of slip or rolling may turn in one segment, in radians, where gravity pulls aslant.</summary>
     private const double MostTurn = 1.0 / 128;
 
     /// <summary>A slip, motion or turning on a surface slower than this, in m/s, counts as the rounding of zero.</summary>
@@ -80,7 +80,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
         }
     }
 
-    /// <summary>Opens a piece of slipping in one direction and turning in another.</summary>
+    /// <summary>Opens a segment of slipping in one direction and turning in another.</summary>
     private void OpenSlipping(int slot, in EventKey key, in SlidingContact at, in Vector3D slip, Vector3D along, Vector3D over)
     {
         Vector3D push = at.Pull + (over * (2.5 * at.Resistance)), rate = push - (along * (3.5 * at.Grip)), drive = along * (2.5 * at.Grip);
@@ -100,7 +100,9 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
         timelines.Append(slot, bodies.Id(slot), key, path, default, spin: new Spin(at.Spin, turning));
     }
 
-    /// <summary>Opens a piece of staying where it is, turning on the spot or not, or bouncing by less than counts for so long.</summary>
+    /// <summary>
+    /// Opens a segment of staying in place, turning on the spot or not, or bouncing by less than counts, for a given time.
+    /// </summary>
     private void OpenStill(int slot, in EventKey key, in SlidingContact at, SimDuration left)
     {
         SimTime still = EndOfPivoting(key.Time, at.Pivot, at.Slowing);
@@ -122,7 +124,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
         timelines.Append(slot, bodies.Id(slot), key, path, default, spin: new Spin(at.Pivot, -slowing));
     }
 
-    /// <summary>Opens a piece of rolling in one direction.</summary>
+    /// <summary>Opens a segment of rolling in one direction.</summary>
     private void OpenRolling(int slot, in EventKey key, in SlidingContact at, in Vector3D start, Vector3D heading)
     {
         Vector3D change = (at.Pull - (heading * at.Resistance)) * (5.0 / 7);
@@ -174,8 +176,8 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
         slowing != Vector3D.Zero && TryTicks(from, pivot.Length / slowing.Length, out SimDuration turns) ? from + turns : SimTime.MaxValue;
 
     /// <summary>
-    /// When something that slips or rolls with that velocity has stopped doing so, or has turned so far that a new piece is due; never, if
-    /// neither comes.
+    /// When something that slips or rolls with that velocity has stopped doing so, or has turned so far that a new segment is due; never,
+    /// if neither comes.
     /// </summary>
     private SimTime EndOfTurning(SimTime from, in Vector3D velocity, in Vector3D along, in Vector3D pull, double rate) =>
         TryTicks(from, SecondsOfTurning(velocity, along, pull, rate), out SimDuration turns) ? from + turns : SimTime.MaxValue;
@@ -196,10 +198,10 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// By how much, in radians, the direction of something so fast may turn in a piece. A piece is off by its speed times the cube of that;
-    /// so what is slower than a hundred times what it gets within the scene's resolution, some 14 mm/s, may turn more, as the inverse of
-    /// the fourth root, and is off by less than that is all the same, some 7 nm/s. Else what starts from next to nothing would take
-    /// thousands of pieces, and what hops again and again would each time.
+    /// By how much, in radians, the direction of something so fast may turn in a segment. A segment is off by its speed times the cube of
+    /// that; so what is slower than a hundred times what it gets within the scene's resolution, some 14 mm/s, may turn more, as the inverse
+    /// of the fourth root, and is off by less than that is all the same, some 7 nm/s. Else what starts from next to nothing would take
+    /// thousands of segments, and what hops again and again would each time.
     /// </summary>
     private double Turn(double speed, in Vector3D pull)
     {
@@ -241,7 +243,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// The direction at the middle of a piece, which makes it right to the second order; as it was where it does not turn.
+    /// The direction at the middle of a segment, which makes it right to the second order; as it was where it does not turn.
     /// </summary>
     private static Vector3D Midway(in Vector3D velocity, in Vector3D along, in Vector3D rate, SimTime from, SimTime end)
     {

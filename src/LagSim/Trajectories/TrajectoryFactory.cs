@@ -115,7 +115,7 @@ internal sealed class TrajectoryFactory
         }
     }
 
-    /// <summary>Whether a piece ended because its body would become too fast.</summary>
+    /// <summary>Whether a segment ended because its body would become too fast.</summary>
     private bool IsAtEndOfRange(in MotionSegment segment) =>
         segment.Acceleration != Vector3D.Zero && segment.End == limits.EndOfRange(segment.Epoch, segment.Velocity, segment.Acceleration);
 }
